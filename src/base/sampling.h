@@ -1,0 +1,42 @@
+// Directions and points drawn from two numbers in [0, 1), each with its density next to it.
+#pragma once
+
+#include <numbers>
+
+#include "base/vec.h"
+
+namespace stilb {
+
+struct DirectionSample {
+    Vec3 direction;  ///< unit vector
+    double pdf_per_sr = 0;
+};
+
+/// A point of the unit disk, uniform in area; concentric map, which keeps low discrepancy.
+struct DiskPoint {
+    double x = 0, y = 0;
+};
+DiskPoint sample_unit_disk(double u1, double u2);
+
+/// About +z, density cos(theta)/pi.
+DirectionSample sample_cosine_hemisphere(double u1, double u2);
+constexpr double cosine_hemisphere_pdf_per_sr(double cos_theta) {
+    return cos_theta > 0 ? cos_theta / std::numbers::pi : 0;
+}
+
+/// Uniform over the sphere.
+DirectionSample sample_sphere(double u1, double u2);
+
+/// Uniform over the cone about +z with half-angle theta_max, given as 1 - cos(theta_max) so that narrow cones stay exact.
+DirectionSample sample_cone(double one_minus_cos_max, double u1, double u2);
+
+/// About +z, density (n+1)/(2 pi) cos^n(theta).
+DirectionSample sample_cosine_power(double exponent, double u1, double u2);
+
+/// Barycentric coordinates, uniform over a triangle's area.
+struct Barycentric {
+    double b0 = 0, b1 = 0, b2 = 0;
+};
+Barycentric sample_triangle(double u1, double u2);
+
+}  // namespace stilb

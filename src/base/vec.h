@@ -1,0 +1,58 @@
+// Vectors in three dimensions, in double precision; single precision exists only inside the ray caster.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace stilb {
+
+struct Vec3 {
+    double x = 0, y = 0, z = 0;
+
+    constexpr double operator[](std::size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+    constexpr Vec3 operator-() const { return {-x, -y, -z}; }
+    constexpr Vec3& operator+=(const Vec3& b) { return *this = {x + b.x, y + b.y, z + b.z}; }
+    constexpr Vec3& operator-=(const Vec3& b) { return *this = {x - b.x, y - b.y, z - b.z}; }
+    constexpr bool operator==(const Vec3&) const = default;
+};
+
+constexpr Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
+constexpr Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
+constexpr Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+constexpr Vec3 operator*(const Vec3& a, double s) { return s * a; }
+constexpr Vec3 operator/(const Vec3& a, double s) { return {a.x / s, a.y / s, a.z / s}; }
+
+constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+constexpr double squared_length(const Vec3& a) { return dot(a, a); }
+inline double length(const Vec3& a) { return std::sqrt(squared_length(a)); }
+/// a / |a|; the caller makes sure that a is not zero.
+inline Vec3 normalized(const Vec3& a) { return a / length(a); }
+inline bool is_finite(const Vec3& a) {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+/// `direction` mirrored at a plane with unit normal `normal`; both point away from the surface.
+constexpr Vec3 reflected(const Vec3& direction, const Vec3& normal) {
+    return 2 * dot(direction, normal) * normal - direction;
+}
+
+/// A right-handed orthonormal basis whose w axis is a given unit vector.
+struct Frame {
+    Vec3 u, v, w;
+
+    /// [Duff et al. 2017, Building an orthonormal basis, revisited]: no singular direction.
+    static Frame around(const Vec3& unit_w) {
+        const double sign = std::copysign(1.0, unit_w.z);
+        const double a = -1 / (sign + unit_w.z);
+        const double b = unit_w.x * unit_w.y * a;
+        return {{1 + sign * unit_w.x * unit_w.x * a, sign * b, -sign * unit_w.x},
+                {b, sign + unit_w.y * unit_w.y * a, -unit_w.y},
+                unit_w};
+    }
+    Vec3 to_world(const Vec3& local) const { return local.x * u + local.y * v + local.z * w; }
+    Vec3 to_local(const Vec3& world) const { return {dot(world, u), dot(world, v), dot(world, w)}; }
+};
+
+}  // namespace stilb

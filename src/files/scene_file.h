@@ -1,0 +1,29 @@
+// The scene file: TOML, the contract with users (docs/scene-format.md).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "run/options.h"
+#include "scene/scene.h"
+#include "sensors/sensor.h"
+
+namespace stilb {
+
+struct SceneFile {
+    Scene scene;
+    std::vector<Sensor> sensors;
+    RunOptions run;
+    /// What is odd but not wrong (degenerate triangles dropped, normals made unit, ...), for `info` and stderr.
+    std::vector<std::string> warnings;
+};
+
+/// Throws InputError naming file, line, key, what was found and what is allowed.
+SceneFile read_scene_file(const std::filesystem::path& path);
+
+/// The reader itself; `directory` is where the scene's file paths start, `name` is used in messages.
+SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory);
+
+}  // namespace stilb

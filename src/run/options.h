@@ -1,0 +1,24 @@
+// What a run is asked for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace stilb {
+
+struct RunOptions {
+    std::string method = "auto";
+    /// Stop at this relative half-width of the 95 % interval, met by 95 % of each sensor's readings.
+    std::optional<double> error;
+    std::optional<double> time_s;
+    /// Chains (or, for `path`, paths per reading) in all.
+    std::optional<std::uint64_t> paths;
+    /// At most this many reflections; unlimited where absent (the estimators end chains without bias).
+    std::optional<int> bounces;
+    std::uint64_t seed = 1;
+    /// 0: as many as the machine has.
+    int threads = 0;
+};
+
+}  // namespace stilb

@@ -1,0 +1,22 @@
+#include "scene/scene.h"
+
+#include <numbers>
+
+namespace stilb {
+
+Spectrum flux_lm(const Scene& scene, const Light& light) {
+    constexpr double pi = std::numbers::pi;
+    struct Flux {
+        const Scene& scene;
+        Spectrum operator()(const PointLight& l) const { return 4 * pi * l.intensity_cd; }
+        Spectrum operator()(const PhotometryLight& l) const {
+            return scene.solid(l.solid).flux_lm() * l.factor;
+        }
+        Spectrum operator()(const AreaLight& l) const {
+            return pi * area_m2(scene.object(l.object).shape) * l.luminance_cd_m2;
+        }
+    };
+    return std::visit(Flux{scene}, light.source);
+}
+
+}  // namespace stilb

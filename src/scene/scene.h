@@ -1,0 +1,51 @@
+// What exists: objects with materials, and lights. Plain values, immutable once built; see scene_file for the
+// reader and RayCaster for the queries.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/ids.h"
+#include "scene/light.h"
+#include "scene/material.h"
+#include "scene/photometric_solid.h"
+#include "scene/shape.h"
+
+namespace stilb {
+
+struct NamedMaterial {
+    std::string name;
+    Material material;
+};
+
+struct Object {
+    std::string name;
+    Shape shape;
+    /// One for the whole object, or (meshes) one for each triangle.
+    std::vector<MaterialId> materials;
+};
+
+/// What a photometric file says of itself, and what its distribution integrates to.
+struct NamedSolid {
+    std::string file;
+    std::string luminaire;          ///< the name that the file gives, may be empty
+    double stated_flux_lm = 0;      ///< lamps x lumens x factors (x output ratio in EULUMDAT); 0: absolute photometry
+    PhotometricSolid solid;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<NamedMaterial> materials;
+    std::vector<Object> objects;
+    std::vector<NamedSolid> solids;
+    std::vector<Light> lights;
+
+    const Material& material(MaterialId id) const { return materials[index_of(id)].material; }
+    const Object& object(ObjectId id) const { return objects[index_of(id)]; }
+    const PhotometricSolid& solid(SolidId id) const { return solids[index_of(id)].solid; }
+};
+
+/// Flux of a light per band; luminance() of it is lumen.
+Spectrum flux_lm(const Scene& scene, const Light& light);
+
+}  // namespace stilb

@@ -1,0 +1,55 @@
+#include "scene/shape.h"
+
+#include <numbers>
+
+namespace stilb {
+namespace {
+
+double area(const Mesh& mesh) {
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3& a = mesh.vertices[t[0]];
+        sum += length(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
+    }
+    return sum;
+}
+
+double area(const Rectangle& r) { return length(cross(r.edge_u, r.edge_v)); }
+
+double area(const Box& box) {
+    const Vec3 e = box.max - box.min;
+    return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
+}
+
+double area(const Sphere& s) { return 4 * std::numbers::pi * s.radius * s.radius; }
+
+double area(const Disk& d) { return std::numbers::pi * d.radius * d.radius; }
+
+}  // namespace
+
+double area_m2(const Shape& shape) {
+    return std::visit([](const auto& s) { return area(s); }, shape);
+}
+
+Mesh triangulated(const Rectangle& r) {
+    return {{r.corner, r.corner + r.edge_u, r.corner + r.edge_u + r.edge_v, r.corner + r.edge_v},
+            {{0, 1, 2}, {0, 2, 3}}};
+}
+
+Mesh triangulated(const Box& box) {
+    Mesh mesh;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        mesh.vertices.push_back({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                 corner & 4 ? box.max.z : box.min.z});
+    }
+    // Corner index: bit 0 for x, bit 1 for y, bit 2 for z; each face counterclockwise from outside.
+    constexpr std::array<std::array<std::uint32_t, 4>, 6> faces{
+        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+    for (const auto& f : faces) {
+        mesh.triangles.push_back({f[0], f[1], f[2]});
+        mesh.triangles.push_back({f[0], f[2], f[3]});
+    }
+    return mesh;
+}
+
+}  // namespace stilb
