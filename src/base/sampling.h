@@ -27,7 +27,8 @@ constexpr double cosine_hemisphere_pdf_per_sr(double cos_theta) {
 /// Uniform over the sphere.
 DirectionSample sample_sphere(double u1, double u2);
 
-/// Uniform over the cone about +z with half-angle theta_max, given as 1 - cos(theta_max) so that narrow cones stay exact.
+/// Uniform over the cone about +z with half-angle theta_max, given as 1 - cos(theta_max) so that narrow cones
+/// stay exact.
 DirectionSample sample_cone(double one_minus_cos_max, double u1, double u2);
 
 /// About +z, density (n+1)/(2 pi) cos^n(theta).

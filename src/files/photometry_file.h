@@ -9,15 +9,18 @@
 
 namespace stilb {
 
-/// What a luminaire file says, in SI units. `grid.intensity_cd` is absolute: all factors of the file are in it.
+/// What a luminaire file says, in SI units. `grid.intensity_cd` is absolute: all factors of the file are in
+/// it.
 struct PhotometryFile {
-    std::string format;        ///< "IES LM-63-2002", "EULUMDAT", ...
-    std::string luminaire;     ///< name and manufacturer as given; may be empty
-    bool absolute = false;     ///< absolute photometry: no lamp lumens are stated
-    double lamp_flux_lm = 0;   ///< lamps x lumens, before output ratio; 0 where absolute
-    /// Flux that the file states for the luminaire: what the integral of the distribution should give. 0: none is stated.
+    std::string format;       ///< "IES LM-63-2002", "EULUMDAT", ...
+    std::string luminaire;    ///< name and manufacturer as given; may be empty
+    bool absolute = false;    ///< absolute photometry: no lamp lumens are stated
+    double lamp_flux_lm = 0;  ///< lamps x lumens, before output ratio; 0 where absolute
+    /// Flux that the file states for the luminaire: what the integral of the distribution should give. 0:
+    /// none is stated.
     double stated_flux_lm = 0;
-    Vec3 opening_m;            ///< luminous opening: width (C90-C270 in IES), length (C0-C180), height; as stated, metres
+    Vec3 opening_m;  ///< luminous opening: width (C90-C270 in IES), length (C0-C180), height; as stated,
+                     ///< metres
     PhotometricSolid::Grid grid;
 };
 

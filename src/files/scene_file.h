@@ -16,7 +16,8 @@ struct SceneFile {
     Scene scene;
     std::vector<Sensor> sensors;
     RunOptions run;
-    /// What is odd but not wrong (degenerate triangles dropped, normals made unit, ...), for `info` and stderr.
+    /// What is odd but not wrong (degenerate triangles dropped, normals made unit, ...), for `info` and
+    /// stderr.
     std::vector<std::string> warnings;
 };
 

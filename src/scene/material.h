@@ -45,7 +45,8 @@ struct ScatterSample {
 
 /// BRDF [1/sr]; 0 for directions below the surface and for delta functions. Reciprocal.
 Spectrum evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out);
-/// Direction drawn from the material's own density, by two numbers in [0, 1); nothing where light is absorbed.
+/// Direction drawn from the material's own density, by two numbers in [0, 1); nothing where light is
+/// absorbed.
 std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& in, double u1, double u2);
 /// The density that sample_brdf() draws from.
 double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out);

@@ -12,8 +12,8 @@ enum class PhotometryType { A, B, C };
 
 /// Intensity [cd], bilinear in the two angles of its grid, zero outside the range of the angles.
 ///
-/// Directions are unit vectors in the luminaire's frame (left-handed, as C planes are): x towards C0, y towards C90, z towards the
-/// nadir (gamma = 0). Immutable.
+/// Directions are unit vectors in the luminaire's frame (left-handed, as C planes are): x towards C0, y
+/// towards C90, z towards the nadir (gamma = 0). Immutable.
 class PhotometricSolid {
   public:
     /// The grid of a file after its symmetry was unfolded, angles in degrees and strictly increasing.
@@ -26,7 +26,8 @@ class PhotometricSolid {
         std::vector<double> intensity_cd;  ///< planes x polar, polar angle fastest
     };
 
-    /// Throws InputError where the grid is not as above, an intensity is negative or not finite, or all are 0.
+    /// Throws InputError where the grid is not as above, an intensity is negative or not finite, or all are
+    /// 0.
     explicit PhotometricSolid(Grid grid);
 
     double intensity_cd(const Vec3& direction) const;

@@ -28,8 +28,9 @@ struct Object {
 /// What a photometric file says of itself, and what its distribution integrates to.
 struct NamedSolid {
     std::string file;
-    std::string luminaire;          ///< the name that the file gives, may be empty
-    double stated_flux_lm = 0;      ///< lamps x lumens x factors (x output ratio in EULUMDAT); 0: absolute photometry
+    std::string luminaire;  ///< the name that the file gives, may be empty
+    double stated_flux_lm =
+        0;  ///< lamps x lumens x factors (x output ratio in EULUMDAT); 0: absolute photometry
     PhotometricSolid solid;
 };
 

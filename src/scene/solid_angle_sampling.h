@@ -16,14 +16,18 @@ struct SolidAngleSample {
 };
 
 /// Cone of tangents; nothing where `from` lies in or on the sphere. [LocalEstimation (11)-(14)]
-std::optional<SolidAngleSample> sample_by_solid_angle(const Sphere& sphere, const Vec3& from, double u1, double u2);
+std::optional<SolidAngleSample> sample_by_solid_angle(const Sphere& sphere, const Vec3& from, double u1,
+                                                      double u2);
 /// Spherical rectangle [Urena et al. 2013] for right angles, otherwise two spherical triangles.
 /// Nothing where the solid angle is 0 (seen edge-on).
-std::optional<SolidAngleSample> sample_by_solid_angle(const Rectangle& rectangle, const Vec3& from, double u1, double u2);
-/// Spherical triangle [Arvo 1995].
-std::optional<SolidAngleSample> sample_by_solid_angle(const std::array<Vec3, 3>& triangle, const Vec3& from, double u1,
+std::optional<SolidAngleSample> sample_by_solid_angle(const Rectangle& rectangle, const Vec3& from, double u1,
                                                       double u2);
-/// Through the spherical rectangle of the disk's square; nothing where the square's corner is met, or edge-on.
-std::optional<SolidAngleSample> sample_by_solid_angle(const Disk& disk, const Vec3& from, double u1, double u2);
+/// Spherical triangle [Arvo 1995].
+std::optional<SolidAngleSample> sample_by_solid_angle(const std::array<Vec3, 3>& triangle, const Vec3& from,
+                                                      double u1, double u2);
+/// Through the spherical rectangle of the disk's square; nothing where the square's corner is met, or
+/// edge-on.
+std::optional<SolidAngleSample> sample_by_solid_angle(const Disk& disk, const Vec3& from, double u1,
+                                                      double u2);
 
 }  // namespace stilb

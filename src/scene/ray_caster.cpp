@@ -1,0 +1,354 @@
+#include "scene/ray_caster.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "scene/analytic_shapes.h"
+
+namespace stilb {
+namespace {
+
+static_assert(sizeof(RayPacket) == sizeof(RTCRay16));
+static_assert(offsetof(RayPacket, direction_x) == offsetof(RTCRay16, dir_x));
+static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
+static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
+
+constexpr double kRelativeOffset = 0x1p-19;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+struct Float3 {
+    float x, y, z;
+};
+
+/// One Embree geometry: a mesh in single precision, or a shape of which rays are intersected analytically.
+struct Geometry {
+    const Float3* vertices = nullptr;  ///< owned by Embree; null for analytic shapes
+    const Triangle* triangles = nullptr;
+    AnalyticShape analytic;
+};
+
+void throw_error(void*, RTCError, const char* message) {
+    throw std::runtime_error(fmt::format("Embree: {}", message));
+}
+
+/// What the callbacks of an analytic shape share for N rays, of which lane i is looked at.
+RayInterval interval_of(RTCRayN* rays, unsigned width, unsigned lane) {
+    return {{RTCRayN_org_x(rays, width, lane), RTCRayN_org_y(rays, width, lane),
+             RTCRayN_org_z(rays, width, lane)},
+            {RTCRayN_dir_x(rays, width, lane), RTCRayN_dir_y(rays, width, lane),
+             RTCRayN_dir_z(rays, width, lane)},
+            RTCRayN_tnear(rays, width, lane),
+            RTCRayN_tfar(rays, width, lane)};
+}
+
+void analytic_bounds(const RTCBoundsFunctionArguments* args) {
+    const Bounds bounds = bounds_of(static_cast<const Geometry*>(args->geometryUserPtr)->analytic);
+    // Rounded outwards, so that the box in single precision holds the shape.
+    const auto below = [](double v) { return std::nextafter(static_cast<float>(v), -kInfinity); };
+    const auto above = [](double v) { return std::nextafter(static_cast<float>(v), kInfinity); };
+    RTCBounds& out = *args->bounds_o;
+    out.lower_x = below(bounds.min.x), out.upper_x = above(bounds.max.x);
+    out.lower_y = below(bounds.min.y), out.upper_y = above(bounds.max.y);
+    out.lower_z = below(bounds.min.z), out.upper_z = above(bounds.max.z);
+}
+
+void analytic_intersect(const RTCIntersectFunctionNArguments* args) {
+    const auto& shape = static_cast<const Geometry*>(args->geometryUserPtr)->analytic;
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        const auto t = intersect(shape, interval_of(rays, args->N, lane));
+        if (!t) continue;
+        RTCRayN_tfar(rays, args->N, lane) = static_cast<float>(*t);
+        RTCHitN_geomID(hits, args->N, lane) = args->geomID;
+        RTCHitN_primID(hits, args->N, lane) = args->primID;
+        RTCHitN_instID(hits, args->N, lane, 0) = RTC_INVALID_GEOMETRY_ID;
+    }
+}
+
+void analytic_occluded(const RTCOccludedFunctionNArguments* args) {
+    const auto& shape = static_cast<const Geometry*>(args->geometryUserPtr)->analytic;
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        if (intersect(shape, interval_of(args->ray, args->N, lane))) {
+            RTCRayN_tfar(args->ray, args->N, lane) = -kInfinity;
+        }
+    }
+}
+
+Bounds bounds_of_scene(const Scene& scene) {
+    Bounds all;
+    for (const Object& object : scene.objects) {
+        std::visit(
+            [&](const auto& shape) {
+                using T = std::decay_t<decltype(shape)>;
+                if constexpr (std::is_same_v<T, Mesh>) {
+                    for (const Vec3& vertex : shape.vertices) all.include(vertex);
+                } else if constexpr (std::is_same_v<T, Rectangle>) {
+                    for (const Vec3& vertex : triangulated(shape).vertices) all.include(vertex);
+                } else if constexpr (std::is_same_v<T, Box>) {
+                    all.include(shape.min), all.include(shape.max);
+                } else {
+                    const Bounds b = bounds_of(AnalyticShape{shape});
+                    all.include(b.min), all.include(b.max);
+                }
+            },
+            object.shape);
+    }
+    for (const Light& light : scene.lights) {
+        if (const auto* point = std::get_if<PointLight>(&light.source)) all.include(point->position);
+        if (const auto* solid = std::get_if<PhotometryLight>(&light.source)) all.include(solid->position);
+    }
+    return all.is_empty() ? Bounds{{}, {}} : all;
+}
+
+/// Barycentric coordinates of a hit, moved away from the triangle's edges by `margin` metres where it is
+/// large enough for that; otherwise towards its middle.
+std::array<double, 3> away_from_edges(std::array<double, 3> b, const std::array<Vec3, 3>& v, double margin,
+                                      double doubled_area) {
+    std::array<double, 3> least{};
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double opposite_edge = length(v[(i + 2) % 3] - v[(i + 1) % 3]);
+        least[i] = margin * opposite_edge / doubled_area;  // margin / height above that edge
+        sum += least[i];
+    }
+    if (sum > 0.75) {
+        for (double& l : least) l *= 0.75 / sum;
+    }
+    double clamped_sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) clamped_sum += b[i] = std::max(b[i] - least[i], 0.0);
+    const double least_sum = std::min(sum, 0.75);
+    for (std::size_t i = 0; i < 3; ++i) {
+        b[i] = least[i] + (clamped_sum > 0 ? b[i] / clamped_sum : 1.0 / 3) * (1 - least_sum);
+    }
+    return b;
+}
+
+/// The packet in parts of `width` rays, for processors without 16-wide vectors.
+template <int width, typename EmbreeRays, typename Occlude>
+void occlude_in_parts(RayPacket& packet, const LaneMask& lanes, Occlude occlude) {
+    for (int first = 0; first < kPacketWidth; first += width) {
+        const auto part = [&](const auto& all) { return all.data() + first; };
+        alignas(32) std::array<int, width> valid;
+        std::copy_n(part(lanes), width, valid.begin());
+        EmbreeRays rays;
+        std::copy_n(part(packet.origin_x), width, rays.org_x);
+        std::copy_n(part(packet.origin_y), width, rays.org_y);
+        std::copy_n(part(packet.origin_z), width, rays.org_z);
+        std::copy_n(part(packet.start), width, rays.tnear);
+        std::copy_n(part(packet.direction_x), width, rays.dir_x);
+        std::copy_n(part(packet.direction_y), width, rays.dir_y);
+        std::copy_n(part(packet.direction_z), width, rays.dir_z);
+        std::copy_n(part(packet.time), width, rays.time);
+        std::copy_n(part(packet.end), width, rays.tfar);
+        std::copy_n(part(packet.mask), width, rays.mask);
+        std::copy_n(part(packet.id), width, rays.id);
+        std::copy_n(part(packet.flags), width, rays.flags);
+        occlude(valid.data(), &rays);
+        std::copy_n(rays.tfar, width, packet.end.data() + first);
+    }
+}
+
+}  // namespace
+
+struct RayCaster::Implementation {
+    const Scene& scene;
+    Bounds bounds;
+    Vec3 center;
+    double half_extent = 0;
+    RTCDevice device = nullptr;
+    RTCScene embree_scene = nullptr;
+    int packet_width = 4;                               ///< widest that the processor takes natively
+    std::vector<std::unique_ptr<Geometry>> geometries;  ///< by object
+
+    explicit Implementation(const Scene& s) : scene(s), bounds(bounds_of_scene(s)) {
+        center = 0.5 * (bounds.min + bounds.max);
+        const Vec3 half = 0.5 * (bounds.max - bounds.min);
+        half_extent = std::max({half.x, half.y, half.z});
+        device = rtcNewDevice("threads=1");
+        if (device == nullptr) throw std::runtime_error("Embree: no device could be made");
+        rtcSetDeviceErrorFunction(device, throw_error, nullptr);
+        if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) packet_width = 8;
+        if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) packet_width = 16;
+        embree_scene = rtcNewScene(device);
+        rtcSetSceneFlags(embree_scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(embree_scene, RTC_BUILD_QUALITY_HIGH);
+        for (const Object& object : scene.objects) add(object);
+        rtcCommitScene(embree_scene);
+    }
+
+    ~Implementation() {
+        rtcReleaseScene(embree_scene);
+        rtcReleaseDevice(device);
+    }
+
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    void add(const Object& object) {
+        geometries.push_back(std::make_unique<Geometry>());
+        Geometry& geometry = *geometries.back();
+        const RTCGeometry embree_geometry = std::visit(
+            [&](const auto& shape) {
+                using T = std::decay_t<decltype(shape)>;
+                if constexpr (std::is_same_v<T, Mesh>) {
+                    return new_mesh(shape, geometry);
+                } else if constexpr (std::is_same_v<T, Rectangle> || std::is_same_v<T, Box>) {
+                    return new_mesh(triangulated(shape), geometry);
+                } else {
+                    return new_analytic(shape, geometry);
+                }
+            },
+            object.shape);
+        rtcCommitGeometry(embree_geometry);
+        rtcAttachGeometryByID(embree_scene, embree_geometry, static_cast<unsigned>(geometries.size() - 1));
+        rtcReleaseGeometry(embree_geometry);
+    }
+
+    RTCGeometry new_mesh(const Mesh& mesh, Geometry& geometry) const {
+        const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = static_cast<Float3*>(rtcSetNewGeometryBuffer(
+            handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Float3), mesh.vertices.size()));
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+            const Vec3 p = mesh.vertices[i] - center;
+            vertices[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+        }
+        auto* triangles = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
+            handle, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), mesh.triangles.size()));
+        std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+        geometry.vertices = vertices;
+        geometry.triangles = triangles;
+        return handle;
+    }
+
+    template <typename AnyAnalyticShape>
+    RTCGeometry new_analytic(AnyAnalyticShape shape, Geometry& geometry) const {
+        shape.center -= center;
+        geometry.analytic = shape;
+        const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(handle, 1);
+        rtcSetGeometryUserData(handle, &geometry);
+        rtcSetGeometryBoundsFunction(handle, analytic_bounds, nullptr);
+        rtcSetGeometryIntersectFunction(handle, analytic_intersect);
+        rtcSetGeometryOccludedFunction(handle, analytic_occluded);
+        return handle;
+    }
+
+    Hit hit_of(const RTCRay& ray, const RTCHit& embree_hit) const {
+        const Geometry& geometry = *geometries[embree_hit.geomID];
+        const Vec3 direction{ray.dir_x, ray.dir_y, ray.dir_z};
+        Hit hit;
+        double size = 0;
+        if (geometry.vertices != nullptr) {
+            const Triangle& t = geometry.triangles[embree_hit.primID];
+            std::array<Vec3, 3> v;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Float3& f = geometry.vertices[t[i]];
+                v[i] = {f.x, f.y, f.z};
+                size = std::max(
+                    {size, std::abs(v[i].x - v[0].x), std::abs(v[i].y - v[0].y), std::abs(v[i].z - v[0].z)});
+            }
+            const Vec3 doubled = cross(v[1] - v[0], v[2] - v[0]);
+            const double doubled_area = length(doubled);
+            hit.normal = doubled / doubled_area;
+            const double u = embree_hit.u, w = embree_hit.v;
+            const Vec3 near_by = v[0] + u * (v[1] - v[0]) + w * (v[2] - v[0]);
+            const double margin = 2 * offset(near_by, size);
+            const auto b = away_from_edges({1 - u - w, u, w}, v, margin, doubled_area);
+            hit.position = b[0] * v[0] + b[1] * v[1] + b[2] * v[2];
+        } else {
+            const Vec3 origin{ray.org_x, ray.org_y, ray.org_z};
+            const SurfacePoint point =
+                nearest_surface_point(geometry.analytic, origin + ray.tfar * direction);
+            hit.position = point.position;
+            hit.normal = point.normal;
+            size = point.size_m;
+        }
+        hit.on_front = dot(hit.normal, direction) < 0;
+        if (!hit.on_front) hit.normal = -hit.normal;
+        hit.lifted = hit.position + offset(hit.position, size) * hit.normal + center;
+        hit.position += center;
+        hit.distance_m = ray.tfar;
+        hit.object = ObjectId{embree_hit.geomID};
+        const auto& materials = scene.object(hit.object).materials;
+        hit.material = materials.size() == 1 ? materials[0] : materials[embree_hit.primID];
+        return hit;
+    }
+
+    /// As RayCaster::offset_m, for a position relative to the centre.
+    double offset(const Vec3& relative, double size_m) const {
+        return kRelativeOffset *
+               std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z), size_m});
+    }
+
+    RTCRay ray_from(const Vec3& origin, const Vec3& direction, float length) const {
+        const Vec3 o = origin - center;
+        RTCRay ray{};
+        ray.org_x = static_cast<float>(o.x), ray.org_y = static_cast<float>(o.y),
+        ray.org_z = static_cast<float>(o.z);
+        ray.dir_x = static_cast<float>(direction.x), ray.dir_y = static_cast<float>(direction.y);
+        ray.dir_z = static_cast<float>(direction.z);
+        ray.tfar = length;
+        ray.mask = ~0u;
+        return ray;
+    }
+};
+
+RayCaster::RayCaster(const Scene& scene) : implementation_(std::make_unique<Implementation>(scene)) {}
+RayCaster::~RayCaster() = default;
+
+const Vec3& RayCaster::center() const { return implementation_->center; }
+double RayCaster::half_extent_m() const { return implementation_->half_extent; }
+double RayCaster::offset_m(const Vec3& position, double size_m) const {
+    return implementation_->offset(position - center(), size_m);
+}
+
+std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction) const {
+    RTCRayHit ray_hit{implementation_->ray_from(origin, direction, kInfinity), {}};
+    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(implementation_->embree_scene, &context, &ray_hit);
+    if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return implementation_->hit_of(ray_hit.ray, ray_hit.hit);
+}
+
+bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
+    RTCRay ray = implementation_->ray_from(from, to - from, 1);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(implementation_->embree_scene, &context, &ray);
+    return ray.tfar < 0;
+}
+
+void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    const RTCScene embree_scene = implementation_->embree_scene;
+    switch (implementation_->packet_width) {
+        case 16:
+            rtcOccluded16(lanes.data(), embree_scene, &context, reinterpret_cast<RTCRay16*>(&packet));
+            break;
+        case 8:
+            occlude_in_parts<8, RTCRay8>(packet, lanes, [&](const int* valid, RTCRay8* rays) {
+                rtcOccluded8(valid, embree_scene, &context, rays);
+            });
+            break;
+        default:
+            occlude_in_parts<4, RTCRay4>(packet, lanes, [&](const int* valid, RTCRay4* rays) {
+                rtcOccluded4(valid, embree_scene, &context, rays);
+            });
+    }
+}
+
+}  // namespace stilb
