@@ -4,6 +4,8 @@
 // arrives on, both pointing away from the surface. Formulas and limits: docs/materials.md.
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <variant>
 
@@ -43,12 +45,33 @@ struct ScatterSample {
     bool specular = false;
 };
 
-/// BRDF [1/sr]; 0 for directions below the surface and for delta functions. Reciprocal.
-Spectrum evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out);
+/// cos+^n(alpha): the unnormalised lobe.
+inline double phong_lobe(const Phong& material, const Vec3& in, const Vec3& out) {
+    const double cos_alpha = in.z * out.z - in.x * out.x - in.y * out.y;
+    return cos_alpha > 0 ? std::pow(cos_alpha, material.exponent) : 0;
+}
+
+/// BRDF [1/sr]; 0 for directions below the surface and for delta functions. Reciprocal. One overload per
+/// material too, so that a loop over many directions can pick the material outside.
+inline Spectrum evaluate_brdf_per_sr(const Diffuse& material, const Vec3& in, const Vec3& out) {
+    return in.z > 0 && out.z > 0 ? material.reflectance * std::numbers::inv_pi : Spectrum{};
+}
+inline Spectrum evaluate_brdf_per_sr(const Phong& material, const Vec3& in, const Vec3& out) {
+    if (in.z <= 0 || out.z <= 0) return {};
+    const double lobe_per_sr =
+        (material.exponent + 2) / (2 * std::numbers::pi) * phong_lobe(material, in, out);
+    return material.diffuse * std::numbers::inv_pi + material.specular * lobe_per_sr;
+}
+inline Spectrum evaluate_brdf_per_sr(const Mirror&, const Vec3&, const Vec3&) { return {}; }
+inline Spectrum evaluate_brdf_per_sr(const Black&, const Vec3&, const Vec3&) { return {}; }
+inline Spectrum evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
+    return std::visit([&](const auto& m) { return evaluate_brdf_per_sr(m, in, out); }, material);
+}
+
 /// Direction drawn from the material's own density, by two numbers in [0, 1); nothing where light is
 /// absorbed.
 std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& in, double u1, double u2);
-/// The density that sample_brdf() draws from.
+/// The density that sample_brdf() draws from. Its integral falls short of 1 by the probability of absorption.
 double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out);
 /// True where the whole reflection is a delta function: no connection to such a surface is possible.
 bool is_specular(const Material& material);

@@ -1,0 +1,86 @@
+#include "scene/material.h"
+
+#include <algorithm>
+
+#include "base/sampling.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+
+/// Probability of drawing from the diffuse part; nothing where the material reflects nothing. In proportion
+/// to luminance, so that the luminance of a weighted sample stays near the albedo.
+std::optional<double> diffuse_probability(const Phong& material) {
+    const double diffuse = material.diffuse.luminance();
+    const double total = diffuse + material.specular.luminance();
+    if (total <= 0) return std::nullopt;
+    return diffuse / total;
+}
+
+double pdf(const Diffuse&, const Vec3&, const Vec3& out) { return cosine_hemisphere_pdf_per_sr(out.z); }
+
+double pdf(const Phong& material, const Vec3& in, const Vec3& out) {
+    const std::optional<double> diffuse = diffuse_probability(material);
+    if (!diffuse) return 0;
+    const double lobe_per_sr =
+        (material.exponent + 1) / (2 * std::numbers::pi) * phong_lobe(material, in, out);
+    return *diffuse * cosine_hemisphere_pdf_per_sr(out.z) + (1 - *diffuse) * lobe_per_sr;
+}
+
+double pdf(const Mirror&, const Vec3&, const Vec3&) { return 0; }
+double pdf(const Black&, const Vec3&, const Vec3&) { return 0; }
+
+std::optional<ScatterSample> sample(const Diffuse& material, const Vec3&, double u1, double u2) {
+    const DirectionSample drawn = sample_cosine_hemisphere(u1, u2);
+    if (drawn.direction.z <= 0) return std::nullopt;
+    return ScatterSample{drawn.direction, material.reflectance, drawn.pdf_per_sr};
+}
+
+std::optional<ScatterSample> sample(const Phong& material, const Vec3& in, double u1, double u2) {
+    const std::optional<double> diffuse = diffuse_probability(material);
+    if (!diffuse) return std::nullopt;
+    Vec3 out;
+    if (u1 < *diffuse) {
+        out = sample_cosine_hemisphere(u1 / *diffuse, u2).direction;
+    } else {
+        const double u_lobe = std::min((u1 - *diffuse) / (1 - *diffuse), kBelowOne);
+        const Frame lobe = Frame::around({-in.x, -in.y, in.z});
+        out = lobe.to_world(sample_cosine_power(material.exponent, u_lobe, u2).direction);
+    }
+    if (out.z <= 0) return std::nullopt;
+    const double density = pdf(material, in, out);
+    if (density <= 0) return std::nullopt;
+    return ScatterSample{out, evaluate_brdf_per_sr(material, in, out) * (out.z / density), density};
+}
+
+std::optional<ScatterSample> sample(const Mirror& material, const Vec3& in, double, double) {
+    return ScatterSample{{-in.x, -in.y, in.z}, material.reflectance, 0, true};
+}
+
+std::optional<ScatterSample> sample(const Black&, const Vec3&, double, double) { return std::nullopt; }
+
+Spectrum bound(const Diffuse& material) { return material.reflectance; }
+Spectrum bound(const Phong& material) { return material.diffuse + material.specular; }
+Spectrum bound(const Mirror& material) { return material.reflectance; }
+Spectrum bound(const Black&) { return {}; }
+
+}  // namespace
+
+std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& in, double u1, double u2) {
+    if (in.z <= 0) return std::nullopt;
+    return std::visit([&](const auto& m) { return sample(m, in, u1, u2); }, material);
+}
+
+double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
+    if (in.z <= 0 || out.z <= 0) return 0;
+    return std::visit([&](const auto& m) { return pdf(m, in, out); }, material);
+}
+
+bool is_specular(const Material& material) { return std::holds_alternative<Mirror>(material); }
+
+Spectrum reflectance_bound(const Material& material) {
+    return std::visit([](const auto& m) { return bound(m); }, material);
+}
+
+}  // namespace stilb
