@@ -1,0 +1,44 @@
+// The header of a PLY file: what follows it, and how it is written.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stilb {
+
+enum class PlyScalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// Bytes in the binary formats.
+std::size_t size_of(PlyScalar scalar);
+
+struct PlyProperty {
+    std::string name;
+    PlyScalar type;
+    std::optional<PlyScalar> count_type;  ///< of a list
+
+    bool is_list() const { return count_type.has_value(); }
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+    std::size_t line = 0;  ///< of its declaration
+};
+
+enum class PlyFormat { ascii, binary_little_endian, binary_big_endian };
+
+struct PlyHeader {
+    PlyFormat format = PlyFormat::ascii;
+    std::vector<PlyElement> elements;
+    std::string_view body;  ///< all that follows the header
+    std::size_t body_line = 0;
+};
+
+/// Throws InputError; `name` is the file's name for messages.
+PlyHeader read_ply_header(std::string_view content, const std::string& name);
+
+}  // namespace stilb

@@ -1,0 +1,45 @@
+// Small parts that the readers of text formats share.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace stilb {
+
+/// The file, byte for byte. Throws InputError where it cannot be read.
+std::string read_whole_file(const std::filesystem::path& path);
+
+/// `text` in quotes for a message: shortened, bytes that are not printable ASCII as \xNN.
+std::string in_quotes(std::string_view text);
+
+/// The finite number that the whole of `text` is ("+1", "1e-3"); none for anything else.
+std::optional<double> parse_number(std::string_view text);
+/// Likewise a whole number.
+std::optional<long long> parse_integer(std::string_view text);
+
+/// Cuts the next word off the front of `text`: words are separated by blanks and tabs. Empty at the end.
+std::string_view next_word(std::string_view& text);
+
+/// Goes through a text line by line; lines end with LF or CR LF.
+class LineReader {
+  public:
+    /// `first_line` is the number of the text's first line in its file.
+    explicit LineReader(std::string_view text, std::size_t first_line = 1)
+        : rest_(text), number_(first_line - 1) {}
+
+    /// Moves to the next line; false at the end.
+    bool next();
+    /// Without its end.
+    std::string_view line() const { return line_; }
+    std::size_t number() const { return number_; }
+    /// What follows the line.
+    std::string_view rest() const { return rest_; }
+
+  private:
+    std::string_view rest_, line_;
+    std::size_t number_;
+};
+
+}  // namespace stilb
