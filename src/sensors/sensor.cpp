@@ -2,7 +2,13 @@
 
 #include <utility>
 
+#include "scene/ray_caster.h"
+
 namespace stilb {
+
+Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster) {
+    return point.position + caster.offset_m(point.position, caster.half_extent_m()) * point.normal;
+}
 
 Sensor make_grid_sensor(std::string name, const Grid& grid, const Vec3& normal) {
     Sensor sensor{std::move(name), SensorType::grid, {}, grid};

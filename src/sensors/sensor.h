@@ -20,6 +20,11 @@ struct Grid {
     std::array<int, 2> count{1, 1};
 };
 
+class RayCaster;
+
+/// Where rays from a measuring point start: lifted along its normal, off whatever surface it lies on.
+Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster);
+
 enum class SensorType { illuminance, grid };
 
 struct Sensor {

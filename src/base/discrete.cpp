@@ -1,0 +1,24 @@
+#include "base/discrete.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace stilb {
+
+DiscreteDistribution::DiscreteDistribution(std::span<const double> weights) : cumulative_(weights.size()) {
+    std::partial_sum(weights.begin(), weights.end(), cumulative_.begin());
+}
+
+DiscreteDistribution::Choice DiscreteDistribution::choose(double u) const {
+    const double target = u * total();
+    // upper_bound passes over entries of weight zero: it finds the first sum that is greater.
+    auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);
+    if (found == cumulative_.end()) found = std::lower_bound(cumulative_.begin(), cumulative_.end(), total());
+    const double below = found == cumulative_.begin() ? 0 : *(found - 1);
+    const double weight = *found - below;
+    const double remainder = std::clamp((target - below) / weight, 0.0, std::nextafter(1.0, 0.0));
+    return {static_cast<std::size_t>(found - cumulative_.begin()), weight / total(), remainder};
+}
+
+}  // namespace stilb

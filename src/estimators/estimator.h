@@ -1,0 +1,60 @@
+// How readings are estimated. An estimator knows nothing of threads, files, progress or stopping: it adds
+// batches of samples to sums, and a run makes values with intervals of them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "base/spectrum.h"
+
+namespace stilb {
+
+/// The unit of work: samples first ... first + count - 1 of the replicate that `key` stands for. What a batch
+/// adds depends on these alone.
+struct Batch {
+    RandomKey key;
+    std::uint64_t first = 0;
+    std::uint64_t count = 0;
+};
+
+/// What batches of one replicate add up to. The value of a reading is known part + sum / samples.
+struct ReadingSums {
+    std::vector<Spectrum> sum;       ///< one for each reading [lx x samples]
+    std::vector<double> largest_lx;  ///< largest single contribution to each reading, before division
+    std::uint64_t rays = 0;
+    std::uint64_t invalid = 0;  ///< contributions that were not finite, left out
+
+    explicit ReadingSums(std::size_t readings) : sum(readings), largest_lx(readings) {}
+
+    /// Adds a contribution to a reading.
+    void add(std::size_t reading, const Spectrum& contribution_lx) {
+        if (!contribution_lx.is_finite()) {
+            ++invalid;
+            return;
+        }
+        sum[reading] += contribution_lx;
+        largest_lx[reading] = std::max(largest_lx[reading], contribution_lx.luminance());
+    }
+};
+
+class Estimator {
+  public:
+    virtual ~Estimator() = default;
+
+    /// Adds a batch. Batches may run in parallel on different sums.
+    virtual void run_batch(const Batch& batch, ReadingSums& sums) const = 0;
+    /// The part of each reading that is known without sampling [lx].
+    virtual std::span<const Spectrum> known_part_lx() const = 0;
+    /// The number of samples of a batch is a multiple of this.
+    virtual std::uint64_t batch_granularity() const = 0;
+    /// Rays that one sample costs, roughly, over all readings: batches are made long or short by it.
+    virtual double rays_per_sample() const = 0;
+    /// What the method cannot make in this scene, for the user; empty where nothing is missing.
+    virtual std::vector<std::string> warnings() const = 0;
+};
+
+}  // namespace stilb

@@ -1,0 +1,36 @@
+// The one table of all estimators: --help, verify, the agreement tests and the scene reader go by it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "estimators/estimator.h"
+#include "scene/ray_caster.h"
+#include "sensors/sensor.h"
+
+namespace stilb {
+
+/// What every estimator is made from. The estimator keeps references to scene and caster, and copies the
+/// points.
+struct EstimatorInput {
+    const Scene& scene;
+    const RayCaster& caster;
+    std::span<const MeasuringPoint> points;
+    int max_reflections;
+    /// For decisions that are taken before sampling starts; independent of all batches' keys.
+    RandomKey preparation_key;
+};
+
+struct EstimatorEntry {
+    std::string_view name;
+    std::string_view summary;
+    std::unique_ptr<Estimator> (*make)(const EstimatorInput& input);
+};
+
+std::span<const EstimatorEntry> estimator_list();
+
+/// Throws InputError, with the nearest name, where there is no such method.
+const EstimatorEntry& find_estimator(std::string_view name);
+
+}  // namespace stilb

@@ -1,0 +1,36 @@
+#include "estimators/light_chain.h"
+
+#include "estimators/russian_roulette.h"
+
+namespace stilb {
+
+void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSampler& lights, int max_nodes,
+                      SampleStream stream, std::vector<ChainNode>& nodes) {
+    const EmittedParticle particle = lights.sample_emission(stream);
+    Vec3 origin = particle.origin;
+    Vec3 direction = particle.direction;
+    Spectrum flux = particle.flux_lm;
+    bool only_by_light = particle.from_point;
+    for (int reflection = 0; reflection < max_nodes; ++reflection) {
+        const auto hit = caster.closest(origin, direction);
+        if (!hit) return;
+        const Material& material = scene.material(hit->material);
+        const double survival = survival_probability(flux, reflectance_bound(material));
+        if (stream.next() >= survival) return;
+        flux *= 1 / survival;
+        const bool specular = is_specular(material);
+        if (!specular) {
+            nodes.push_back({hit->lifted, hit->normal, -direction, &material, flux, only_by_light});
+        }
+        only_by_light = only_by_light && specular;
+        const Frame frame = Frame::around(hit->normal);
+        const auto [u1, u2] = stream.next_two();
+        const auto scattered = sample_brdf(material, frame.to_local(-direction), u1, u2);
+        if (!scattered) return;
+        flux *= scattered->weight;
+        direction = frame.to_world(scattered->direction);
+        origin = hit->lifted;
+    }
+}
+
+}  // namespace stilb

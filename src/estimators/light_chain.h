@@ -1,0 +1,30 @@
+// The random walk of light particles: emission, then one surface after another [LocalEstimation 2].
+#pragma once
+
+#include <vector>
+
+#include "estimators/light_sampler.h"
+
+namespace stilb {
+
+/// A surface point that a particle reaches, and the flux that it carries into it.
+struct ChainNode {
+    Vec3 position;                       ///< lifted
+    Vec3 normal;                         ///< on the side that the particle came from
+    Vec3 incoming;                       ///< unit, towards where the particle came from
+    const Material* material = nullptr;  ///< owned by the scene
+    /// W_n of theory (T.1), divided by the probability that the particle was not absorbed here: what a
+    /// connection from this node multiplies with f_r.
+    Spectrum flux_lm;
+    /// The particle came from a point-like source by mirrors alone: path tracing cannot make this node's
+    /// light.
+    bool only_by_light = false;
+};
+
+/// One chain. Absorption (Russian roulette with the surface's reflectance) comes before a node is recorded,
+/// so that all nodes of all chains carry about the same flux: an equal share of the estimate for each ray of
+/// the fan. Nodes on mirrors are not recorded. Unbiased; at most `max_nodes` reflections.
+void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSampler& lights, int max_nodes,
+                      SampleStream stream, std::vector<ChainNode>& nodes);
+
+}  // namespace stilb

@@ -1,0 +1,225 @@
+#include "estimators/light_sampler.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/bounds.h"
+#include "scene/solid_angle_sampling.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A point of an element with the unit normal of its front.
+struct ElementPoint {
+    Vec3 position, normal;
+};
+
+double area(const Rectangle& r) { return length(cross(r.edge_u, r.edge_v)); }
+double area(const std::array<Vec3, 3>& t) { return length(cross(t[1] - t[0], t[2] - t[0])) / 2; }
+double area(const Sphere& s) { return 4 * kPi * s.radius * s.radius; }
+double area(const Disk& d) { return kPi * d.radius * d.radius; }
+
+double size(const Rectangle& r) { return std::max(length(r.edge_u), length(r.edge_v)); }
+double size(const std::array<Vec3, 3>& t) { return std::max(length(t[1] - t[0]), length(t[2] - t[0])); }
+double size(const Sphere& s) { return s.radius; }
+double size(const Disk& d) { return d.radius; }
+
+Vec3 front_normal(const Rectangle& r, const Vec3&) { return normalized(cross(r.edge_u, r.edge_v)); }
+Vec3 front_normal(const std::array<Vec3, 3>& t, const Vec3&) {
+    return normalized(cross(t[1] - t[0], t[2] - t[0]));
+}
+Vec3 front_normal(const Sphere& s, const Vec3& position) { return normalized(position - s.center); }
+Vec3 front_normal(const Disk& d, const Vec3&) { return d.normal; }
+
+Vec3 point_by_area(const Rectangle& r, double u1, double u2) {
+    return r.corner + u1 * r.edge_u + u2 * r.edge_v;
+}
+Vec3 point_by_area(const std::array<Vec3, 3>& t, double u1, double u2) {
+    const Barycentric b = sample_triangle(u1, u2);
+    return b.b0 * t[0] + b.b1 * t[1] + b.b2 * t[2];
+}
+Vec3 point_by_area(const Sphere& s, double u1, double u2) {
+    return s.center + s.radius * sample_sphere(u1, u2).direction;
+}
+Vec3 point_by_area(const Disk& d, double u1, double u2) {
+    const Frame frame = Frame::around(d.normal);
+    const DiskPoint p = sample_unit_disk(u1, u2);
+    return d.center + d.radius * (p.x * frame.u + p.y * frame.v);
+}
+
+template <typename Element>
+void add_mesh(const Mesh& mesh, std::vector<Element>& elements) {
+    for (const Triangle& t : mesh.triangles) {
+        elements.push_back(
+            std::array<Vec3, 3>{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+    }
+}
+
+/// The six faces, fronts outside.
+template <typename Element>
+void add_box(const Box& box, std::vector<Element>& elements) {
+    const Vec3 e = box.max - box.min;
+    const Vec3 x{e.x, 0, 0}, y{0, e.y, 0}, z{0, 0, e.z};
+    elements.push_back(Rectangle{box.min, y, x});
+    elements.push_back(Rectangle{box.min, z, y});
+    elements.push_back(Rectangle{box.min, x, z});
+    elements.push_back(Rectangle{box.max, -x, -y});
+    elements.push_back(Rectangle{box.max, -y, -z});
+    elements.push_back(Rectangle{box.max, -z, -x});
+}
+
+}  // namespace
+
+LightSampler::LightSampler(const Scene& scene, const RayCaster& caster)
+    : scene_(scene), caster_(caster), luminance_of_object_(scene.objects.size()) {
+    std::vector<double> luminous_flux;
+    for (const Light& light : scene.lights) {
+        lights_.push_back(&light);
+        flux_lm_.push_back(stilb::flux_lm(scene, light));
+        luminous_flux.push_back(flux_lm_.back().luminance());
+        Emitter emitter;
+        if (const auto* area_light = std::get_if<AreaLight>(&light.source)) {
+            const Shape& shape = scene.object(area_light->object).shape;
+            if (const auto* mesh = std::get_if<Mesh>(&shape)) add_mesh(*mesh, emitter.elements);
+            if (const auto* box = std::get_if<Box>(&shape)) add_box(*box, emitter.elements);
+            if (const auto* rectangle = std::get_if<Rectangle>(&shape))
+                emitter.elements.emplace_back(*rectangle);
+            if (const auto* sphere = std::get_if<Sphere>(&shape)) emitter.elements.emplace_back(*sphere);
+            if (const auto* disk = std::get_if<Disk>(&shape)) emitter.elements.emplace_back(*disk);
+            std::vector<double> areas;
+            Bounds bounds;
+            for (const Element& element : emitter.elements) {
+                areas.push_back(std::visit([](const auto& e) { return area(e); }, element));
+                // The points of these four parameters span every kind of element well enough for a rough
+                // size.
+                for (const auto& [u1, u2] :
+                     {std::pair{0.01, 0.01}, {0.99, 0.01}, {0.01, 0.99}, {0.99, 0.99}}) {
+                    bounds.include(
+                        std::visit([&](const auto& e) { return point_by_area(e, u1, u2); }, element));
+                }
+            }
+            emitter.by_area = DiscreteDistribution(areas);
+            emitter.middle = 0.5 * (bounds.min + bounds.max);
+            emitter.radius_m = length(bounds.max - bounds.min) / 2;
+            luminance_of_object_[index_of(area_light->object)] = area_light->luminance_cd_m2;
+            has_area_lights_ = true;
+        } else if (const auto* point = std::get_if<PointLight>(&light.source)) {
+            emitter.middle = point->position;
+            has_point_like_lights_ = true;
+        } else {
+            const auto& luminaire = std::get<PhotometryLight>(light.source);
+            const double offset = caster.offset_m(luminaire.position, caster.half_extent_m());
+            emitter.middle = luminaire.position + offset * luminaire.nadir;
+            has_point_like_lights_ = true;
+        }
+        emitters_.push_back(std::move(emitter));
+    }
+    by_flux_ = DiscreteDistribution(luminous_flux);
+}
+
+bool LightSampler::is_point_like(std::size_t light) const { return emitters_[light].elements.empty(); }
+
+EmittedParticle LightSampler::sample_emission(SampleStream& stream) const {
+    const auto choice = by_flux_.choose(stream.next());
+    EmittedParticle particle = emit(choice.index, stream);
+    particle.flux_lm = flux_lm_[choice.index] * (1 / choice.probability);
+    particle.from_point = is_point_like(choice.index);
+    return particle;
+}
+
+EmittedParticle LightSampler::emit(std::size_t light, SampleStream& stream) const {
+    const auto [u1, u2] = stream.next_two();
+    const Vec3& middle = emitters_[light].middle;
+    if (std::holds_alternative<PointLight>(lights_[light]->source)) {
+        return {middle, sample_sphere(u1, u2).direction, {}};
+    }
+    if (const auto* luminaire = std::get_if<PhotometryLight>(&lights_[light]->source)) {
+        const Vec3 local = scene_.solid(luminaire->solid).sample_direction(u1, u2);
+        return {middle,
+                normalized(local.x * luminaire->c0 + local.y * luminaire->c90 + local.z * luminaire->nadir),
+                {}};
+    }
+    const auto choice = emitters_[light].by_area.choose(u1);
+    const auto [v1, v2] = stream.next_two();
+    return std::visit(
+        [&](const auto& element) -> EmittedParticle {
+            const Vec3 position = point_by_area(element, choice.remainder, u2);
+            const Vec3 normal = front_normal(element, position);
+            const Vec3 direction = Frame::around(normal).to_world(sample_cosine_hemisphere(v1, v2).direction);
+            return {position + caster_.offset_m(position, size(element)) * normal, direction, {}};
+        },
+        emitters_[light].elements[choice.index]);
+}
+
+std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const Vec3& from,
+                                                           const std::array<double, 2>& u) const {
+    const auto from_point = [&](const auto& intensity_cd) -> std::optional<IncidentLight> {
+        const Vec3& position = emitters_[light].middle;
+        const Vec3 towards = position - from;
+        const double squared_distance = squared_length(towards);
+        if (squared_distance == 0) return std::nullopt;
+        const Vec3 direction = towards / std::sqrt(squared_distance);
+        return IncidentLight{position, direction, intensity_cd(direction) * (1 / squared_distance)};
+    };
+    const auto& source = lights_[light]->source;
+    if (const auto* point = std::get_if<PointLight>(&source)) {
+        return from_point([&](const Vec3&) { return point->intensity_cd; });
+    }
+    if (const auto* luminaire = std::get_if<PhotometryLight>(&source)) {
+        return from_point([&](const Vec3& direction) {
+            const Vec3 local{-dot(direction, luminaire->c0), -dot(direction, luminaire->c90),
+                             -dot(direction, luminaire->nadir)};
+            return scene_.solid(luminaire->solid).intensity_cd(local) * luminaire->factor;
+        });
+    }
+    const auto choice = emitters_[light].by_area.choose(u[0]);
+    return std::visit(
+        [&](const auto& element) -> std::optional<IncidentLight> {
+            const auto sample = sample_by_solid_angle(element, from, choice.remainder, u[1]);
+            if (!sample) return std::nullopt;
+            const Vec3 normal = front_normal(element, sample->point);
+            const Vec3 direction = normalized(sample->point - from);
+            if (dot(normal, direction) >= 0) return std::nullopt;
+            const Spectrum& luminance = std::get<AreaLight>(source).luminance_cd_m2;
+            return IncidentLight{sample->point + caster_.offset_m(sample->point, size(element)) * normal,
+                                 direction, luminance * (1 / (sample->pdf_per_sr * choice.probability))};
+        },
+        emitters_[light].elements[choice.index]);
+}
+
+double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const {
+    if (is_point_like(light)) {
+        const auto incident = sample_incident(light, from, {});
+        if (!incident) return 0;
+        return incident->normal_illuminance_lx.luminance() * std::max(0.0, dot(incident->direction, normal));
+    }
+    // Never zero: part of the emitter may be above the horizon wherever its middle is.
+    const Emitter& emitter = emitters_[light];
+    const double squared_distance = squared_length(emitter.middle - from);
+    return flux_lm_[light].luminance() / (squared_distance + emitter.radius_m * emitter.radius_m);
+}
+
+std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
+                                                            SampleStream& stream) const {
+    const double u = stream.next();
+    const auto point = stream.next_two();
+    if (count() == 1) return sample_incident(0, from, point);
+    std::vector<double> weights(count());
+    double total = 0;
+    for (std::size_t light = 0; light < count(); ++light) {
+        total += weights[light] = rough_illuminance(light, from, normal);
+    }
+    if (!(total > 0)) return std::nullopt;
+    const auto choice = DiscreteDistribution(weights).choose(u);
+    auto incident = sample_incident(choice.index, from, point);
+    if (incident) incident->normal_illuminance_lx *= 1 / choice.probability;
+    return incident;
+}
+
+Spectrum LightSampler::emitted_luminance(const Hit& hit) const {
+    return hit.on_front ? luminance_of_object_[index_of(hit.object)] : Spectrum{};
+}
+
+}  // namespace stilb

@@ -1,0 +1,86 @@
+// Light sources as the estimators need them: particles that leave them, and their light at a given point.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "base/discrete.h"
+#include "base/sample_stream.h"
+#include "scene/ray_caster.h"
+#include "scene/scene.h"
+
+namespace stilb {
+
+/// A particle that has just left a light source.
+struct EmittedParticle {
+    Vec3 origin;  ///< lifted off the source
+    Vec3 direction;
+    Spectrum flux_lm;         ///< total flux of the scene's lights, coloured by the chosen one
+    bool from_point = false;  ///< from a point or photometry light: nothing can hit such a source
+};
+
+/// Light that arrives at a point from a sampled point of a source, visibility left out.
+struct IncidentLight {
+    Vec3 source_point;  ///< lifted off the source
+    Vec3 direction;     ///< unit, towards the source
+    /// Multiply by the cosine at the receiver (and the BRDF), and by visibility. The division by the density
+    /// is in it; for a point source it is intensity / distance^2 [lx].
+    Spectrum normal_illuminance_lx;
+};
+
+/// All lights of a scene. Keeps references to both arguments. Immutable.
+class LightSampler {
+  public:
+    LightSampler(const Scene& scene, const RayCaster& caster);
+
+    /// A particle drawn in proportion to the emitted luminous flux: light, position, direction.
+    EmittedParticle sample_emission(SampleStream& stream) const;
+
+    std::size_t count() const { return lights_.size(); }
+    /// Point and photometry lights: light from them at a point is known exactly, without sampling.
+    bool is_point_like(std::size_t light) const;
+
+    /// Light from one source at `from`; point-like ones ignore `u`. Nothing where the sample's front is
+    /// turned away.
+    std::optional<IncidentLight> sample_incident(std::size_t light, const Vec3& from,
+                                                 const std::array<double, 2>& u) const;
+    /// As above from one source chosen by its unshadowed contribution at `from`; divided by the choice's
+    /// probability.
+    std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
+                                                  SampleStream& stream) const;
+
+    /// Luminance that leaves `hit` towards where the ray came from, of an emitter; zero elsewhere.
+    Spectrum emitted_luminance(const Hit& hit) const;
+    bool has_area_lights() const { return has_area_lights_; }
+    bool has_point_like_lights() const { return has_point_like_lights_; }
+
+  private:
+    using Element = std::variant<Rectangle, std::array<Vec3, 3>, Sphere, Disk>;
+
+    struct Emitter {
+        std::vector<Element> elements;  ///< of an area light; empty for point-like ones
+        DiscreteDistribution by_area;
+        /// Of a point-like light: where its rays start. Luminaires are lifted along their nadir, so that one
+        /// may be placed in the very plane of a ceiling.
+        Vec3 middle;
+        double radius_m = 0;
+    };
+
+    double rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const;
+    EmittedParticle emit(std::size_t light, SampleStream& stream) const;
+
+    const Scene& scene_;
+    const RayCaster& caster_;
+    std::vector<const Light*> lights_;
+    std::vector<Emitter> emitters_;
+    std::vector<Spectrum> flux_lm_;
+    DiscreteDistribution by_flux_;
+    std::vector<Spectrum> luminance_of_object_;
+    bool has_area_lights_ = false;
+    bool has_point_like_lights_ = false;
+};
+
+}  // namespace stilb

@@ -1,0 +1,27 @@
+#include "estimators/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stilb {
+
+bool has_mirrors(const Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        return std::any_of(object.materials.begin(), object.materials.end(),
+                           [&](MaterialId id) { return is_specular(scene.material(id)); });
+    });
+}
+
+std::vector<std::string> mirror_warnings(const Scene& scene, std::string_view what) {
+    const bool point_like = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+        return !std::holds_alternative<AreaLight>(light.source);
+    });
+    if (!point_like || !has_mirrors(scene)) return {};
+    return {fmt::format(
+        "{}: that light is missing from the readings. A small sphere or area light in its place is "
+        "seen by mirrors.",
+        what)};
+}
+
+}  // namespace stilb

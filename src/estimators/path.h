@@ -1,0 +1,12 @@
+#pragma once
+
+#include <memory>
+
+#include "estimators/estimator_list.h"
+
+namespace stilb {
+
+/// Path tracing from every point; see path.cpp.
+std::unique_ptr<Estimator> make_path_estimator(const EstimatorInput& input);
+
+}  // namespace stilb

@@ -1,0 +1,77 @@
+#include "estimators/path_tracer.h"
+
+#include <cmath>
+
+#include "estimators/russian_roulette.h"
+
+namespace stilb {
+
+PathTracer::View PathTracer::look_through_mirrors(const Hit& hit, const Vec3& direction, int max_reflections,
+                                                  SampleStream& stream) const {
+    View view;
+    view.surface = hit;
+    view.outgoing = -direction;
+    while (is_specular(scene_.material(view.surface->material))) {
+        const Material& mirror = scene_.material(view.surface->material);
+        const double survival = survival_probability(view.transmission, reflectance_bound(mirror));
+        if (view.reflections == max_reflections || stream.next() >= survival) {
+            view.surface.reset();
+            return view;
+        }
+        const Frame frame = Frame::around(view.surface->normal);
+        const auto [u1, u2] = stream.next_two();
+        const auto scattered = sample_brdf(mirror, frame.to_local(view.outgoing), u1, u2);
+        if (!scattered) {
+            view.surface.reset();
+            return view;
+        }
+        ++view.reflections;
+        view.transmission *= scattered->weight * (1 / survival);
+        const Vec3 onwards = frame.to_world(scattered->direction);
+        view.surface = caster_.closest(view.surface->lifted, onwards);
+        if (!view.surface) return view;
+        view.outgoing = -onwards;
+        view.emission_cd_m2 += view.transmission * lights_.emitted_luminance(*view.surface);
+    }
+    return view;
+}
+
+Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
+                                         SampleStream& stream) const {
+    Spectrum luminance;
+    Spectrum throughput = Spectrum::grey(1);
+    Hit hit = surface;
+    Vec3 out = outgoing;
+    for (int reflections_left = max_reflections; reflections_left > 0;) {
+        const Material& material = scene_.material(hit.material);
+        const Frame frame = Frame::around(hit.normal);
+        const Vec3 local_out = frame.to_local(out);
+        if (const auto light = lights_.sample_one_light(hit.lifted, hit.normal, stream)) {
+            const Vec3 local_in = frame.to_local(light->direction);
+            const Spectrum brdf = evaluate_brdf_per_sr(material, local_in, local_out);
+            if (local_in.z > 0 && brdf.max() > 0 && !caster_.occluded(hit.lifted, light->source_point)) {
+                luminance += throughput * brdf * local_in.z * light->normal_illuminance_lx;
+            }
+        }
+        const double survival = survival_probability(throughput, reflectance_bound(material));
+        if (stream.next() >= survival) break;
+        const auto [u1, u2] = stream.next_two();
+        const auto scattered = sample_brdf(material, local_out, u1, u2);
+        if (!scattered) break;
+        throughput *= scattered->weight * (1 / survival);
+        --reflections_left;
+        const Vec3 direction = frame.to_world(scattered->direction);
+        const auto next = caster_.closest(hit.lifted, direction);
+        if (!next) break;
+        const View view = look_through_mirrors(*next, direction, reflections_left, stream);
+        luminance += throughput * view.emission_cd_m2;
+        if (!view.surface) break;
+        throughput *= view.transmission;
+        reflections_left -= view.reflections;
+        hit = *view.surface;
+        out = view.outgoing;
+    }
+    return luminance;
+}
+
+}  // namespace stilb

@@ -1,0 +1,42 @@
+// Path tracing from a surface point: the luminance that it reflects.
+//
+// Every reflection adds the light of one source, chosen and sampled by next-event estimation; emitters that a
+// path runs into count only behind mirrors, which next-event estimation cannot see through. Not made: light
+// that leaves a point-like source and meets a mirror first.
+#pragma once
+
+#include "estimators/light_sampler.h"
+
+namespace stilb {
+
+/// Keeps references to its arguments. Immutable.
+class PathTracer {
+  public:
+    PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights)
+        : scene_(scene), caster_(caster), lights_(lights) {}
+
+    /// Follows a ray that met `hit` through mirrors: the surface behind them and what they leave of the
+    /// light.
+    struct View {
+        std::optional<Hit> surface;  ///< not specular; nothing where the ray left the scene or was absorbed
+        Vec3 outgoing;               ///< unit, from the surface towards where it is seen from
+        Spectrum transmission = Spectrum::grey(1);
+        Spectrum emission_cd_m2;  ///< of emitters on the way that are seen by mirrors, transmission included
+        int reflections = 0;      ///< at mirrors
+    };
+    View look_through_mirrors(const Hit& hit, const Vec3& direction, int max_reflections,
+                              SampleStream& stream) const;
+
+    /// One unbiased sample of the luminance [cd/m2] that `surface` (not specular) reflects towards
+    /// `outgoing`, by at most `max_reflections` reflections, its own counted. Emission of the surface itself
+    /// is left out.
+    Spectrum reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
+                                 SampleStream& stream) const;
+
+  private:
+    const Scene& scene_;
+    const RayCaster& caster_;
+    const LightSampler& lights_;
+};
+
+}  // namespace stilb
