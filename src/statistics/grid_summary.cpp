@@ -1,0 +1,137 @@
+// The smallest of the true values, theta, is that of an unknown reading i. With v_j, s_j the readings' means
+// and standard errors, at a total error rate of alpha = 1 - confidence:
+//
+// Screening (alpha / 10): a reading is excluded where its paired difference from the reading with the
+// smallest mean is significant at the Bonferroni level over all readings. Only comparisons of i itself can
+// exclude i wrongly, one with each other reading, so this also holds although the data choose the reading
+// compared with.
+//
+// Lower bound (0.45 alpha): the least v_j - c s_j over the contenders. It fails only if v_i - c s_i > theta,
+// an event of one reading: c is the plain t quantile, however many contenders there are.
+//
+// Upper bound (0.45 alpha): the least v_j + c s_j. It fails if any contender's v_j + c s_j < theta <= mu_j,
+// its true value: c is the Bonferroni quantile over the contenders.
+//
+// Bonferroni, as nobody knows how the readings' errors are correlated. The maximum is the minimum of the
+// negatives.
+#include "statistics/grid_summary.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "statistics/replicate_moments.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kScreeningShare = 0.1;  ///< of the total error rate
+constexpr double kSideShare = 0.45;      ///< of the total error rate, for each end of the interval
+
+enum class Extreme { minimum, maximum };
+
+double sign_of(Extreme extreme) { return extreme == Extreme::minimum ? 1 : -1; }
+
+class ExtremeFinder {
+  public:
+    ExtremeFinder(const ReplicateTable& table, const ReplicateMoments& moments, Extreme extreme,
+                  double confidence)
+        : sign_(sign_of(extreme)),
+          error_rate_(1 - confidence),
+          degrees_of_freedom_(static_cast<int>(table.replicates()) - 1) {
+        select(moments.means);
+        screen(table, moments.means);
+    }
+
+    /// The interval of the extreme of quantities that are in the same order as the readings.
+    Estimate estimate(std::span<const double> values, std::span<const double> standard_errors) const {
+        const double contenders = static_cast<double>(contenders_.size());
+        const double outward = quantile(kSideShare * error_rate_);
+        const double inward = quantile(kSideShare * error_rate_ / contenders);
+        double outer = std::numeric_limits<double>::infinity();
+        double inner = outer;
+        for (const std::size_t j : contenders_) {
+            outer = std::min(outer, sign_ * values[j] - outward * standard_errors[j]);
+            inner = std::min(inner, sign_ * values[j] + inward * standard_errors[j]);
+        }
+        return {values[selected_], standard_errors[selected_], std::min(sign_ * outer, sign_ * inner),
+                std::max(sign_ * outer, sign_ * inner)};
+    }
+
+  private:
+    void select(std::span<const double> means) {
+        for (std::size_t j = 1; j < means.size(); ++j) {
+            if (sign_ * means[j] < sign_ * means[selected_]) selected_ = j;
+        }
+    }
+
+    void screen(const ReplicateTable& table, std::span<const double> means) {
+        std::vector<double> selected_residuals(table.replicates());
+        for (std::size_t r = 0; r < selected_residuals.size(); ++r) {
+            selected_residuals[r] = table.row(r)[selected_] - means[selected_];
+        }
+        const std::vector<double> slopes(table.readings, 1.0);
+        const std::vector<double> paired_errors =
+            residual_standard_errors(table, means, slopes, selected_residuals);
+        const double strict = quantile(kScreeningShare * error_rate_ / static_cast<double>(table.readings));
+        for (std::size_t j = 0; j < table.readings; ++j) {
+            const double behind = sign_ * (means[j] - means[selected_]);
+            if (behind <= strict * paired_errors[j]) contenders_.push_back(j);
+        }
+    }
+
+    double quantile(double tail) const { return student_t_quantile(1 - tail, degrees_of_freedom_); }
+
+    double sign_;
+    double error_rate_;
+    int degrees_of_freedom_;
+    std::size_t selected_ = 0;
+    std::vector<std::size_t> contenders_;
+};
+
+/// The uniformity's errors by the delta method: x_j / X moves by (dx_j - (x_j / X) dX) / X.
+Estimate estimate_uniformity(const ReplicateTable& table, std::span<const double> means,
+                             std::span<const double> grid_means, const Estimate& mean,
+                             const ExtremeFinder& smallest) {
+    if (!(mean.value > 0)) {
+        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        return {kNone, kNone, kNone, kNone};
+    }
+    std::vector<double> ratios(means.begin(), means.end());
+    for (double& ratio : ratios) ratio /= mean.value;
+    std::vector<double> mean_residuals(grid_means.begin(), grid_means.end());
+    for (double& residual : mean_residuals) residual -= mean.value;
+    std::vector<double> errors = residual_standard_errors(table, means, ratios, mean_residuals);
+    for (double& error : errors) error /= mean.value;
+    Estimate uniformity = smallest.estimate(ratios, errors);
+    uniformity.upper = std::min(uniformity.upper, 1.0);  // no minimum exceeds the mean
+    return uniformity;
+}
+
+std::vector<double> compute_grid_means(const ReplicateTable& table) {
+    std::vector<double> grid_means(table.replicates());
+    for (std::size_t r = 0; r < grid_means.size(); ++r) {
+        double sum = 0;
+        for (const double value : table.row(r)) sum += value;
+        grid_means[r] = sum / static_cast<double>(table.readings);
+    }
+    return grid_means;
+}
+
+}  // namespace
+
+GridSummary summarize_grid(const ReplicateTable& table, double confidence) {
+    const ReplicateMoments moments = compute_replicate_moments(table);
+    const std::vector<double> grid_means = compute_grid_means(table);
+    const ExtremeFinder smallest(table, moments, Extreme::minimum, confidence);
+    const ExtremeFinder largest(table, moments, Extreme::maximum, confidence);
+
+    GridSummary summary;
+    summary.mean = estimate_from_replicates(grid_means, confidence);
+    summary.minimum = smallest.estimate(moments.means, moments.standard_errors);
+    summary.maximum = largest.estimate(moments.means, moments.standard_errors);
+    summary.uniformity = estimate_uniformity(table, moments.means, grid_means, summary.mean, smallest);
+    return summary;
+}
+
+}  // namespace stilb

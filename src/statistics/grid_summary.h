@@ -1,0 +1,21 @@
+// Mean, minimum, maximum and uniformity of a grid of readings, each with an interval that holds.
+#pragma once
+
+#include "statistics/interval.h"
+
+namespace stilb {
+
+struct GridSummary {
+    Estimate mean, minimum, maximum;
+    Estimate uniformity;  ///< minimum over mean; all NaN where the mean is 0: without light it has no meaning
+};
+
+/// The summary of a table with at least two replicates and one reading; all readings weigh the same in the
+/// mean. The values of minimum, maximum and uniformity are the plain ones of the readings' means, and their
+/// standard errors those of the readings selected; as such a selection is biased outwards, their intervals
+/// are simultaneous ones over all readings that cannot be excluded. Valid for any correlation among the
+/// readings; needs memory in proportion to the readings. Throws std::invalid_argument for fewer than two
+/// replicates.
+GridSummary summarize_grid(const ReplicateTable& table, double confidence = 0.95);
+
+}  // namespace stilb

@@ -1,0 +1,25 @@
+// When a run is good enough: the stopping rule and how far a run has come.
+#pragma once
+
+#include <span>
+
+#include "statistics/interval.h"
+
+namespace stilb {
+
+/// Share of each sensor's readings that must meet the target: the few darkest points must not decide over the
+/// rest.
+inline constexpr double kReadingShare = 0.95;
+
+/// The confidence at which to make the intervals of a run that stops by its own error, for them to hold in 95
+/// % of the runs: one stops sooner where the standard error happens to be too small. docs/statistics.md has
+/// the measurements.
+inline constexpr double kStoppedConfidence = 0.96;
+
+/// The relative half-width that this share of the readings is within; 0 without readings.
+double attained_error(std::span<const Estimate> readings, double share = kReadingShare);
+
+/// Whether this share of the readings has relative half-widths within the target.
+bool reached(std::span<const Estimate> readings, double relative_error, double share = kReadingShare);
+
+}  // namespace stilb

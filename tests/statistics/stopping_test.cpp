@@ -1,0 +1,99 @@
+#include "statistics/stopping.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace stilb {
+namespace {
+
+std::vector<Estimate> readings_with_half_widths(std::initializer_list<double> half_widths) {
+    std::vector<Estimate> readings;
+    for (const double h : half_widths) readings.push_back({.value = 1, .lower = 1 - h, .upper = 1 + h});
+    return readings;
+}
+
+TEST(Stopping, AttainsWhatTheShareOfTheReadingsAttains) {
+    std::vector<Estimate> readings;
+    for (int i = 20; i >= 1; --i) readings.push_back({.value = 100, .lower = 100.0 - i, .upper = 100.0 + i});
+    EXPECT_NEAR(attained_error(readings), 0.19, 1e-12);
+    EXPECT_NEAR(attained_error(readings, 1), 0.20, 1e-12);
+    EXPECT_NEAR(attained_error(readings, 0.5), 0.10, 1e-12);
+    EXPECT_NEAR(attained_error(readings, 0.51), 0.11, 1e-12);
+    EXPECT_TRUE(reached(readings, 0.1901));
+    EXPECT_FALSE(reached(readings, 0.1899));
+}
+
+TEST(Stopping, AFewReadingsMustAllMeetTheTarget) {
+    const std::vector<Estimate> readings = readings_with_half_widths({0.01, 0.02, 0.5});
+    EXPECT_NEAR(attained_error(readings), 0.5, 1e-12);
+    EXPECT_FALSE(reached(readings, 0.1));
+}
+
+TEST(Stopping, DarkReadingsAndNoReadingsAreDone) {
+    const std::vector<Estimate> dark(3);
+    EXPECT_TRUE(reached(dark, 0));
+    EXPECT_TRUE(reached({}, 0));
+    EXPECT_EQ(attained_error({}), 0);
+    const std::vector<Estimate> unknown{{.value = 0, .lower = -1, .upper = 1}};
+    EXPECT_FALSE(reached(unknown, 1e9));
+}
+
+/// A reading of true value 1 from 32 replicates of chains, checked at growing sizes until it meets the
+/// target.
+class StoppedRun {
+  public:
+    StoppedRun(std::function<double(std::mt19937_64&)> draw_chain, double growth)
+        : draw_chain_(std::move(draw_chain)), growth_(growth) {}
+
+    double coverage(double target) {
+        constexpr int kRuns = 2000;
+        int held = 0;
+        for (int run = 0; run < kRuns; ++run) {
+            const Estimate estimate = stop_at(target);
+            held += estimate.lower <= 1 && 1 <= estimate.upper ? 1 : 0;
+        }
+        return held / double{kRuns};
+    }
+
+  private:
+    Estimate stop_at(double target) {
+        std::vector<double> sums(32, 0.0), means(32);
+        int chains = 0;
+        // Where the sizes lie beside the one needed is random, as it is in practice.
+        double size = 8 * std::pow(growth_, std::uniform_real_distribution<double>()(random_));
+        for (;; size *= growth_) {
+            const int upto = static_cast<int>(size);
+            for (std::size_t r = 0; r < sums.size(); ++r) {
+                for (int chain = chains; chain < upto; ++chain) sums[r] += draw_chain_(random_);
+                means[r] = sums[r] / upto;
+            }
+            chains = upto;
+            const Estimate estimate = estimate_from_replicates(means, kStoppedConfidence);
+            if (reached({&estimate, 1}, target)) return estimate;
+        }
+    }
+
+    std::function<double(std::mt19937_64&)> draw_chain_;
+    double growth_;
+    std::mt19937_64 random_{17};
+};
+
+TEST(Stopping, IntervalsHoldThoughTheRunStopsWhereTheyAreNarrow) {
+    const auto normal = [](std::mt19937_64& random) {
+        return std::normal_distribution<double>(1, 1)(random);
+    };
+    const auto skewed = [](std::mt19937_64& random) {
+        return std::exponential_distribution<double>(1)(random);
+    };
+    for (const double growth : {1.5, 2.0}) {
+        EXPECT_GE(StoppedRun(normal, growth).coverage(0.07), 0.94) << growth;
+        EXPECT_GE(StoppedRun(skewed, growth).coverage(0.07), 0.94) << growth;
+    }
+}
+
+}  // namespace
+}  // namespace stilb
