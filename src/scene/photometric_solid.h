@@ -1,47 +1,64 @@
 // The luminous intensity distribution of a luminaire, as IES and EULUMDAT files state it.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "base/vec.h"
 
 namespace stilb {
 
-/// Angles of a photometric file: IES types A, B and C differ in the axis that the planes turn about.
+/// The axis that the planes of a photometric file turn about: A and C the vertical, B a horizontal one.
 enum class PhotometryType { A, B, C };
 
 /// Intensity [cd], bilinear in the two angles of its grid, zero outside the range of the angles.
 ///
 /// Directions are unit vectors in the luminaire's frame (left-handed, as C planes are): x towards C0, y
-/// towards C90, z towards the nadir (gamma = 0). Immutable.
+/// towards C90, z towards the nadir (gamma = 0). Immutable. Angles, interpolation and sampling:
+/// docs/photometry.md.
 class PhotometricSolid {
   public:
-    /// The grid of a file after its symmetry was unfolded, angles in degrees and strictly increasing.
-    /// Type C: `planes` are C in [0, 360] (first 0, last 360; a single plane means rotational symmetry),
-    /// `polar` gamma in [0, 180]. Types A and B: `planes` horizontal, `polar` vertical angles of the file.
+    /// The grid of a file after its symmetry was unfolded. Angles in degrees, each list increasing by
+    /// kSmallestStepDeg or more. With H and V the horizontal and vertical angles of LM-63, H clockwise seen
+    /// from above, and (plane, polar) in the frame:
+    /// - C: planes C, a full turn or one for all; polar gamma in [0, 180]. (0, 90) is x, (90, 90) is y.
+    /// - A: planes H in [-180, 180]; polar V in [-90, 90]. (0, 0) is x, (90, 0) is -y, (any, -90) is z.
+    /// - B: planes V in [-180, 180]; polar H in [-90, 90]. (0, 0) is z, (90, 0) is x, (any, 90) is -y.
     struct Grid {
         PhotometryType type = PhotometryType::C;
         std::vector<double> planes_deg;
         std::vector<double> polar_deg;
         std::vector<double> intensity_cd;  ///< planes x polar, polar angle fastest
     };
+    static constexpr double kSmallestStepDeg = 1e-6;
 
     /// Throws InputError where the grid is not as above, an intensity is negative or not finite, or all are
     /// 0.
-    explicit PhotometricSolid(Grid grid);
+    explicit PhotometricSolid(const Grid& grid);
 
     double intensity_cd(const Vec3& direction) const;
     /// Integral of the interpolated intensity over the sphere: exact, not a sum over the grid.
     double flux_lm() const { return flux_lm_; }
     double peak_cd() const { return peak_cd_; }
 
-    /// A direction drawn with density intensity / flux exactly, by inversion of two numbers in [0, 1).
+    /// A direction drawn with density intensity / flux exactly, by inversion of two numbers in [0, 1): u1
+    /// gives the plane, u2 the angle in it, both continuous and increasing.
     Vec3 sample_direction(double u1, double u2) const;
     /// intensity / flux.
-    double pdf_per_sr(const Vec3& direction) const;
+    double pdf_per_sr(const Vec3& direction) const { return intensity_cd(direction) / flux_lm_; }
 
   private:
-    Grid grid_;
+    double relative(std::size_t plane, std::size_t ring) const {
+        return relative_intensity_[plane * polar_.size() + ring];
+    }
+    void add_up_flux();
+
+    Frame axes_;                              ///< plane angle 0 and 90 on the equator, pole of polar angle 0
+    std::vector<double> planes_;              ///< radians
+    std::vector<double> polar_;               ///< radians from the pole
+    std::vector<double> relative_intensity_;  ///< intensity / peak: neither sums nor squares overflow
+    std::vector<double> flux_below_;   ///< planes x polar: per radian of plane angle, from the pole down
+    std::vector<double> flux_before_;  ///< per plane: of all slices before it
     double flux_lm_ = 0;
     double peak_cd_ = 0;
 };
