@@ -79,20 +79,24 @@ void check(const PhotometricSolid::Grid& grid) {
 }
 
 /// sin h - h cos h without cancellation.
-double sine_minus_chord(double h) {
-    if (std::abs(h) > 0.2) return std::sin(h) - h * std::cos(h);
+double sine_minus_chord(double h, double sine, double cosine) {
+    if (std::abs(h) > 0.2) return sine - h * cosine;
     const double q = h * h;
     return h * q * (1. / 3 - q * (1. / 30 - q * (1. / 840 - q * (1. / 45360 - q / 3991680))));
 }
 
-/// Integrals over an interval of the polar angle, starting at `start`, of sin and of (angle - start) sin.
+/// Over an interval of the polar angle: the integrals of sin and of (angle - start) sin; sin at its end.
 struct SineMoments {
-    double zeroth, first;
+    double zeroth, first, sine_at_end;
 };
 SineMoments sine_moments(double start, double width) {
     const double half = width / 2, middle = start + half;
-    const double half_zeroth = std::sin(middle) * std::sin(half);
-    return {2 * half_zeroth, width * half_zeroth + 2 * std::cos(middle) * sine_minus_chord(half)};
+    const double sine_half = std::sin(half), cosine_half = std::cos(half);
+    const double sine = std::sin(middle), cosine = std::cos(middle);
+    const double half_zeroth = sine * sine_half;
+    return {2 * half_zeroth,
+            width * half_zeroth + 2 * cosine * sine_minus_chord(half, sine_half, cosine_half),
+            sine * cosine_half + cosine * sine_half};
 }
 
 /// The interval of increasing `bounds` that holds `value`, which lies between the first and the last.
@@ -114,25 +118,29 @@ double invert_linear(double a, double b, double share) {
 struct PolarDensity {
     double start, width, at_start, slope;
 
-    double density(double x) const { return (at_start + slope * x) * std::sin(start + x); }
-    double mass_below(double x) const {
+    struct Value {
+        double density, mass_below;
+    };
+    Value at(double x) const {
         const SineMoments moments = sine_moments(start, x);
-        return at_start * moments.zeroth + slope * moments.first;
+        return {std::max((at_start + slope * x) * moments.sine_at_end, 0.0),
+                at_start * moments.zeroth + slope * moments.first};
     }
 };
 
 /// Where the given share of the mass lies below: Newton's iteration, kept inside a shrinking bracket.
 double invert_polar(const PolarDensity& polar, double share) {
     constexpr int kMostIterations = 60;
-    const double target = share * polar.mass_below(polar.width);
+    const PolarDensity::Value end = polar.at(polar.width);
+    const double target = share * end.mass_below;
     // Cells are narrow as a rule, and there sin is almost linear.
-    double x =
-        polar.width * invert_linear(polar.density(0), std::max(polar.density(polar.width), 0.0), share);
+    double x = polar.width * invert_linear(polar.at_start * std::sin(polar.start), end.density, share);
     double low = 0, high = polar.width;
     for (int i = 0; i < kMostIterations; ++i) {
-        const double excess = polar.mass_below(x) - target;
+        const PolarDensity::Value value = polar.at(x);
+        const double excess = value.mass_below - target;
         (excess > 0 ? high : low) = x;
-        const double newton = x - excess / polar.density(x);
+        const double newton = x - excess / value.density;
         const bool inside = newton > low && newton < high;
         // Newton squares the relative error: after a step as small as this, x is exact.
         if (inside && std::abs(newton - x) <= 1e-8 * std::min(x, polar.width - x)) return newton;
