@@ -1,0 +1,82 @@
+"""scripts/check-includes: that it finds planted violations, and that this project has none."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parents[2]
+SCRIPT = PROJECT / "scripts" / "check-includes"
+
+
+def check(root):
+    return subprocess.run([sys.executable, str(SCRIPT), str(root)], capture_output=True, text=True, check=False)
+
+
+class CheckIncludes(unittest.TestCase):
+    def check_file(self, path, text):
+        with tempfile.TemporaryDirectory() as root:
+            file = Path(root) / "src" / path
+            file.parent.mkdir(parents=True)
+            file.write_text(text, encoding="utf-8")
+            return check(root)
+
+    def assert_accepted(self, path, text):
+        result = self.check_file(path, text)
+        self.assertEqual((result.returncode, result.stdout), (0, ""))
+
+    def assert_rejected(self, path, text, message):
+        result = self.check_file(path, text)
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn(message, result.stdout)
+
+    def test_this_project_has_no_violation(self):
+        result = check(PROJECT)
+        self.assertEqual((result.returncode, result.stdout), (0, ""))
+
+    def test_lower_folders_and_standard_headers_are_allowed(self):
+        self.assert_accepted("run/run.cpp", '#include "scene/scene.h"\n#include <vector>\n#include "statistics/moments.h"\n')
+        self.assert_accepted("cli/verify.cpp", '#include "exact/sphere.h"\n#include "files/scene_file.h"\n')
+
+    def test_higher_folders_are_not(self):
+        self.assert_rejected("scene/scene.h", '#pragma once\n\n#include "sensors/sensor.h"\n',
+                             "src/scene/scene.h:3: includes sensors/sensor.h: scene must not see sensors")
+        self.assert_rejected("estimators/path.cpp", '#include "run/options.h"\n', "estimators must not see run")
+
+    def test_the_side_folders_see_only_base(self):
+        self.assert_rejected("exact/sphere.cpp", '#include "scene/scene.h"\n', "exact must not see scene")
+        self.assert_rejected("statistics/moments.h", '  # include "exact/sphere.h"\n', "statistics must not see exact")
+        self.assert_rejected("base/vec.h", '#include "statistics/moments.h"\n', "base must not see statistics")
+        self.assert_rejected("estimators/path.cpp", '#include "statistics/moments.h"\n', "must not see statistics")
+
+    def test_libraries_stay_behind_their_files(self):
+        homes = {
+            "embree3/rtcore.h": ("scene/ray_caster_fan.cpp", "scene/scene.cpp"),
+            "toml++/toml.h": ("files/scene_file.cpp", "scene/scene.cpp"),
+            "cairo-svg.h": ("files/canvas.cpp", "files/image.cpp"),
+            "CLI/CLI.hpp": ("cli/main.cpp", "run/run.cpp"),
+            "nlohmann/json.hpp": ("run/results.cpp", "estimators/path.cpp"),
+            "tbb/parallel_for.h": ("run/run.cpp", "estimators/path.cpp"),
+            "boost/math/distributions/normal.hpp": ("statistics/interval.cpp", "scene/scene.cpp"),
+            "Random123/philox.h": ("base/random.cpp", "estimators/path.cpp"),
+        }
+        for header, (home, elsewhere) in homes.items():
+            with self.subTest(header=header):
+                self.assert_accepted(home, f"#include <{header}>\n")
+                self.assert_rejected(elsewhere, f"#include <{header}>\n", "may include it")
+
+    def test_unknown_libraries_and_folders_are_named(self):
+        self.assert_rejected("base/vec.h", "#include <Eigen/Dense>\n", "unknown library")
+        self.assert_rejected("base/vec.h", "#include <unistd.h>\n", "unknown library")
+        self.assert_rejected("misc/helpers.h", "#pragma once\n", "in no folder of the architecture")
+        self.assert_rejected("base/vec.h", '#include "../scene/scene.h"\n', "not a path from src/")
+        self.assert_rejected("base/vec.h", '#include "units.h"\n', "not a path from src/")
+
+    def test_an_empty_tree_does_not_pass(self):
+        with tempfile.TemporaryDirectory() as root:
+            self.assertEqual(check(root).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
