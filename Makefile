@@ -1,0 +1,73 @@
+# The front door. CMake and Ninja do the work (CMakePresets.json); this file only sets them up and calls them.
+
+RELEASE := build/release
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+SOURCES = $(shell git ls-files '*.h' '*.cpp')
+FUZZERS = $(patsubst fuzz/%_fuzzer.cpp,%,$(wildcard fuzz/*_fuzzer.cpp))
+FUZZ_SECONDS ?= 60
+
+# $(call configure,PRESET): only where it was not done; afterwards Ninja itself notices changes.
+configure = test -f build/$(1)/build.ninja || cmake --preset $(1)
+
+.DEFAULT_GOAL := help
+.PHONY: help setup setup-lint build demo test verify-long bench format format-check lint sanitize fuzz clean
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' Makefile
+
+setup: ## install what building and testing need (apt), or name it
+	@scripts/setup build test
+
+setup-lint: ## the same for format, lint and fuzz
+	@scripts/setup build test lint
+
+build: setup ## the optimised program: build/release/stilb
+	@$(call configure,release)
+	@cmake --build --preset release --target stilb
+
+demo: build ## measure the example office, with a picture: out/office.png
+	@mkdir -p out
+	$(RELEASE)/stilb measure scenes/office/office.toml --falsecolor out/office.png
+	@echo "The picture of the working planes: out/office.png"
+
+test: setup ## build everything and run all tests
+	@$(call configure,release)
+	@cmake --build --preset release
+	@ctest --preset release -j $(JOBS)
+
+verify-long: build ## all exact solutions at 0.2 %
+	$(RELEASE)/stilb verify --error 0.2%
+
+bench: setup ## the benchmarks
+	@$(call configure,release)
+	@cmake --build --preset release
+	@for program in $(RELEASE)/bench_*; do echo "$$program"; "$$program" || exit 1; done
+
+format: setup-lint ## rewrite all sources in the project's format
+	@clang-format-14 -i $(SOURCES)
+
+format-check: setup-lint ## fail where a source is not in the project's format
+	@clang-format-14 --dry-run -Werror $(SOURCES)
+
+lint: setup-lint ## clang-tidy, and the directions of includes
+	@scripts/check-includes
+	@$(call configure,release)
+	@run-clang-tidy-14 -quiet -j $(JOBS) -p $(RELEASE) '^$(CURDIR)/src/'
+
+sanitize: setup ## all tests with address and undefined-behaviour sanitizers
+	@$(call configure,debug)
+	@cmake --build --preset debug
+	@ctest --preset debug -j $(JOBS)
+
+fuzz: setup-lint ## each reader's fuzz target for FUZZ_SECONDS (60)
+	@$(call configure,fuzz)
+	@cmake --build --preset fuzz --target $(FUZZERS:%=fuzz_%)
+	@for name in $(FUZZERS); do \
+	    found=build/fuzz/found/$$name; mkdir -p $$found; \
+	    echo "fuzz_$$name: $(FUZZ_SECONDS) s"; \
+	    build/fuzz/fuzz_$$name -max_total_time=$(FUZZ_SECONDS) -timeout=10 -rss_limit_mb=2048 -verbosity=0 \
+	        -artifact_prefix=$$found- $$found fuzz/corpus/$$name || exit 1; \
+	done
+
+clean: ## remove build/ and out/
+	rm -rf build out
