@@ -77,11 +77,13 @@ class HeaderReader {
     void read_format() {
         const std::string_view format = next_word(rest_), version = next_word(rest_);
         const auto found = std::find(kFormats.begin(), kFormats.end(), format);
-        if (found == kFormats.end() || version != "1.0") {
-            fail(fmt::format(
-                "the format is {}; it must be ascii, binary_little_endian or binary_big_endian, then 1.0{}",
-                in_quotes(fmt::format("{} {}", format, version)), suggestion(format, kFormats)));
+        if (found == kFormats.end()) {
+            fail(
+                fmt::format("the format is {}; it must be ascii, binary_little_endian or binary_big_endian{}",
+                            in_quotes(format), suggestion(format, kFormats)));
         }
+        if (version != "1.0")
+            fail(fmt::format("the format's version is {}; it must be 1.0", in_quotes(version)));
         header_.format = static_cast<PlyFormat>(found - kFormats.begin());
         has_format_ = true;
     }

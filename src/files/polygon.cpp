@@ -83,16 +83,15 @@ class EarClipper {
 
     bool is_cut(std::uint32_t i) const { return links_[i] == kCut; }
 
-    /// No straight corners: one that is cut off leaves a T junction, where light leaks through to the
-    /// neighbour.
+    /// Not so straight corners: one that is cut off leaves a T junction, where light leaks at the neighbour.
     bool is_convex(std::uint32_t i) const {
         const auto [previous, next] = links_[i];
         const Point &a = points_[previous], &b = points_[i], &c = points_[next];
         return turn(a, b, c) > kTolerance * distance(a, c);
     }
 
-    /// On the triangle, its border included, but not at a corner: where a slit leads to a hole, corners
-    /// coincide.
+    /// On the triangle, its border included, but not at a corner: corners coincide where a slit leads to a
+    /// hole.
     bool is_covered(const Point& p, const std::array<Point, 3>& triangle) const {
         for (std::size_t i = 0; i < 3; ++i) {
             const Point &a = triangle[i], &b = triangle[(i + 1) % 3];
@@ -104,12 +103,12 @@ class EarClipper {
 
     bool is_ear(std::uint32_t i) {
         if (is_cut(i) || !is_convex(i)) return false;
-        const auto [previous, next] = links_[i];
-        const std::array triangle{points_[previous], points_[i], points_[next]};
+        const Links ends = links_[i];
+        const std::array triangle{points_[ends.previous], points_[i], points_[ends.next]};
         // If any corner is covered, then a corner that is not convex is. Corners only ever become convex.
         std::erase_if(blocking_, [&](std::uint32_t k) { return is_cut(k) || is_convex(k); });
         return std::none_of(blocking_.begin(), blocking_.end(), [&](std::uint32_t k) {
-            return k != previous && k != next && is_covered(points_[k], triangle);
+            return k != ends.previous && k != ends.next && is_covered(points_[k], triangle);
         });
     }
 
