@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes luminaire.ies (LM-63-2002) and luminaire.ldt (EULUMDAT): one luminaire, two formats.
 
-The luminaire is nobody's product: a recessed 600 x 600 mm LED panel of 3600 lm with a prismatic cover
+The luminaire is nobody's product: a recessed 600 x 600 mm LED panel of 3800 lm with a prismatic cover
 that throws more light sideways than straight down (a "batwing") and little above 65 degrees, somewhat
 narrower along C90 than along C0. Its flux is the exact integral of the table as readers interpolate it:
 linear in both angles. Python's standard library only; the same bytes every time.
@@ -11,8 +11,8 @@ from math import cos, exp, radians, sin
 from pathlib import Path
 
 NAME = "Stilb example panel 600"
-FLUX_LM = 3600.0
-POWER_W = 29.0
+FLUX_LM = 3800.0
+POWER_W = 31.0
 SIDE_M = 0.55  # the luminous opening
 PLANES_DEG = [22.5 * k for k in range(5)]  # C0 to C90; the rest by symmetry
 POLAR_DEG = [2.5 * k for k in range(37)]
