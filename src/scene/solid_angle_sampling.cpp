@@ -38,45 +38,49 @@ double stable_sum(double product, double r, double difference) {
     return r >= 0 ? product + r : difference / (product - r);
 }
 
-/// A triangle as seen from the origin, not edge-on. The subdivision is that of [Arvo 1995]; the half-angle
-/// form of the solid angle [Van Oosterom, Strackee 1983] replaces his angles, as it keeps small triangles
-/// exact.
+/// A triangle as seen from the origin, not edge-on: vertex a and the edges from there, so that far triangles
+/// keep their digits. The subdivision is that of [Arvo 1995]; the half-angle form of the solid angle [Van
+/// Oosterom, Strackee 1983] replaces his angles, as it keeps small triangles exact. Points are given by their
+/// offset from a.
 class SphericalTriangle {
   public:
-    SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
+    SphericalTriangle(const Vec3& a, const Vec3& edge_ab, const Vec3& edge_ac)
         : a_(a),
-          b_(b),
-          c_(c),
-          a_length_(length(a)),
-          b_length_(length(b)),
-          c_length_(length(c)),
-          a_cross_b_(cross(a, b - a)),
-          a_cross_c_(cross(a, c - a)),
-          normal_(cross(b - a, c - a)),
-          determinant_(std::abs(dot(a, normal_))) {
-        const double denominator = a_length_ * b_length_ * c_length_ + dot(a, b) * c_length_ +
-                                   dot(a, c) * b_length_ + dot(b, c) * a_length_;
-        solid_angle_sr_ = 2 * std::atan2(determinant_, denominator);
+          ab_(edge_ab),
+          ac_(edge_ac),
+          b_(a + edge_ab),
+          c_(a + edge_ac),
+          a_length_(length(a_)),
+          b_length_(length(b_)),
+          c_length_(length(c_)),
+          a_cross_b_(cross(a, ab_)),
+          a_cross_c_(cross(a, ac_)),
+          normal_(cross(ab_, ac_)),
+          determinant_(dot(a, normal_)) {
+        const double denominator = a_length_ * b_length_ * c_length_ + dot(a_, b_) * c_length_ +
+                                   dot(a_, c_) * b_length_ + dot(b_, c_) * a_length_;
+        solid_angle_sr_ = 2 * std::atan2(std::abs(determinant_), denominator);
     }
 
     bool is_edge_on() const {
-        return determinant_ <= kEdgeOn * length(normal_) * std::max({a_length_, b_length_, c_length_});
+        return std::abs(determinant_) <=
+               kEdgeOn * length(normal_) * std::max({a_length_, b_length_, c_length_});
     }
     double solid_angle_sr() const { return solid_angle_sr_; }
     double area_m2() const { return length(normal_) / 2; }
-    double height_m() const { return determinant_ / length(normal_); }
+    double height_m() const { return std::abs(determinant_) / length(normal_); }
 
-    Vec3 point_by_area(double u1, double u2) const {
+    Vec3 offset_by_area(double u1, double u2) const {
         const Barycentric share = sample_triangle(u1, u2);
-        return share.b0 * a_ + share.b1 * b_ + share.b2 * c_;
+        return share.b1 * ab_ + share.b2 * ac_;
     }
 
-    Vec3 point_by_solid_angle(double u1, double u2) const {
+    Vec3 offset_by_solid_angle(double u1, double u2) const {
         const Vec3 unit_b = b_ / b_length_;
-        const Vec3 from_b = point_on_side(u1) - unit_b;
+        const Vec3 from_b = direction_on_side(u1) - unit_b;
         // Uniform in the cosine along the arc from b: 1 - cos is proportional to u2.
         const double full = squared_length(from_b) / 2;
-        if (full == 0) return b_;
+        if (full == 0) return ab_;
         const double one_minus_cos = u2 * full;
         const Vec3 towards_side = normalized(from_b + full * unit_b);
         return projected((1 - one_minus_cos) * unit_b +
@@ -87,14 +91,15 @@ class SphericalTriangle {
     /// The direction on the arc from a to c that cuts off the share u of the solid angle on a's side: with t
     /// the tangent of half the arc, tan(u solid_angle / 2) = t D / (1 + a.b + t b.tangent), D = det(a, b,
     /// tangent).
-    Vec3 point_on_side(double u) const {
+    Vec3 direction_on_side(double u) const {
         const double sine = std::sin(u * solid_angle_sr_ / 2);
         const double cosine = std::cos(u * solid_angle_sr_ / 2);
         const Vec3 tangent = normalized(cross(a_cross_c_, a_));
         const double one_plus_cos_ab =
             stable_sum(a_length_ * b_length_, dot(a_, b_), squared_length(a_cross_b_)) / a_length_;
         const double opposite = sine * one_plus_cos_ab;
-        const double adjacent = cosine * determinant_ / length(a_cross_c_) - sine * dot(b_ - a_, tangent);
+        const double adjacent =
+            cosine * std::abs(determinant_) / length(a_cross_c_) - sine * dot(ab_, tangent);
         const double squares = adjacent * adjacent + opposite * opposite;
         return (adjacent - opposite) * (adjacent + opposite) / squares / a_length_ * a_ +
                2 * adjacent * opposite / squares * tangent;
@@ -103,15 +108,15 @@ class SphericalTriangle {
     /// Where `direction` meets the triangle, by barycentric coordinates: rounding cannot lead out of the
     /// triangle.
     Vec3 projected(const Vec3& direction) const {
-        const double side = dot(a_, normal_) > 0 ? 1 : -1;
-        const double at_a = std::max(0.0, side * dot(direction, cross(b_, c_ - b_)));
+        const double side = std::copysign(1.0, determinant_);
+        const double at_a = std::max(0.0, side * dot(direction, cross(b_, ac_ - ab_)));
         const double at_b = std::max(0.0, -side * dot(direction, a_cross_c_));
         const double at_c = std::max(0.0, side * dot(direction, a_cross_b_));
         const double sum = at_a + at_b + at_c;
-        return sum > 0 ? (at_a * a_ + at_b * b_ + at_c * c_) / sum : b_;
+        return sum > 0 ? (at_b * ab_ + at_c * ac_) / sum : ab_;
     }
 
-    Vec3 a_, b_, c_;
+    Vec3 a_, ab_, ac_, b_, c_;
     double a_length_, b_length_, c_length_;
     Vec3 a_cross_b_, a_cross_c_, normal_;
     double determinant_;
@@ -120,19 +125,18 @@ class SphericalTriangle {
 
 /// An extent along an axis, mirrored where needed so that its middle is not negative.
 struct MirroredRange {
-    double low, high;
+    double width;
     bool mirrored;
+    double low, high;
 
-    MirroredRange(double start, double width)
-        : low(start), high(start + width), mirrored(start + width / 2 < 0) {
-        if (mirrored) {
-            low = -(start + width);
-            high = -start;
-        }
-    }
+    MirroredRange(double start, double extent)
+        : width(extent),
+          mirrored(start + extent / 2 < 0),
+          low(mirrored ? -(start + extent) : start),
+          high(mirrored ? -start : start + extent) {}
     double u_in_range(double u) const { return mirrored ? 1 - u : u; }
-    /// Distance from the unmirrored start.
-    double offset(double x) const { return mirrored ? high - x : x - low; }
+    /// Share of the extent from its unmirrored start.
+    double share(double x) const { return (mirrored ? high - x : x - low) / width; }
 };
 
 /// The rectangle [x.low, x.high] x [y.low, y.high] at height h > 0 over the origin. The subdivision is that
@@ -158,7 +162,7 @@ class SphericalRectangle {
         const double product = std::sqrt((y_.low * y_.low + h2) * (y_.high * y_.high + h2));
         const double dot_product = h2 + y_.low * y_.high;
         const double mirrored_product = h2 - y_.low * y_.high;
-        const double width = h_ * (y_.high - y_.low);
+        const double width = h_ * y_.width;
         const double sum = h_ * (y_.high + y_.low);
         const double a = stable_sum(product, -dot_product, width * width) / (2 * product) - sine * sine;
         const double b = stable_sum(product, mirrored_product, sum * sum) / (2 * product) - sine * sine;
@@ -182,7 +186,7 @@ class SphericalRectangle {
         const double r_low = std::sqrt(xh2 + y_.low * y_.low);
         const double r_high = std::sqrt(xh2 + y_.high * y_.high);
         const double sine =
-            stable_sum(y_.high * r_low, -y_.low * r_high, xh2 * (y_.high - y_.low) * (y_.high + y_.low));
+            stable_sum(y_.high * r_low, -y_.low * r_high, xh2 * y_.width * (y_.high + y_.low));
         return std::atan2(h_ * x * sine, h_ * h_ * r_low * r_high + x * x * y_.low * y_.high);
     }
 
@@ -216,28 +220,28 @@ std::optional<SolidAngleSample> sample_right_angled(const Rectangle& r, const Ve
     }
     const double at_x = seen.sample_x(x.u_in_range(u1));
     const double at_y = seen.sample_y(at_x, y.u_in_range(u2));
-    return SolidAngleSample{r.corner + x.offset(at_x) / width * r.edge_u + y.offset(at_y) / depth * r.edge_v,
+    return SolidAngleSample{r.corner + x.share(at_x) * r.edge_u + y.share(at_y) * r.edge_v,
                             1 / seen.solid_angle_sr()};
 }
 
 /// As two triangles, each chosen by its share of the solid angle.
 std::optional<SolidAngleSample> sample_skewed(const Rectangle& r, const Vec3& from, double u1, double u2) {
-    const Vec3 corner = r.corner - from;
-    const Vec3 opposite = corner + r.edge_u + r.edge_v;
-    const SphericalTriangle first(corner, corner + r.edge_u, opposite);
-    const SphericalTriangle second(corner, corner + r.edge_v, opposite);
+    const Vec3 to_corner = r.corner - from;
+    const Vec3 diagonal = r.edge_u + r.edge_v;
+    const SphericalTriangle first(to_corner, r.edge_u, diagonal);
+    const SphericalTriangle second(to_corner, r.edge_v, diagonal);
     if (first.is_edge_on() && second.is_edge_on()) return std::nullopt;
     const double total_sr = first.solid_angle_sr() + second.solid_angle_sr();
     if (total_sr < kSmallestTriangle_sr) {
-        const Vec3 seen = corner + u1 * r.edge_u + u2 * r.edge_v;
-        return SolidAngleSample{from + seen,
-                                area_pdf_per_sr(length(seen), first.height_m(), 2 * first.area_m2())};
+        const Vec3 point = r.corner + u1 * r.edge_u + u2 * r.edge_v;
+        return SolidAngleSample{point,
+                                area_pdf_per_sr(length(point - from), first.height_m(), 2 * first.area_m2())};
     }
     const double first_share = first.solid_angle_sr() / total_sr;
-    const Vec3 seen = u1 < first_share
-                          ? first.point_by_solid_angle(rescaled(u1, 0, first_share), u2)
-                          : second.point_by_solid_angle(rescaled(u1, first_share, 1 - first_share), u2);
-    return SolidAngleSample{from + seen, 1 / total_sr};
+    const Vec3 offset = u1 < first_share
+                            ? first.offset_by_solid_angle(rescaled(u1, 0, first_share), u2)
+                            : second.offset_by_solid_angle(rescaled(u1, first_share, 1 - first_share), u2);
+    return SolidAngleSample{r.corner + offset, 1 / total_sr};
 }
 
 }  // namespace
@@ -273,13 +277,14 @@ std::optional<SolidAngleSample> sample_by_solid_angle(const Rectangle& rectangle
 
 std::optional<SolidAngleSample> sample_by_solid_angle(const std::array<Vec3, 3>& triangle, const Vec3& from,
                                                       double u1, double u2) {
-    const SphericalTriangle seen(triangle[0] - from, triangle[1] - from, triangle[2] - from);
+    const Vec3& a = triangle[0];
+    const SphericalTriangle seen(a - from, triangle[1] - a, triangle[2] - a);
     if (seen.is_edge_on()) return std::nullopt;
     if (seen.solid_angle_sr() >= kSmallestTriangle_sr) {
-        return SolidAngleSample{from + seen.point_by_solid_angle(u1, u2), 1 / seen.solid_angle_sr()};
+        return SolidAngleSample{a + seen.offset_by_solid_angle(u1, u2), 1 / seen.solid_angle_sr()};
     }
-    const Vec3 point = seen.point_by_area(u1, u2);
-    return SolidAngleSample{from + point, area_pdf_per_sr(length(point), seen.height_m(), seen.area_m2())};
+    const Vec3 point = a + seen.offset_by_area(u1, u2);
+    return SolidAngleSample{point, area_pdf_per_sr(length(point - from), seen.height_m(), seen.area_m2())};
 }
 
 std::optional<SolidAngleSample> sample_by_solid_angle(const Disk& disk, const Vec3& from, double u1,
