@@ -15,11 +15,11 @@ std::span<const EstimatorEntry> estimator_list() {
     static constexpr std::array list{
         EstimatorEntry{
             "auto", "local estimation and path tracing, balanced at every point: unbiased, finite variance",
-            make_auto_estimator},
+            false, make_auto_estimator},
         EstimatorEntry{"local", "local estimation as published: fast, but of infinite variance in corners",
-                       make_local_estimator},
+                       true, make_local_estimator},
         EstimatorEntry{"path",
-                       "path tracing from every point with next-event estimation: the naive reference",
+                       "path tracing from every point with next-event estimation: the naive reference", false,
                        make_path_estimator},
     };
     return list;

@@ -25,6 +25,8 @@ struct EstimatorInput {
 struct EstimatorEntry {
     std::string_view name;
     std::string_view summary;
+    /// Whether the variance is infinite in some scenes: then single contributions are watched.
+    bool has_heavy_tails;
     std::unique_ptr<Estimator> (*make)(const EstimatorInput& input);
 };
 

@@ -19,6 +19,8 @@ struct RunOptions {
     std::uint64_t seed = 1;
     /// 0: as many as the machine has.
     int threads = 0;
+    /// Independent repetitions that standard errors come from (theory 6).
+    int replicates = 32;
 };
 
 }  // namespace stilb

@@ -1,0 +1,319 @@
+#include "run/run.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "estimators/estimator_list.h"
+#include "statistics/heavy_tail.h"
+#include "statistics/stopping.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kConfidence = 0.95;
+/// Rays of a batch over all replicates: about a second of work, so that an interruption is answered soon.
+constexpr double kRaysPerRound = 3e7;
+constexpr std::uint64_t kLongestBatch = 1024;
+/// Contributions that may fail to be finite before the run does.
+constexpr double kInvalidRate = 1e-6;
+enum Purpose : std::uint64_t { kPreparation, kReplicates };
+
+class Clock {
+  public:
+    double elapsed_s() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The replicates' sums, and how far they are.
+class Campaign {
+  public:
+    Campaign(const Estimator& estimator, std::size_t readings, int replicates, std::uint64_t seed)
+        : estimator_(estimator), sums_(static_cast<std::size_t>(replicates), ReadingSums(readings)) {
+        for (std::size_t r = 0; r < sums_.size(); ++r) {
+            keys_.push_back(RandomKey{seed}.derived(kReplicates).derived(r));
+        }
+        const double per_batch = kRaysPerRound / (replicates * estimator.rays_per_sample());
+        std::uint64_t batch = estimator.batch_granularity();
+        while (2 * batch <= kLongestBatch && static_cast<double>(2 * batch) <= per_batch) batch *= 2;
+        batch_ = batch;
+    }
+
+    std::uint64_t batch_size() const { return batch_; }
+    std::uint64_t samples() const { return samples_; }
+    std::uint64_t paths() const { return samples_ * sums_.size(); }
+
+    /// The same next samples of every replicate. Each replicate's sums are its task's own: nothing depends on
+    /// threads.
+    void advance(std::uint64_t count) {
+        tbb::parallel_for(std::size_t{0}, sums_.size(), [&](std::size_t r) {
+            estimator_.run_batch({keys_[r], samples_, count}, sums_[r]);
+        });
+        samples_ += count;
+    }
+
+    std::uint64_t rays() const {
+        std::uint64_t rays = 0;
+        for (const ReadingSums& s : sums_) rays += s.rays;
+        return rays;
+    }
+
+    void require_valid() const {
+        std::uint64_t invalid = 0;
+        for (const ReadingSums& s : sums_) invalid += s.invalid;
+        const double all = static_cast<double>(paths()) * static_cast<double>(sums_[0].sum.size());
+        if (static_cast<double>(invalid) > kInvalidRate * all) {
+            throw std::runtime_error(
+                fmt::format("{} of {} contributions are not finite numbers: this is a defect of stilb, "
+                            "please report the scene",
+                            invalid, all));
+        }
+    }
+
+    /// Replicates x readings (those of one sensor), luminance-weighted [lx].
+    std::vector<double> replicate_means(std::size_t first, std::size_t count) const {
+        std::vector<double> means;
+        means.reserve(sums_.size() * count);
+        const auto known = estimator_.known_part_lx();
+        for (const ReadingSums& s : sums_) {
+            for (std::size_t j = first; j < first + count; ++j) {
+                means.push_back(known[j].luminance() + s.sum[j].luminance() / static_cast<double>(samples_));
+            }
+        }
+        return means;
+    }
+
+    Spectrum rgb(std::size_t reading) const {
+        Spectrum sum;
+        for (const ReadingSums& s : sums_) sum += s.sum[reading];
+        return estimator_.known_part_lx()[reading] + sum * (1 / static_cast<double>(paths()));
+    }
+
+    bool is_heavy_tailed(std::size_t reading) const {
+        double largest = 0, sum = 0;
+        for (const ReadingSums& s : sums_) {
+            largest = std::max(largest, s.largest_lx[reading]);
+            sum += s.sum[reading].luminance();
+        }
+        return stilb::is_heavy_tailed(largest, sum, paths());
+    }
+
+  private:
+    const Estimator& estimator_;
+    std::vector<RandomKey> keys_;
+    std::vector<ReadingSums> sums_;
+    std::uint64_t batch_ = 1;
+    std::uint64_t samples_ = 0;
+};
+
+void require_valid(const RunOptions& options, std::size_t readings) {
+    if (readings == 0) throw InputError("no sensor to measure: the scene needs one under [sensors]");
+    const auto positive = [](const char* name, double value) {
+        if (!(value > 0) || !std::isfinite(value)) {
+            throw InputError(fmt::format("{} = {}: a positive number is needed", name, value));
+        }
+    };
+    if (options.error) positive("error", *options.error);
+    if (options.time_s) positive("time", *options.time_s);
+    if (options.paths) positive("paths", static_cast<double>(*options.paths));
+    if (options.bounces && *options.bounces < 0) throw InputError("bounces: 0 or more is needed");
+    if (options.threads < 0) throw InputError("threads: 0 (all) or more is needed");
+    if (options.replicates < 2) throw InputError("replicates: at least 2 are needed");
+}
+
+/// Samples after which to look next: 1, 2, 3, 4, 6, 8, 12 ... batches, where Sobol' points are at their best
+/// and the overshoot is at most a half.
+std::uint64_t next_checkpoint(std::uint64_t samples, std::uint64_t batch) {
+    std::uint64_t power = batch;
+    while (2 * power <= samples) power *= 2;
+    if (samples < power) return power;
+    return samples < power + power / 2 && power / 2 % batch == 0 ? power + power / 2 : 2 * power;
+}
+
+double attained_error(const Campaign& campaign, std::span<const Sensor> sensors) {
+    double worst = 0;
+    std::size_t first = 0;
+    for (const Sensor& sensor : sensors) {
+        const std::size_t count = sensor.points.size();
+        const std::vector<double> means = campaign.replicate_means(first, count);
+        worst = std::max(worst, stilb::attained_error(estimate_readings({means, count}, kStoppedConfidence)));
+        first += count;
+    }
+    return worst;
+}
+
+/// The default of a run that was asked for nothing in particular.
+RunOptions with_default_target(RunOptions options) {
+    if (!options.error && !options.time_s && !options.paths) {
+        options.error = 0.01;
+        options.time_s = 60;
+    }
+    return options;
+}
+
+/// Samples until a stop rule says so; keeps attained_error and stop_reason of the result.
+class Schedule {
+  public:
+    Schedule(const RunOptions& options, const Estimator& estimator, const Clock& clock,
+             const std::atomic<bool>* interrupt)
+        : options_(options), clock_(clock), interrupt_(interrupt) {
+        if (!options.paths) return;
+        const std::uint64_t granularity = estimator.batch_granularity();
+        const auto divided_up = [](std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; };
+        const std::uint64_t each = divided_up(*options.paths, static_cast<std::uint64_t>(options.replicates));
+        last_sample_ = divided_up(each, granularity) * granularity;
+    }
+
+    void proceed(Campaign& campaign, std::span<const Sensor> sensors, ProgressSink* progress,
+                 RunResult& result) {
+        for (;;) {
+            const std::uint64_t checkpoint =
+                std::min(last_sample_, next_checkpoint(campaign.samples(), campaign.batch_size()));
+            while (campaign.samples() < checkpoint) {
+                if (const auto reason = early_stop(campaign)) {
+                    result.stop_reason = *reason;
+                    result.attained_error = attained_error(campaign, sensors);
+                    return;
+                }
+                campaign.advance(std::min(campaign.batch_size(), checkpoint - campaign.samples()));
+            }
+            result.attained_error = attained_error(campaign, sensors);
+            if (progress) progress->report(progress_of(campaign, result.attained_error));
+            const bool reached = options_.error && result.attained_error <= *options_.error;
+            if (reached || campaign.samples() == last_sample_) {
+                result.stop_reason = reached ? StopReason::target_reached : StopReason::paths_done;
+                return;
+            }
+        }
+    }
+
+  private:
+    /// A first round is always made: there is no result without one.
+    std::optional<StopReason> early_stop(const Campaign& campaign) const {
+        if (campaign.samples() == 0) return std::nullopt;
+        if (interrupt_ && *interrupt_) return StopReason::interrupted;
+        if (!options_.time_s) return std::nullopt;
+        const double per_sample_s = clock_.elapsed_s() / static_cast<double>(campaign.samples());
+        const double after_next_s =
+            clock_.elapsed_s() + per_sample_s * static_cast<double>(campaign.batch_size());
+        return after_next_s > *options_.time_s ? std::optional{StopReason::time_over} : std::nullopt;
+    }
+
+    ProgressSink::Progress progress_of(const Campaign& campaign, double attained) const {
+        const double elapsed_s = clock_.elapsed_s();
+        double remaining_s = std::numeric_limits<double>::infinity();
+        if (options_.error) {
+            const double ratio = attained / *options_.error;
+            remaining_s = std::min(remaining_s, elapsed_s * std::max(0.0, ratio * ratio - 1));
+        }
+        if (options_.time_s) remaining_s = std::min(remaining_s, std::max(0.0, *options_.time_s - elapsed_s));
+        if (options_.paths) {
+            const double done = static_cast<double>(campaign.samples()) / static_cast<double>(last_sample_);
+            remaining_s = std::min(remaining_s, elapsed_s * (1 / done - 1));
+        }
+        return {elapsed_s, remaining_s, attained, campaign.paths()};
+    }
+
+    const RunOptions& options_;
+    const Clock& clock_;
+    const std::atomic<bool>* interrupt_;
+    std::uint64_t last_sample_ = std::uint64_t{1} << 31;  // Sobol' indices have 32 bits
+};
+
+SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::size_t first,
+                           double confidence) {
+    const std::size_t count = sensor.points.size();
+    const std::vector<double> means = campaign.replicate_means(first, count);
+    const ReplicateTable table{means, count};
+    const std::vector<Estimate> estimates = estimate_readings(table, confidence);
+    SensorResult result;
+    for (std::size_t j = 0; j < count; ++j)
+        result.readings.push_back({estimates[j], campaign.rgb(first + j)});
+    result.summary = summarize_grid(table, confidence);
+    result.attained_error = attained_error(estimates);
+    return result;
+}
+
+std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span<const Sensor> sensors) {
+    std::vector<std::string> warnings;
+    std::size_t first = 0;
+    for (const Sensor& sensor : sensors) {
+        std::size_t heavy = 0;
+        for (std::size_t j = 0; j < sensor.points.size(); ++j) heavy += campaign.is_heavy_tailed(first + j);
+        if (heavy > 0) {
+            warnings.push_back(fmt::format(
+                "sensor \"{}\": in {} of {} readings a single contribution is more than {:.2g} % of the sum; "
+                "the variance "
+                "is probably infinite there (a corner) and the interval may not hold. Use --method auto.",
+                sensor.name, heavy, sensor.points.size(), 100 * heavy_tail_share(campaign.paths())));
+        }
+        first += sensor.points.size();
+    }
+    return warnings;
+}
+
+}  // namespace
+
+RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked_options,
+              ProgressSink* progress, const std::atomic<bool>* interrupt) {
+    const RunOptions options = with_default_target(asked_options);
+    std::vector<MeasuringPoint> points;
+    for (const Sensor& sensor : sensors)
+        points.insert(points.end(), sensor.points.begin(), sensor.points.end());
+    require_valid(options, points.size());
+    const EstimatorEntry& method = find_estimator(options.method);
+
+    const Clock clock;
+    const RayCaster caster(scene);
+    const int unlimited = std::numeric_limits<int>::max();
+    const auto estimator = method.make({scene, caster, points, options.bounces.value_or(unlimited),
+                                        RandomKey{options.seed}.derived(kPreparation)});
+    Campaign campaign(*estimator, points.size(), options.replicates, options.seed);
+    RunResult result;
+    result.method = options.method;
+    result.seed = options.seed;
+    result.replicates = options.replicates;
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
+    tbb::task_arena(threads).execute([&] {
+        Schedule(options, *estimator, clock, interrupt).proceed(campaign, sensors, progress, result);
+    });
+    campaign.require_valid();
+
+    result.converged = result.stop_reason != StopReason::interrupted &&
+                       (!options.error || result.attained_error <= *options.error);
+    result.paths = campaign.paths();
+    result.rays = campaign.rays();
+    // A run that stopped by its own error stops sooner where that happens to be too small
+    // (docs/statistics.md).
+    const double confidence = options.error ? kStoppedConfidence : kConfidence;
+    std::size_t first = 0;
+    for (const Sensor& sensor : sensors) {
+        result.sensors.push_back(sensor_result(campaign, sensor, first, confidence));
+        first += sensor.points.size();
+    }
+    result.warnings = estimator->warnings();
+    if (method.has_heavy_tails) {
+        for (auto& warning : heavy_tail_warnings(campaign, sensors))
+            result.warnings.push_back(std::move(warning));
+    }
+    result.elapsed_s = clock.elapsed_s();
+    return result;
+}
+
+}  // namespace stilb

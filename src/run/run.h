@@ -1,0 +1,67 @@
+// A run: deals batches of an estimator to threads, asks the stopping rule, makes readings with intervals.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/spectrum.h"
+#include "run/options.h"
+#include "scene/scene.h"
+#include "sensors/sensor.h"
+#include "statistics/grid_summary.h"
+#include "statistics/interval.h"
+
+namespace stilb {
+
+struct Reading {
+    Estimate illuminance_lx;
+    Spectrum rgb_lx;
+};
+
+struct SensorResult {
+    std::vector<Reading> readings;  ///< in the order of the sensor's points
+    GridSummary summary;
+    double attained_error = 0;  ///< relative half-width that 95 % of the readings keep
+};
+
+enum class StopReason { target_reached, paths_done, time_over, interrupted };
+
+struct RunResult {
+    std::string method;
+    std::uint64_t seed = 0;
+    std::uint64_t paths = 0;
+    std::uint64_t rays = 0;  ///< of the fans
+    int replicates = 0;
+    double elapsed_s = 0;
+    StopReason stop_reason = StopReason::paths_done;
+    /// False where an error was asked for and is not met.
+    bool converged = true;
+    double attained_error = 0;          ///< the worst sensor's
+    std::vector<SensorResult> sensors;  ///< in the order asked for
+    std::vector<std::string> warnings;
+};
+
+/// Where a run tells how far it is; called from the run's own thread, a few times a second at most.
+class ProgressSink {
+  public:
+    virtual ~ProgressSink() = default;
+    struct Progress {
+        double elapsed_s = 0;
+        double remaining_s = 0;  ///< estimated
+        double attained_error = 0;
+        std::uint64_t paths = 0;
+    };
+    virtual void report(const Progress& progress) = 0;
+};
+
+/// Measures all sensors at once. The result depends on scene, sensors, method, bounces and seed, and on the
+/// paths done: not on threads or time (a time limit decides how many paths are done). `interrupt` ends the
+/// run early, in good order. Throws InputError where an option is wrong, std::runtime_error where the numbers
+/// are (too many are not finite).
+RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+              ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
+
+}  // namespace stilb
