@@ -1,5 +1,7 @@
 #include "scene/colour_temperature.h"
 
+#include <algorithm>
+
 namespace stilb {
 namespace {
 
