@@ -10,7 +10,8 @@
 // an event of one reading: c is the plain t quantile, however many contenders there are.
 //
 // Upper bound (0.45 alpha): the least v_j + c s_j. It fails if any contender's v_j + c s_j < theta <= mu_j,
-// its true value: c is the Bonferroni quantile over the contenders.
+// its true value: c is the Bonferroni quantile over the contenders. That the data choose their number is
+// covered by measurement (docs/statistics.md), not by this argument.
 //
 // Bonferroni, as nobody knows how the readings' errors are correlated. The maximum is the minimum of the
 // negatives.
