@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -56,12 +57,11 @@ std::optional<double> parse_number(std::string_view text) {
 std::optional<long long> parse_integer(std::string_view text) { return parse_all<long long>(text); }
 
 std::string_view next_word(std::string_view& text) {
-    constexpr std::string_view kBlanks = " \t";
-    const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
-    const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
-    const std::string_view word = text.substr(begin, end - begin);
-    text.remove_prefix(end);
-    return word;
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+    const auto begin = std::find_if_not(text.begin(), text.end(), is_blank);
+    const auto end = std::find_if(begin, text.end(), is_blank);
+    text.remove_prefix(static_cast<std::size_t>(end - text.begin()));
+    return {begin, end};
 }
 
 bool LineReader::next() {
