@@ -1,4 +1,6 @@
-// Sampling of emitters by the solid angle that they subtend at a point.
+// Sampling of emitters by the solid angle that they subtend at a point, from either side. Limits:
+// docs/materials.md. Very small solid angles are sampled by area instead (density d^2 / (cos A), unbiased
+// too).
 #pragma once
 
 #include <array>
@@ -25,8 +27,8 @@ std::optional<SolidAngleSample> sample_by_solid_angle(const Rectangle& rectangle
 /// Spherical triangle [Arvo 1995].
 std::optional<SolidAngleSample> sample_by_solid_angle(const std::array<Vec3, 3>& triangle, const Vec3& from,
                                                       double u1, double u2);
-/// Through the spherical rectangle of the disk's square; nothing where the square's corner is met, or
-/// edge-on.
+/// Through the spherical rectangle of the disk's square; nothing edge-on or where the square's corner is met:
+/// such a sample counts as 0.
 std::optional<SolidAngleSample> sample_by_solid_angle(const Disk& disk, const Vec3& from, double u1,
                                                       double u2);
 
