@@ -37,7 +37,8 @@ struct DiskPlace {
     double radius_m = 1;
 };
 
-/// By a disk anywhere to an element of any tilt. Error below 1e-13.
+/// By a disk anywhere to an element of any tilt. Error below 1e-13, and below 1e-15 radius / d where the
+/// receiver is at a small distance d from the rim.
 double illuminance_by_disk_lx(const Receiver& receiver, const DiskPlace& disk, double luminance_cd_m2);
 
 /// By a sphere, wholly or partly above the element's horizon. Error below 1e-14; the receiver is outside.

@@ -26,8 +26,8 @@ class SobolevProblem {
 
     /// Straight from the source. Relative error below 1e-15.
     double direct_illuminance_lx(Plane plane, double radius_m) const;
-    /// After one or more reflections. Relative error below 1e-12 up to a relative radius of 5 and below 1e-9
-    /// up to 100; radii beyond kLargestRelativeRadius are refused.
+    /// After one or more reflections. Relative error below 1e-14 up to a relative radius of 5, 1e-11 up to 50
+    /// and 1e-9 up to 100; radii beyond kLargestRelativeRadius are refused.
     double indirect_illuminance_lx(Plane plane, double radius_m) const;
     double illuminance_lx(Plane plane, double radius_m) const;
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <boost/math/quadrature/tanh_sinh.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,7 +17,7 @@ namespace {
 using std::numbers::pi;
 using test::integrate;
 
-constexpr int kConfigurations = 300;
+constexpr int kConfigurations = 150;
 
 class Dice {
   public:
@@ -95,11 +94,16 @@ double sphere_by_quadrature(const Receiver& receiver, const Vec3& center, double
             (std::cos(half_angle) - std::cos(polar) * std::cos(tilt)) / (std::sin(polar) * std::sin(tilt));
         return 2 * std::acos(std::clamp(cosine, -1.0, 1.0)) * std::cos(polar) * std::sin(polar);
     };
-    boost::math::quadrature::tanh_sinh<double> rule;
-    const double last = std::min(tilt + half_angle, pi / 2);
-    const double first = std::abs(tilt - half_angle);
+    const double first = std::abs(tilt - half_angle), last = std::min(tilt + half_angle, pi / 2);
     const double whole_rings = tilt < half_angle ? pi * std::pow(std::sin(first), 2) : 0;
-    return whole_rings + (first < last ? rule.integrate(ring, first, last, 1e-12) : 0);
+    if (first >= last) return whole_rings;
+    // The cosine takes the square roots at both ends away.
+    return whole_rings + integrate(
+                             [&](double u) {
+                                 const double polar = (first + last - (last - first) * std::cos(u)) / 2;
+                                 return ring(polar) * (last - first) / 2 * std::sin(u);
+                             },
+                             0, pi);
 }
 
 TEST(PointSource, FollowsTheInverseSquareAndTheCosine) {
@@ -111,8 +115,8 @@ TEST(PointSource, FollowsTheInverseSquareAndTheCosine) {
 
 TEST(Polygon, EqualsQuadratureForRandomTriangles) {
     Dice dice(1);
-    int cut_by_horizon = 0;
-    for (int i = 0; i < kConfigurations; ++i) {
+    int compared = 0, cut_by_horizon = 0;
+    for (int i = 0; i < 2 * kConfigurations; ++i) {
         const std::array<Vec3, 3> corners{dice.in_cube(1), dice.in_cube(1), dice.in_cube(1)};
         const Vec3 front = cross(corners[1] - corners[0], corners[2] - corners[0]);
         if (length(front) < 0.2) continue;
@@ -123,9 +127,11 @@ TEST(Polygon, EqualsQuadratureForRandomTriangles) {
         int above = 0;
         for (const Vec3& corner : corners) above += dot(corner - receiver.position, receiver.normal) > 0;
         cut_by_horizon += above == 1 || above == 2;
+        ++compared;
         const double expected = triangle_by_quadrature(receiver, corners[0], corners[1], corners[2]);
         EXPECT_NEAR(illuminance_by_polygon_lx(receiver, corners, 7), 7 * expected, 1e-11) << "case " << i;
     }
+    EXPECT_GT(compared, 100);
     EXPECT_GT(cut_by_horizon, 20);
 }
 
@@ -163,7 +169,7 @@ TEST(Polygon, OfConcaveShapeIsTheSumOfItsTriangles) {
         EXPECT_NEAR(whole, sum, 1e-13) << "case " << i;
         visible += whole > 0;
     }
-    EXPECT_GT(visible, 100);
+    EXPECT_GT(visible, 50);
 }
 
 TEST(Polygon, FarAwayIsAPointSource) {
@@ -213,7 +219,7 @@ TEST(Disk, EqualsQuadratureInRandomPositions) {
         EXPECT_NEAR(illuminance_by_disk_lx(receiver, disk, 1), disk_by_quadrature(receiver, disk), 1e-10)
             << "case " << i;
     }
-    EXPECT_GT(cut_by_horizon, 50);
+    EXPECT_GT(cut_by_horizon, 25);
 }
 
 TEST(Disk, EqualsItsInscribedAndCircumscribedPolygonsToSecondOrder) {
@@ -291,10 +297,10 @@ TEST(Sphere, EqualsQuadratureInRandomPositions) {
         const Receiver receiver{center + radius * dice.between(1.01, 4) * dice.direction(), dice.direction()};
         cut_by_horizon += std::abs(dot(center - receiver.position, receiver.normal)) < radius;
         EXPECT_NEAR(illuminance_by_sphere_lx(receiver, center, radius, 1),
-                    sphere_by_quadrature(receiver, center, radius), 1e-11)
+                    sphere_by_quadrature(receiver, center, radius), 1e-13)
             << "case " << i;
     }
-    EXPECT_GT(cut_by_horizon, 50);
+    EXPECT_GT(cut_by_horizon, 25);
 }
 
 TEST(Sphere, EqualsADiskAcrossItsConeInEveryTilt) {

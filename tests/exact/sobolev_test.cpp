@@ -77,7 +77,7 @@ class PlanesBySuccessiveReflection {
     }
 
     void add_panel(double from, double to) {
-        using Rule = boost::math::quadrature::gauss<double, 10>;
+        using Rule = boost::math::quadrature::gauss<double, 8>;
         for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
             for (const double x : {-Rule::abscissa()[i], Rule::abscissa()[i]}) {
                 radii_.push_back((from + to) / 2 + x * (to - from) / 2);
@@ -107,13 +107,43 @@ TEST(Sobolev, EqualsTheIntegralEquationSolvedDirectly) {
     }
 }
 
-TEST(Sobolev, EqualsTheReferenceValues) {
+TEST(Sobolev, EqualsHighPrecisionValues) {
+    // The indirect part on plane 1 at h1 + h2 = 1 and I = 1 from (T.6), by mpmath with 25 digits up to a
+    // radius of 2 and in 80-bit arithmetic with finer panels beyond it.
+    struct Reference {
+        double reflectance_1, reflectance_2, distance_1, radius, illuminance, tolerance;
+    };
+    for (const Reference& reference : std::vector<Reference>{
+             {0.5, 0.5, 0.5, 0, 0.528129525817337421, 1e-14},
+             {0.5, 0.5, 0.5, 0.5, 0.446076518337203641, 1e-14},
+             {0.5, 0.5, 0.5, 2, 0.10943054404970718, 1e-14},
+             {0.8, 0.3, 0.2, 0, 0.307303050888444804, 1e-14},
+             {0.8, 0.3, 0.2, 0.5, 0.271788453283185244, 1e-14},
+             {0.8, 0.3, 0.2, 2, 0.0804480005480847743, 1e-14},
+             {0.9, 0.99, 0.7, 0, 2.28221183282161836, 1e-14},
+             {0.9, 0.99, 0.7, 0.5, 1.98103222320949093, 1e-14},
+             {0.9, 0.99, 0.7, 2, 0.84621148870439541, 1e-14},
+             {0.5, 0.5, 0.5, 5, 0.01045189111854001785, 1e-14},
+             {0.9, 0.99, 0.7, 20, 0.0083748950250302219, 1e-13},
+             {0.5, 0.5, 0.5, 50, 4.695893308569638e-06, 1e-11},
+             {0.5, 0.5, 0.5, 100, 5.419231441475743e-07, 1e-9},
+         }) {
+        const SobolevProblem exact({reference.reflectance_1, reference.reflectance_2, reference.distance_1,
+                                    1 - reference.distance_1, 1});
+        EXPECT_NEAR(exact.indirect_illuminance_lx(Plane::first, reference.radius) / reference.illuminance, 1,
+                    reference.tolerance)
+            << reference.reflectance_1 << " at " << reference.radius;
+    }
+}
+
+TEST(Sobolev, EqualsPublishedValues) {
+    // From the design notes, with eight digits, where particle simulation confirms them.
     const SobolevProblem exact({0.5, 0.5, 0.5, 0.5, 1});
-    EXPECT_NEAR(exact.illuminance_lx(Plane::first, 0), 4.5281295, 1e-7);
-    EXPECT_NEAR(exact.illuminance_lx(Plane::first, 0.5), 1.8602901, 1e-7);
-    EXPECT_NEAR(exact.illuminance_lx(Plane::first, 1), 0.6534423, 1e-7);
-    EXPECT_NEAR(exact.illuminance_lx(Plane::second, 2), 0.1664977, 1e-7);
-    EXPECT_NEAR(exact.illuminance_lx(Plane::second, 3), 0.0621502, 1e-7);
+    EXPECT_NEAR(exact.illuminance_lx(Plane::first, 0), 4.5281295, 5e-8);
+    EXPECT_NEAR(exact.illuminance_lx(Plane::first, 0.5), 1.8602901, 5e-8);
+    EXPECT_NEAR(exact.illuminance_lx(Plane::first, 1), 0.6534423, 5e-8);
+    EXPECT_NEAR(exact.illuminance_lx(Plane::second, 2), 0.1664977, 5e-8);
+    EXPECT_NEAR(exact.illuminance_lx(Plane::second, 3), 0.0621502, 5e-8);
 }
 
 TEST(Sobolev, FirstReflectionEqualsItsIntegralOverThePlane) {
