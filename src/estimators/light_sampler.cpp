@@ -94,10 +94,9 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster)
                 areas.push_back(std::visit([](const auto& e) { return area(e); }, element));
                 // The points of these four parameters span every kind of element well enough for a rough
                 // size.
-                for (const auto& [u1, u2] :
-                     {std::pair{0.01, 0.01}, {0.99, 0.01}, {0.01, 0.99}, {0.99, 0.99}}) {
-                    bounds.include(
-                        std::visit([&](const auto& e) { return point_by_area(e, u1, u2); }, element));
+                for (const auto& u : {std::pair{0.01, 0.01}, {0.99, 0.01}, {0.01, 0.99}, {0.99, 0.99}}) {
+                    bounds.include(std::visit(
+                        [&](const auto& e) { return point_by_area(e, u.first, u.second); }, element));
                 }
             }
             emitter.by_area = DiscreteDistribution(areas);
@@ -130,24 +129,25 @@ EmittedParticle LightSampler::sample_emission(SampleStream& stream) const {
 }
 
 EmittedParticle LightSampler::emit(std::size_t light, SampleStream& stream) const {
-    const auto [u1, u2] = stream.next_two();
+    const std::array<double, 2> u = stream.next_two();
     const Vec3& middle = emitters_[light].middle;
     if (std::holds_alternative<PointLight>(lights_[light]->source)) {
-        return {middle, sample_sphere(u1, u2).direction, {}};
+        return {middle, sample_sphere(u[0], u[1]).direction, {}};
     }
     if (const auto* luminaire = std::get_if<PhotometryLight>(&lights_[light]->source)) {
-        const Vec3 local = scene_.solid(luminaire->solid).sample_direction(u1, u2);
+        const Vec3 local = scene_.solid(luminaire->solid).sample_direction(u[0], u[1]);
         return {middle,
                 normalized(local.x * luminaire->c0 + local.y * luminaire->c90 + local.z * luminaire->nadir),
                 {}};
     }
-    const auto choice = emitters_[light].by_area.choose(u1);
-    const auto [v1, v2] = stream.next_two();
+    const auto choice = emitters_[light].by_area.choose(u[0]);
+    const std::array<double, 2> v = stream.next_two();
     return std::visit(
         [&](const auto& element) -> EmittedParticle {
-            const Vec3 position = point_by_area(element, choice.remainder, u2);
+            const Vec3 position = point_by_area(element, choice.remainder, u[1]);
             const Vec3 normal = front_normal(element, position);
-            const Vec3 direction = Frame::around(normal).to_world(sample_cosine_hemisphere(v1, v2).direction);
+            const Vec3 direction =
+                Frame::around(normal).to_world(sample_cosine_hemisphere(v[0], v[1]).direction);
             return {position + caster_.offset_m(position, size(element)) * normal, direction, {}};
         },
         emitters_[light].elements[choice.index]);
