@@ -42,9 +42,10 @@ std::uint64_t spread_bits(std::uint64_t x) {
 }
 
 /// Segments from the node to the tile's points, and w G where both cosines are positive. False: no lane is
-/// active.
-STILB_VECTORIZED bool prepare(const FanNode& node, const Fan::Tile& tile, RayPacket& packet, LaneMask& lanes,
-                              Floats& kernel) {
+/// active. (Without the promise that nothing overlaps, the loops here and below would stay scalar.)
+STILB_VECTORIZED bool prepare(const FanNode& __restrict node, const Fan::Tile& __restrict tile,
+                              RayPacket& __restrict packet, LaneMask& __restrict lanes,
+                              Floats& __restrict kernel) {
     std::int32_t any = 0;
     for (int i = 0; i < kPacketWidth; ++i) {
         const float dx = tile.x[i] - node.x, dy = tile.y[i] - node.y, dz = tile.z[i] - node.z;
@@ -63,8 +64,9 @@ STILB_VECTORIZED bool prepare(const FanNode& node, const Fan::Tile& tile, RayPac
     return any != 0;
 }
 
-STILB_VECTORIZED void add_visible(const FanNode& node, const RayPacket& packet, const LaneMask& lanes,
-                                  const Floats& kernel, TileSums& sums) {
+STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const RayPacket& __restrict packet,
+                                  const LaneMask& __restrict lanes, const Floats& __restrict kernel,
+                                  TileSums& __restrict sums) {
     const float luminance = static_cast<float>(kLuminanceWeights[0]) * node.coefficient[0] +
                             static_cast<float>(kLuminanceWeights[1]) * node.coefficient[1] +
                             static_cast<float>(kLuminanceWeights[2]) * node.coefficient[2];
