@@ -105,8 +105,11 @@ std::size_t interval_of(std::span<const double> bounds, double value) {
     return static_cast<std::size_t>(above - bounds.begin()) - 1;
 }
 
-/// A share strictly inside (0, 1): a sample on the edge of a cell could have zero density.
-double inner_share(double share) { return std::clamp(share, 0x1p-53, 1 - 0x1p-53); }
+/// A share inside (0, 1) by more than rounding: a sample on the edge of a cell could have zero density.
+double inner_share(double share) {
+    constexpr double kMargin = 0x1p-44;
+    return std::clamp(share, kMargin, 1 - kMargin);
+}
 
 /// Where on [0, 1] a linear density from a to b has the given share of its mass below.
 double invert_linear(double a, double b, double share) {
@@ -203,8 +206,9 @@ double PhotometricSolid::intensity_cd(const Vec3& direction) const {
 
     const double turn = 2 * std::numbers::pi;
     double plane_angle = std::atan2(local.y, local.x);
-    plane_angle -= turn * std::floor((plane_angle - planes_.front() + kBorderRad) / turn);
-    if (plane_angle > planes_.back() + kBorderRad) return 0;
+    const double border = planes_.back() - planes_.front() < turn - kBorderRad ? kBorderRad : 0;
+    plane_angle -= turn * std::floor((plane_angle - planes_.front() + border) / turn);
+    if (border > 0 && plane_angle > planes_.back() + border) return 0;
 
     const std::size_t plane = interval_of(planes_, plane_angle);
     const std::size_t ring = interval_of(polar_, polar);

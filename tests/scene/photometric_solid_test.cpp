@@ -318,6 +318,11 @@ TEST(PhotometricSolid, ExtremeNumbersGiveDirectionsOfPositiveDensity) {
                           {0, 90, 180, 270, 360},
                           {0, 90, 180},
                           {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0}})};
+    // A plane that is dark but for its last ring, where samples come from by the next plane's share alone.
+    solids.push_back(PhotometricSolid({PhotometryType::C,
+                                       {0, 90, 180, 270, 360},
+                                       {0, 45, 90},
+                                       {0, 0, 18, 50, 60, 0, 0, 0, 18, 50, 60, 0, 0, 0, 18}}));
     for (const PhotometryType type : {PhotometryType::A, PhotometryType::B, PhotometryType::C}) {
         solids.emplace_back(rough_grid(type));
     }
