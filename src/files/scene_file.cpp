@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "estimators/estimator_list.h"
 #include "files/scene_sections.h"
 #include "files/text.h"
 #include "run/relative_error.h"
@@ -15,13 +16,18 @@
 namespace stilb {
 namespace {
 
-constexpr std::array<std::string_view, 3> kMethods{"auto", "local", "path"};
 constexpr std::array<std::string_view, 4> kLaterMethods{"double-local", "ray-bundle", "radiosity",
                                                         "particles"};
 
 constexpr Range kRelativeError{1e-9, 0.999999, "a share between 0 and 1, such as 0.01 or \"1%\""};
 constexpr Range kSeconds{1e-3, 1e9, "a time above 0 (from 0.001 to 1e9 s)"};
 constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
+
+std::string read_method(const TomlItem& item) {
+    std::vector<std::string_view> methods;
+    for (const EstimatorEntry& entry : estimator_list()) methods.push_back(entry.name);
+    return std::string(methods[item.index_in(methods, "method", kLaterMethods)]);
+}
 
 double read_error(const TomlItem& item) {
     if (!item.is_text()) return item.number(kRelativeError);
@@ -95,8 +101,7 @@ Rectangle read_rectangle(const TomlTable& table) {
 RunOptions read_run(TomlTable section) {
     section.expect_keys({"method", "error", "time", "paths", "bounces", "seed", "threads"});
     RunOptions run;
-    if (const auto item = section.find("method"))
-        run.method = kMethods[item->index_in(kMethods, "method", kLaterMethods)];
+    if (const auto item = section.find("method")) run.method = read_method(*item);
     if (const auto item = section.find("error")) run.error = read_error(*item);
     if (const auto item = section.find("time")) run.time_s = item->number(kSeconds);
     if (const auto item = section.find("paths"))

@@ -97,6 +97,18 @@ AreaLight read_sphere(TomlTable& table, const Context& context) {
     return light;
 }
 
+void warn_of_oddities(const PhotometryFile& file, double integral_lm, const TomlItem& item,
+                      std::vector<std::string>& warnings) {
+    for (const std::string& warning : file.warnings) {
+        warnings.push_back(fmt::format("{}: {}", item.where(), warning));
+    }
+    using enum FluxAgreement::Verdict;
+    const FluxAgreement agreement = check_flux(file, integral_lm);
+    if (agreement.verdict == Differs || agreement.verdict == AboveLampFlux) {
+        warnings.push_back(fmt::format("{}: {}.", item.where(), agreement.description()));
+    }
+}
+
 /// Lights with the same file share one solid.
 SolidId read_solid(const TomlItem& item, const Context& context) {
     std::vector<NamedSolid>& solids = context.file.scene.solids;
@@ -107,6 +119,7 @@ SolidId read_solid(const TomlItem& item, const Context& context) {
     if (place == solids.end()) {
         const PhotometryFile file = read_photometry_file(path);
         solids.push_back({path.string(), file.luminaire, file.stated_flux_lm, PhotometricSolid(file.grid)});
+        warn_of_oddities(file, solids.back().solid.flux_lm(), item, context.file.warnings);
     }
     return SolidId{index};
 }
