@@ -7,13 +7,14 @@
 
 #include "files/photometry_file.h"
 #include "files/photometry_parts.h"
+#include "files/text.h"
 
 namespace stilb {
 namespace {
 
-class LineReader {
+class FieldReader {
   public:
-    LineReader(std::vector<std::string_view> lines, std::string file)
+    FieldReader(std::vector<std::string_view> lines, std::string file)
         : lines_(std::move(lines)), file_(std::move(file)) {}
 
     std::string_view text(std::string_view what) {
@@ -168,7 +169,7 @@ void unfold(PhotometricSolid::Grid& grid, Symmetry symmetry) {
 }
 
 /// Metres; a round opening has a diameter and no width.
-Vec3 read_opening(LineReader& reader) {
+Vec3 read_opening(FieldReader& reader) {
     const double length = reader.number("length of the luminous area") / 1000;
     const double width = reader.number("width of the luminous area") / 1000;
     double height = 0;
@@ -185,7 +186,7 @@ struct LampSet {
 };
 
 /// The first set of lamps; others are what else fits into the luminaire.
-LampSet read_lamp_sets(LineReader& reader, std::vector<std::string>& warnings) {
+LampSet read_lamp_sets(FieldReader& reader, std::vector<std::string>& warnings) {
     constexpr std::size_t kLinesPerSet = 6;
     const std::size_t sets = reader.count("number of sets of lamps");
     LampSet first;
@@ -204,7 +205,7 @@ LampSet read_lamp_sets(LineReader& reader, std::vector<std::string>& warnings) {
 }  // namespace
 
 PhotometryFile read_eulumdat(std::string_view content, const std::string& name) {
-    LineReader reader(split_lines(content), name);
+    FieldReader reader(split_lines(content), name);
     PhotometryFile file;
     file.format = "EULUMDAT";
     const std::string manufacturer = printable(reader.text("company identification"));

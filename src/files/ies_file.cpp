@@ -8,6 +8,7 @@
 
 #include "files/photometry_file.h"
 #include "files/photometry_parts.h"
+#include "files/text.h"
 
 namespace stilb {
 namespace {

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "files/photometry_parts.h"
+#include "files/text.h"
 
 namespace stilb {
 namespace {

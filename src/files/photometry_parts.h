@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +16,6 @@ std::vector<std::string_view> split_lines(std::string_view content);
 
 /// Without blanks at either end.
 std::string_view trimmed(std::string_view text);
-
-/// All of `text` as a finite decimal number.
-std::optional<double> parse_number(std::string_view text);
 
 /// As UTF-8 that is safe to print: other bytes are taken for Latin-1, control characters become blanks.
 std::string printable(std::string_view text);
