@@ -1,0 +1,25 @@
+// The commands. Each add_... declares its command with flags and examples; once the line is parsed, the
+// chosen command runs and sets `exit_code`. Errors in the input are thrown (InputError); main prints them and
+// exits with 2.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace stilb {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitCheckFailed = 1;
+inline constexpr int kExitWrongInput = 2;
+inline constexpr int kExitStoppedEarly = 3;
+
+/// Puts examples, one a line, before everything else that the command's --help says.
+void set_examples(CLI::App& command, const std::string& examples);
+
+void add_measure(CLI::App& app, int& exit_code);
+void add_info(CLI::App& app, int& exit_code);
+void add_falsecolor(CLI::App& app, int& exit_code);
+void add_verify(CLI::App& app, int& exit_code);
+void add_reproduce(CLI::App& app, int& exit_code);
+
+}  // namespace stilb

@@ -1,0 +1,69 @@
+// stilb falsecolor: measured grids as a picture.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "files/grid_picture.h"
+
+namespace stilb {
+namespace {
+
+struct FalseColourRequest {
+    std::string input;
+    std::string output;
+    std::vector<std::string> sensors;
+    FalseColourOptions options;
+};
+
+void keep_only(const std::vector<std::string>& wanted, ResultsFile& results, const std::string& file) {
+    std::vector<std::string_view> names;
+    for (const MeasuredGrid& grid : results.grids) names.push_back(grid.name);
+    for (const std::string& name : wanted) {
+        if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+        const std::string nearest = nearest_name(name, names);
+        const std::string advice = nearest.empty() ? fmt::format("Its grids: {}.", fmt::join(names, ", "))
+                                                   : fmt::format("Did you mean '{}'?", nearest);
+        throw InputError(fmt::format("no grid '{}' among the results. {}", name, advice), {file});
+    }
+    std::erase_if(results.grids, [&](const MeasuredGrid& grid) {
+        return std::find(wanted.begin(), wanted.end(), grid.name) == wanted.end();
+    });
+}
+
+int run_falsecolor(const FalseColourRequest& request) {
+    ResultsFile results = read_results_file(request.input);
+    if (!request.sensors.empty()) keep_only(request.sensors, results, request.input);
+    draw_false_colour(picture_of(results), request.options, request.output);
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_falsecolor(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("falsecolor", "Draw measured grids as a false-colour picture");
+    set_examples(*command,
+                 "  stilb measure office.toml --json > office.json\n"
+                 "  stilb falsecolor office.json -o office.png --isolines\n"
+                 "  stilb falsecolor office.json -o desk.svg --sensor desk --numbers --min 0 --max 750\n");
+    auto request = std::make_shared<FalseColourRequest>();
+    FalseColourOptions& options = request->options;
+    command->add_option("IN", request->input, "Results of 'stilb measure --json'")->required();
+    command->add_option("-o,--output", request->output, "Picture to write: .png or .svg")->required();
+    command->add_option("--sensor", request->sensors, "Draw this grid only (may be repeated)")
+        ->allow_extra_args(false);
+    command->add_flag_callback(
+        "--log", [&options] { options.scale = ScaleType::logarithmic; }, "Logarithmic scale");
+    command->add_option("--min", options.minimum, "Lower end of the scale; a round number by default");
+    command->add_option("--max", options.maximum, "Upper end of the scale");
+    command->add_flag("--isolines", options.isolines, "Lines of equal value, labelled");
+    command->add_flag("--numbers", options.numbers, "The value in every cell that is large enough");
+    command->callback([request, &exit_code] { exit_code = run_falsecolor(*request); });
+}
+
+}  // namespace stilb

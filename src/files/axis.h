@@ -1,0 +1,58 @@
+// Scales, and round numbers to label them with.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stilb {
+
+enum class ScaleType { linear, logarithmic };
+
+struct Range {
+    double low = 0, high = 1;
+};
+
+/// Maps values between `low` and `high` to 0 .. 1.
+class Scale {
+  public:
+    /// Throws InputError where low < high does not hold, or for a logarithmic scale from 0 or below.
+    Scale(ScaleType type, Range range);
+
+    ScaleType type() const { return type_; }
+    Range range() const { return range_; }
+
+    /// Not limited to 0 .. 1; minus infinity where the value has no logarithm, NaN for NaN.
+    double fraction_of(double value) const;
+    double value_at(double fraction) const;
+
+  private:
+    ScaleType type_;
+    Range range_;
+};
+
+struct Tick {
+    double value = 0;
+    std::string label;
+};
+
+struct Ticks {
+    std::vector<Tick> major;
+    std::vector<double> minor;
+};
+
+/// At most `most` labelled ticks within the scale: steps of 1, 2 or 5 times a power of ten; on a logarithmic
+/// scale these numbers themselves or powers of ten (and linear steps where it spans too little for them).
+Ticks nice_ticks(const Scale& scale, int most);
+
+/// A range with round ends that holds all finite values (on a logarithmic scale: the positive ones). 0 to 1,
+/// or 1 to 10, where there are none.
+Range nice_range(ScaleType type, std::span<const double> values);
+
+/// A number as a reader likes it: a true minus sign, thousands set apart from 10 000 on, `decimals` places.
+std::string number_text(double value, int decimals);
+
+/// Places after the point that give `value` at least three significant digits.
+int three_digit_decimals(double value);
+
+}  // namespace stilb
