@@ -29,11 +29,6 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string_view trimmed(std::string_view text) {
-    const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
-    return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
-}
-
 class ObjReader {
   public:
     ObjReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
@@ -132,7 +127,7 @@ class ObjReader {
         return static_cast<std::uint32_t>(*index > 0 ? *index - 1 : count + *index);
     }
 
-    LineReader lines_;
+    TextLines lines_;
     const std::string& name_;
     std::string_view statement_;
     std::size_t line_ = 0;  // where the statement begins

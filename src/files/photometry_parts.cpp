@@ -49,13 +49,6 @@ std::vector<std::string_view> split_lines(std::string_view content) {
     return lines;
 }
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlanks = " \t\v\f";
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 std::string printable(std::string_view text) {
     std::string result;
     for (std::size_t i = 0; i < text.size();) {

@@ -8,14 +8,12 @@
 
 #include "base/error.h"
 #include "files/photometry_file.h"
+#include "files/text.h"
 
 namespace stilb {
 
 /// The lines without their ends (CR LF, LF or CR), a byte order mark, or the end-of-file mark of DOS.
 std::vector<std::string_view> split_lines(std::string_view content);
-
-/// Without blanks at either end.
-std::string_view trimmed(std::string_view text);
 
 /// As UTF-8 that is safe to print: other bytes are taken for Latin-1, control characters become blanks.
 std::string printable(std::string_view text);

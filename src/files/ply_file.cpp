@@ -74,7 +74,7 @@ class TextBody {
         return word;
     }
 
-    LineReader lines_;
+    TextLines lines_;
     Place& place_;
     std::string_view row_;  // what is left of it
 };

@@ -150,7 +150,7 @@ class HeaderReader {
         return std::move(header_);
     }
 
-    LineReader lines_;
+    TextLines lines_;
     const std::string& name_;
     std::string_view rest_;  // of the current line
     bool has_format_ = false;

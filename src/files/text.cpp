@@ -56,6 +56,13 @@ std::optional<double> parse_number(std::string_view text) {
 
 std::optional<long long> parse_integer(std::string_view text) { return parse_all<long long>(text); }
 
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\v\f";
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
 std::string_view next_word(std::string_view& text) {
     const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
     const auto begin = std::find_if_not(text.begin(), text.end(), is_blank);
@@ -64,7 +71,7 @@ std::string_view next_word(std::string_view& text) {
     return {begin, end};
 }
 
-bool LineReader::next() {
+bool TextLines::next() {
     if (rest_.empty()) return false;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
     line_ = rest_.substr(0, end);

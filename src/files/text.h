@@ -19,14 +19,17 @@ std::optional<double> parse_number(std::string_view text);
 /// Likewise a whole number.
 std::optional<long long> parse_integer(std::string_view text);
 
+/// Without blanks at either end.
+std::string_view trimmed(std::string_view text);
+
 /// Cuts the next word off the front of `text`: words are separated by blanks and tabs. Empty at the end.
 std::string_view next_word(std::string_view& text);
 
 /// Goes through a text line by line; lines end with LF or CR LF.
-class LineReader {
+class TextLines {
   public:
     /// `first_line` is the number of the text's first line in its file.
-    explicit LineReader(std::string_view text, std::size_t first_line = 1)
+    explicit TextLines(std::string_view text, std::size_t first_line = 1)
         : rest_(text), number_(first_line - 1) {}
 
     /// Moves to the next line; false at the end.
