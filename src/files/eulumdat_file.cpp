@@ -31,8 +31,8 @@ class FieldReader {
         std::replace(with_point.begin(), with_point.end(), ',', '.');
         const auto value = parse_number(with_point);
         if (!value) {
-            throw InputError(fmt::format("{} is not a number: the {} should stand here", quoted(found), what),
-                             here());
+            throw InputError(
+                fmt::format("{} is not a number: the {} should stand here", in_quotes(found), what), here());
         }
         return *value;
     }
@@ -89,7 +89,7 @@ class FieldReader {
                 throw InputError(
                     fmt::format("{} stands after the last intensity: the numbers of planes and angles allow "
                                 "for no more",
-                                quoted(rest)),
+                                in_quotes(rest)),
                     {file_, next_ + 1});
             }
         }

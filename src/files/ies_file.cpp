@@ -69,7 +69,7 @@ class NumberReader {
         throw InputError(
             fmt::format("{} more numbers than the counts of angles allow for, from {} on: either a "
                         "count is wrong or an intensity is one too many",
-                        left(), quoted(words_[next_].text)),
+                        left(), in_quotes(words_[next_].text)),
             {file_, words_[next_].line});
     }
 
@@ -95,7 +95,7 @@ class NumberReader {
         const auto value = parse_number(word.text);
         if (!value) {
             throw InputError(
-                fmt::format("{} is not a number: the {} should stand here", quoted(word.text), what),
+                fmt::format("{} is not a number: the {} should stand here", in_quotes(word.text), what),
                 {file_, word.line});
         }
         return {*value, word.line};
@@ -124,7 +124,7 @@ int read_year(std::string_view first_line, const std::string& name) {
     if (line.starts_with("IESNA:") || line.starts_with("IES:")) {
         throw InputError(fmt::format("{} is no version of LM-63 that is known: IESNA91, IESNA:LM-63-1995, "
                                      "IESNA:LM-63-2002 and IES:LM-63-2019 are, and none means 1986",
-                                     quoted(line)),
+                                     in_quotes(line)),
                          {name, 1});
     }
     return 1986;

@@ -4,17 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "files/photometry_parts.h"
 #include "files/text.h"
 
 namespace stilb {
 namespace {
-
-/// A luminaire of 1000 x 1000 angles has 10 MB.
-constexpr std::uintmax_t kGreatestFileBytes = 64 << 20;
 
 bool is_tilt_line(std::string_view line) { return trimmed(line).starts_with("TILT="); }
 
@@ -28,21 +23,7 @@ bool looks_like_eulumdat(const std::vector<std::string_view>& lines) {
 }  // namespace
 
 PhotometryFile read_photometry_file(const std::filesystem::path& path) {
-    const std::string name = path.string();
-    std::error_code error;
-    const bool is_file = std::filesystem::is_regular_file(path, error);
-    std::ifstream stream(path, std::ios::binary);
-    if (!is_file || !stream) {
-        throw InputError("cannot be read: a luminaire file (IES LM-63 or EULUMDAT) is wanted here",
-                         {name, 0});
-    }
-    if (const auto bytes = std::filesystem::file_size(path, error); error || bytes > kGreatestFileBytes) {
-        throw InputError(fmt::format("has {} MB: no luminaire file is larger than {} MB", bytes >> 20,
-                                     kGreatestFileBytes >> 20),
-                         {name, 0});
-    }
-    const std::string content((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    return read_photometry(content, name);
+    return read_photometry(read_whole_file(path), path.string());
 }
 
 PhotometryFile read_photometry(std::string_view content, const std::string& name) {

@@ -66,11 +66,6 @@ std::string printable(std::string_view text) {
     return std::string(trimmed(result));
 }
 
-std::string quoted(std::string_view text) {
-    constexpr std::size_t kLongest = 40;
-    return fmt::format("\"{}{}\"", printable(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
-}
-
 std::vector<double> checked_angles(const std::vector<LocatedNumber>& numbers, std::string_view what,
                                    double least, double greatest, const std::string& file) {
     std::vector<double> angles;

@@ -18,9 +18,6 @@ std::vector<std::string_view> split_lines(std::string_view content);
 /// As UTF-8 that is safe to print: other bytes are taken for Latin-1, control characters become blanks.
 std::string printable(std::string_view text);
 
-/// `text` for an error message: quoted, printable, cut where it is long.
-std::string quoted(std::string_view text);
-
 /// A number of a file and where it stands.
 struct LocatedNumber {
     double value = 0;
