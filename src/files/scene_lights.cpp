@@ -142,7 +142,7 @@ PhotometryLight read_photometry(TomlTable& table, const Context& context) {
 constexpr std::array<std::string_view, 4> kTypes{"point", "area", "sphere", "photometry"};
 
 decltype(Light::source) read_source(TomlTable& table, const Context& context) {
-    const std::string_view type = kTypes[table.at("type").index_in(kTypes, "type")];
+    const std::string_view type = table.choose("type", kTypes);
     if (type == "point") return read_point(table);
     if (type == "area") return read_area(table, context);
     if (type == "sphere") return read_sphere(table, context);

@@ -45,7 +45,7 @@ constexpr std::array<std::string_view, 4> kTypes{"diffuse", "phong", "mirror", "
 constexpr std::array<std::string_view, 5> kLaterTypes{"rough", "ward", "plastic", "glass", "pane"};
 
 Material read_material(TomlTable& table) {
-    const std::string_view type = kTypes[table.at("type").index_in(kTypes, "type", kLaterTypes)];
+    const std::string_view type = table.choose("type", kTypes, kLaterTypes);
     if (type == "diffuse") return read_diffuse(table);
     if (type == "phong") return read_phong(table);
     if (type == "mirror") return read_mirror(table);

@@ -191,7 +191,7 @@ Shape read_simple_shape(TomlTable& table, std::string_view shape, SceneFile& fil
 }
 
 Object read_untransformed(TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
-    const std::string_view shape = kShapes[table.at("shape").index_in(kShapes, "shape", kLaterShapes)];
+    const std::string_view shape = table.choose("shape", kShapes, kLaterShapes);
     if (shape == "mesh") {
         expect_object_keys(table, shape, {"file", "materials"});
         return read_mesh_object(table, directory, file);

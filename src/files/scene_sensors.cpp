@@ -57,7 +57,7 @@ Sensor read_grid(TomlTable& table, std::vector<std::string>& warnings) {
 void read_sensors(const TomlTable& section, SceneFile& file) {
     std::int64_t points = 0;
     for (auto& [name, table] : named_tables(section)) {
-        const std::string_view type = kTypes[table.at("type").index_in(kTypes, "type", kLaterTypes)];
+        const std::string_view type = table.choose("type", kTypes, kLaterTypes);
         Sensor sensor =
             type == "grid" ? read_grid(table, file.warnings) : read_illuminance(table, file.warnings);
         sensor.name = name;

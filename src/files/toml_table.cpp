@@ -108,7 +108,7 @@ Spectrum TomlItem::spectrum(const Range& range) const {
 }
 
 Vec3 TomlItem::vector() const {
-    const TomlArray& array = array_of(3, "three numbers [x, y, z]");
+    const TomlArray& array = array_of(3, "a triple [x, y, z]");
     return {element(array, 0).number(kCoordinate), element(array, 1).number(kCoordinate),
             element(array, 2).number(kCoordinate)};
 }
@@ -199,6 +199,13 @@ std::optional<TomlItem> TomlTable::find(std::string_view key) const {
 TomlItem TomlTable::at(std::string_view key) const {
     if (const auto item = find(key)) return *item;
     fail(fmt::format("key {} is missing{}.", in_quotes(key), kind_));
+}
+
+std::string_view TomlTable::choose(std::string_view key, std::span<const std::string_view> names,
+                                   std::span<const std::string_view> later) const {
+    const auto item = find(key);
+    if (!item) fail(fmt::format("key {} is missing.{}", in_quotes(key), suggestion("", names)));
+    return names[item->index_in(names, key, later)];
 }
 
 TomlItem TomlTable::either(std::string_view first, std::string_view second) const {

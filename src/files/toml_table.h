@@ -92,6 +92,9 @@ class TomlTable {
     bool has(std::string_view key) const { return find(key).has_value(); }
     std::optional<TomlItem> find(std::string_view key) const;
     TomlItem at(std::string_view key) const;
+    /// The one of the names that stands at the key; `later` as in TomlItem::index_in().
+    std::string_view choose(std::string_view key, std::span<const std::string_view> names,
+                            std::span<const std::string_view> later = {}) const;
     /// Whichever of the two keys is there; throws where both or none are.
     TomlItem either(std::string_view first, std::string_view second) const;
     /// Throws where both are there.

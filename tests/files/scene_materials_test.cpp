@@ -27,7 +27,8 @@ TEST(SceneMaterials, RefusesUnknownAndLaterTypes) {
 }
 
 TEST(SceneMaterials, RefusesMissingKeys) {
-    EXPECT_REFUSAL("\n[materials.m]\nreflectance = 1", "s.toml:2: materials.m: key \"type\" is missing.");
+    EXPECT_REFUSAL("\n[materials.m]\nreflectance = 1",
+                   "s.toml:2: materials.m: key \"type\" is missing. Allowed: diffuse, phong, mirror, black.");
     EXPECT_REFUSAL(material("type = \"diffuse\""),
                    "s.toml:1: materials.m: key \"reflectance\" is missing for type \"diffuse\".");
 }

@@ -118,9 +118,8 @@ TEST(SceneObjects, RefusesFlatShapes) {
         "s.toml:8: objects.a.radius: -1 is not allowed. Allowed: a length above 0 (from 1e-9 to 1e9 m).");
     EXPECT_REFUSAL(object("shape = \"sphere\"\ncenter = [0, 0, inf]\nradius = 1"),
                    "s.toml:7: objects.a.center[2]: inf is not allowed. Allowed: a number from -1e9 to 1e9.");
-    EXPECT_REFUSAL(
-        object("shape = \"sphere\"\ncenter = [0, 0]\nradius = 1"),
-        "s.toml:7: objects.a.center: found an array of 2 where three numbers [x, y, z] is needed.");
+    EXPECT_REFUSAL(object("shape = \"sphere\"\ncenter = [0, 0]\nradius = 1"),
+                   "s.toml:7: objects.a.center: found an array of 2 where a triple [x, y, z] is needed.");
 }
 
 TEST(SceneObjects, DiskNormalsAreMadeUnit) {
