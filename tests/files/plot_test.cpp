@@ -130,12 +130,22 @@ TEST(Plot, WritesSvg) {
 }
 
 TEST(Plot, SaysWhatIsWrong) {
-    EXPECT_THROW(draw(plot_of({{"", {1, 2}, {1}}})), std::invalid_argument);
-    EXPECT_THROW(draw(plot_of({{"", {1}, {1}, {0}, {}}})), std::invalid_argument);
-    EXPECT_THROW(draw({"", zero_to_ten(), {}}), std::invalid_argument);
-    EXPECT_THROW(draw(plot_of({points({1}, {1})}, {"x", ScaleType::logarithmic, 0.0, 1.0})), InputError);
-    EXPECT_THROW(draw_plot(plot_of({points({1}, {1})}), "plot.pdf"), InputError);
-    EXPECT_NO_THROW(draw({"", {"x"}, {{{"y"}, {}, 100}}}));  // nothing measured yet
+    const Plot unequal = plot_of({{"", {1, 2}, {1}}});
+    EXPECT_THROW(draw(unequal), std::invalid_argument);
+    const Plot half_interval = plot_of({{"", {1}, {1}, {0}, {}}});
+    EXPECT_THROW(draw(half_interval), std::invalid_argument);
+    Plot good = plot_of({points({1}, {1})});
+    EXPECT_THROW(draw_plot(good, "plot.pdf"), InputError);
+    good.x.scale = ScaleType::logarithmic;  // from 0
+    EXPECT_THROW(draw(good), InputError);
+    good.panels.clear();
+    EXPECT_THROW(draw(good), std::invalid_argument);
+}
+
+TEST(Plot, DrawsPanelsWithoutData) {
+    Plot empty;
+    empty.panels.resize(1);
+    EXPECT_NO_THROW(draw(empty));
 }
 
 }  // namespace
