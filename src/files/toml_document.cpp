@@ -58,9 +58,28 @@ TomlValue converted(const toml::node& node) {
     return value;
 }
 
+/// toml++ limits the nesting of brackets, but follows a.b.c... by recursion until the stack is full. Between
+/// the dots of one key stands none of the separators.
+void expect_shallow_keys(std::string_view text, const std::string& name) {
+    constexpr int most_dots = 1000;
+    constexpr std::string_view separators = "\n=,[]{}";
+    std::size_t line = 1;
+    int dots = 0;
+    for (const char c : text) {
+        if (c == '.' && ++dots > most_dots) {
+            throw InputError(
+                fmt::format("a key of more than {} parts. No key needs more than four.", most_dots),
+                {name, line});
+        }
+        if (separators.find(c) != std::string_view::npos) dots = 0;
+        if (c == '\n') ++line;
+    }
+}
+
 }  // namespace
 
 TomlValue parse_toml(std::string_view text, const std::string& name) {
+    expect_shallow_keys(text, name);
     try {
         return converted(toml::parse(text));
     } catch (const toml::parse_error& error) {

@@ -152,6 +152,18 @@ TEST(SceneFile, RefusesWhatIsNotToml) {
     EXPECT_TRUE(refusal("[objects.a]\n[objects.a]\n").starts_with("s.toml:2: not valid TOML: "));
 }
 
+TEST(SceneFile, RefusesEndlessNesting) {
+    std::string key = "a";
+    for (int i = 0; i < 1'000'000; ++i) key += ".a";
+    EXPECT_REFUSAL("\n" + key + " = 1",
+                   "s.toml:2: a key of more than 1000 parts. No key needs more than four.");
+    EXPECT_TRUE(refusal("a = " + std::string(1'000'000, '[')).starts_with("s.toml:1: not valid TOML: "));
+    std::string numbers = "0.1";
+    for (int i = 0; i < 2000; ++i) numbers += ", 0.1";
+    EXPECT_REFUSAL("[scene]\nname = [" + numbers + "]",
+                   "s.toml:2: scene.name: found an array of 2001 where a text in quotation marks is needed.");
+}
+
 TEST(SceneFile, RefusesAnEmptyFile) {
     const std::string message =
         "s.toml: the scene file is empty. Needed: the sections materials, objects, lights and sensors.";
