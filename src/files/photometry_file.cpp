@@ -73,4 +73,13 @@ std::string FluxAgreement::description() const {
         integral_lm, percent, stated_lm);
 }
 
+std::vector<std::string> photometry_warnings(const PhotometryFile& file, const PhotometricSolid& solid) {
+    using Verdict = FluxAgreement::Verdict;
+    std::vector<std::string> warnings = file.warnings;
+    const FluxAgreement flux = check_flux(file, solid.flux_lm());
+    if (flux.verdict == Verdict::Differs || flux.verdict == Verdict::AboveLampFlux)
+        warnings.push_back(flux.description());
+    return warnings;
+}
+
 }  // namespace stilb

@@ -57,4 +57,7 @@ struct FluxAgreement {
 };
 FluxAgreement check_flux(const PhotometryFile& file, double integral_lm);
 
+/// The file's own warnings, and one where its flux and the integral of `solid` do not go together.
+std::vector<std::string> photometry_warnings(const PhotometryFile& file, const PhotometricSolid& solid);
+
 }  // namespace stilb

@@ -118,7 +118,11 @@ SolidId read_solid(const TomlItem& item, const Context& context) {
     const auto index = static_cast<std::uint32_t>(place - solids.begin());
     if (place == solids.end()) {
         const PhotometryFile file = read_photometry_file(path);
-        solids.push_back({path.string(), file.luminaire, file.stated_flux_lm, PhotometricSolid(file.grid)});
+        const PhotometricSolid solid(file.grid);
+        solids.push_back({path.string(), file.luminaire, solid, file.format,
+                          check_flux(file, solid.flux_lm()).description()});
+        for (const std::string& warning : photometry_warnings(file, solid))
+            context.file.warnings.push_back(fmt::format("{}: {}", path.string(), warning));
         warn_of_oddities(file, solids.back().solid.flux_lm(), item, context.file.warnings);
     }
     return SolidId{index};

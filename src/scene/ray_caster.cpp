@@ -279,6 +279,7 @@ struct RayCaster::Implementation {
         hit.position += center;
         hit.distance_m = ray.tfar;
         hit.object = ObjectId{embree_hit.geomID};
+        hit.triangle = embree_hit.primID;
         const auto& materials = scene.object(hit.object).materials;
         hit.material = materials.size() == 1 ? materials[0] : materials[embree_hit.primID];
         return hit;

@@ -28,6 +28,7 @@ struct Hit {
     double distance_m = 0;
     ObjectId object{};
     MaterialId material{};
+    std::uint32_t triangle = 0;  ///< of the mesh, or of the triangulated() rectangle or box; else 0
     bool on_front = true;
 };
 

@@ -25,13 +25,13 @@ struct Object {
     std::vector<MaterialId> materials;
 };
 
-/// What a photometric file says of itself, and what its distribution integrates to.
+/// A luminaire's distribution, and what its file says of itself.
 struct NamedSolid {
     std::string file;
     std::string luminaire;  ///< the name that the file gives, may be empty
-    double stated_flux_lm =
-        0;  ///< lamps x lumens x factors (x output ratio in EULUMDAT); 0: absolute photometry
     PhotometricSolid solid;
+    std::string format = {};          ///< "EULUMDAT", "IES LM-63-2002"
+    std::string flux_statement = {};  ///< whether the file's stated flux is the integral, for people
 };
 
 struct Scene {
