@@ -83,7 +83,7 @@ double extent_of(double span_m, int count, double cell_m) {
 }
 
 void read_size(const Node& values, MeasuredGrid& grid) {
-    const auto [nu, nv] = grid.count;
+    const int nu = grid.count[0], nv = grid.count[1];
     const Vec3 first = values.element(0).member("position").point();
     const auto at = [&](int u, int v) {
         return values
