@@ -15,25 +15,24 @@
 #include "estimators/local_estimation.h"
 
 #include <limits>
-#include <numbers>
 
 #include "estimators/direct_light.h"
 #include "estimators/fan.h"
 #include "estimators/gather.h"
 #include "estimators/limits.h"
+#include "estimators/split_plan.h"
 
 namespace stilb {
 namespace {
 
-/// One sample of direct light and one gathering ray for so many chains: a gathering ray costs some twenty
-/// times what a ray of a fan does, and has less to bring.
-constexpr std::uint64_t kChainsPerRay = 8;
+/// Light chains for each sample of direct light from area lights.
+constexpr std::uint64_t kChainsPerDirectSample = 8;
 /// Chains whose nodes are sent to the points together.
 constexpr std::uint64_t kChainBlock = 256;
-/// Chains that are spent on finding k; few suffice, because any k > 0 is unbiased.
+/// Chains that are spent on planning; few suffice, because any plan is unbiased.
 constexpr std::uint64_t kPilotChains = 256;
 
-enum Purpose : std::uint64_t { kChains, kRays };
+enum Purpose : std::uint64_t { kChains, kDirect, kGather, kPilot, kPlan };
 
 class LocalEstimation final : public Estimator {
   public:
@@ -47,8 +46,8 @@ class LocalEstimation final : public Estimator {
           lights_(scene_, caster_),
           tracer_(scene_, caster_, lights_),
           gathers_(split == Split::balanced || has_mirrors(scene_)),
-          k_per_m2_(split_constants_per_m2(split, input.preparation_key)),
-          fan_(caster_, points_, k_per_m2_) {
+          plans_(plans(split, input.preparation_key)),
+          fan_(caster_, points_, constants_per_m2(plans_)) {
         for (const MeasuringPoint& point : points_) {
             known_part_lx_.push_back(direct_from_points_lx(point, caster_, lights_));
         }
@@ -60,11 +59,12 @@ class LocalEstimation final : public Estimator {
         for (std::uint64_t first = batch.first; first < end; first += kChainBlock) {
             fan_.collect(walk_chains(chain_key, first, std::min(end, first + kChainBlock)), sums);
         }
-        if (gathers_ || lights_.has_area_lights()) add_rays(batch, sums);
+        if (lights_.has_area_lights()) add_direct_light(batch, sums);
+        if (gathers_) add_gathered_light(batch, sums);
     }
 
     std::span<const Spectrum> known_part_lx() const override { return known_part_lx_; }
-    std::uint64_t batch_granularity() const override { return kChainsPerRay; }
+    std::uint64_t batch_granularity() const override { return kMostChainsPerRay; }
     double rays_per_sample() const override { return 2.0 * static_cast<double>(points_.size()); }
     std::vector<std::string> warnings() const override {
         return mirror_warnings(
@@ -82,53 +82,53 @@ class LocalEstimation final : public Estimator {
         return nodes;
     }
 
-    void add_rays(const Batch& batch, ReadingSums& sums) const {
-        const RandomKey key = batch.key.derived(kRays);
+    void add_direct_light(const Batch& batch, ReadingSums& sums) const {
+        add_samples(
+            batch, kDirect, [](std::size_t) { return kChainsPerDirectSample; }, sums,
+            [&](std::size_t j, SampleStream& stream) {
+                return sample_direct_from_areas_lx(points_[j], caster_, lights_, stream);
+            });
+    }
+
+    void add_gathered_light(const Batch& batch, ReadingSums& sums) const {
+        add_samples(
+            batch, kGather, [&](std::size_t j) { return plans_[j].chains_per_ray; }, sums,
+            [&](std::size_t j, SampleStream& stream) {
+                return sample_gathered_lx(points_[j], plans_[j].k_per_m2, max_reflections_, caster_, tracer_,
+                                          stream);
+            });
+    }
+
+    /// One sample at every point for so many chains of the batch, each weighing as much as these chains.
+    template <typename ChainsPerSample, typename Sample>
+    void add_samples(const Batch& batch, Purpose purpose, ChainsPerSample chains_per_sample,
+                     ReadingSums& sums, Sample sample) const {
+        const RandomKey key = batch.key.derived(purpose);
         for (std::size_t j = 0; j < points_.size(); ++j) {
             const RandomKey point_key = key.derived(j);
-            for (std::uint64_t i = batch.first / kChainsPerRay;
-                 i < (batch.first + batch.count) / kChainsPerRay; ++i) {
+            const std::uint64_t chains = chains_per_sample(j);
+            for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
                 SampleStream stream(point_key, i);
-                Spectrum sample = sample_direct_from_areas_lx(points_[j], caster_, lights_, stream);
-                if (gathers_) {
-                    sample += sample_gathered_lx(points_[j], k_per_m2_[j], max_reflections_, caster_, tracer_,
-                                                 stream);
-                }
-                sums.add(j, static_cast<double>(kChainsPerRay) * sample);
+                sums.add(j, static_cast<double>(chains) * sample(j, stream));
             }
         }
     }
 
-    /// The balance heuristic's k: chains place nodes at y with density nu(y) [1/m2] each, gathering rays
-    /// arrive there with density G / pi, so w = nu c / (nu c + G / pi) for c chains per ray. Instead of
-    /// nu(y), its mean over what x sees, (1/pi) times the mean of the sum of G over a chain's nodes,
-    /// estimated by pilot chains of their own; G is bounded by half of the same kernel split with the mean
-    /// density in the scene, so that single near nodes do not count.
-    std::vector<double> split_constants_per_m2(Split split, RandomKey key) const {
+    std::vector<SplitPlan> plans(Split split, RandomKey key) const {
         if (split == Split::none) {
-            return std::vector<double>(points_.size(), std::numeric_limits<double>::infinity());
+            return std::vector<SplitPlan>(points_.size(),
+                                          {std::numeric_limits<double>::infinity(), kChainsPerDirectSample});
         }
-        std::vector<ChainNode> nodes = walk_chains(key, 0, kPilotChains);
         double area = 0;
         for (const Object& object : scene_.objects) area += area_m2(object.shape);
-        const double per_ray = static_cast<double>(kChainsPerRay);
-        const double chains = static_cast<double>(kPilotChains);
-        const double mean_k = std::numbers::pi * per_ray * (static_cast<double>(nodes.size()) + 1) /
-                              (chains * std::max(area, 1e-300));
-        // A unit of flux on a white surface: the fan then adds w G / pi for every node.
-        const Material white = Diffuse{Spectrum::grey(1)};
-        for (ChainNode& node : nodes) {
-            node = {node.position, node.normal, node.incoming, &white, Spectrum::grey(1), false};
-        }
-        ReadingSums seen(points_.size());
-        const std::vector<double> first_k(points_.size(), mean_k);
-        Fan(caster_, points_, first_k).collect(nodes, seen);
-        std::vector<double> k(points_.size());
-        for (std::size_t j = 0; j < points_.size(); ++j) {
-            const double density_per_m2 = seen.sum[j][0] / chains;
-            k[j] = std::max(std::numbers::pi * per_ray * density_per_m2, 1e-3 * mean_k);
-        }
-        return k;
+        return plan_splits(caster_, points_, walk_chains(key.derived(kPilot), 0, kPilotChains), kPilotChains,
+                           std::max(area, std::numeric_limits<double>::min()), key.derived(kPlan));
+    }
+
+    static std::vector<double> constants_per_m2(std::span<const SplitPlan> plans) {
+        std::vector<double> constants;
+        for (const SplitPlan& plan : plans) constants.push_back(plan.k_per_m2);
+        return constants;
     }
 
     const Scene& scene_;
@@ -138,7 +138,7 @@ class LocalEstimation final : public Estimator {
     LightSampler lights_;
     PathTracer tracer_;
     bool gathers_;
-    std::vector<double> k_per_m2_;
+    std::vector<SplitPlan> plans_;
     Fan fan_;
     std::vector<Spectrum> known_part_lx_;
 };

@@ -1,0 +1,102 @@
+// stilb measure: all sensors of a scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/results_table.h"
+#include "cli/run_flags.h"
+#include "files/grid_picture.h"
+#include "files/results_csv.h"
+#include "files/results_json.h"
+#include "files/scene_file.h"
+
+namespace stilb {
+namespace {
+
+struct MeasureRequest {
+    std::string scene;
+    std::vector<std::string> sensors;
+    bool json = false;
+    std::string csv_directory, picture;
+    RunFlags flags;
+};
+
+std::vector<Sensor> chosen_sensors(const std::vector<Sensor>& all, const std::vector<std::string>& names,
+                                   const std::string& file) {
+    if (names.empty()) return all;
+    std::vector<Sensor> chosen;
+    for (const std::string& name : names) {
+        const auto found =
+            std::find_if(all.begin(), all.end(), [&](const Sensor& s) { return s.name == name; });
+        if (found == all.end()) {
+            std::vector<std::string_view> known;
+            for (const Sensor& sensor : all) known.push_back(sensor.name);
+            const std::string nearest = nearest_name(name, known);
+            throw InputError(fmt::format("--sensor {}: there is no such sensor.{} Sensors: {}.", name,
+                                         nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
+                                         fmt::join(known, ", ")),
+                             {file});
+        }
+        chosen.push_back(*found);
+    }
+    return chosen;
+}
+
+int run_measure(const MeasureRequest& request) {
+    const SceneFile file = read_scene_file(request.scene);
+    const std::vector<Sensor> sensors = chosen_sensors(file.sensors, request.sensors, request.scene);
+    const RunOptions options = request.flags.over(file.run);
+    RunResult result;
+    {
+        TerminalProgress progress;
+        result = run(file.scene, sensors, options, request.flags.quiet ? nullptr : &progress,
+                     &watch_for_interrupt());
+    }
+    result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
+    if (!request.flags.quiet) {
+        for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    }
+    const std::string json = to_json(result, sensors, request.scene);
+    fmt::print("{}", request.json ? json : to_table(result, sensors));
+    if (!request.csv_directory.empty()) write_results_csv(result, sensors, request.csv_directory);
+    if (!request.picture.empty()) {
+        FalseColourOptions picture_options;
+        picture_options.isolines = true;
+        draw_false_colour(picture_of(read_results(json, request.scene)), picture_options, request.picture);
+    }
+    return result.converged ? kExitDone : kExitStoppedEarly;
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app, int& exit_code) {
+    CLI::App* command =
+        app.add_subcommand("measure", "Illuminance at all sensors of a scene, with error bars");
+    set_examples(*command,
+                 "  stilb measure office.toml\n"
+                 "  stilb measure office.toml --error 0.5% --sensor desk\n"
+                 "  stilb measure office.toml --json > office.json\n"
+                 "  stilb measure office.toml --csv results --falsecolor office.png\n");
+    auto request = std::make_shared<MeasureRequest>();
+    command->add_option("SCENE", request->scene, "Scene file (TOML)")->required();
+    command->add_option("--sensor", request->sensors, "Only this sensor (may be repeated)")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command->add_flag("--json", request->json, "One JSON document on stdout instead of the table");
+    command->add_option("--csv", request->csv_directory, "Also a CSV file per sensor into this folder")
+        ->type_name("DIR");
+    command
+        ->add_option("--falsecolor", request->picture,
+                     "Also a false-colour picture of the grids (.png, .svg)")
+        ->type_name("FILE");
+    request->flags.add_to(*command);
+    command->callback([request, &exit_code] { exit_code = run_measure(*request); });
+}
+
+}  // namespace stilb

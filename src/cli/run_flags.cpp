@@ -1,0 +1,60 @@
+#include "cli/run_flags.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "estimators/estimator_list.h"
+#include "run/relative_error.h"
+
+namespace stilb {
+
+void RunFlags::add_to(CLI::App& command) {
+    std::string methods = "How to compute (default: auto)";
+    for (const EstimatorEntry& entry : estimator_list()) {
+        methods += fmt::format("\n  {:6} {}", entry.name, entry.summary);
+    }
+    command.add_option("--method", method, methods)->type_name("NAME");
+    command
+        .add_option(
+            "--error", error,
+            "Stop when 95 % of each sensor's readings have a 95 % interval within this share of their "
+            "value: 1% or 0.01")
+        ->type_name("SHARE");
+    command.add_option("--time", time_s, "Stop after this many seconds")->type_name("S");
+    command
+        .add_option("--paths", paths, "Stop after this many light chains (method path: paths per reading)")
+        ->type_name("N");
+    command
+        .add_option("--bounces", bounces, "At most this many reflections (default: no limit, without bias)")
+        ->type_name("N");
+    command.add_option("--seed", seed, "Another seed gives an independent result")->type_name("N");
+    command
+        .add_option("--threads", threads,
+                    "Processor threads (default: all); the result does not depend on it")
+        ->type_name("N");
+    command.add_flag("--quiet", quiet, "No progress, no warnings on stderr");
+}
+
+RunOptions RunFlags::over(RunOptions options) const {
+    if (method) options.method = *method;
+    find_estimator(options.method);
+    if (paths) {
+        options.paths = *paths;
+        options.error.reset();
+        options.time_s.reset();
+    }
+    if (error) {
+        options.error = parse_relative_error(*error);
+        if (!options.error) {
+            throw InputError(
+                fmt::format("--error {}: a share between 0 and 1 is needed, such as 0.01 or 1%", *error));
+        }
+    }
+    if (time_s) options.time_s = *time_s;
+    if (bounces) options.bounces = *bounces;
+    if (seed) options.seed = *seed;
+    if (threads) options.threads = *threads;
+    return options;
+}
+
+}  // namespace stilb

@@ -1,0 +1,26 @@
+// The flags that all commands which compute have in common.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/options.h"
+
+namespace stilb {
+
+/// What was typed; each flag replaces the same key of the scene's [run].
+struct RunFlags {
+    std::optional<std::string> method, error;
+    std::optional<double> time_s;
+    std::optional<std::uint64_t> paths, seed;
+    std::optional<int> bounces, threads;
+    bool quiet = false;
+
+    void add_to(CLI::App& command);
+    /// --paths alone drops the file's error and time: so many paths are done, no fewer.
+    RunOptions over(RunOptions options) const;
+};
+
+}  // namespace stilb

@@ -1,0 +1,16 @@
+// The results of a run as CSV, a file per sensor.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "run/run.h"
+
+namespace stilb {
+
+/// Writes DIR/<sensor>.csv, a line per reading; makes the folder where it is missing. Throws InputError where
+/// a file cannot be written.
+void write_results_csv(const RunResult& result, std::span<const Sensor> sensors,
+                       const std::filesystem::path& directory);
+
+}  // namespace stilb

@@ -1,0 +1,15 @@
+// The results of a run as a JSON document (docs/json.md).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "run/run.h"
+
+namespace stilb {
+
+/// `scene` is the scene file as the user named it. Two runs that did the same give the same text but for
+/// elapsed_s.
+std::string to_json(const RunResult& result, std::span<const Sensor> sensors, const std::string& scene);
+
+}  // namespace stilb
