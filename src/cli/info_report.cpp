@@ -1,0 +1,236 @@
+#include "cli/info_report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "estimators/unlit.h"
+#include "files/mesh_file.h"
+#include "files/photometry_file.h"
+#include "scene/analytic_shapes.h"
+#include "scene/bounds.h"
+#include "scene/holes.h"
+#include "scene/overlaps.h"
+#include "sensors/placement.h"
+
+namespace stilb {
+namespace {
+
+using Json = InfoReport;
+
+Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json extent_json(const Bounds& bounds) {
+    return Json::array({vector_json(bounds.min), vector_json(bounds.max)});
+}
+
+struct MaterialReport {
+    Json operator()(const Diffuse& m) const {
+        return {{"type", "diffuse"}, {"reflectance", m.reflectance.luminance()}, {"rgb", m.reflectance.band}};
+    }
+    Json operator()(const Phong& m) const {
+        return {{"type", "phong"},
+                {"reflectance", (m.diffuse + m.specular).luminance()},
+                {"diffuse", m.diffuse.luminance()},
+                {"specular", m.specular.luminance()},
+                {"exponent", m.exponent}};
+    }
+    Json operator()(const Mirror& m) const {
+        return {{"type", "mirror"}, {"reflectance", m.reflectance.luminance()}, {"rgb", m.reflectance.band}};
+    }
+    Json operator()(const Black&) const { return {{"type", "black"}, {"reflectance", 0.0}}; }
+};
+
+struct ShapeReport {
+    Json operator()(const Mesh& mesh) const { return of_triangles("mesh", mesh); }
+    Json operator()(const Rectangle& rectangle) const {
+        return of_triangles("rectangle", triangulated(rectangle));
+    }
+    Json operator()(const Box& box) const { return of_triangles("box", triangulated(box)); }
+    Json operator()(const Sphere& sphere) const { return of_surface("sphere", sphere); }
+    Json operator()(const Disk& disk) const { return of_surface("disk", disk); }
+
+  private:
+    static Json of_triangles(const char* name, const Mesh& mesh) {
+        Bounds bounds;
+        for (const Vec3& vertex : mesh.vertices) bounds.include(vertex);
+        return {{"shape", name}, {"triangles", mesh.triangles.size()}, {"extent", extent_json(bounds)}};
+    }
+    static Json of_surface(const char* name, const AnalyticShape& shape) {
+        return {{"shape", name}, {"triangles", 0}, {"extent", extent_json(bounds_of(shape))}};
+    }
+};
+
+Json shape_json(const std::string& name, const Shape& shape, const Shells& shells) {
+    Json json{{"name", name}};
+    json.update(std::visit(ShapeReport{}, shape));
+    json["area_m2"] = area_m2(shape);
+    json["parts"] = shells.count();
+    json["open_edges"] = shells.total_open_edges();
+    json["closed"] = shells.total_open_edges() == 0;
+    return json;
+}
+
+Json object_json(const Object& object, const Shells& shells, const Scene& scene) {
+    Json json = shape_json(object.name, object.shape, shells);
+    std::vector<bool> is_used(scene.materials.size());
+    for (const MaterialId material : object.materials) is_used[index_of(material)] = true;
+    Json& names = json["materials"] = Json::array();
+    for (std::size_t m = 0; m < is_used.size(); ++m) {
+        if (is_used[m]) names.push_back(scene.materials[m].name);
+    }
+    return json;
+}
+
+struct LightReport {
+    const Scene& scene;
+
+    Json operator()(const PointLight& light) const {
+        return {{"type", "point"}, {"intensity_cd", light.intensity_cd.luminance()}};
+    }
+    Json operator()(const PhotometryLight& light) const {
+        return {{"type", "photometry"},
+                {"file", scene.solids[index_of(light.solid)].file},
+                {"peak_intensity_cd", scene.solid(light.solid).peak_cd() * light.factor.luminance()}};
+    }
+    Json operator()(const AreaLight& light) const {
+        return {{"type", "area"},
+                {"object", scene.object(light.object).name},
+                {"luminance_cd_m2", light.luminance_cd_m2.luminance()}};
+    }
+};
+
+Json light_json(const Light& light, const Scene& scene) {
+    Json json{{"name", light.name}};
+    json.update(std::visit(LightReport{scene}, light.source));
+    json["flux_lm"] = flux_lm(scene, light).luminance();
+    return json;
+}
+
+Json luminaire_json(const NamedSolid& solid) {
+    return {{"file", solid.file},
+            {"format", solid.format},
+            {"name", solid.luminaire},
+            {"flux_lm", solid.solid.flux_lm()},
+            {"peak_intensity_cd", solid.solid.peak_cd()},
+            {"flux_check", solid.flux_statement}};
+}
+
+Json sensor_json(const Sensor& sensor) {
+    const bool is_grid = sensor.type == SensorType::grid;
+    Bounds bounds;
+    for (const MeasuringPoint& point : sensor.points) bounds.include(point.position);
+    Json json{
+        {"name", sensor.name}, {"type", is_grid ? "grid" : "illuminance"}, {"points", sensor.points.size()}};
+    if (is_grid) json["count"] = sensor.grid.count;
+    json["extent"] = extent_json(bounds);
+    return json;
+}
+
+Json run_json(const RunOptions& run) {
+    Json json{{"method", run.method}};
+    if (run.error) json["error"] = *run.error;
+    if (run.time_s) json["time_s"] = *run.time_s;
+    if (run.paths) json["paths"] = *run.paths;
+    if (run.bounces) json["bounces"] = *run.bounces;
+    json["seed"] = run.seed;
+    if (run.threads > 0) json["threads"] = run.threads;
+    return json;
+}
+
+std::size_t mesh_bytes(const Scene& scene) {
+    std::size_t bytes = 0;
+    for (const Object& object : scene.objects) {
+        bytes += object.materials.size() * sizeof(MaterialId);
+        if (const auto* mesh = std::get_if<Mesh>(&object.shape))
+            bytes += mesh->vertices.size() * sizeof(Vec3) + mesh->triangles.size() * sizeof(Triangle);
+    }
+    return bytes;
+}
+
+/// The most memory that this process has had so far.
+std::size_t peak_resident_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+template <typename List, typename Describe>
+Json list_json(const List& list, const Describe& describe) {
+    Json json = Json::array();
+    for (const auto& item : list) json.push_back(describe(item));
+    return json;
+}
+
+std::vector<std::string> checked(const SceneFile& file, const RayCaster& caster, const Spaces& spaces) {
+    std::vector<std::string> warnings = file.warnings;
+    const auto add = [&](const std::vector<std::string>& more) {
+        warnings.insert(warnings.end(), more.begin(), more.end());
+    };
+    add(hole_warnings(file.scene, spaces.shells()));
+    add(overlap_warnings(file.scene, caster, spaces));
+    add(placement_warnings(file.scene, caster, file.sensors));
+    for (const ObjectId object : unlit_objects(file.scene, caster))
+        warnings.push_back(
+            fmt::format("object \"{}\": no light reaches it.", file.scene.object(object).name));
+    return warnings;
+}
+
+}  // namespace
+
+InfoReport report_scene(const SceneFile& file, const std::string& name) {
+    const Scene& scene = file.scene;
+    const RayCaster caster(scene);
+    const Spaces spaces(scene, caster);
+    double total_flux_lm = 0;
+    for (const Light& light : scene.lights) total_flux_lm += flux_lm(scene, light).luminance();
+
+    Json json{{"stilb", STILB_VERSION}, {"file", name}, {"name", scene.name}};
+    json["materials"] = list_json(scene.materials, [](const NamedMaterial& material) {
+        Json one{{"name", material.name}};
+        one.update(std::visit(MaterialReport{}, material.material));
+        return one;
+    });
+    json["objects"] = Json::array();
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+        json["objects"].push_back(object_json(scene.objects[i], spaces.shells()[i], scene));
+    json["lights"] = list_json(scene.lights, [&](const Light& light) { return light_json(light, scene); });
+    json["total_flux_lm"] = total_flux_lm;
+    json["luminaires"] = list_json(scene.solids, luminaire_json);
+    json["sensors"] = list_json(file.sensors, sensor_json);
+    json["run"] = run_json(file.run);
+    json["warnings"] = checked(file, caster, spaces);
+    json["memory"] = {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}};
+    return json;
+}
+
+InfoReport report_luminaire(const std::filesystem::path& path) {
+    const PhotometryFile file = read_photometry_file(path);
+    const PhotometricSolid solid(file.grid);
+    const std::string statement = check_flux(file, solid.flux_lm()).description();
+    Json luminaire = luminaire_json({path.string(), file.luminaire, solid, file.format, statement});
+    luminaire["lamp_flux_lm"] = file.lamp_flux_lm;
+    luminaire["opening_m"] = vector_json(file.opening_m);
+    luminaire["planes"] = file.grid.planes_deg.size();
+    luminaire["angles"] = file.grid.polar_deg.size();
+    return {{"stilb", STILB_VERSION},
+            {"file", path.string()},
+            {"luminaires", Json::array({luminaire})},
+            {"warnings", photometry_warnings(file, solid)}};
+}
+
+InfoReport report_mesh(const std::filesystem::path& path) {
+    MeshFile file = read_mesh_file(path);
+    Json object = shape_json(path.filename().string(), file.mesh, find_shells(file.mesh));
+    object["vertices"] = file.mesh.vertices.size();
+    object["degenerate_triangles_left_out"] = file.degenerate_triangles;
+    object["materials"] = file.material_names;
+    object["groups"] = file.group_names;
+    Scene scene;
+    scene.objects.push_back({path.filename().string(), std::move(file.mesh), {}});
+    return {{"stilb", STILB_VERSION},
+            {"file", path.string()},
+            {"objects", Json::array({object})},
+            {"warnings", hole_warnings(scene, {find_shells(scene.objects[0].shape)})},
+            {"memory", {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}}}};
+}
+
+}  // namespace stilb

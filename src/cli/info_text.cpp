@@ -1,0 +1,143 @@
+// The report of `stilb info` for people.
+#include <fmt/format.h>
+
+#include "cli/info_report.h"
+
+namespace stilb {
+namespace {
+
+using Json = InfoReport;
+
+std::string text(const Json& json, const char* key) { return json.at(key).get<std::string>(); }
+double number(const Json& json, const char* key) { return json.at(key).get<double>(); }
+std::size_t count(const Json& json, const char* key) { return json.at(key).get<std::size_t>(); }
+
+std::string joined(const Json& names) {
+    std::string result;
+    for (const Json& name : names) {
+        const auto word = name.get<std::string>();
+        result += fmt::format("{}{}", result.empty() ? "" : ", ", word.empty() ? "(none)" : word);
+    }
+    return result;
+}
+
+std::string extent_text(const Json& extent) {
+    const auto point = [](const Json& p) {
+        return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0].get<double>(), p[1].get<double>(),
+                           p[2].get<double>());
+    };
+    return fmt::format("{} to {}", point(extent[0]), point(extent[1]));
+}
+
+std::string material_text(const Json& material) {
+    std::string line = fmt::format("{:16} {:9} reflectance {:.3g}", text(material, "name"),
+                                   text(material, "type"), number(material, "reflectance"));
+    if (material.contains("exponent")) {
+        line +=
+            fmt::format(" (diffuse {:.3g}, specular {:.3g}, exponent {:.4g})", number(material, "diffuse"),
+                        number(material, "specular"), number(material, "exponent"));
+    }
+    return line;
+}
+
+std::string object_text(const Json& object) {
+    const std::size_t triangles = count(object, "triangles"), parts = count(object, "parts");
+    const std::size_t open = count(object, "open_edges");
+    std::string line = fmt::format("{:16} {:9} {:.4g} m2", text(object, "name"), text(object, "shape"),
+                                   number(object, "area_m2"));
+    if (triangles > 0) line += fmt::format(", {} triangles", triangles);
+    if (object.contains("vertices")) line += fmt::format(", {} vertices", count(object, "vertices"));
+    if (parts > 1) line += fmt::format(", {} parts", parts);
+    line += open == 0 ? ", closed" : fmt::format(", {} open edge{}", open, open == 1 ? "" : "s");
+    line += fmt::format(", from {}", extent_text(object.at("extent")));
+    const Json& materials = object.at("materials");
+    line += fmt::format("{}{}", materials.size() > 1 ? "\n    materials: " : ", ", joined(materials));
+    if (object.contains("groups")) {
+        line += fmt::format("\n    groups: {}\n    triangles of no area, left out: {}",
+                            joined(object.at("groups")), count(object, "degenerate_triangles_left_out"));
+    }
+    return line;
+}
+
+std::string light_text(const Json& light) {
+    std::string line = fmt::format("{:16} {:10} {:.5g} lm", text(light, "name"), text(light, "type"),
+                                   number(light, "flux_lm"));
+    if (light.contains("intensity_cd")) line += fmt::format(", {:.5g} cd", number(light, "intensity_cd"));
+    if (light.contains("peak_intensity_cd")) {
+        line += fmt::format(", peak {:.5g} cd, {}", number(light, "peak_intensity_cd"), text(light, "file"));
+    }
+    if (light.contains("luminance_cd_m2")) {
+        line += fmt::format(", {:.5g} cd/m2, on object {}", number(light, "luminance_cd_m2"),
+                            text(light, "object"));
+    }
+    return line;
+}
+
+std::string luminaire_text(const Json& luminaire) {
+    std::string line =
+        fmt::format("{} ({}): {}\n    {:.5g} lm, peak {:.5g} cd; {}", text(luminaire, "file"),
+                    text(luminaire, "format"), text(luminaire, "name"), number(luminaire, "flux_lm"),
+                    number(luminaire, "peak_intensity_cd"), text(luminaire, "flux_check"));
+    if (luminaire.contains("planes")) {
+        line += fmt::format("\n    {} planes of {} angles", count(luminaire, "planes"),
+                            count(luminaire, "angles"));
+    }
+    return line;
+}
+
+std::string sensor_text(const Json& sensor) {
+    const std::string size =
+        sensor.contains("count")
+            ? fmt::format("{} x {} points", sensor["count"][0].get<int>(), sensor["count"][1].get<int>())
+            : fmt::format("{} point{}", count(sensor, "points"), count(sensor, "points") == 1 ? "" : "s");
+    return fmt::format("{:16} {:12} {}, from {}", text(sensor, "name"), text(sensor, "type"), size,
+                       extent_text(sensor.at("extent")));
+}
+
+std::string run_text(const Json& run) {
+    std::string line = "Run: ";
+    for (const auto& [key, value] : run.items()) {
+        const std::string shown = value.is_string() ? value.get<std::string>() : value.dump();
+        line += fmt::format("{}{} {}", key == "method" ? "" : ", ", key, shown);
+    }
+    return line + "\n";
+}
+
+std::string memory_text(const Json& memory) {
+    constexpr double mega = 1e6;
+    return fmt::format("Memory: {:.1f} MB at most; the meshes take {:.2f} MB\n",
+                       number(memory, "peak_bytes") / mega, number(memory, "meshes_bytes") / mega);
+}
+
+using Describe = std::string (*)(const Json&);
+
+std::string section_text(const Json& report, const char* key, const char* title, Describe describe) {
+    if (!report.contains(key) || report[key].empty()) return "";
+    const Json& list = report[key];
+    std::string result = fmt::format("\n{} ({})", title, list.size());
+    if (key == std::string_view("lights"))
+        result += fmt::format(", {:.5g} lm in all", number(report, "total_flux_lm"));
+    for (const Json& item : list) result += fmt::format("\n  {}", describe(item));
+    return result + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const InfoReport& report) {
+    const bool is_named = report.contains("name") && !text(report, "name").empty();
+    std::string result = text(report, "file");
+    result += is_named ? fmt::format(": {}\n", text(report, "name")) : "\n";
+    result += section_text(report, "materials", "Materials", material_text);
+    result += section_text(report, "objects", "Objects", object_text);
+    result += section_text(report, "lights", "Lights", light_text);
+    result += section_text(report, "luminaires", "Luminaires", luminaire_text);
+    result += section_text(report, "sensors", "Sensors", sensor_text);
+    result +=
+        section_text(report, "warnings", "Warnings", [](const Json& w) { return w.get<std::string>(); });
+    result += "\n";
+    if (report.contains("run")) result += run_text(report["run"]);
+    if (report.contains("memory")) result += memory_text(report["memory"]);
+    return report["warnings"].empty() ? result + "No warnings\n" : result;
+}
+
+}  // namespace stilb
