@@ -26,7 +26,8 @@ std::string extent_text(const Json& extent) {
         return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0].get<double>(), p[1].get<double>(),
                            p[2].get<double>());
     };
-    return fmt::format("{} to {}", point(extent[0]), point(extent[1]));
+    if (extent[0] == extent[1]) return "at " + point(extent[0]);
+    return fmt::format("from {} to {}", point(extent[0]), point(extent[1]));
 }
 
 std::string material_text(const Json& material) {
@@ -49,7 +50,7 @@ std::string object_text(const Json& object) {
     if (object.contains("vertices")) line += fmt::format(", {} vertices", count(object, "vertices"));
     if (parts > 1) line += fmt::format(", {} parts", parts);
     line += open == 0 ? ", closed" : fmt::format(", {} open edge{}", open, open == 1 ? "" : "s");
-    line += fmt::format(", from {}", extent_text(object.at("extent")));
+    line += fmt::format(", {}", extent_text(object.at("extent")));
     const Json& materials = object.at("materials");
     line += fmt::format("{}{}", materials.size() > 1 ? "\n    materials: " : ", ", joined(materials));
     if (object.contains("groups")) {
@@ -90,7 +91,7 @@ std::string sensor_text(const Json& sensor) {
         sensor.contains("count")
             ? fmt::format("{} x {} points", sensor["count"][0].get<int>(), sensor["count"][1].get<int>())
             : fmt::format("{} point{}", count(sensor, "points"), count(sensor, "points") == 1 ? "" : "s");
-    return fmt::format("{:16} {:12} {}, from {}", text(sensor, "name"), text(sensor, "type"), size,
+    return fmt::format("{:16} {:12} {}, {}", text(sensor, "name"), text(sensor, "type"), size,
                        extent_text(sensor.at("extent")));
 }
 

@@ -3,20 +3,42 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/error.h"
 #include "cli/commands.h"
+
+namespace {
+
+stilb::InputError no_command(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    const std::string all = fmt::format("Commands: {}. stilb --help says more.", fmt::join(names, ", "));
+    const std::vector<std::string> extras = app.remaining();
+    if (extras.empty()) return stilb::InputError("a command is missing. " + all);
+    const std::string nearest =
+        stilb::nearest_name(extras[0], std::vector<std::string_view>(names.begin(), names.end()));
+    const std::string question = nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest);
+    return stilb::InputError(fmt::format("there is no command \"{}\".{} {}", extras[0], question, all));
+}
+
+}  // namespace
 
 int main(int argument_count, char** arguments) {
     CLI::App app{"Stilb: illuminance with an error bar on every number"};
     app.name("stilb");
     app.set_version_flag("--version", STILB_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);
     int exit_code = stilb::kExitDone;
     try {
         stilb::add_measure(app, exit_code);
+        stilb::add_info(app, exit_code);
         stilb::add_falsecolor(app, exit_code);
+        app.allow_extras();  // for an unknown command's own message; the commands take none
         app.parse(argument_count, arguments);
+        if (app.get_subcommands().empty()) throw no_command(app);
         return exit_code;
     } catch (const CLI::ParseError& error) {
         const int code = app.exit(error);
