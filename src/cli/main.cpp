@@ -36,6 +36,8 @@ int main(int argument_count, char** arguments) {
         stilb::add_measure(app, exit_code);
         stilb::add_info(app, exit_code);
         stilb::add_falsecolor(app, exit_code);
+        stilb::add_verify(app, exit_code);
+        stilb::add_reproduce(app, exit_code);
         app.allow_extras();  // for an unknown command's own message; the commands take none
         app.parse(argument_count, arguments);
         if (app.get_subcommands().empty()) throw no_command(app);

@@ -1,0 +1,207 @@
+// stilb verify: every method against the exact solutions.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/verification.h"
+#include "estimators/estimator_list.h"
+#include "run/relative_error.h"
+
+namespace stilb {
+namespace {
+
+struct VerifyRequest {
+    std::vector<std::string> cases, methods;
+    std::string error = "1%";
+    std::optional<double> time_s;
+    std::uint64_t seed = 1;
+    int threads = 0;
+    bool all = false, json = false;
+};
+
+constexpr const char* kTableHeader =
+    "case                variant                            method   exact lx  measured lx    ± %      z  "
+    "time s\n";
+
+/// A row that shows the reading farthest from its exact value, and the widest interval of all.
+std::string row(const Verification& v) {
+    const CheckedReading& worst = v.worst();
+    return fmt::format("{:19} {:34} {:6} {:10.5g} {:12.5g} {:6.2g} {:6.2f} {:7.2f}\n", v.name, v.variant,
+                       v.method, worst.exact.illuminance_lx, worst.measured_lx.value,
+                       100 * v.widest_interval(), worst.z, v.elapsed_s);
+}
+
+std::string reading_rows(const Verification& v) {
+    std::string text;
+    for (const CheckedReading& reading : v.readings) {
+        const auto& [p, n] = reading.exact.point;
+        text += fmt::format("    {:58} {:10.5g} {:12.5g} {:6.2g} {:6.2f}\n",
+                            fmt::format("at ({:.4g}, {:.4g}, {:.4g}) facing ({:.3g}, {:.3g}, {:.3g})", p.x,
+                                        p.y, p.z, n.x, n.y, n.z),
+                            reading.exact.illuminance_lx, reading.measured_lx.value,
+                            100 * relative_half_width(reading.measured_lx), reading.z);
+    }
+    return text;
+}
+
+nlohmann::ordered_json to_json(const Verification& v) {
+    nlohmann::ordered_json readings = nlohmann::ordered_json::array();
+    for (const CheckedReading& reading : v.readings) {
+        const auto& [p, n] = reading.exact.point;
+        const Estimate& measured = reading.measured_lx;
+        readings.push_back({{"position", {p.x, p.y, p.z}},
+                            {"normal", {n.x, n.y, n.z}},
+                            {"exact", reading.exact.illuminance_lx},
+                            {"value", measured.value},
+                            {"standard_error", measured.standard_error},
+                            {"interval", {measured.lower, measured.upper}},
+                            {"z", reading.z}});
+    }
+    return {{"case", v.name},        {"variant", v.variant},   {"method", v.method},
+            {"time_s", v.elapsed_s}, {"worst_z", v.worst().z}, {"readings", std::move(readings)}};
+}
+
+std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names) {
+    std::vector<VerificationCase> cases = verification_cases();
+    if (names.empty()) return cases;
+    std::vector<std::string_view> known;
+    for (const VerificationCase& c : cases) {
+        if (known.empty() || known.back() != c.name) known.push_back(c.name);
+    }
+    for (const std::string& name : names) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const std::string nearest = nearest_name(name, known);
+        throw InputError(fmt::format("--case \"{}\": there is no such case.{} Cases: {}.", name,
+                                     nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
+                                     fmt::join(known, ", ")));
+    }
+    std::erase_if(cases, [&](const VerificationCase& c) {
+        return std::find(names.begin(), names.end(), c.name) == names.end();
+    });
+    return cases;
+}
+
+std::vector<std::string> chosen_methods(const std::vector<std::string>& names) {
+    for (const std::string& name : names) find_estimator(name);
+    if (!names.empty()) return names;
+    std::vector<std::string> all;
+    for (const EstimatorEntry& entry : estimator_list()) all.emplace_back(entry.name);
+    return all;
+}
+
+RunOptions run_options(const VerifyRequest& request) {
+    RunOptions options;
+    options.error = parse_relative_error(request.error);
+    if (!options.error) {
+        throw InputError(
+            fmt::format("--error {}: a share between 0 and 1 is needed, such as 0.01 or 1%", request.error));
+    }
+    options.time_s = request.time_s;
+    options.seed = request.seed;
+    options.threads = request.threads;
+    return options;
+}
+
+/// What is wrong with the results; empty where nothing is.
+std::string complaints(const std::vector<Verification>& results, double error) {
+    std::string text;
+    for (const Verification& v : results) {
+        const std::string who = fmt::format("{}, {}, {}", v.name, v.variant, v.method);
+        if (v.contradicts()) text += fmt::format("CONTRADICTION: {}: z = {:.2f}\n", who, v.worst().z);
+        if (!(v.widest_interval() <= error)) {
+            text +=
+                fmt::format("NOT REACHED: {}: an interval of ± {:.2g} %\n", who, 100 * v.widest_interval());
+        }
+    }
+    return text;
+}
+
+std::string closing_words(const std::vector<Verification>& results, double error) {
+    std::size_t readings = 0;
+    for (const Verification& v : results) readings += v.readings.size();
+    const std::string wrong = complaints(results, error);
+    return fmt::format(
+        "\nEach row shows its reading with the largest |z| and its widest 95 % interval. {} readings; if "
+        "all\n"
+        "methods are right, one of them has |z| > {:g} with a chance of {:.2g} %.\n{}\n{}",
+        readings, kContradictionZ, 100 * false_alarm_chance(readings), verification_notes(),
+        wrong.empty()
+            ? fmt::format("All readings agree with the exact values, within ± {:g} %.\n", 100 * error)
+            : wrong);
+}
+
+/// Shows every row as soon as it is known.
+std::vector<Verification> verify_all(const VerifyRequest& request, RunOptions options) {
+    const std::vector<VerificationCase> cases = chosen_cases(request.cases);
+    const std::vector<std::string> methods = chosen_methods(request.methods);
+    const std::atomic<bool>& interrupt = watch_for_interrupt();
+    std::vector<Verification> results;
+    if (!request.json) fmt::print("{}", kTableHeader);
+    for (const VerificationCase& c : cases) {
+        for (const std::string& method : methods) {
+            if (interrupt || (!c.only_method.empty() && c.only_method != method)) continue;
+            options.method = method;
+            {
+                TerminalProgress progress;
+                results.push_back(verify(c, options, &progress, &interrupt));
+            }
+            if (request.json) continue;
+            fmt::print("{}{}", row(results.back()), request.all ? reading_rows(results.back()) : "");
+            std::fflush(stdout);
+        }
+    }
+    return results;
+}
+
+int run_verify(const VerifyRequest& request) {
+    const RunOptions options = run_options(request);
+    const std::vector<Verification> results = verify_all(request, options);
+    if (request.json) {
+        nlohmann::ordered_json all = nlohmann::ordered_json::array();
+        for (const Verification& v : results) all.push_back(to_json(v));
+        fmt::print("{}\n", all.dump(2));
+    } else {
+        fmt::print("{}", closing_words(results, *options.error));
+    }
+    return complaints(results, *options.error).empty() ? kExitDone : kExitCheckFailed;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("verify", "Hold every method against the exact solutions");
+    set_examples(*command,
+                 "  stilb verify\n"
+                 "  stilb verify --error 0.2%\n"
+                 "  stilb verify --case \"photometric sphere\" --method auto --all\n");
+    auto request = std::make_shared<VerifyRequest>();
+    command->add_option("--case", request->cases, "Only this exact solution (may be repeated)")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command->add_option("--method", request->methods, "Only this method (may be repeated)")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--error", request->error, "How wide the 95 % interval of a reading may be: 1% or 0.01")
+        ->type_name("SHARE")
+        ->capture_default_str();
+    command->add_option("--time", request->time_s, "At most this many seconds for a case and method")
+        ->type_name("S");
+    command->add_option("--seed", request->seed, "Another seed gives an independent result")->type_name("N");
+    command->add_option("--threads", request->threads, "Processor threads (default: all)")->type_name("N");
+    command->add_flag("--all", request->all, "Show all readings, not only the worst of each row");
+    command->add_flag("--json", request->json, "One JSON document on stdout instead of the table");
+    command->callback([request, &exit_code] { exit_code = run_verify(*request); });
+}
+
+}  // namespace stilb
