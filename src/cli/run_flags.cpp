@@ -2,11 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <limits>
+
 #include "base/error.h"
 #include "estimators/estimator_list.h"
 #include "run/relative_error.h"
 
 namespace stilb {
+namespace {
+
+/// As in scene files.
+constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
+constexpr std::int64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
+
+}  // namespace
 
 void RunFlags::add_to(CLI::App& command) {
     std::string methods = "How to compute (default: auto)";
@@ -23,11 +33,14 @@ void RunFlags::add_to(CLI::App& command) {
     command.add_option("--time", time_s, "Stop after this many seconds")->type_name("S");
     command
         .add_option("--paths", paths, "Stop after this many light chains (method path: paths per reading)")
+        ->check(CLI::Range(std::int64_t{1}, kMostPaths))
         ->type_name("N");
     command
         .add_option("--bounces", bounces, "At most this many reflections (default: no limit, without bias)")
         ->type_name("N");
-    command.add_option("--seed", seed, "Another seed gives an independent result")->type_name("N");
+    command.add_option("--seed", seed, "Another seed gives an independent result")
+        ->check(CLI::Range(std::int64_t{0}, kGreatestSeed))
+        ->type_name("N");
     command
         .add_option("--threads", threads,
                     "Processor threads (default: all); the result does not depend on it")

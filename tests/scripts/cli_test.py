@@ -1,0 +1,311 @@
+"""The command line as a user meets it: exit codes, messages, what goes to stdout and to stderr.
+
+The program is $STILB, or build/release/stilb.
+"""
+
+import csv
+import json
+import math
+import os
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("STILB", str(ROOT / "build/release/stilb"))
+
+ROOM = """
+[scene]
+name = "A room"
+
+[materials.wall]
+type = "diffuse"
+reflectance = [0.7, 0.5, 0.3]
+
+[objects.room]
+shape = "box"
+min = [0, 0, 0]
+max = [4, 3, 2.5]
+material = "wall"
+
+[objects.cabinet]
+shape = "box"
+min = [0, 0, 0]
+max = [1, 1, 1.5]
+material = "wall"
+
+[lights.bulb]
+type = "point"
+position = [2, 1.5, 2]
+flux = 1000
+
+[sensors.desk]
+type = "grid"
+corner = [1.5, 1, 0.75]
+edge_u = [1.5, 0, 0]
+edge_v = [0, 1, 0]
+count = [3, 2]
+
+[sensors.wall]
+type = "illuminance"
+position = [4, 1.5, 1.2]
+normal = [-1, 0, 0]
+"""
+
+MOST_SECONDS = 60  # for a command that should end by itself: generous, machines may be busy
+
+
+def run(*arguments, cwd=None):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=MOST_SECONDS, cwd=cwd)
+
+
+class CommandLineTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.scene = self.write("room.toml", ROOM)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def expect_wrong_input(self, arguments, *parts):
+        """Exit code 2, nothing on stdout, and a message that has all the parts."""
+        result = run(*arguments)
+        self.assertEqual(result.returncode, 2, result)
+        self.assertEqual(result.stdout, "")
+        for part in parts:
+            self.assertIn(part, result.stderr)
+
+    def measure(self, *arguments, code=0):
+        """The JSON document of a measurement."""
+        result = run("measure", self.scene, "--json", *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return json.loads(result.stdout, parse_constant=lambda name: self.fail(f"{name} is not JSON"))
+
+
+class WrongInputTest(CommandLineTest):
+    def test_no_command(self):
+        self.expect_wrong_input([], "a command is missing", "measure")
+
+    def test_unknown_command(self):
+        self.expect_wrong_input(["mesure", self.scene], 'no command "mesure"', 'Did you mean "measure"?')
+
+    def test_unknown_flag(self):
+        self.expect_wrong_input(["measure", self.scene, "--treads", "2"], "--treads")
+
+    def test_missing_scene(self):
+        for command in ("measure", "info"):
+            self.expect_wrong_input([command, self.folder / "no.toml"], "no.toml", "cannot be read")
+
+    def test_misspelt_key(self):
+        scene = self.write("typo.toml", ROOM.replace("reflectance", "reflectence"))
+        line = ROOM[: ROOM.index("reflectance")].count("\n") + 1
+        for command in ("measure", "info"):
+            self.expect_wrong_input([command, scene], f"typo.toml:{line}:", "reflectence", 'Did you mean "reflectance"?')
+
+    def test_misspelt_sensor(self):
+        self.expect_wrong_input(["measure", self.scene, "--sensor", "desc"], 'Did you mean "desk"?', "wall")
+
+    def test_misspelt_method(self):
+        self.expect_wrong_input(["measure", self.scene, "--method", "locl"], "locl", "local")
+
+    def test_values_out_of_range(self):
+        for flag, value in [("--error", "0"), ("--error", "200%"), ("--error", "nan"), ("--time", "-1"),
+                            ("--paths", "-5"), ("--bounces", "-1"), ("--threads", "-2"), ("--seed", "x"), ("--seed", "-1")]:
+            with self.subTest(flag=flag, value=value):
+                self.expect_wrong_input(["measure", self.scene, f"{flag}={value}"], flag.lstrip("-"))
+
+
+class HelpTest(CommandLineTest):
+    def test_examples_come_first(self):
+        for command in ("measure", "info", "falsecolor"):
+            result = run(command, "--help")
+            self.assertEqual(result.returncode, 0)
+            examples, rest = result.stdout.split("\n\n", 1)
+            self.assertTrue(examples.startswith("Examples:\n  stilb "), examples)
+            self.assertIn(f"  stilb {command} ", examples)
+            self.assertIn("Options:", rest)
+
+    def test_version(self):
+        result = run("--version")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stdout, r"^\d+\.\d+\.\d+\n$")
+
+
+class MeasureTest(CommandLineTest):
+    def test_json_has_all_that_the_contract_names(self):
+        document = self.measure("--error", "5%")
+        for key in ("stilb", "scene", "method", "seed", "elapsed_s", "paths", "replicates", "converged", "sensors"):
+            self.assertIn(key, document)
+        self.assertIs(document["converged"], True)
+        self.assertEqual([s["name"] for s in document["sensors"]], ["desk", "wall"])
+        for sensor in document["sensors"]:
+            self.assertEqual((sensor["quantity"], sensor["unit"]), ("illuminance", "lx"))
+            self.assertLessEqual({"mean", "minimum", "maximum", "uniformity"}, set(sensor["summary"]))
+            for value in sensor["values"]:
+                self.assertEqual(
+                    set(value), {"position", "normal", "value", "standard_error", "interval", "rgb"})
+                low, high = value["interval"]
+                self.assertLess(low, value["value"])
+                self.assertGreater(high, value["value"])
+                red, green, blue = value["rgb"]
+                self.assertAlmostEqual(0.2126 * red + 0.7152 * green + 0.0722 * blue, value["value"], 6)
+        desk, wall = document["sensors"]
+        self.assertEqual((desk["type"], desk["count"], wall["type"]), ("grid", [3, 2], "illuminance"))
+        positions = [value["position"] for value in desk["values"]]
+        self.assertEqual([p[0] for p in positions], [1.75, 2.25, 2.75] * 2)  # u fastest
+        self.assertEqual([p[1] for p in positions], [1.25] * 3 + [1.75] * 3)
+
+    def test_one_sensor(self):
+        document = self.measure("--error", "5%", "--sensor", "wall")
+        self.assertEqual([s["name"] for s in document["sensors"]], ["wall"])
+
+    def test_no_reflections_is_the_inverse_square_law(self):
+        document = self.measure("--bounces", "0", "--sensor", "wall", "--paths", "1024")
+        squared = 2**2 + 0.8**2
+        exact = 1000 / (4 * math.pi) / squared * 2 / math.sqrt(squared)
+        self.assertAlmostEqual(document["sensors"][0]["values"][0]["value"], exact, delta=1e-4 * exact)
+
+    def test_target_not_reached(self):
+        document = self.measure("--error", "0.0001%", "--time", "1", code=3)
+        self.assertIs(document["converged"], False)
+        self.assertEqual(len(document["sensors"][0]["values"]), 6)
+
+    def test_interrupted(self):
+        for name in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen([PROGRAM, "measure", self.scene, "--json", "--error", "0.00001%", "--time", "50"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            time.sleep(0.5)
+            process.send_signal(name)
+            output, errors = process.communicate(timeout=MOST_SECONDS)
+            self.assertEqual(process.returncode, 3, errors)
+            document = json.loads(output)
+            self.assertIs(document["converged"], False)
+            self.assertLess(document["elapsed_s"], 40)
+            self.assertGreater(document["sensors"][0]["values"][0]["value"], 0)
+
+    def test_threads_and_repetitions_change_nothing(self):
+        def document(threads):
+            result = self.measure("--paths", "20000", "--threads", threads)
+            del result["elapsed_s"]
+            return result
+
+        first = document(1)
+        for threads in (1, 1, 2, 2, 2):
+            self.assertEqual(document(threads), first)
+
+    def test_seeds_differ(self):
+        values = [self.measure("--paths", "5000", "--seed", seed)["sensors"][0]["values"] for seed in (1, 2)]
+        self.assertNotEqual(*values)
+
+    def test_methods_agree(self):
+        means = {}
+        for method in ("auto", "local", "path"):
+            summary = self.measure("--method", method, "--error", "3%", "--sensor", "desk")["sensors"][0]["summary"]
+            means[method] = summary["mean"]
+        for method in ("local", "path"):
+            self.assertAlmostEqual(means[method] / means["auto"], 1, delta=0.05)
+
+    def test_csv_files_hold_the_readings(self):
+        document = self.measure("--error", "5%", "--csv", self.folder / "tables")
+        for sensor in document["sensors"]:
+            with open(self.folder / "tables" / f"{sensor['name']}.csv", newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(len(rows), len(sensor["values"]))
+            for row, value in zip(rows, sensor["values"]):
+                self.assertAlmostEqual(float(row["illuminance_lx"]), value["value"], delta=1e-4 * value["value"])
+                self.assertAlmostEqual(float(row["x_m"]), value["position"][0], 5)
+
+    def test_picture(self):
+        picture = self.folder / "desk.png"
+        self.measure("--error", "5%", "--falsecolor", picture)
+        self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_table(self):
+        result = run("measure", self.scene, "--error", "5%")
+        self.assertEqual(result.returncode, 0)
+        for part in ("desk", "wall", "mean", "uniformity", "±"):
+            self.assertIn(part, result.stdout)
+        self.assertEqual(result.stderr, "")  # no progress where stderr is no terminal
+
+    def test_warnings_and_quiet(self):
+        scene = self.write("spare.toml", ROOM + '[materials.spare]\ntype = "black"\n')
+        arguments = ["measure", scene, "--error", "5%"]
+        self.assertRegex(run(*arguments).stderr, r"^warning: .*spare")
+        self.assertEqual(run(*arguments, "--quiet").stderr, "")
+
+
+class InfoTest(CommandLineTest):
+    def info(self, path):
+        result = run("info", path, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def test_scene(self):
+        report = self.info(self.scene)
+        self.assertEqual(report["name"], "A room")
+        self.assertEqual(report["warnings"], [])
+        room, cabinet = report["objects"]
+        self.assertEqual((room["triangles"], room["closed"], room["extent"]), (12, True, [[0, 0, 0], [4, 3, 2.5]]))
+        self.assertAlmostEqual(room["area_m2"], 59)
+        self.assertEqual(cabinet["materials"], ["wall"])
+        self.assertAlmostEqual(report["total_flux_lm"], 1000)
+        self.assertAlmostEqual(report["lights"][0]["intensity_cd"], 1000 / (4 * math.pi))
+        self.assertAlmostEqual(report["materials"][0]["reflectance"], 0.2126 * 0.7 + 0.7152 * 0.5 + 0.0722 * 0.3)
+        self.assertEqual([s["points"] for s in report["sensors"]], [6, 1])
+        self.assertGreater(report["memory"]["peak_bytes"], report["memory"]["meshes_bytes"])
+
+    def test_text_shows_all_sections(self):
+        result = run("info", self.scene)
+        self.assertEqual(result.returncode, 0)
+        for part in ("A room", "Materials (1)", "Objects (2)", "Lights (1), 1000 lm in all", "Sensors (2)", "Run:",
+                     "Memory:", "No warnings"):
+            self.assertIn(part, result.stdout)
+
+    def test_warnings(self):
+        scene = self.write("odd.toml", ROOM.replace("corner = [1.5, 1, 0.75]", "corner = [0.2, 0, 0.75]") + """
+[materials.rug]
+type = "black"
+[objects.rug]
+shape = "rectangle"
+corner = [2, 1, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 1, 0]
+material = "rug"
+[objects.outside]
+shape = "sphere"
+center = [9, 9, 9]
+radius = 1
+material = "rug"
+""")
+        rug, desk, outside = self.info(scene)["warnings"]
+        self.assertRegex(rug, '"room" and "rug" overlap')
+        self.assertRegex(desk, 'sensor "desk": .* of 6 points lie inside object "cabinet"')
+        self.assertRegex(outside, '"outside": no light reaches it')
+
+    def test_luminaire(self):
+        for name in ("luminaire.ies", "luminaire.ldt"):
+            luminaire = self.info(ROOT / "scenes/office" / name)["luminaires"][0]
+            self.assertAlmostEqual(luminaire["flux_lm"], 3800, delta=20)
+            self.assertIn("3800 lm", luminaire["flux_check"])
+
+    def test_mesh(self):
+        mesh = self.write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng side\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 1 2\n")
+        part = self.info(mesh)["objects"][0]
+        self.assertEqual((part["triangles"], part["vertices"], part["open_edges"]), (3, 4, 3))
+        self.assertEqual((part["degenerate_triangles_left_out"], part["groups"]), (1, ["side"]))
+        self.assertAlmostEqual(part["area_m2"], 1 + math.sqrt(3) / 2)
+
+    def test_garbage_is_wrong_input(self):
+        for name in ("x.ies", "x.ldt", "x.obj", "x.ply", "x.toml"):
+            self.expect_wrong_input(["info", self.write(name, "\x00\x01 nothing")], name)
+
+
+if __name__ == "__main__":
+    unittest.main()
