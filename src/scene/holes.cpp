@@ -41,10 +41,14 @@ std::vector<std::string> hole_warnings(const Scene& scene, const std::vector<She
         if (mesh == nullptr) continue;
         const Hole hole = holes_of(*mesh, shells[i]);
         if (hole.shells == 0) continue;
-        warnings.push_back(fmt::format(
-            "object \"{}\": {} of its {} parts nearly close{}, but for {} open edges: light goes through the "
-            "holes. Close them, or leave them if they are meant.",
-            object.name, hole.shells, shells[i].count(), hole.shells == 1 ? "s" : "", hole.edges));
+        const std::string which = shells[i].count() == 1 ? "it nearly closes"
+                                                         : fmt::format("{} of its {} parts nearly close",
+                                                                       hole.shells, shells[i].count());
+        warnings.push_back(
+            fmt::format("object \"{}\": {}, but for {} open edges: light goes through the holes. Close them, "
+                        "or leave them "
+                        "if they are meant.",
+                        object.name, which, hole.edges));
     }
     for (const Light& light : scene.lights) {
         const auto* area = std::get_if<AreaLight>(&light.source);

@@ -177,7 +177,9 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const RayCaster& c
         Vec3 where;
     };
     std::map<std::pair<ObjectId, ObjectId>, Found> found;
-    for (const Overlap& overlap : find_overlaps(scene)) {
+    const std::vector<Overlap> overlaps = find_overlaps(scene);
+    const char* at_least = overlaps.size() == kMostOverlaps ? "at least " : "";
+    for (const Overlap& overlap : overlaps) {
         if (!is_lit(overlap)) continue;
         Found& pair = found[{overlap.first, overlap.second}];
         if (pair.count++ == 0) pair.where = overlap.position;
@@ -189,10 +191,10 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const RayCaster& c
         const std::string who = first == second ? fmt::format("object \"{}\": parts of it", first)
                                                 : fmt::format("objects \"{}\" and \"{}\"", first, second);
         warnings.push_back(fmt::format(
-            "{} overlap in one plane ({} pair{} of triangles, one at ({:.4g}, {:.4g}, {:.4g})): rounding "
+            "{} overlap in one plane ({}{} pair{} of triangles, one at ({:.4g}, {:.4g}, {:.4g})): rounding "
             "decides "
             "which of them light meets. Move one by a millimetre.",
-            who, pair.count, pair.count == 1 ? "" : "s", pair.where.x, pair.where.y, pair.where.z));
+            who, at_least, pair.count, pair.count == 1 ? "" : "s", pair.where.x, pair.where.y, pair.where.z));
     }
     return warnings;
 }
