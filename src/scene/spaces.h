@@ -1,6 +1,7 @@
 // The closed spaces of a scene, and which of them light is in: surfaces let no light through.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
