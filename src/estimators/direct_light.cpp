@@ -13,25 +13,23 @@ Spectrum received_lx(const std::optional<IncidentLight>& light, const Vec3& from
 
 }  // namespace
 
-Spectrum direct_from_points_lx(const MeasuringPoint& point, const RayCaster& caster,
+Spectrum direct_from_points_lx(const Vec3& from, const Vec3& normal, const RayCaster& caster,
                                const LightSampler& lights) {
-    const Vec3 from = lifted_position(point, caster);
     Spectrum sum;
     for (std::size_t light = 0; light < lights.count(); ++light) {
         if (!lights.is_point_like(light)) continue;
-        sum += received_lx(lights.sample_incident(light, from, {}), from, point.normal, caster);
+        sum += received_lx(lights.sample_incident(light, from, {}), from, normal, caster);
     }
     return sum;
 }
 
-Spectrum sample_direct_from_areas_lx(const MeasuringPoint& point, const RayCaster& caster,
+Spectrum sample_direct_from_areas_lx(const Vec3& from, const Vec3& normal, const RayCaster& caster,
                                      const LightSampler& lights, SampleStream& stream) {
-    const Vec3 from = lifted_position(point, caster);
     Spectrum sum;
     for (std::size_t light = 0; light < lights.count(); ++light) {
         if (lights.is_point_like(light)) continue;
         const auto u = stream.next_two();
-        sum += received_lx(lights.sample_incident(light, from, u), from, point.normal, caster);
+        sum += received_lx(lights.sample_incident(light, from, u), from, normal, caster);
     }
     return sum;
 }

@@ -5,16 +5,15 @@
 #include <vector>
 
 #include "estimators/light_sampler.h"
-#include "sensors/sensor.h"
 
 namespace stilb {
 
-/// Illuminance [lx] from all point and photometry lights: exact, one shadow ray each.
-Spectrum direct_from_points_lx(const MeasuringPoint& point, const RayCaster& caster,
+/// Illuminance [lx] at a (lifted) point from all point and photometry lights: exact, one shadow ray each.
+Spectrum direct_from_points_lx(const Vec3& from, const Vec3& normal, const RayCaster& caster,
                                const LightSampler& lights);
 
 /// One sample of the illuminance [lx] from all area lights, each by its solid angle.
-Spectrum sample_direct_from_areas_lx(const MeasuringPoint& point, const RayCaster& caster,
+Spectrum sample_direct_from_areas_lx(const Vec3& from, const Vec3& normal, const RayCaster& caster,
                                      const LightSampler& lights, SampleStream& stream);
 
 }  // namespace stilb

@@ -1,13 +1,10 @@
 #include "estimators/fan.h"
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "base/vectorized.h"
-#include "scene/bounds.h"
 
 namespace stilb {
 namespace {
@@ -31,15 +28,6 @@ struct alignas(64) TileSums {
     std::array<Floats, kBands> band{};
     Floats largest{};
 };
-
-std::uint64_t spread_bits(std::uint64_t x) {
-    // 21 bits to every third place.
-    x = (x | x << 32) & 0x1f00000000ffffull;
-    x = (x | x << 16) & 0x1f0000ff0000ffull;
-    x = (x | x << 8) & 0x100f00f00f00f00full;
-    x = (x | x << 4) & 0x10c30c30c30c30c3ull;
-    return (x | x << 2) & 0x1249249249249249ull;
-}
 
 /// Segments from the node to the tile's points, and w G where both cosines are positive. False: no lane is
 /// active. (Without the promise that nothing overlaps, the loops here and below would stay scalar.)
@@ -100,9 +88,9 @@ void add_visible_directional(const FanNode& node, const RayPacket& packet, const
 void flush(const Fan::Tile& tile, TileSums& sums, ReadingSums& readings) {
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         if (tile.normal_x[i] == 0 && tile.normal_y[i] == 0 && tile.normal_z[i] == 0) continue;
-        const std::uint32_t point = tile.point[i];
-        for (std::size_t b = 0; b < kBands; ++b) readings.sum[point][b] += double{sums.band[b][i]};
-        readings.largest_lx[point] = std::max(readings.largest_lx[point], double{sums.largest[i]});
+        const std::uint32_t reading = tile.reading[i];
+        for (std::size_t b = 0; b < kBands; ++b) readings.sum[reading][b] += double{sums.band[b][i]};
+        readings.largest_lx[reading] = std::max(readings.largest_lx[reading], double{sums.largest[i]});
     }
     sums = {};
 }
@@ -123,39 +111,20 @@ FanNode fan_node(const ChainNode& node, const Vec3& center) {
 
 }  // namespace
 
-std::vector<std::uint32_t> spatially_sorted(std::span<const MeasuringPoint> points) {
-    Bounds bounds;
-    for (const MeasuringPoint& point : points) bounds.include(point.position);
-    const Vec3 extent = bounds.max - bounds.min;
-    const double longest = std::max({extent.x, extent.y, extent.z, std::numeric_limits<double>::min()});
-    std::vector<std::uint64_t> code;
-    for (const MeasuringPoint& point : points) {
-        const Vec3 q = (point.position - bounds.min) * (0x1fffff / longest);
-        code.push_back(spread_bits(static_cast<std::uint64_t>(q.x)) |
-                       spread_bits(static_cast<std::uint64_t>(q.y)) << 1 |
-                       spread_bits(static_cast<std::uint64_t>(q.z)) << 2);
-    }
-    std::vector<std::uint32_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return code[a] < code[b]; });
-    return order;
-}
-
-Fan::Fan(const RayCaster& caster, std::span<const MeasuringPoint> points, std::span<const double> k_per_m2)
+Fan::Fan(const RayCaster& caster, std::span<const PackedPoint> points, std::span<const double> k_per_m2)
     : caster_(caster), tiles_((points.size() + kPacketWidth - 1) / kPacketWidth) {
-    const std::vector<std::uint32_t> order = spatially_sorted(points);
-    for (std::size_t place = 0; place < order.size(); ++place) {
-        const MeasuringPoint& point = points[order[place]];
-        const Vec3 p = lifted_position(point, caster) - caster.center();
-        Tile& tile = tiles_[place / kPacketWidth];
-        const std::size_t i = place % kPacketWidth;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+        const Vec3 p = points[j].position - caster.center();
+        const Vec3& normal = points[j].normal;
+        Tile& tile = tiles_[j / kPacketWidth];
+        const std::size_t i = j % kPacketWidth;
         tile.x[i] = static_cast<float>(p.x), tile.y[i] = static_cast<float>(p.y),
         tile.z[i] = static_cast<float>(p.z);
-        tile.normal_x[i] = static_cast<float>(point.normal.x);
-        tile.normal_y[i] = static_cast<float>(point.normal.y);
-        tile.normal_z[i] = static_cast<float>(point.normal.z);
-        tile.inverse_k[i] = static_cast<float>(1 / k_per_m2[order[place]]);
-        tile.point[i] = order[place];
+        tile.normal_x[i] = static_cast<float>(normal.x);
+        tile.normal_y[i] = static_cast<float>(normal.y);
+        tile.normal_z[i] = static_cast<float>(normal.z);
+        tile.inverse_k[i] = static_cast<float>(1 / k_per_m2[j]);
+        tile.reading[i] = points[j].reading;
     }
 }
 

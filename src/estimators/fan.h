@@ -11,7 +11,7 @@
 
 #include "estimators/estimator.h"
 #include "estimators/light_chain.h"
-#include "sensors/sensor.h"
+#include "estimators/packed_points.h"
 
 namespace stilb {
 
@@ -20,7 +20,7 @@ class Fan {
   public:
     /// `k_per_m2` is the kernel split's constant of each point: infinity makes w = 1 (plain local
     /// estimation). Nodes that path tracing cannot make (ChainNode::only_by_light) have w = 1 whatever k is.
-    Fan(const RayCaster& caster, std::span<const MeasuringPoint> points, std::span<const double> k_per_m2);
+    Fan(const RayCaster& caster, std::span<const PackedPoint> points, std::span<const double> k_per_m2);
 
     /// Adds what the nodes send to each point, and keeps the largest single contributions. Counts rays.
     void collect(std::span<const ChainNode> nodes, ReadingSums& sums) const;
@@ -31,15 +31,12 @@ class Fan {
         Floats x{}, y{}, z{};
         Floats normal_x{}, normal_y{}, normal_z{};  ///< 0 in lanes without a point
         Floats inverse_k{};
-        std::array<std::uint32_t, kPacketWidth> point{};
+        std::array<std::uint32_t, kPacketWidth> reading{};
     };
 
   private:
     const RayCaster& caster_;
     std::vector<Tile> tiles_;
 };
-
-/// Indices of the points along a space-filling (Morton) curve.
-std::vector<std::uint32_t> spatially_sorted(std::span<const MeasuringPoint> points);
 
 }  // namespace stilb

@@ -41,15 +41,18 @@ class LocalEstimation final : public Estimator {
     LocalEstimation(const EstimatorInput& input, Split split)
         : scene_(input.scene),
           caster_(input.caster),
-          points_(input.points.begin(), input.points.end()),
+          points_(packed(input.points, caster_)),
           max_reflections_(input.max_reflections),
           lights_(scene_, caster_),
           tracer_(scene_, caster_, lights_),
           gathers_(split == Split::balanced || has_mirrors(scene_)),
           plans_(plans(split, input.preparation_key)),
-          fan_(caster_, points_, constants_per_m2(plans_)) {
-        for (const MeasuringPoint& point : points_) {
-            known_part_lx_.push_back(direct_from_points_lx(point, caster_, lights_));
+          fan_(caster_, points_, constants_per_m2(plans_)),
+          gather_(caster_, tracer_, points_, plans_, max_reflections_),
+          known_part_lx_(points_.size()) {
+        for (const PackedPoint& point : points_) {
+            known_part_lx_[point.reading] =
+                direct_from_points_lx(point.position, point.normal, caster_, lights_);
         }
     }
 
@@ -60,7 +63,7 @@ class LocalEstimation final : public Estimator {
             fan_.collect(walk_chains(chain_key, first, std::min(end, first + kChainBlock)), sums);
         }
         if (lights_.has_area_lights()) add_direct_light(batch, sums);
-        if (gathers_) add_gathered_light(batch, sums);
+        if (gathers_) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
     }
 
     std::span<const Spectrum> known_part_lx() const override { return known_part_lx_; }
@@ -83,33 +86,15 @@ class LocalEstimation final : public Estimator {
     }
 
     void add_direct_light(const Batch& batch, ReadingSums& sums) const {
-        add_samples(
-            batch, kDirect, [](std::size_t) { return kChainsPerDirectSample; }, sums,
-            [&](std::size_t j, SampleStream& stream) {
-                return sample_direct_from_areas_lx(points_[j], caster_, lights_, stream);
-            });
-    }
-
-    void add_gathered_light(const Batch& batch, ReadingSums& sums) const {
-        add_samples(
-            batch, kGather, [&](std::size_t j) { return plans_[j].chains_per_ray; }, sums,
-            [&](std::size_t j, SampleStream& stream) {
-                return sample_gathered_lx(points_[j], plans_[j].k_per_m2, max_reflections_, caster_, tracer_,
-                                          stream);
-            });
-    }
-
-    /// One sample at every point for so many chains of the batch, each weighing as much as these chains.
-    template <typename ChainsPerSample, typename Sample>
-    void add_samples(const Batch& batch, Purpose purpose, ChainsPerSample chains_per_sample,
-                     ReadingSums& sums, Sample sample) const {
-        const RandomKey key = batch.key.derived(purpose);
+        const RandomKey key = batch.key.derived(kDirect);
+        const std::uint64_t end = (batch.first + batch.count) / kChainsPerDirectSample;
         for (std::size_t j = 0; j < points_.size(); ++j) {
             const RandomKey point_key = key.derived(j);
-            const std::uint64_t chains = chains_per_sample(j);
-            for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
+            for (std::uint64_t i = batch.first / kChainsPerDirectSample; i < end; ++i) {
                 SampleStream stream(point_key, i);
-                sums.add(j, static_cast<double>(chains) * sample(j, stream));
+                const Spectrum sample = sample_direct_from_areas_lx(points_[j].position, points_[j].normal,
+                                                                    caster_, lights_, stream);
+                sums.add(points_[j].reading, static_cast<double>(kChainsPerDirectSample) * sample);
             }
         }
     }
@@ -133,13 +118,14 @@ class LocalEstimation final : public Estimator {
 
     const Scene& scene_;
     const RayCaster& caster_;
-    std::vector<MeasuringPoint> points_;
+    PackedPoints points_;
     int max_reflections_;
     LightSampler lights_;
     PathTracer tracer_;
     bool gathers_;
     std::vector<SplitPlan> plans_;
     Fan fan_;
+    Gather gather_;
     std::vector<Spectrum> known_part_lx_;
 };
 

@@ -8,11 +8,13 @@
 // anything else.
 #include "estimators/path.h"
 
-#include <cmath>
+#include <numbers>
 
+#include "base/sampling.h"
 #include "estimators/direct_light.h"
-#include "estimators/gather.h"
 #include "estimators/limits.h"
+#include "estimators/packed_points.h"
+#include "estimators/path_tracer.h"
 
 namespace stilb {
 namespace {
@@ -22,24 +24,25 @@ class PathEstimator final : public Estimator {
     explicit PathEstimator(const EstimatorInput& input)
         : scene_(input.scene),
           caster_(input.caster),
-          points_(input.points.begin(), input.points.end()),
+          points_(packed(input.points, caster_)),
           max_reflections_(input.max_reflections),
           lights_(scene_, caster_),
-          tracer_(scene_, caster_, lights_) {
-        for (const MeasuringPoint& point : points_) {
-            known_part_lx_.push_back(direct_from_points_lx(point, caster_, lights_));
+          tracer_(scene_, caster_, lights_),
+          known_part_lx_(points_.size()) {
+        for (const PackedPoint& point : points_) {
+            known_part_lx_[point.reading] =
+                direct_from_points_lx(point.position, point.normal, caster_, lights_);
         }
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
-        for (std::size_t j = 0; j < points_.size(); ++j) {
-            const RandomKey key = batch.key.derived(j);
+        for (const PackedPoint& point : points_) {
+            const RandomKey key = batch.key.derived(point.reading);
             for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
                 SampleStream stream(key, i);
-                const Spectrum direct = sample_direct_from_areas_lx(points_[j], caster_, lights_, stream);
-                const Spectrum sample =
-                    direct + sample_gathered_lx(points_[j], 0, max_reflections_, caster_, tracer_, stream);
-                sums.add(j, sample);
+                const Spectrum direct =
+                    sample_direct_from_areas_lx(point.position, point.normal, caster_, lights_, stream);
+                sums.add(point.reading, direct + sample_reflected_lx(point, stream));
             }
         }
     }
@@ -54,9 +57,18 @@ class PathEstimator final : public Estimator {
     }
 
   private:
+    Spectrum sample_reflected_lx(const PackedPoint& point, SampleStream& stream) const {
+        const auto [u1, u2] = stream.next_two();
+        const Vec3 direction =
+            Frame::around(point.normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
+        const auto hit = caster_.closest(point.position, direction);
+        if (!hit) return {};
+        return std::numbers::pi * tracer_.luminance_without_direct(*hit, direction, max_reflections_, stream);
+    }
+
     const Scene& scene_;
     const RayCaster& caster_;
-    std::vector<MeasuringPoint> points_;
+    PackedPoints points_;
     int max_reflections_;
     LightSampler lights_;
     PathTracer tracer_;

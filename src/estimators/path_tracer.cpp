@@ -74,4 +74,13 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
     return luminance;
 }
 
+Spectrum PathTracer::luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
+                                              SampleStream& stream) const {
+    const View view = look_through_mirrors(hit, direction, max_reflections, stream);
+    if (!view.surface) return view.emission_cd_m2;
+    return view.emission_cd_m2 + view.transmission * reflected_luminance(*view.surface, view.outgoing,
+                                                                         max_reflections - view.reflections,
+                                                                         stream);
+}
+
 }  // namespace stilb

@@ -33,6 +33,11 @@ class PathTracer {
     Spectrum reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
                                  SampleStream& stream) const;
 
+    /// One sample of the luminance [cd/m2] that arrives along a ray that met `hit`: reflected light, and
+    /// emission that is seen by mirrors. Emission of `hit` itself is left out: that is direct light.
+    Spectrum luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
+                                      SampleStream& stream) const;
+
   private:
     const Scene& scene_;
     const RayCaster& caster_;

@@ -20,6 +20,10 @@ static_assert(offsetof(RayPacket, direction_x) == offsetof(RTCRay16, dir_x));
 static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
 static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
 
+static_assert(sizeof(HitPacket) == sizeof(RTCRayHit16));
+static_assert(offsetof(HitPacket, normal_x) == offsetof(RTCRayHit16, hit));
+static_assert(offsetof(HitPacket, object) - offsetof(HitPacket, normal_x) == offsetof(RTCHit16, geomID));
+
 constexpr double kRelativeOffset = 0x1p-19;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -65,9 +69,14 @@ void analytic_intersect(const RTCIntersectFunctionNArguments* args) {
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
-        const auto t = intersect(shape, interval_of(rays, args->N, lane));
+        const RayInterval ray = interval_of(rays, args->N, lane);
+        const auto t = intersect(shape, ray);
         if (!t) continue;
+        const Vec3 normal = nearest_surface_point(shape, ray.origin + *t * ray.direction).normal;
         RTCRayN_tfar(rays, args->N, lane) = static_cast<float>(*t);
+        RTCHitN_Ng_x(hits, args->N, lane) = static_cast<float>(normal.x);
+        RTCHitN_Ng_y(hits, args->N, lane) = static_cast<float>(normal.y);
+        RTCHitN_Ng_z(hits, args->N, lane) = static_cast<float>(normal.z);
         RTCHitN_geomID(hits, args->N, lane) = args->geomID;
         RTCHitN_primID(hits, args->N, lane) = args->primID;
         RTCHitN_instID(hits, args->N, lane, 0) = RTC_INVALID_GEOMETRY_ID;
@@ -243,13 +252,19 @@ struct RayCaster::Implementation {
         return handle;
     }
 
-    Hit hit_of(const RTCRay& ray, const RTCHit& embree_hit) const {
-        const Geometry& geometry = *geometries[embree_hit.geomID];
-        const Vec3 direction{ray.dir_x, ray.dir_y, ray.dir_z};
+    /// A ray as it was traced (relative to the centre) and where it ended.
+    struct RawHit {
+        Vec3 origin, direction;
+        double distance_m, u, v;
+        std::uint32_t object, primitive;
+    };
+
+    Hit hit_of(const RawHit& raw) const {
+        const Geometry& geometry = *geometries[raw.object];
         Hit hit;
         double size = 0;
         if (geometry.vertices != nullptr) {
-            const Triangle& t = geometry.triangles[embree_hit.primID];
+            const Triangle& t = geometry.triangles[raw.primitive];
             std::array<Vec3, 3> v;
             for (std::size_t i = 0; i < 3; ++i) {
                 const Float3& f = geometry.vertices[t[i]];
@@ -260,29 +275,31 @@ struct RayCaster::Implementation {
             const Vec3 doubled = cross(v[1] - v[0], v[2] - v[0]);
             const double doubled_area = length(doubled);
             hit.normal = doubled / doubled_area;
-            const double u = embree_hit.u, w = embree_hit.v;
-            const Vec3 near_by = v[0] + u * (v[1] - v[0]) + w * (v[2] - v[0]);
+            const Vec3 near_by = v[0] + raw.u * (v[1] - v[0]) + raw.v * (v[2] - v[0]);
             const double margin = 2 * offset(near_by, size);
-            const auto b = away_from_edges({1 - u - w, u, w}, v, margin, doubled_area);
+            const auto b = away_from_edges({1 - raw.u - raw.v, raw.u, raw.v}, v, margin, doubled_area);
             hit.position = b[0] * v[0] + b[1] * v[1] + b[2] * v[2];
         } else {
-            const Vec3 origin{ray.org_x, ray.org_y, ray.org_z};
-            const SurfacePoint point =
-                nearest_surface_point(geometry.analytic, origin + ray.tfar * direction);
+            const Vec3 near_by = raw.origin + raw.distance_m * raw.direction;
+            const SurfacePoint point = nearest_surface_point(geometry.analytic, near_by);
             hit.position = point.position;
             hit.normal = point.normal;
             size = point.size_m;
         }
-        hit.on_front = dot(hit.normal, direction) < 0;
+        hit.on_front = dot(hit.normal, raw.direction) < 0;
         if (!hit.on_front) hit.normal = -hit.normal;
         hit.lifted = hit.position + offset(hit.position, size) * hit.normal + center;
         hit.position += center;
-        hit.distance_m = ray.tfar;
-        hit.object = ObjectId{embree_hit.geomID};
-        hit.triangle = embree_hit.primID;
-        const auto& materials = scene.object(hit.object).materials;
-        hit.material = materials.size() == 1 ? materials[0] : materials[embree_hit.primID];
+        hit.distance_m = raw.distance_m;
+        hit.object = ObjectId{raw.object};
+        hit.triangle = raw.primitive;
+        hit.material = material_of(raw.object, raw.primitive);
         return hit;
+    }
+
+    MaterialId material_of(std::uint32_t object, std::uint32_t primitive) const {
+        const auto& materials = scene.objects[object].materials;
+        return materials.size() == 1 ? materials[0] : materials[primitive];
     }
 
     /// As RayCaster::offset_m, for a position relative to the centre.
@@ -304,6 +321,18 @@ struct RayCaster::Implementation {
     }
 };
 
+void RayPacket::set(int lane, const Vec3& origin, const Vec3& direction) {
+    const auto i = static_cast<std::size_t>(lane);
+    origin_x[i] = static_cast<float>(origin.x);
+    origin_y[i] = static_cast<float>(origin.y);
+    origin_z[i] = static_cast<float>(origin.z);
+    direction_x[i] = static_cast<float>(direction.x);
+    direction_y[i] = static_cast<float>(direction.y);
+    direction_z[i] = static_cast<float>(direction.z);
+    start[i] = 0;
+    end[i] = kInfinity;
+}
+
 RayCaster::RayCaster(const Scene& scene) : implementation_(std::make_unique<Implementation>(scene)) {}
 RayCaster::~RayCaster() = default;
 
@@ -320,7 +349,42 @@ std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction)
     rtcInitIntersectContext(&context);
     rtcIntersect1(implementation_->embree_scene, &context, &ray_hit);
     if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return implementation_->hit_of(ray_hit.ray, ray_hit.hit);
+    const auto& [ray, hit] = ray_hit;
+    return implementation_->hit_of({{ray.org_x, ray.org_y, ray.org_z},
+                                    {ray.dir_x, ray.dir_y, ray.dir_z},
+                                    ray.tfar,
+                                    hit.u,
+                                    hit.v,
+                                    hit.geomID,
+                                    hit.primID});
+}
+
+void RayCaster::closest(HitPacket& packet, const LaneMask& lanes) const {
+    packet.object.fill(HitPacket::kNone);
+    packet.instance.fill(RTC_INVALID_GEOMETRY_ID);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect16(lanes.data(), implementation_->embree_scene, &context,
+                   reinterpret_cast<RTCRayHit16*>(&packet));
+}
+
+Hit RayCaster::hit_of(const HitPacket& packet, int lane) const {
+    const auto i = static_cast<std::size_t>(lane);
+    const RayPacket& rays = packet.rays;
+    return implementation_->hit_of({{rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]},
+                                    {rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]},
+                                    rays.end[i],
+                                    packet.u[i],
+                                    packet.v[i],
+                                    packet.object[i],
+                                    packet.primitive[i]});
+}
+
+const Material& RayCaster::material_of(const HitPacket& packet, int lane) const {
+    const auto i = static_cast<std::size_t>(lane);
+    return implementation_->scene.material(
+        implementation_->material_of(packet.object[i], packet.primitive[i]));
 }
 
 bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
