@@ -97,18 +97,6 @@ AreaLight read_sphere(TomlTable& table, const Context& context) {
     return light;
 }
 
-void warn_of_oddities(const PhotometryFile& file, double integral_lm, const TomlItem& item,
-                      std::vector<std::string>& warnings) {
-    for (const std::string& warning : file.warnings) {
-        warnings.push_back(fmt::format("{}: {}", item.where(), warning));
-    }
-    using enum FluxAgreement::Verdict;
-    const FluxAgreement agreement = check_flux(file, integral_lm);
-    if (agreement.verdict == Differs || agreement.verdict == AboveLampFlux) {
-        warnings.push_back(fmt::format("{}: {}.", item.where(), agreement.description()));
-    }
-}
-
 /// Lights with the same file share one solid.
 SolidId read_solid(const TomlItem& item, const Context& context) {
     std::vector<NamedSolid>& solids = context.file.scene.solids;
@@ -122,8 +110,7 @@ SolidId read_solid(const TomlItem& item, const Context& context) {
         solids.push_back({path.string(), file.luminaire, solid, file.format,
                           check_flux(file, solid.flux_lm()).description()});
         for (const std::string& warning : photometry_warnings(file, solid))
-            context.file.warnings.push_back(fmt::format("{}: {}", path.string(), warning));
-        warn_of_oddities(file, solids.back().solid.flux_lm(), item, context.file.warnings);
+            context.file.warnings.push_back(fmt::format("{}: {}", item.where(), warning));
     }
     return SolidId{index};
 }
