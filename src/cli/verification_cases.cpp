@@ -63,8 +63,14 @@ std::array<VerificationCase, 2> sobolev_cases(double reflectance_1, double refle
     const std::string variant =
         fmt::format("p1 {}, p2 {}, h1 {}", reflectance_1, reflectance_2, distance_1_m);
     const Scene scene = make_sobolev_scene(planes, kLargestRadius);
-    VerificationCase near{"sobolev", variant + ", near", scene, {}};
-    VerificationCase far{"sobolev", variant + ", far", scene, {}, "local"};
+    const std::string note = fmt::format(
+        "squares stand in for the infinite planes, so large that the exact values change by less than {} %.\n"
+        "  Of the {} radii from 0 to {}, those beyond {} (\"far\") are for method local alone: so little "
+        "light\n"
+        "  comes there that the others take 10 to 100 times as long.",
+        100 * kLargestTruncation, radii, kLargestRadius, kFarRadius);
+    VerificationCase near{"sobolev", variant + ", near", scene, {}, "", note};
+    VerificationCase far{"sobolev", variant + ", far", scene, {}, "local", note};
     for (int i = 0; i < radii; ++i) {
         const double radius_m = kLargestRadius * i / (radii - 1);
         for (const exact::Plane plane : {exact::Plane::first, exact::Plane::second}) {
@@ -157,6 +163,9 @@ VerificationCase furnace_case(const std::string& variant, double reflectance,
                               const std::vector<Material>& wall_materials) {
     constexpr double luminance_cd_m2 = 10;
     VerificationCase result{"furnace", fmt::format("rho {}, {}", reflectance, variant), {}, {}};
+    result.note =
+        "an L-shaped room whose walls all shine and reflect. Not with Phong surfaces, whose albedo depends\n"
+        "  on the direction.";
     const Mesh room = l_shaped_room();
     const ObjectId walls = add_object(result.scene, room, wall_materials.front());
     std::vector<MaterialId> ids{MaterialId{0}};
@@ -261,17 +270,6 @@ std::vector<VerificationCase> verification_cases() {
     cases.push_back(disk_source_case());
     cases.push_back(sphere_source_case());
     return cases;
-}
-
-std::string verification_notes() {
-    return fmt::format(
-        "sobolev: squares stand in for the infinite planes, so large that the exact values change by less\n"
-        "  than {} %. Of the 20 radii from 0 to {}, those beyond {} (\"far\") are for method local alone: "
-        "so\n"
-        "  little light comes there that the others take 10 to 100 times as long.\n"
-        "furnace: an L-shaped room whose walls all shine and reflect. Not with Phong surfaces, whose albedo\n"
-        "  depends on the direction.\n",
-        100 * kLargestTruncation, kLargestRadius, kFarRadius);
 }
 
 }  // namespace stilb

@@ -22,11 +22,10 @@ struct VerificationCase {
     std::vector<ExactReading> readings;
     /// The one method to run; empty: all.
     std::string only_method{};
+    /// What the reader of the results has to know; variants share it.
+    std::string note{};
 };
 
 std::vector<VerificationCase> verification_cases();
-
-/// What the reader of the results has to know of the cases.
-std::string verification_notes();
 
 }  // namespace stilb

@@ -126,7 +126,18 @@ std::string complaints(const std::vector<Verification>& results, double error) {
     return text;
 }
 
-std::string closing_words(const std::vector<Verification>& results, double error) {
+std::string notes(const std::vector<VerificationCase>& cases) {
+    std::string text;
+    std::string_view last_name;
+    for (const VerificationCase& c : cases) {
+        if (c.name != last_name && !c.note.empty()) text += fmt::format("{}: {}\n", c.name, c.note);
+        last_name = c.name;
+    }
+    return text;
+}
+
+std::string closing_words(const std::vector<Verification>& results,
+                          const std::vector<VerificationCase>& cases, double error) {
     std::size_t readings = 0;
     for (const Verification& v : results) readings += v.readings.size();
     const std::string wrong = complaints(results, error);
@@ -134,15 +145,15 @@ std::string closing_words(const std::vector<Verification>& results, double error
         "\nEach row shows its reading with the largest |z| and its widest 95 % interval. {} readings; if "
         "all\n"
         "methods are right, one of them has |z| > {:g} with a chance of {:.2g} %.\n{}\n{}",
-        readings, kContradictionZ, 100 * false_alarm_chance(readings), verification_notes(),
+        readings, kContradictionZ, 100 * false_alarm_chance(readings), notes(cases),
         wrong.empty()
             ? fmt::format("All readings agree with the exact values, within ± {:g} %.\n", 100 * error)
             : wrong);
 }
 
 /// Shows every row as soon as it is known.
-std::vector<Verification> verify_all(const VerifyRequest& request, RunOptions options) {
-    const std::vector<VerificationCase> cases = chosen_cases(request.cases);
+std::vector<Verification> verify_all(const VerifyRequest& request, const std::vector<VerificationCase>& cases,
+                                     RunOptions options) {
     const std::vector<std::string> methods = chosen_methods(request.methods);
     const std::atomic<bool>& interrupt = watch_for_interrupt();
     std::vector<Verification> results;
@@ -165,13 +176,14 @@ std::vector<Verification> verify_all(const VerifyRequest& request, RunOptions op
 
 int run_verify(const VerifyRequest& request) {
     const RunOptions options = run_options(request);
-    const std::vector<Verification> results = verify_all(request, options);
+    const std::vector<VerificationCase> cases = chosen_cases(request.cases);
+    const std::vector<Verification> results = verify_all(request, cases, options);
     if (request.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
         for (const Verification& v : results) all.push_back(to_json(v));
         fmt::print("{}\n", all.dump(2));
     } else {
-        fmt::print("{}", closing_words(results, *options.error));
+        fmt::print("{}", closing_words(results, cases, *options.error));
     }
     return complaints(results, *options.error).empty() ? kExitDone : kExitCheckFailed;
 }
