@@ -20,19 +20,29 @@
 #include "estimators/fan.h"
 #include "estimators/gather.h"
 #include "estimators/limits.h"
+#include "estimators/node_selection.h"
 #include "estimators/split_plan.h"
 
 namespace stilb {
 namespace {
 
-/// Light chains for each sample of direct light from area lights.
-constexpr std::uint64_t kChainsPerDirectSample = 8;
-/// Chains whose nodes are sent to the points together.
-constexpr std::uint64_t kChainBlock = 256;
+/// Nodes are sent to the points after so many chains per selected one (below).
+constexpr std::uint64_t kChainBlock = 512;
+/// Chains (divided by the selection's share) for each sample of direct light from area lights.
+constexpr std::uint64_t kChainsPerDirectSample = 2;
 /// Chains that are spent on planning; few suffice, because any plan is unbiased.
 constexpr std::uint64_t kPilotChains = 256;
 
-enum Purpose : std::uint64_t { kChains, kDirect, kGather, kPilot, kPlan };
+enum Purpose : std::uint64_t { kChains, kSelection, kDirect, kGather, kPilot, kPlan };
+
+/// Of so many chains' nodes `auto` sends one chain's to the points: a chain costs some 50 rays of a fan, so
+/// the more points there are the more is gained by choosing well; the square root balances the cost and the
+/// variance of both.
+std::uint64_t chains_per_selected(std::size_t points) {
+    std::uint64_t chains = 1;
+    while (chains < 64 && 5 * 4 * chains * chains <= points) chains *= 2;
+    return chains;
+}
 
 class LocalEstimation final : public Estimator {
   public:
@@ -46,6 +56,7 @@ class LocalEstimation final : public Estimator {
           lights_(scene_, caster_),
           tracer_(scene_, caster_, lights_),
           gathers_(split == Split::balanced || has_mirrors(scene_)),
+          chains_per_selected_(split == Split::balanced ? chains_per_selected(points_.size()) : 1),
           plans_(plans(split, input.preparation_key)),
           fan_(caster_, points_, constants_per_m2(plans_)),
           gather_(caster_, tracer_, points_, plans_, max_reflections_),
@@ -57,18 +68,22 @@ class LocalEstimation final : public Estimator {
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
-        const RandomKey chain_key = batch.key.derived(kChains);
         const std::uint64_t end = batch.first + batch.count;
-        for (std::uint64_t first = batch.first; first < end; first += kChainBlock) {
-            fan_.collect(walk_chains(chain_key, first, std::min(end, first + kChainBlock)), sums);
+        const std::uint64_t block = kChainBlock * chains_per_selected_;
+        for (std::uint64_t first = batch.first; first < end; first += block) {
+            fan_.collect(fan_nodes(batch.key, first, std::min(end, first + block)), sums);
         }
         if (lights_.has_area_lights()) add_direct_light(batch, sums);
         if (gathers_) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
     }
 
     std::span<const Spectrum> known_part_lx() const override { return known_part_lx_; }
-    std::uint64_t batch_granularity() const override { return kMostChainsPerRay; }
-    double rays_per_sample() const override { return 2.0 * static_cast<double>(points_.size()); }
+    std::uint64_t batch_granularity() const override { return kMostChainsPerRay * chains_per_selected_; }
+    double rays_per_sample() const override {
+        constexpr double chain_cost = 50;
+        return chain_cost +
+               2.0 * static_cast<double>(points_.size()) / static_cast<double>(chains_per_selected_);
+    }
     std::vector<std::string> warnings() const override {
         return mirror_warnings(
             scene_,
@@ -85,16 +100,24 @@ class LocalEstimation final : public Estimator {
         return nodes;
     }
 
+    std::vector<ChainNode> fan_nodes(RandomKey key, std::uint64_t first, std::uint64_t end) const {
+        std::vector<ChainNode> nodes = walk_chains(key.derived(kChains), first, end);
+        if (chains_per_selected_ == 1) return nodes;
+        const double u = SampleStream(key.derived(kSelection).derived(first), 0).next();
+        return select_nodes(nodes, nodes.size() / chains_per_selected_ + 1, u);
+    }
+
     void add_direct_light(const Batch& batch, ReadingSums& sums) const {
         const RandomKey key = batch.key.derived(kDirect);
-        const std::uint64_t end = (batch.first + batch.count) / kChainsPerDirectSample;
+        const std::uint64_t chains = kChainsPerDirectSample * chains_per_selected_;
+        const std::uint64_t end = (batch.first + batch.count) / chains;
         for (std::size_t j = 0; j < points_.size(); ++j) {
             const RandomKey point_key = key.derived(j);
-            for (std::uint64_t i = batch.first / kChainsPerDirectSample; i < end; ++i) {
+            for (std::uint64_t i = batch.first / chains; i < end; ++i) {
                 SampleStream stream(point_key, i);
                 const Spectrum sample = sample_direct_from_areas_lx(points_[j].position, points_[j].normal,
                                                                     caster_, lights_, stream);
-                sums.add(points_[j].reading, static_cast<double>(kChainsPerDirectSample) * sample);
+                sums.add(points_[j].reading, static_cast<double>(chains) * sample);
             }
         }
     }
@@ -102,12 +125,15 @@ class LocalEstimation final : public Estimator {
     std::vector<SplitPlan> plans(Split split, RandomKey key) const {
         if (split == Split::none) {
             return std::vector<SplitPlan>(points_.size(),
-                                          {std::numeric_limits<double>::infinity(), kChainsPerDirectSample});
+                                          {std::numeric_limits<double>::infinity(), kMostChainsPerRay});
         }
         double area = 0;
         for (const Object& object : scene_.objects) area += area_m2(object.shape);
-        return plan_splits(caster_, points_, walk_chains(key.derived(kPilot), 0, kPilotChains), kPilotChains,
-                           std::max(area, std::numeric_limits<double>::min()), key.derived(kPlan));
+        std::vector<SplitPlan> plans =
+            plan_splits(caster_, points_, walk_chains(key.derived(kPilot), 0, kPilotChains), kPilotChains,
+                        std::max(area, std::numeric_limits<double>::min()), key.derived(kPlan));
+        for (SplitPlan& plan : plans) plan.chains_per_ray *= chains_per_selected_;
+        return plans;
     }
 
     static std::vector<double> constants_per_m2(std::span<const SplitPlan> plans) {
@@ -123,6 +149,7 @@ class LocalEstimation final : public Estimator {
     LightSampler lights_;
     PathTracer tracer_;
     bool gathers_;
+    std::uint64_t chains_per_selected_;
     std::vector<SplitPlan> plans_;
     Fan fan_;
     Gather gather_;

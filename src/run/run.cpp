@@ -24,7 +24,7 @@ namespace {
 constexpr double kConfidence = 0.95;
 /// Rays of a batch over all replicates: about a second of work, so that an interruption is answered soon.
 constexpr double kRaysPerRound = 3e7;
-constexpr std::uint64_t kLongestBatch = 1024;
+constexpr std::uint64_t kLongestBatch = 1 << 16;
 /// Contributions that may fail to be finite before the run does.
 constexpr double kInvalidRate = 1e-6;
 enum Purpose : std::uint64_t { kPreparation, kReplicates };

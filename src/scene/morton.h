@@ -1,0 +1,15 @@
+// A space-filling curve: what is near along it is near in space.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace stilb {
+
+/// Places of points on the Morton curve through the cube about their bounding box: 63-bit codes.
+std::vector<std::uint64_t> morton_codes(std::span<const Vec3> points);
+
+}  // namespace stilb
