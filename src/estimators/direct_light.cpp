@@ -13,14 +13,17 @@ Spectrum received_lx(const std::optional<IncidentLight>& light, const Vec3& from
 
 }  // namespace
 
-Spectrum direct_from_points_lx(const Vec3& from, const Vec3& normal, const RayCaster& caster,
-                               const LightSampler& lights) {
-    Spectrum sum;
-    for (std::size_t light = 0; light < lights.count(); ++light) {
-        if (!lights.is_point_like(light)) continue;
-        sum += received_lx(lights.sample_incident(light, from, {}), from, normal, caster);
+std::vector<Spectrum> direct_from_points_lx(std::span<const PackedPoint> points, const RayCaster& caster,
+                                            const LightSampler& lights) {
+    std::vector<Spectrum> sums(points.size());
+    for (const auto& [position, normal, reading] : points) {
+        for (std::size_t light = 0; light < lights.count(); ++light) {
+            if (!lights.is_point_like(light)) continue;
+            sums[reading] +=
+                received_lx(lights.sample_incident(light, position, {}), position, normal, caster);
+        }
     }
-    return sum;
+    return sums;
 }
 
 Spectrum sample_direct_from_areas_lx(const Vec3& from, const Vec3& normal, const RayCaster& caster,

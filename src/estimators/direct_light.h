@@ -5,14 +5,15 @@
 #include <vector>
 
 #include "estimators/light_sampler.h"
+#include "estimators/packed_points.h"
 
 namespace stilb {
 
-/// Illuminance [lx] at a (lifted) point from all point and photometry lights: exact, one shadow ray each.
-Spectrum direct_from_points_lx(const Vec3& from, const Vec3& normal, const RayCaster& caster,
-                               const LightSampler& lights);
+/// Illuminance [lx] of every reading from all point and photometry lights: exact, one shadow ray each.
+std::vector<Spectrum> direct_from_points_lx(std::span<const PackedPoint> points, const RayCaster& caster,
+                                            const LightSampler& lights);
 
-/// One sample of the illuminance [lx] from all area lights, each by its solid angle.
+/// One sample of the illuminance [lx] at a (lifted) point from all area lights, each by its solid angle.
 Spectrum sample_direct_from_areas_lx(const Vec3& from, const Vec3& normal, const RayCaster& caster,
                                      const LightSampler& lights, SampleStream& stream);
 

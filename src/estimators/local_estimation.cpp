@@ -57,15 +57,10 @@ class LocalEstimation final : public Estimator {
           tracer_(scene_, caster_, lights_),
           gathers_(split == Split::balanced || has_mirrors(scene_)),
           chains_per_selected_(split == Split::balanced ? chains_per_selected(points_.size()) : 1),
+          known_part_lx_(direct_from_points_lx(points_, caster_, lights_)),
           plans_(plans(split, input.preparation_key)),
           fan_(caster_, points_, constants_per_m2(plans_)),
-          gather_(caster_, tracer_, points_, plans_, max_reflections_),
-          known_part_lx_(points_.size()) {
-        for (const PackedPoint& point : points_) {
-            known_part_lx_[point.reading] =
-                direct_from_points_lx(point.position, point.normal, caster_, lights_);
-        }
-    }
+          gather_(caster_, tracer_, points_, plans_, max_reflections_) {}
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         const std::uint64_t end = batch.first + batch.count;
@@ -127,13 +122,29 @@ class LocalEstimation final : public Estimator {
             return std::vector<SplitPlan>(points_.size(),
                                           {std::numeric_limits<double>::infinity(), kMostChainsPerRay});
         }
-        double area = 0;
+        double area = std::numeric_limits<double>::min();
         for (const Object& object : scene_.objects) area += area_m2(object.shape);
+        const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
+        const std::vector<double> direct_lx = pilot_direct_lx(key.derived(kDirect));
         std::vector<SplitPlan> plans =
-            plan_splits(caster_, points_, walk_chains(key.derived(kPilot), 0, kPilotChains), kPilotChains,
-                        std::max(area, std::numeric_limits<double>::min()), key.derived(kPlan));
+            plan_splits(caster_, points_, {nodes, kPilotChains, direct_lx, area}, key.derived(kPlan));
         for (SplitPlan& plan : plans) plan.chains_per_ray *= chains_per_selected_;
         return plans;
+    }
+
+    std::vector<double> pilot_direct_lx(RandomKey key) const {
+        constexpr int samples = 4;
+        std::vector<double> direct_lx(points_.size());
+        for (const PackedPoint& point : points_) {
+            double& sum = direct_lx[point.reading] = known_part_lx_[point.reading].luminance();
+            for (int i = 0; i < samples; ++i) {
+                SampleStream stream(key.derived(point.reading), static_cast<std::uint64_t>(i));
+                sum += sample_direct_from_areas_lx(point.position, point.normal, caster_, lights_, stream)
+                           .luminance() /
+                       samples;
+            }
+        }
+        return direct_lx;
     }
 
     static std::vector<double> constants_per_m2(std::span<const SplitPlan> plans) {
@@ -150,10 +161,10 @@ class LocalEstimation final : public Estimator {
     PathTracer tracer_;
     bool gathers_;
     std::uint64_t chains_per_selected_;
+    std::vector<Spectrum> known_part_lx_;
     std::vector<SplitPlan> plans_;
     Fan fan_;
     Gather gather_;
-    std::vector<Spectrum> known_part_lx_;
 };
 
 }  // namespace

@@ -28,12 +28,7 @@ class PathEstimator final : public Estimator {
           max_reflections_(input.max_reflections),
           lights_(scene_, caster_),
           tracer_(scene_, caster_, lights_),
-          known_part_lx_(points_.size()) {
-        for (const PackedPoint& point : points_) {
-            known_part_lx_[point.reading] =
-                direct_from_points_lx(point.position, point.normal, caster_, lights_);
-        }
-    }
+          known_part_lx_(direct_from_points_lx(points_, caster_, lights_)) {}
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         for (const PackedPoint& point : points_) {

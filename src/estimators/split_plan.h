@@ -18,18 +18,25 @@ struct SplitPlan {
 /// chains_per_ray is at most this.
 inline constexpr std::uint64_t kMostChainsPerRay = 64;
 
-/// For each point the plan with the least product of variance and cost, the rays of a packet's points being
-/// as many for all, by a model of both: nodes lie with density nu [1/m2 per chain] on what the point sees,
-/// which gives, with the mean E[] over cosine-distributed rays,
+/// What is known of the light before planning, roughly.
+struct PilotLight {
+    std::span<const ChainNode> nodes;
+    std::uint64_t chains = 1;           ///< that made the nodes
+    std::span<const double> direct_lx;  ///< direct illuminance of each reading
+    double scene_area_m2 = 1;
+};
+
+/// Plans that make the sum over the points of variance / value^2, times the cost, about as small as can be;
+/// the rays of a packet's points are equally many. Variance and cost come from a model: nodes lie with
+/// density nu [1/m2 per chain] on what a point sees, which gives, E[] being the mean over cosine-distributed
+/// rays and in units of the indirect light squared,
 ///
-///     variance / value^2 of a chain's fan       E[w^2 G] / (pi nu)
-///     the same of a gathering ray               c E[1 - w]
+///     variance of a chain's fan    E[w^2 G] / (pi nu)        variance of a gathering ray    c E[1 - w]
 ///
-/// `pilot_nodes` of `pilot_chains` chains give nu, a few rays from each point the distribution of G. Any plan
-/// is unbiased; a poor one costs time only. The plans depend on `key`, which must be independent of what they
-/// are used for.
+/// The pilot gives nu and the share of indirect light, a few rays from each point the distribution of G. Any
+/// plan is unbiased; a poor one costs time only. The plans depend on `key`, which must be independent of what
+/// they are used for.
 std::vector<SplitPlan> plan_splits(const RayCaster& caster, std::span<const PackedPoint> points,
-                                   std::span<const ChainNode> pilot_nodes, std::uint64_t pilot_chains,
-                                   double scene_area_m2, RandomKey key);
+                                   const PilotLight& pilot, RandomKey key);
 
 }  // namespace stilb
