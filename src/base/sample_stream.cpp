@@ -69,6 +69,12 @@ double scrambled_sobol(std::uint32_t index, unsigned dimension, std::uint32_t sc
     return unit_interval(reversed_bits(permuted_upwards(reversed_bits(sobol(index, dimension)), scramble)));
 }
 
+SampleStream SampleStream::continued(RandomKey key) const {
+    SampleStream stream(key, index_);
+    stream.dimension_ = (dimension_ + 3) / 4 * 4;  // words are drawn four at a time
+    return stream;
+}
+
 double SampleStream::next() {
     const unsigned dimension = dimension_++;
     const unsigned lane = dimension % 4;

@@ -25,6 +25,11 @@ class SampleStream {
   public:
     SampleStream(RandomKey key, std::uint64_t index) : key_(key), index_(index) {}
 
+    /// What comes after the dimensions drawn so far, under another key: for points that share their first
+    /// dimensions. (A new stream of the same index would repeat the point's first dimensions, not independent
+    /// of these.)
+    SampleStream continued(RandomKey key) const;
+
     /// Uniform in [0, 1).
     double next();
     /// Two coordinates, in the order drawn.

@@ -13,8 +13,8 @@ namespace stilb {
 std::vector<Spectrum> direct_from_points_lx(std::span<const PackedPoint> points, const RayCaster& caster,
                                             const LightSampler& lights);
 
-/// One sample of the illuminance [lx] at a (lifted) point from all area lights, each by its solid angle.
-Spectrum sample_direct_from_areas_lx(const Vec3& from, const Vec3& normal, const RayCaster& caster,
+/// One sample of the illuminance [lx] from all area lights, each by its solid angle.
+Spectrum sample_direct_from_areas_lx(const PackedPoint& point, const RayCaster& caster,
                                      const LightSampler& lights, SampleStream& stream);
 
 }  // namespace stilb

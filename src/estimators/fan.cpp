@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/vectorized.h"
+#include "estimators/kernel_split.h"
 
 namespace stilb {
 namespace {
@@ -17,8 +18,9 @@ constexpr std::size_t kBlock = 64;
 /// A chain node as the inner loop wants it.
 struct FanNode {
     float x, y, z;
+    float lifted_x, lifted_y, lifted_z;
     float normal_x, normal_y, normal_z;
-    float split;  ///< 0: w = 1 whatever the point's k is
+    float split;  ///< 0: the loop leaves w = 1
     std::array<float, kBands>
         coefficient;               ///< flux times BRDF; flux alone where the BRDF depends on direction
     const ChainNode* directional;  ///< null where the BRDF is constant
@@ -37,8 +39,11 @@ STILB_VECTORIZED bool prepare(const FanNode& __restrict node, const Fan::Tile& _
     std::int32_t any = 0;
     for (int i = 0; i < kPacketWidth; ++i) {
         const float dx = tile.x[i] - node.x, dy = tile.y[i] - node.y, dz = tile.z[i] - node.z;
-        packet.origin_x[i] = node.x, packet.origin_y[i] = node.y, packet.origin_z[i] = node.z;
-        packet.direction_x[i] = dx, packet.direction_y[i] = dy, packet.direction_z[i] = dz;
+        packet.origin_x[i] = node.lifted_x, packet.origin_y[i] = node.lifted_y,
+        packet.origin_z[i] = node.lifted_z;
+        packet.direction_x[i] = tile.lifted_x[i] - node.lifted_x;
+        packet.direction_y[i] = tile.lifted_y[i] - node.lifted_y;
+        packet.direction_z[i] = tile.lifted_z[i] - node.lifted_z;
         packet.end[i] = 1;
         const float squared = dx * dx + dy * dy + dz * dz;
         const float cos_node = node.normal_x * dx + node.normal_y * dy + node.normal_z * dz;
@@ -69,9 +74,10 @@ STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const RayPacke
     }
 }
 
-/// As add_visible() for a BRDF that depends on the direction to the point: evaluated lane by lane.
-void add_visible_directional(const FanNode& node, const RayPacket& packet, const LaneMask& lanes,
-                             const Floats& kernel, TileSums& sums) {
+/// As add_visible() for a BRDF that depends on the direction to the point: evaluated lane by lane, w
+/// included.
+void add_visible_directional(const FanNode& node, const Fan::Tile& tile, const RayPacket& packet,
+                             const LaneMask& lanes, const Floats& kernel, TileSums& sums) {
     const Frame frame = Frame::around(node.directional->normal);
     const Vec3 in = frame.to_local(node.directional->incoming);
     for (int i = 0; i < kPacketWidth; ++i) {
@@ -79,7 +85,10 @@ void add_visible_directional(const FanNode& node, const RayPacket& packet, const
         const Vec3 to_point{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
         const Spectrum brdf =
             evaluate_brdf_per_sr(*node.directional->material, in, frame.to_local(normalized(to_point)));
-        const Spectrum added = node.directional->flux_lm * brdf * double{kernel[i]};
+        const double g = kernel[i];
+        const double gathered = relative_brdf(*node.directional->material, brdf) * g * tile.inverse_k[i];
+        const double chain_share = node.directional->only_by_light ? 1 : 1 / (1 + gathered);
+        const Spectrum added = node.directional->flux_lm * brdf * (g * chain_share);
         for (std::size_t b = 0; b < kBands; ++b) sums.band[b][i] += static_cast<float>(added[b]);
         sums.largest[i] = std::max(sums.largest[i], static_cast<float>(added.luminance()));
     }
@@ -100,10 +109,18 @@ FanNode fan_node(const ChainNode& node, const Vec3& center) {
     const auto* diffuse = std::get_if<Diffuse>(node.material);
     const Spectrum coefficient =
         diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
-    FanNode result{static_cast<float>(p.x),           static_cast<float>(p.y),
-                   static_cast<float>(p.z),           static_cast<float>(node.normal.x),
-                   static_cast<float>(node.normal.y), static_cast<float>(node.normal.z),
-                   node.only_by_light ? 0.0f : 1.0f,  {},
+    const Vec3 lifted = node.lifted - center;
+    FanNode result{static_cast<float>(p.x),
+                   static_cast<float>(p.y),
+                   static_cast<float>(p.z),
+                   static_cast<float>(lifted.x),
+                   static_cast<float>(lifted.y),
+                   static_cast<float>(lifted.z),
+                   static_cast<float>(node.normal.x),
+                   static_cast<float>(node.normal.y),
+                   static_cast<float>(node.normal.z),
+                   node.only_by_light || !diffuse ? 0.0f : 1.0f,
+                   {},
                    diffuse ? nullptr : &node};
     for (std::size_t b = 0; b < kBands; ++b) result.coefficient[b] = static_cast<float>(coefficient[b]);
     return result;
@@ -115,11 +132,15 @@ Fan::Fan(const RayCaster& caster, std::span<const PackedPoint> points, std::span
     : caster_(caster), tiles_((points.size() + kPacketWidth - 1) / kPacketWidth) {
     for (std::size_t j = 0; j < points.size(); ++j) {
         const Vec3 p = points[j].position - caster.center();
+        const Vec3 lifted = points[j].lifted - caster.center();
         const Vec3& normal = points[j].normal;
         Tile& tile = tiles_[j / kPacketWidth];
         const std::size_t i = j % kPacketWidth;
         tile.x[i] = static_cast<float>(p.x), tile.y[i] = static_cast<float>(p.y),
         tile.z[i] = static_cast<float>(p.z);
+        tile.lifted_x[i] = static_cast<float>(lifted.x);
+        tile.lifted_y[i] = static_cast<float>(lifted.y);
+        tile.lifted_z[i] = static_cast<float>(lifted.z);
         tile.normal_x[i] = static_cast<float>(normal.x);
         tile.normal_y[i] = static_cast<float>(normal.y);
         tile.normal_z[i] = static_cast<float>(normal.z);
@@ -145,7 +166,7 @@ void Fan::collect(std::span<const ChainNode> nodes, ReadingSums& sums) const {
                 if (node.directional == nullptr) {
                     add_visible(node, packet, lanes, kernel, tile_sums);
                 } else {
-                    add_visible_directional(node, packet, lanes, kernel, tile_sums);
+                    add_visible_directional(node, tile, packet, lanes, kernel, tile_sums);
                 }
             }
             if (n % kBlock == kBlock - 1) flush(tile, tile_sums, sums);

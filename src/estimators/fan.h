@@ -1,7 +1,8 @@
 // The fan: light from the nodes of chains to all measuring points, in packets of rays with a common origin.
 //
-// From node y point x receives W f_r(y; in, y->x) w G, with G = cos+ cos+ V / d^2 and w = k / (k + G) (theory
-// T.1 and T.1b). Geometry is in single precision; sums over more than a short block of nodes are in double.
+// From node y point x receives W f_r(y; in, y->x) w G, with G = cos+ cos+ V / d^2 and w of the kernel split
+// (theory T.1 and T.1b). Geometry is in single precision; sums over more than a short block of nodes are in
+// double.
 #pragma once
 
 #include <array>
@@ -28,7 +29,8 @@ class Fan {
     /// Sixteen points, as a structure of arrays relative to the ray caster's centre.
     struct alignas(64) Tile {
         using Floats = std::array<float, kPacketWidth>;
-        Floats x{}, y{}, z{};
+        Floats x{}, y{}, z{};                       ///< the points themselves: G is theirs
+        Floats lifted_x{}, lifted_y{}, lifted_z{};  ///< where segments end
         Floats normal_x{}, normal_y{}, normal_z{};  ///< 0 in lanes without a point
         Floats inverse_k{};
         std::array<std::uint32_t, kPacketWidth> reading{};

@@ -45,25 +45,36 @@ void Gather::trace_packet(std::size_t first, RandomKey key, std::uint64_t index,
         const auto i = static_cast<std::size_t>(lane);
         const PackedPoint& point = points_[first + i];
         directions[i] = Frame::around(point.normal).to_world(local);
-        packet.rays.set(lane, point.position - caster_.center(), directions[i]);
+        packet.rays.set(lane, point.lifted - caster_.center(), directions[i]);
         lanes[i] = -1;
     }
     caster_.closest(packet, lanes);
     for (int lane = 0; lane < lanes_used; ++lane) {
         const auto i = static_cast<std::size_t>(lane);
         if (packet.object[i] == HitPacket::kNone) continue;
-        if (!is_specular(caster_.material_of(packet, lane))) {
+        const Material& material = caster_.material_of(packet, lane);
+        GatheredShare share;
+        double survival = 1;
+        if (!is_specular(material)) {
+            // G as the fan has it: between the points themselves, not the lifted ones.
+            const PackedPoint& point = points_[first + i];
             const Vec3 normal{packet.normal_x[i], packet.normal_y[i], packet.normal_z[i]};
-            const double distance_m = packet.rays.end[i];
-            const double cos_hit = std::abs(dot(normal, directions[i])) / length(normal);
-            const double g = local.z * cos_hit / (distance_m * distance_m);
-            // Russian roulette with 1 - w itself: what survives has weight 1.
-            const double remaining = g / (plans_[first + i].k_per_m2 + g);
-            if (rotated(survival_number, lane) >= remaining) continue;
+            const Vec3 from_point =
+                point.lifted + double{packet.rays.end[i]} * directions[i] - point.position;
+            const double squared_m2 = squared_length(from_point);
+            const double g = std::max(0.0, dot(point.normal, from_point)) *
+                             std::abs(dot(normal, from_point)) / (length(normal) * squared_m2 * squared_m2);
+            share.g_over_k = g / plans_[first + i].k_per_m2;
+            // Russian roulette with the largest 1 - w that any way of the light can have.
+            survival = share(relative_brdf(material, Spectrum::grey(largest_brdf_per_sr(material))));
+            if (rotated(survival_number, lane) >= survival) continue;
         }
-        SampleStream own(key.derived(i), index);
-        const Spectrum luminance = tracer_.luminance_without_direct(caster_.hit_of(packet, lane),
-                                                                    directions[i], max_reflections_, own);
+        // The same Sobol' point: its next dimensions, scrambled for each lane on its own.
+        SampleStream own = shared.continued(key.derived(i));
+        const Spectrum luminance =
+            tracer_.luminance_without_direct(caster_.hit_of(packet, lane), directions[i], max_reflections_,
+                                             share, own) *
+            (1 / survival);
         sums.add(points_[first + i].reading, weight * kPi * luminance);
     }
 }

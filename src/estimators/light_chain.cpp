@@ -10,7 +10,7 @@ void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSa
     Vec3 origin = particle.origin;
     Vec3 direction = particle.direction;
     Spectrum flux = particle.flux_lm;
-    bool only_mirrors_so_far = particle.from_point;
+    bool only_by_light = false;
     for (int reflection = 0; reflection < max_nodes; ++reflection) {
         const auto hit = caster.closest(origin, direction);
         if (!hit) return;
@@ -19,11 +19,11 @@ void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSa
         if (stream.next() >= survival) return;
         flux *= 1 / survival;
         const bool specular = is_specular(material);
+        if (reflection == 0) only_by_light = particle.from_point && specular;
         if (!specular) {
-            const bool only_by_light = only_mirrors_so_far && reflection > 0;
-            nodes.push_back({hit->lifted, hit->normal, -direction, &material, flux, only_by_light});
+            nodes.push_back(
+                {hit->position, hit->lifted, hit->normal, -direction, &material, flux, only_by_light});
         }
-        only_mirrors_so_far = only_mirrors_so_far && specular;
         const Frame frame = Frame::around(hit->normal);
         const auto [u1, u2] = stream.next_two();
         const auto scattered = sample_brdf(material, frame.to_local(-direction), u1, u2);

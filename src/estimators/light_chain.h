@@ -9,15 +9,16 @@ namespace stilb {
 
 /// A surface point that a particle reaches, and the flux that it carries into it.
 struct ChainNode {
-    Vec3 position;                       ///< lifted
+    Vec3 position;
+    Vec3 lifted;                         ///< off the surface, where rays start
     Vec3 normal;                         ///< on the side that the particle came from
     Vec3 incoming;                       ///< unit, towards where the particle came from
     const Material* material = nullptr;  ///< owned by the scene
     /// W_n of theory (T.1), divided by the probability that the particle was not absorbed here: what a
     /// connection from this node multiplies with f_r.
     Spectrum flux_lm;
-    /// The particle came from a point-like source by mirrors alone: path tracing cannot make this node's
-    /// light.
+    /// The particle left a point-like source and met a mirror first: path tracing cannot make this light, at
+    /// whatever node it comes along.
     bool only_by_light = false;
 };
 

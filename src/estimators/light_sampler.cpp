@@ -155,20 +155,21 @@ EmittedParticle LightSampler::emit(std::size_t light, SampleStream& stream) cons
 
 std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const Vec3& from,
                                                            const std::array<double, 2>& u) const {
-    const auto from_point = [&](const auto& intensity_cd) -> std::optional<IncidentLight> {
-        const Vec3& position = emitters_[light].middle;
+    const auto from_point = [&](const Vec3& position,
+                                const auto& intensity_cd) -> std::optional<IncidentLight> {
         const Vec3 towards = position - from;
         const double squared_distance = squared_length(towards);
         if (squared_distance == 0) return std::nullopt;
         const Vec3 direction = towards / std::sqrt(squared_distance);
-        return IncidentLight{position, direction, intensity_cd(direction) * (1 / squared_distance)};
+        return IncidentLight{emitters_[light].middle, direction,
+                             intensity_cd(direction) * (1 / squared_distance)};
     };
     const auto& source = lights_[light]->source;
     if (const auto* point = std::get_if<PointLight>(&source)) {
-        return from_point([&](const Vec3&) { return point->intensity_cd; });
+        return from_point(point->position, [&](const Vec3&) { return point->intensity_cd; });
     }
     if (const auto* luminaire = std::get_if<PhotometryLight>(&source)) {
-        return from_point([&](const Vec3& direction) {
+        return from_point(luminaire->position, [&](const Vec3& direction) {
             const Vec3 local{-dot(direction, luminaire->c0), -dot(direction, luminaire->c90),
                              -dot(direction, luminaire->nadir)};
             return scene_.solid(luminaire->solid).intensity_cd(local) * luminaire->factor;

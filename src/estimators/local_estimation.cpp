@@ -110,8 +110,7 @@ class LocalEstimation final : public Estimator {
             const RandomKey point_key = key.derived(j);
             for (std::uint64_t i = batch.first / chains; i < end; ++i) {
                 SampleStream stream(point_key, i);
-                const Spectrum sample = sample_direct_from_areas_lx(points_[j].position, points_[j].normal,
-                                                                    caster_, lights_, stream);
+                const Spectrum sample = sample_direct_from_areas_lx(points_[j], caster_, lights_, stream);
                 sums.add(points_[j].reading, static_cast<double>(chains) * sample);
             }
         }
@@ -139,9 +138,7 @@ class LocalEstimation final : public Estimator {
             double& sum = direct_lx[point.reading] = known_part_lx_[point.reading].luminance();
             for (int i = 0; i < samples; ++i) {
                 SampleStream stream(key.derived(point.reading), static_cast<std::uint64_t>(i));
-                sum += sample_direct_from_areas_lx(point.position, point.normal, caster_, lights_, stream)
-                           .luminance() /
-                       samples;
+                sum += sample_direct_from_areas_lx(point, caster_, lights_, stream).luminance() / samples;
             }
         }
         return direct_lx;

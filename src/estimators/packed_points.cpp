@@ -16,7 +16,8 @@ PackedPoints packed(std::span<const MeasuringPoint> points, const RayCaster& cas
     PackedPoints result;
     result.reserve(points.size());
     for (const std::uint32_t reading : order) {
-        result.push_back({lifted_position(points[reading], caster), points[reading].normal, reading});
+        result.push_back({points[reading].position, lifted_position(points[reading], caster),
+                          points[reading].normal, reading});
     }
     return result;
 }

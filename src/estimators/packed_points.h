@@ -12,7 +12,8 @@ namespace stilb {
 
 /// A measuring point as rays need it.
 struct PackedPoint {
-    Vec3 position;  ///< lifted
+    Vec3 position;
+    Vec3 lifted;  ///< where rays start
     Vec3 normal;
     std::uint32_t reading = 0;  ///< its place among the run's readings
 };

@@ -35,8 +35,7 @@ class PathEstimator final : public Estimator {
             const RandomKey key = batch.key.derived(point.reading);
             for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
                 SampleStream stream(key, i);
-                const Spectrum direct =
-                    sample_direct_from_areas_lx(point.position, point.normal, caster_, lights_, stream);
+                const Spectrum direct = sample_direct_from_areas_lx(point, caster_, lights_, stream);
                 sums.add(point.reading, direct + sample_reflected_lx(point, stream));
             }
         }
@@ -56,9 +55,10 @@ class PathEstimator final : public Estimator {
         const auto [u1, u2] = stream.next_two();
         const Vec3 direction =
             Frame::around(point.normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
-        const auto hit = caster_.closest(point.position, direction);
+        const auto hit = caster_.closest(point.lifted, direction);
         if (!hit) return {};
-        return std::numbers::pi * tracer_.luminance_without_direct(*hit, direction, max_reflections_, stream);
+        return std::numbers::pi *
+               tracer_.luminance_without_direct(*hit, direction, max_reflections_, {}, stream);
     }
 
     const Scene& scene_;

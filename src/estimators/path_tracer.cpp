@@ -37,7 +37,7 @@ PathTracer::View PathTracer::look_through_mirrors(const Hit& hit, const Vec3& di
 }
 
 Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
-                                         SampleStream& stream) const {
+                                         GatheredShare share, SampleStream& stream) const {
     Spectrum luminance;
     Spectrum throughput = Spectrum::grey(1);
     Hit hit = surface;
@@ -46,11 +46,12 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
         const Material& material = scene_.material(hit.material);
         const Frame frame = Frame::around(hit.normal);
         const Vec3 local_out = frame.to_local(out);
-        if (const auto light = lights_.sample_one_light(hit.lifted, hit.normal, stream)) {
+        if (const auto light = lights_.sample_one_light(hit.position, hit.normal, stream)) {
             const Vec3 local_in = frame.to_local(light->direction);
             const Spectrum brdf = evaluate_brdf_per_sr(material, local_in, local_out);
             if (local_in.z > 0 && brdf.max() > 0 && !caster_.occluded(hit.lifted, light->source_point)) {
-                luminance += throughput * brdf * local_in.z * light->normal_illuminance_lx;
+                luminance += throughput * brdf * (local_in.z * share(relative_brdf(material, brdf))) *
+                             light->normal_illuminance_lx;
             }
         }
         const double survival = survival_probability(throughput, reflectance_bound(material));
@@ -58,7 +59,9 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
         const auto [u1, u2] = stream.next_two();
         const auto scattered = sample_brdf(material, local_out, u1, u2);
         if (!scattered) break;
-        throughput *= scattered->weight * (1 / survival);
+        const Spectrum brdf = evaluate_brdf_per_sr(material, scattered->direction, local_out);
+        throughput *= scattered->weight * (share(relative_brdf(material, brdf)) / survival);
+        share = {};
         --reflections_left;
         const Vec3 direction = frame.to_world(scattered->direction);
         const auto next = caster_.closest(hit.lifted, direction);
@@ -75,12 +78,13 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
 }
 
 Spectrum PathTracer::luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
-                                              SampleStream& stream) const {
+                                              GatheredShare share, SampleStream& stream) const {
     const View view = look_through_mirrors(hit, direction, max_reflections, stream);
     if (!view.surface) return view.emission_cd_m2;
+    if (view.reflections > 0) share = {};
     return view.emission_cd_m2 + view.transmission * reflected_luminance(*view.surface, view.outgoing,
                                                                          max_reflections - view.reflections,
-                                                                         stream);
+                                                                         share, stream);
 }
 
 }  // namespace stilb

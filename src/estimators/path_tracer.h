@@ -5,6 +5,7 @@
 // that leaves a point-like source and meets a mirror first.
 #pragma once
 
+#include "estimators/kernel_split.h"
 #include "estimators/light_sampler.h"
 
 namespace stilb {
@@ -29,14 +30,16 @@ class PathTracer {
 
     /// One unbiased sample of the luminance [cd/m2] that `surface` (not specular) reflects towards
     /// `outgoing`, by at most `max_reflections` reflections, its own counted. Emission of the surface itself
-    /// is left out.
+    /// is left out. Of every way of the light the share is taken that its BRDF value at `surface` leaves to
+    /// gathering.
     Spectrum reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
-                                 SampleStream& stream) const;
+                                 GatheredShare share, SampleStream& stream) const;
 
     /// One sample of the luminance [cd/m2] that arrives along a ray that met `hit`: reflected light, and
-    /// emission that is seen by mirrors. Emission of `hit` itself is left out: that is direct light.
+    /// emission that is seen by mirrors. Emission of `hit` itself is left out: that is direct light. `share`
+    /// counts where `hit` itself reflects the light, not behind mirrors.
     Spectrum luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
-                                      SampleStream& stream) const;
+                                      GatheredShare share, SampleStream& stream) const;
 
   private:
     const Scene& scene_;

@@ -110,7 +110,7 @@ std::array<double, kRays> sampled_kernels(const RayCaster& caster, const PackedP
         const auto [u1, u2] = stream.next_two();
         const Vec3 local = sample_cosine_hemisphere(u1, u2).direction;
         const Vec3 direction = frame.to_world(local);
-        const auto hit = caster.closest(point.position, direction);
+        const auto hit = caster.closest(point.lifted, direction);
         if (hit) kernels[i] = local.z * -dot(hit->normal, direction) / (hit->distance_m * hit->distance_m);
     }
     return kernels;

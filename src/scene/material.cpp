@@ -60,6 +60,14 @@ std::optional<ScatterSample> sample(const Mirror& material, const Vec3& in, doub
 
 std::optional<ScatterSample> sample(const Black&, const Vec3&, double, double) { return std::nullopt; }
 
+double largest_brdf(const Diffuse& material) { return material.reflectance.max() * std::numbers::inv_pi; }
+double largest_brdf(const Phong& material) {
+    const double lobe_per_sr = (material.exponent + 2) / (2 * std::numbers::pi);
+    return (material.diffuse * std::numbers::inv_pi + material.specular * lobe_per_sr).max();
+}
+double largest_brdf(const Mirror&) { return 0; }
+double largest_brdf(const Black&) { return 0; }
+
 Spectrum bound(const Diffuse& material) { return material.reflectance; }
 Spectrum bound(const Phong& material) { return material.diffuse + material.specular; }
 Spectrum bound(const Mirror& material) { return material.reflectance; }
@@ -75,6 +83,10 @@ std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& i
 double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
     if (in.z <= 0 || out.z <= 0) return 0;
     return std::visit([&](const auto& m) { return pdf(m, in, out); }, material);
+}
+
+double largest_brdf_per_sr(const Material& material) {
+    return std::visit([](const auto& m) { return largest_brdf(m); }, material);
 }
 
 bool is_specular(const Material& material) { return std::holds_alternative<Mirror>(material); }

@@ -25,6 +25,9 @@ static_assert(offsetof(HitPacket, normal_x) == offsetof(RTCRayHit16, hit));
 static_assert(offsetof(HitPacket, object) - offsetof(HitPacket, normal_x) == offsetof(RTCHit16, geomID));
 
 constexpr double kRelativeOffset = 0x1p-19;
+/// Hits are moved so many offsets away from edges: lifting stays on this side of neighbours at up to 7
+/// degrees.
+constexpr double kEdgeMargin = 8;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct Float3 {
@@ -119,27 +122,35 @@ Bounds bounds_of_scene(const Scene& scene) {
     return all.is_empty() ? Bounds{{}, {}} : all;
 }
 
-/// Barycentric coordinates of a hit, moved away from the triangle's edges by `margin` metres where it is
-/// large enough for that; otherwise towards its middle.
-std::array<double, 3> away_from_edges(std::array<double, 3> b, const std::array<Vec3, 3>& v, double margin,
-                                      double doubled_area) {
+/// The point with barycentric coordinates b, moved away from the triangle's edges by `margin` metres where it
+/// is large enough for that; otherwise towards its middle.
+struct InnerPoint {
+    std::array<double, 3> b;
+    bool was_at_edge = false;
+};
+InnerPoint away_from_edges(const std::array<double, 3>& b, const std::array<Vec3, 3>& v, double margin,
+                           double doubled_area) {
+    constexpr double most = 0.75;
     std::array<double, 3> least{};
-    double sum = 0;
+    double least_sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const double opposite_edge = length(v[(i + 2) % 3] - v[(i + 1) % 3]);
         least[i] = margin * opposite_edge / doubled_area;  // margin / height above that edge
-        sum += least[i];
+        least_sum += least[i];
     }
-    if (sum > 0.75) {
-        for (double& l : least) l *= 0.75 / sum;
+    if (b[0] >= least[0] && b[1] >= least[1] && b[2] >= least[2]) return {b};
+    if (least_sum > most) {
+        for (double& l : least) l *= most / least_sum;
+        least_sum = most;
     }
-    double clamped_sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) clamped_sum += b[i] = std::max(b[i] - least[i], 0.0);
-    const double least_sum = std::min(sum, 0.75);
+    std::array<double, 3> beyond{};
+    for (std::size_t i = 0; i < 3; ++i) beyond[i] = std::max(b[i] - least[i], 0.0);
+    const double beyond_sum = beyond[0] + beyond[1] + beyond[2];
+    InnerPoint moved{{}, true};
     for (std::size_t i = 0; i < 3; ++i) {
-        b[i] = least[i] + (clamped_sum > 0 ? b[i] / clamped_sum : 1.0 / 3) * (1 - least_sum);
+        moved.b[i] = least[i] + (beyond_sum > 0 ? beyond[i] / beyond_sum : 1.0 / 3) * (1 - least_sum);
     }
-    return b;
+    return moved;
 }
 
 /// The packet in parts of `width` rays, for processors without 16-wide vectors.
@@ -263,6 +274,7 @@ struct RayCaster::Implementation {
         const Geometry& geometry = *geometries[raw.object];
         Hit hit;
         double size = 0;
+        bool at_edge = false;
         if (geometry.vertices != nullptr) {
             const Triangle& t = geometry.triangles[raw.primitive];
             std::array<Vec3, 3> v;
@@ -276,9 +288,10 @@ struct RayCaster::Implementation {
             const double doubled_area = length(doubled);
             hit.normal = doubled / doubled_area;
             const Vec3 near_by = v[0] + raw.u * (v[1] - v[0]) + raw.v * (v[2] - v[0]);
-            const double margin = 2 * offset(near_by, size);
-            const auto b = away_from_edges({1 - raw.u - raw.v, raw.u, raw.v}, v, margin, doubled_area);
-            hit.position = b[0] * v[0] + b[1] * v[1] + b[2] * v[2];
+            const double margin = kEdgeMargin * offset(near_by, size);
+            const auto inner = away_from_edges({1 - raw.u - raw.v, raw.u, raw.v}, v, margin, doubled_area);
+            hit.position = inner.b[0] * v[0] + inner.b[1] * v[1] + inner.b[2] * v[2];
+            at_edge = inner.was_at_edge;
         } else {
             const Vec3 near_by = raw.origin + raw.distance_m * raw.direction;
             const SurfacePoint point = nearest_surface_point(geometry.analytic, near_by);
@@ -288,7 +301,18 @@ struct RayCaster::Implementation {
         }
         hit.on_front = dot(hit.normal, raw.direction) < 0;
         if (!hit.on_front) hit.normal = -hit.normal;
-        hit.lifted = hit.position + offset(hit.position, size) * hit.normal + center;
+        const Vec3 lift = offset(hit.position, size) * hit.normal;
+        hit.lifted = hit.position + lift;
+        // At an edge where the mesh folds towards the ray, rounding may have picked the face behind the fold,
+        // whose side towards the ray is outside. Then the ray's origin sees the other side instead.
+        const bool is_behind_fold =
+            at_edge && occluded(raw.origin, hit.lifted) && !occluded(raw.origin, hit.position - lift);
+        if (is_behind_fold) {
+            hit.lifted = hit.position - lift;
+            hit.normal = -hit.normal;
+            hit.on_front = !hit.on_front;
+        }
+        hit.lifted += center;
         hit.position += center;
         hit.distance_m = raw.distance_m;
         hit.object = ObjectId{raw.object};
@@ -308,16 +332,25 @@ struct RayCaster::Implementation {
                std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z), size_m});
     }
 
-    RTCRay ray_from(const Vec3& origin, const Vec3& direction, float length) const {
-        const Vec3 o = origin - center;
+    /// Origin relative to the centre.
+    static RTCRay ray_from(const Vec3& origin, const Vec3& direction, float length) {
         RTCRay ray{};
-        ray.org_x = static_cast<float>(o.x), ray.org_y = static_cast<float>(o.y),
-        ray.org_z = static_cast<float>(o.z);
+        ray.org_x = static_cast<float>(origin.x), ray.org_y = static_cast<float>(origin.y);
+        ray.org_z = static_cast<float>(origin.z);
         ray.dir_x = static_cast<float>(direction.x), ray.dir_y = static_cast<float>(direction.y);
         ray.dir_z = static_cast<float>(direction.z);
         ray.tfar = length;
         ray.mask = ~0u;
         return ray;
+    }
+
+    /// Between positions relative to the centre.
+    bool occluded(const Vec3& from, const Vec3& to) const {
+        RTCRay ray = ray_from(from, to - from, 1);
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcOccluded1(embree_scene, &context, &ray);
+        return ray.tfar < 0;
     }
 };
 
@@ -343,7 +376,7 @@ double RayCaster::offset_m(const Vec3& position, double size_m) const {
 }
 
 std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction) const {
-    RTCRayHit ray_hit{implementation_->ray_from(origin, direction, kInfinity), {}};
+    RTCRayHit ray_hit{Implementation::ray_from(origin - center(), direction, kInfinity), {}};
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -388,11 +421,7 @@ const Material& RayCaster::material_of(const HitPacket& packet, int lane) const 
 }
 
 bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
-    RTCRay ray = implementation_->ray_from(from, to - from, 1);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(implementation_->embree_scene, &context, &ray);
-    return ray.tfar < 0;
+    return implementation_->occluded(from - center(), to - center());
 }
 
 void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes) const {

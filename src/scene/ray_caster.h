@@ -4,9 +4,9 @@
 // and connections end at, points that are lifted off their surface along its geometric normal by offset_m() =
 // 2^-19 of the largest number involved (distance from the centre, size of the triangle): some 30 times the
 // rounding error, 8 micrometres in a room of 8 m, and the same in proportion at any size. Hit points are
-// first moved away from the edges of their triangle by twice that, so that lifting never carries them through
-// a neighbouring wall. With Embree's robust (watertight) mode nothing else is needed: rays have no minimal
-// length.
+// first moved away from the edges of their triangle by eight times that, so that lifting never carries them
+// through a neighbouring wall. With Embree's robust (watertight) mode nothing else is needed: rays have no
+// minimal length. Distances and angles are those of the points themselves, not of the lifted ones.
 #pragma once
 
 #include <array>

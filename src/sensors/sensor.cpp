@@ -7,7 +7,10 @@
 namespace stilb {
 
 Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster) {
-    return point.position + caster.offset_m(point.position, caster.half_extent_m()) * point.normal;
+    const double most = caster.offset_m(point.position, caster.half_extent_m());
+    const auto below = caster.closest(point.position + most * point.normal, -point.normal);
+    if (below && below->distance_m < 2 * most) return below->lifted;
+    return point.position + caster.offset_m(point.position, 0) * point.normal;
 }
 
 Sensor make_grid_sensor(std::string name, const Grid& grid, const Vec3& normal) {

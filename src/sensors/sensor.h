@@ -22,7 +22,7 @@ struct Grid {
 
 class RayCaster;
 
-/// Where rays from a measuring point start: lifted along its normal, off whatever surface it lies on.
+/// Where rays from a measuring point start: lifted along its normal, off the surface that it lies on, if any.
 Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster);
 
 enum class SensorType { illuminance, grid };
