@@ -1,0 +1,106 @@
+"""The documents: links lead somewhere, named files exist, examples are what the program reads and writes.
+
+The program is $STILB, or build/release/stilb.
+"""
+
+import json
+import os
+import re
+import subprocess
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = Path(os.environ.get("STILB", ROOT / "build/release/stilb"))
+MADE = {"build", "out"}  # not documents, and not to be found before they are made
+
+LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+NAMED_PATH = re.compile(r"`((?:src|tests|docs|scenes|scripts|fuzz|benchmarks)/[\w./*-]*)`")
+
+
+def pages():
+    return [page for page in sorted(ROOT.rglob("*.md")) if not MADE & set(page.relative_to(ROOT).parts)]
+
+
+def blocks(page, language):
+    return re.findall(rf"^```{language}\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
+
+
+def prose(page):
+    return re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+
+
+def anchors(page):
+    """As GitHub makes them of headings."""
+    titles = re.findall(r"^#+ +(.*)$", prose(page), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def keys(document, path=""):
+    """The paths of all keys; lists count as their elements."""
+    if isinstance(document, list):
+        return set().union(*(keys(element, path) for element in document))
+    if not isinstance(document, dict):
+        return set()
+    return set().union(*({f"{path}.{key}"} | keys(value, f"{path}.{key}") for key, value in document.items()))
+
+
+class LinkTest(unittest.TestCase):
+    def test_the_pages_are_found(self):
+        self.assertTrue({ROOT / "README.md", ROOT / "docs/README.md", ROOT / "docs/methods/auto.md"} <= set(pages()))
+
+    def test_links_lead_somewhere(self):
+        for page in pages():
+            for link in LINK.findall(prose(page)):
+                if re.match(r"[a-z]+:", link):
+                    continue
+                with self.subTest(page=page.relative_to(ROOT), link=link):
+                    file, _, anchor = link.partition("#")
+                    target = (page.parent / file).resolve() if file else page
+                    self.assertTrue(target.exists())
+                    if anchor:
+                        self.assertIn(anchor, anchors(target))
+
+    def test_every_document_is_linked_from_the_index(self):
+        index = ROOT / "docs/README.md"
+        linked = {(index.parent / link.partition("#")[0]).resolve() for link in LINK.findall(prose(index))}
+        self.assertEqual({page for page in pages() if page.is_relative_to(index.parent)} - linked, {index})
+
+    def test_named_files_exist(self):
+        for page in pages():
+            for name in NAMED_PATH.findall(prose(page)):
+                if "NAME" in name:  # stands for any
+                    continue
+                with self.subTest(page=page.relative_to(ROOT), name=name):
+                    self.assertTrue(any(ROOT.glob(name.rstrip("/"))))
+
+
+@unittest.skipUnless(PROGRAM.exists(), f"{PROGRAM} is not built")
+class ExampleTest(unittest.TestCase):
+    def stilb(self, *arguments):
+        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def test_scenes_are_read_without_warnings(self):
+        for page in ("README.md", "docs/scene-format.md"):
+            (scene,) = blocks(ROOT / page, "toml")
+            with self.subTest(page=page), tempfile.TemporaryDirectory() as folder:
+                file = Path(folder) / "room.toml"
+                file.write_text(scene)
+                self.assertEqual(self.stilb("info", file, "--json")["warnings"], [])
+
+    def test_the_readme_shows_the_simple_room(self):
+        (scene,) = blocks(ROOT / "README.md", "toml")
+        self.assertEqual(tomllib.loads(scene), tomllib.loads((ROOT / "scenes/simple/room.toml").read_text()))
+
+    def test_the_page_of_the_json_has_its_keys(self):
+        (example,) = blocks(ROOT / "docs/json.md", "json")
+        result = self.stilb("measure", ROOT / "scenes/simple/room.toml", "--json", "--paths", 64)
+        self.assertEqual(keys(json.loads(example)), keys(result))
+
+
+if __name__ == "__main__":
+    unittest.main()
