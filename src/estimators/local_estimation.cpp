@@ -126,7 +126,8 @@ class LocalEstimation final : public Estimator {
         const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
         const std::vector<double> direct_lx = pilot_direct_lx(key.derived(kDirect));
         std::vector<SplitPlan> plans =
-            plan_splits(caster_, points_, {nodes, kPilotChains, direct_lx, area}, key.derived(kPlan));
+            plan_splits(caster_, points_, {nodes, kPilotChains, direct_lx, area, chains_per_selected_},
+                        key.derived(kPlan));
         for (SplitPlan& plan : plans) plan.chains_per_ray *= chains_per_selected_;
         return plans;
     }

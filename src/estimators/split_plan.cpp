@@ -18,6 +18,7 @@ constexpr unsigned kRays = 32;
 // Costs in units of one ray of a fan, and factors of the variance model; measured in the example office.
 constexpr double kRayCost = 4;     ///< a gathering ray to its hit
 constexpr double kPathCost = 100;  ///< the path that goes on from there
+constexpr double kChainCost = 35;  ///< walking one chain
 constexpr double kPathVariance = 3;
 constexpr double kFanVariance = 0.2;  ///< below 1 thanks to the even selection of nodes
 
@@ -151,9 +152,12 @@ std::vector<PointModel> model_points(const RayCaster& caster, std::span<const Pa
 std::vector<SplitPlan> plan_splits(const RayCaster& caster, std::span<const PackedPoint> points,
                                    const PilotLight& pilot, RandomKey key) {
     const std::vector<PointModel> models = model_points(caster, points, pilot, key);
-    // About half of the nodes face a point.
-    const double fan_cost =
-        0.5 * (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
+    // About half of the nodes face a point; the walk is shared by all points.
+    const double nodes_per_chain =
+        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
+    const double fan_cost = 0.5 * nodes_per_chain + kChainCost *
+                                                        static_cast<double>(pilot.chains_per_selected) /
+                                                        static_cast<double>(points.size());
     std::vector<SplitPlan> plans;
     for (const PointModel& model : models) plans.push_back({kPi * model.density_per_m2, 16});
     constexpr int rounds = 3;  // the price depends on the plans that it leads to; more rounds change little

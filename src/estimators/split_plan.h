@@ -24,6 +24,7 @@ struct PilotLight {
     std::uint64_t chains = 1;           ///< that made the nodes
     std::span<const double> direct_lx;  ///< direct illuminance of each reading
     double scene_area_m2 = 1;
+    std::uint64_t chains_per_selected = 1;  ///< chains walked for each whose nodes go into the fan
 };
 
 /// Plans that make the sum over the points of variance / value^2, times the cost, about as small as can be;
