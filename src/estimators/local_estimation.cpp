@@ -30,6 +30,8 @@ namespace {
 constexpr std::uint64_t kChainBlock = 512;
 /// Chains (divided by the selection's share) for each sample of direct light from area lights.
 constexpr std::uint64_t kChainsPerDirectSample = 2;
+/// Chains for each ray that `local` sends out where there are mirrors.
+constexpr std::uint64_t kChainsPerMirrorRay = 4;
 /// Chains that are spent on planning; few suffice, because any plan is unbiased.
 constexpr std::uint64_t kPilotChains = 256;
 
@@ -119,15 +121,15 @@ class LocalEstimation final : public Estimator {
     std::vector<SplitPlan> plans(Split split, RandomKey key) const {
         if (split == Split::none) {
             return std::vector<SplitPlan>(points_.size(),
-                                          {std::numeric_limits<double>::infinity(), kMostChainsPerRay});
+                                          {std::numeric_limits<double>::infinity(), kChainsPerMirrorRay});
         }
         double area = std::numeric_limits<double>::min();
         for (const Object& object : scene_.objects) area += area_m2(object.shape);
         const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
         const std::vector<double> direct_lx = pilot_direct_lx(key.derived(kDirect));
         std::vector<SplitPlan> plans =
-            plan_splits(caster_, points_, {nodes, kPilotChains, direct_lx, area, chains_per_selected_},
-                        key.derived(kPlan));
+            plan_splits(caster_, tracer_, points_,
+                        {nodes, kPilotChains, direct_lx, area, chains_per_selected_}, key.derived(kPlan));
         for (SplitPlan& plan : plans) plan.chains_per_ray *= chains_per_selected_;
         return plans;
     }

@@ -13,7 +13,6 @@ namespace stilb {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr unsigned kRays = 32;
 
 // Costs in units of one ray of a fan, and factors of the variance model; measured in the example office.
 constexpr double kRayCost = 4;     ///< a gathering ray to its hit
@@ -22,11 +21,17 @@ constexpr double kChainCost = 35;  ///< walking one chain
 constexpr double kPathVariance = 3;
 constexpr double kFanVariance = 0.2;  ///< below 1 thanks to the even selection of nodes
 
+/// What a ray from a point meets.
+struct RaySample {
+    double g_per_m2 = 0;   ///< infinite where it is a mirror: what that shows is gathered always
+    double luminance = 0;  ///< over the mean
+};
+
 /// What the model says of a point.
 struct PointModel {
-    std::array<double, kRays> kernels_per_m2{};  ///< G of what a few rays meet; 0 where they meet nothing
-    double density_per_m2 = 0;                   ///< nu
-    double indirect_share = 0;                   ///< of the illuminance
+    std::vector<RaySample> rays;
+    double density_per_m2 = 0;  ///< nu
+    double indirect_share = 0;  ///< of the illuminance
 };
 
 struct Prediction {
@@ -35,17 +40,21 @@ struct Prediction {
 };
 
 Prediction predict(const PointModel& point, const SplitPlan& plan) {
-    double fan_moment = 0, gathered = 0;
-    for (const double g : point.kernels_per_m2) {
-        const double w = plan.k_per_m2 / (plan.k_per_m2 + g);
-        fan_moment += w * w * g / kRays;
-        gathered += (1 - w) / kRays;
+    double fan_moment = 0, gathered = 0, gathered_moment = 0;
+    for (const auto& [g, l] : point.rays) {
+        const double rest = GatheredShare{g / plan.k_per_m2}(1);
+        const double w = 1 - rest;
+        if (w > 0) fan_moment += l * w * w * g;
+        gathered += rest;
+        gathered_moment += l * l * rest;
     }
+    const double rays = static_cast<double>(point.rays.size());
     const double chains = static_cast<double>(plan.chains_per_ray);
-    const double variance =
-        kFanVariance * fan_moment / (kPi * point.density_per_m2) + chains * kPathVariance * gathered;
+    const double variance = (kFanVariance * fan_moment / (kPi * point.density_per_m2) +
+                             chains * kPathVariance * gathered_moment) /
+                            rays;
     return {point.indirect_share * point.indirect_share * variance,
-            (kRayCost + kPathCost * gathered) / chains};
+            (kRayCost + kPathCost * gathered / rays) / chains};
 }
 
 /// The k that is best for a given number of chains per ray, when a unit of cost is worth `price` units of
@@ -93,38 +102,69 @@ double price_of(std::span<const PointModel> points, std::span<const SplitPlan> p
     return variance / cost;
 }
 
-/// What a fan of the nodes, with G bounded, brings to each reading.
-ReadingSums pilot_fan(const RayCaster& caster, std::span<const PackedPoint> points,
-                      std::span<const ChainNode> nodes, double bound_per_m2) {
-    ReadingSums sums(points.size());
-    const std::vector<double> bounds(points.size(), bound_per_m2);
-    Fan(caster, points, bounds).collect(nodes, sums);
-    return sums;
+/// A bound for G that leaves out what is unusually near, so that single near nodes do not decide: a few times
+/// the upper quartile of what the rays meet.
+double usual_kernel_per_m2(std::span<const RaySample> rays, double fallback_per_m2) {
+    std::vector<double> kernels;
+    for (const RaySample& ray : rays) {
+        if (ray.g_per_m2 > 0 && std::isfinite(ray.g_per_m2)) kernels.push_back(ray.g_per_m2);
+    }
+    if (kernels.empty()) return fallback_per_m2;
+    const auto quartile = kernels.begin() + static_cast<std::ptrdiff_t>(3 * kernels.size() / 4);
+    std::nth_element(kernels.begin(), quartile, kernels.end());
+    return 4 * *quartile;
 }
 
-/// G of the surfaces that a few cosine-distributed rays meet.
-std::array<double, kRays> sampled_kernels(const RayCaster& caster, const PackedPoint& point, RandomKey key) {
+std::vector<RaySample> sample_rays(const RayCaster& caster, const PathTracer& tracer,
+                                   const PackedPoint& point, unsigned count, RandomKey key) {
+    constexpr double floor = 0.2;  // light that comes by more than one reflection, as a share of the mean
+    constexpr int only_direct_light = 1;
     const Frame frame = Frame::around(point.normal);
-    std::array<double, kRays> kernels{};
-    for (unsigned i = 0; i < kRays; ++i) {
+    std::vector<RaySample> rays(count);
+    double sum = 0;
+    for (unsigned i = 0; i < count; ++i) {
         SampleStream stream(key, i);
-        const auto [u1, u2] = stream.next_two();
-        const Vec3 local = sample_cosine_hemisphere(u1, u2).direction;
+        const std::array<double, 2> u = stream.next_two();
+        const Vec3 local = sample_cosine_hemisphere(u[0], u[1]).direction;
         const Vec3 direction = frame.to_world(local);
         const auto hit = caster.closest(point.lifted, direction);
-        if (hit) kernels[i] = local.z * -dot(hit->normal, direction) / (hit->distance_m * hit->distance_m);
+        if (!hit) continue;
+        const PathTracer::View view = tracer.look_through_mirrors(*hit, direction, only_direct_light, stream);
+        const double g = local.z * -dot(hit->normal, direction) / (hit->distance_m * hit->distance_m);
+        rays[i].g_per_m2 = view.reflections > 0 ? std::numeric_limits<double>::infinity() : g;
+        Spectrum luminance = view.emission_cd_m2;
+        if (view.surface) {
+            luminance += view.transmission * tracer.reflected_luminance(*view.surface, view.outgoing,
+                                                                        only_direct_light, {}, stream);
+        }
+        rays[i].luminance = luminance.luminance();
+        sum += rays[i].luminance;
     }
-    return kernels;
+    const double mean = sum / count;
+    for (RaySample& ray : rays) {
+        if (ray.g_per_m2 == 0) continue;
+        ray.luminance = mean > 0 ? (ray.luminance / mean + floor) / (1 + floor) : 1;
+    }
+    return rays;
 }
 
-std::vector<PointModel> model_points(const RayCaster& caster, std::span<const PackedPoint> points,
-                                     const PilotLight& pilot, RandomKey key) {
+std::vector<PointModel> model_points(const RayCaster& caster, const PathTracer& tracer,
+                                     std::span<const PackedPoint> points, const PilotLight& pilot,
+                                     RandomKey key) {
     const double chains = static_cast<double>(pilot.chains);
     const double mean_density =
         (static_cast<double>(pilot.nodes.size()) + 1) / (chains * pilot.scene_area_m2);
-    // Bounded, so that single near nodes do not count.
-    const double bound = 16 * kPi * mean_density;
-    const ReadingSums indirect = pilot_fan(caster, points, pilot.nodes, bound);
+    // Few rays for each of many points: those of a packet share a plan.
+    const unsigned rays = points.size() > 1000 ? 16 : 64;
+    std::vector<PointModel> models(points.size());
+    std::vector<double> bounds_per_m2;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+        models[j].rays = sample_rays(caster, tracer, points[j], rays, key.derived(j));
+        bounds_per_m2.push_back(usual_kernel_per_m2(models[j].rays, mean_density));
+    }
+    const Fan fan(caster, points, bounds_per_m2);
+    ReadingSums indirect(points.size()), density(points.size());
+    fan.collect(pilot.nodes, indirect);
     // Unit fluxes on white surfaces add up to nu.
     const Material white = Diffuse{Spectrum::grey(1)};
     std::vector<ChainNode> unit_nodes(pilot.nodes.begin(), pilot.nodes.end());
@@ -133,25 +173,23 @@ std::vector<PointModel> model_points(const RayCaster& caster, std::span<const Pa
         node.flux_lm = Spectrum::grey(1);
         node.only_by_light = false;
     }
-    const ReadingSums density = pilot_fan(caster, points, unit_nodes, bound);
-    std::vector<PointModel> models;
-    models.reserve(points.size());
+    fan.collect(unit_nodes, density);
     for (std::size_t j = 0; j < points.size(); ++j) {
         const std::uint32_t reading = points[j].reading;
         const double indirect_lx = indirect.sum[reading].luminance() / chains;
         const double total_lx = indirect_lx + pilot.direct_lx[reading];
-        models.push_back({sampled_kernels(caster, points[j], key.derived(j)),
-                          std::max(density.sum[reading][0] / chains, 1e-3 * mean_density),
-                          total_lx > 0 ? indirect_lx / total_lx : 1});
+        models[j].density_per_m2 = std::max(density.sum[reading][0] / chains, 1e-3 * mean_density);
+        models[j].indirect_share = total_lx > 0 ? indirect_lx / total_lx : 1;
     }
     return models;
 }
 
 }  // namespace
 
-std::vector<SplitPlan> plan_splits(const RayCaster& caster, std::span<const PackedPoint> points,
-                                   const PilotLight& pilot, RandomKey key) {
-    const std::vector<PointModel> models = model_points(caster, points, pilot, key);
+std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
+                                   std::span<const PackedPoint> points, const PilotLight& pilot,
+                                   RandomKey key) {
+    const std::vector<PointModel> models = model_points(caster, tracer, points, pilot, key);
     // About half of the nodes face a point; the walk is shared by all points.
     const double nodes_per_chain =
         (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);

@@ -7,6 +7,7 @@
 
 #include "estimators/light_chain.h"
 #include "estimators/packed_points.h"
+#include "estimators/path_tracer.h"
 
 namespace stilb {
 
@@ -28,16 +29,17 @@ struct PilotLight {
 };
 
 /// Plans that make the sum over the points of variance / value^2, times the cost, about as small as can be;
-/// the rays of a packet's points are equally many. Variance and cost come from a model: nodes lie with
-/// density nu [1/m2 per chain] on what a point sees, which gives, E[] being the mean over cosine-distributed
-/// rays and in units of the indirect light squared,
+/// the rays of a packet's points are equally many. Variance and cost come from a model: surfaces that a point
+/// sees hold nu l [1/m2 per chain] nodes, l being their luminance over its mean, which gives, E[] being the
+/// mean over cosine-distributed rays and in units of the indirect light squared,
 ///
-///     variance of a chain's fan    E[w^2 G] / (pi nu)        variance of a gathering ray    c E[1 - w]
+///     variance of a chain's fan    E[l w^2 G] / (pi nu)        of a gathering ray    c E[l^2 (1 - w)]
 ///
-/// The pilot gives nu and the share of indirect light, a few rays from each point the distribution of G. Any
-/// plan is unbiased; a poor one costs time only. The plans depend on `key`, which must be independent of what
-/// they are used for.
-std::vector<SplitPlan> plan_splits(const RayCaster& caster, std::span<const PackedPoint> points,
-                                   const PilotLight& pilot, RandomKey key);
+/// The pilot gives nu and the share of indirect light, a few rays from each point G and l (by direct light
+/// alone). Any plan is unbiased; a poor one costs time only. The plans depend on `key`, which must be
+/// independent of what they are used for.
+std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
+                                   std::span<const PackedPoint> points, const PilotLight& pilot,
+                                   RandomKey key);
 
 }  // namespace stilb

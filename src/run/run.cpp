@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "estimators/estimator_list.h"
+#include "sensors/placement.h"
 #include "statistics/heavy_tail.h"
 #include "statistics/stopping.h"
 
@@ -25,6 +26,8 @@ constexpr double kConfidence = 0.95;
 /// Rays of a batch over all replicates: about a second of work, so that an interruption is answered soon.
 constexpr double kRaysPerRound = 3e7;
 constexpr std::uint64_t kLongestBatch = 1 << 16;
+/// Of a replicate: Sobol' indices have 32 bits.
+constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 /// Contributions that may fail to be finite before the run does.
 constexpr double kInvalidRate = 1e-6;
 enum Purpose : std::uint64_t { kPreparation, kReplicates };
@@ -135,13 +138,14 @@ void require_valid(const RunOptions& options, std::size_t readings) {
     if (options.replicates < 2) throw InputError("replicates: at least 2 are needed");
 }
 
-/// Samples after which to look next: 1, 2, 3, 4, 6, 8, 12 ... batches, where Sobol' points are at their best
-/// and the overshoot is at most a half.
-std::uint64_t next_checkpoint(std::uint64_t samples, std::uint64_t batch) {
-    std::uint64_t power = batch;
+/// Samples after which to look next: 1, 2, 3, 4, 6, 8, 12 ... times the granularity, where Sobol' points are
+/// at their best and the overshoot is at most a half.
+std::uint64_t next_checkpoint(std::uint64_t samples, std::uint64_t granularity) {
+    std::uint64_t power = granularity;
     while (2 * power <= samples) power *= 2;
     if (samples < power) return power;
-    return samples < power + power / 2 && power / 2 % batch == 0 ? power + power / 2 : 2 * power;
+    const std::uint64_t half_more = power + power / 2;
+    return samples < half_more && half_more % granularity == 0 ? half_more : 2 * power;
 }
 
 double attained_error(const Campaign& campaign, std::span<const Sensor> sensors) {
@@ -170,19 +174,21 @@ class Schedule {
   public:
     Schedule(const RunOptions& options, const Estimator& estimator, const Clock& clock,
              const std::atomic<bool>* interrupt)
-        : options_(options), clock_(clock), interrupt_(interrupt) {
+        : options_(options),
+          clock_(clock),
+          interrupt_(interrupt),
+          granularity_(estimator.batch_granularity()) {
         if (!options.paths) return;
-        const std::uint64_t granularity = estimator.batch_granularity();
         const auto divided_up = [](std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; };
         const std::uint64_t each = divided_up(*options.paths, static_cast<std::uint64_t>(options.replicates));
-        last_sample_ = divided_up(each, granularity) * granularity;
+        last_sample_ = std::min(divided_up(each, granularity_) * granularity_, kMostSamples);
     }
 
     void proceed(Campaign& campaign, std::span<const Sensor> sensors, ProgressSink* progress,
                  RunResult& result) {
         for (;;) {
             const std::uint64_t checkpoint =
-                std::min(last_sample_, next_checkpoint(campaign.samples(), campaign.batch_size()));
+                std::min(last_sample_, next_checkpoint(campaign.samples(), granularity_));
             while (campaign.samples() < checkpoint) {
                 if (const auto reason = early_stop(campaign)) {
                     result.stop_reason = *reason;
@@ -231,7 +237,8 @@ class Schedule {
     const RunOptions& options_;
     const Clock& clock_;
     const std::atomic<bool>* interrupt_;
-    std::uint64_t last_sample_ = std::uint64_t{1} << 31;  // Sobol' indices have 32 bits
+    std::uint64_t granularity_;
+    std::uint64_t last_sample_ = kMostSamples;
 };
 
 SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::size_t first,
@@ -308,6 +315,8 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
         first += sensor.points.size();
     }
     result.warnings = estimator->warnings();
+    for (auto& warning : placement_warnings(scene, caster, sensors))
+        result.warnings.push_back(std::move(warning));
     if (method.has_heavy_tails) {
         for (auto& warning : heavy_tail_warnings(campaign, sensors))
             result.warnings.push_back(std::move(warning));
