@@ -19,7 +19,10 @@ constexpr double kRayCost = 4;     ///< a gathering ray to its hit
 constexpr double kPathCost = 100;  ///< the path that goes on from there
 constexpr double kChainCost = 35;  ///< walking one chain
 constexpr double kPathVariance = 3;
-constexpr double kFanVariance = 0.2;  ///< below 1 thanks to the even selection of nodes
+/// What even selection leaves of the variance of a kernel that varies slowly, and how many nodes lie evenly;
+/// a kernel that is peaked between two of these keeps its variance.
+constexpr double kEvenVariance = 0.1;
+constexpr double kEvenNodes = 512;
 
 /// What a ray from a point meets.
 struct RaySample {
@@ -39,20 +42,22 @@ struct Prediction {
     double cost = 0;      ///< of the gathering for a chain
 };
 
+/// `peak` is G times the area that one of the evenly lying nodes stands for.
+double remaining_variance(double peak) { return (kEvenVariance + peak) / (1 + peak); }
+
 Prediction predict(const PointModel& point, const SplitPlan& plan) {
     double fan_moment = 0, gathered = 0, gathered_moment = 0;
     for (const auto& [g, l] : point.rays) {
         const double rest = GatheredShare{g / plan.k_per_m2}(1);
         const double w = 1 - rest;
-        if (w > 0) fan_moment += l * w * w * g;
+        if (w > 0) fan_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * point.density_per_m2));
         gathered += rest;
         gathered_moment += l * l * rest;
     }
     const double rays = static_cast<double>(point.rays.size());
     const double chains = static_cast<double>(plan.chains_per_ray);
-    const double variance = (kFanVariance * fan_moment / (kPi * point.density_per_m2) +
-                             chains * kPathVariance * gathered_moment) /
-                            rays;
+    const double variance =
+        (fan_moment / (kPi * point.density_per_m2) + chains * kPathVariance * gathered_moment) / rays;
     return {point.indirect_share * point.indirect_share * variance,
             (kRayCost + kPathCost * gathered / rays) / chains};
 }
