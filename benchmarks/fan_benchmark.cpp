@@ -1,0 +1,127 @@
+// The estimator's inner loop (Fan::collect) against its bound: a bare rtcOccluded16 loop over the same rays,
+// which are ready in memory and of which nothing is made. One thread.
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "estimators/fan.h"
+#include "rooms.h"
+
+namespace stilb {
+namespace {
+
+double now_s() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The scene as Embree has it in RayCaster, built here once more so that the loop sees nothing of Stilb.
+RTCScene bare_scene(RTCDevice device, const Scene& scene, const Vec3& center) {
+    const RTCScene result = rtcNewScene(device);
+    rtcSetSceneFlags(result, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(result, RTC_BUILD_QUALITY_HIGH);
+    for (const Object& object : scene.objects) {
+        const auto* box = std::get_if<Box>(&object.shape);
+        const Mesh mesh = box != nullptr ? triangulated(*box) : std::get<Mesh>(object.shape);
+        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
+        for (const Vec3& vertex : mesh.vertices) {
+            const Vec3 p = vertex - center;
+            for (const double coordinate : {p.x, p.y, p.z}) *vertices++ = static_cast<float>(coordinate);
+        }
+        auto* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                sizeof(Triangle), mesh.triangles.size());
+        std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<Triangle*>(indices));
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(result, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(result);
+    return result;
+}
+
+struct PreparedRays {
+    std::vector<RayPacket> packets;
+    std::vector<LaneMask> lanes;
+};
+
+/// The rays that the fan traces, in its order: by packets of points, then nodes.
+PreparedRays prepare_rays(const PackedPoints& points, const std::vector<ChainNode>& nodes,
+                          const Vec3& center) {
+    PreparedRays rays;
+    for (std::size_t first = 0; first < points.size(); first += kPacketWidth) {
+        for (const ChainNode& node : nodes) {
+            RayPacket packet;
+            LaneMask lanes{};
+            bool any = false;
+            for (std::size_t i = 0; i < kPacketWidth; ++i) {
+                const PackedPoint& point = points[first + i];
+                const Vec3 segment = point.lifted - node.lifted;
+                packet.set(static_cast<int>(i), node.lifted - center, segment);
+                packet.end[i] = 1;
+                const Vec3 exact = point.position - node.position;
+                lanes[i] = dot(node.normal, exact) > 0 && dot(point.normal, exact) < 0 ? -1 : 0;
+                any = any || lanes[i] != 0;
+            }
+            if (!any) continue;
+            rays.packets.push_back(packet);
+            rays.lanes.push_back(lanes);
+        }
+    }
+    return rays;
+}
+
+void compare(const Scene& scene) {
+    const RayCaster caster(scene);
+    const LightSampler lights(scene, caster);
+    std::vector<ChainNode> nodes;
+    for (std::uint64_t chain = 0; chain < 256; ++chain) {
+        walk_light_chain(scene, caster, lights, 100, SampleStream(RandomKey{1}, chain), nodes);
+    }
+    nodes.resize(std::min<std::size_t>(nodes.size(), 256));
+    const PackedPoints points = packed(make_grid(32), caster);
+    const std::vector<double> k(points.size(), 1.0);
+    const Fan fan(caster, points, k);
+    PreparedRays rays = prepare_rays(points, nodes, caster.center());
+
+    const RTCDevice device = rtcNewDevice(nullptr);
+    const RTCScene bare = bare_scene(device, scene, caster.center());
+    double best_fan_s = 1e30, best_bare_s = 1e30;
+    std::uint64_t traced = 0;
+    constexpr int repetitions = 15;  // in turn, so that a change of the machine's speed meets both
+    for (int repetition = 0; repetition < repetitions; ++repetition) {
+        ReadingSums sums(points.size());
+        double start = now_s();
+        fan.collect(nodes, sums);
+        best_fan_s = std::min(best_fan_s, now_s() - start);
+        traced = sums.rays;
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        for (RayPacket& packet : rays.packets) packet.end.fill(1);
+        start = now_s();
+        for (std::size_t p = 0; p < rays.packets.size(); ++p) {
+            rtcOccluded16(rays.lanes[p].data(), bare, &context,
+                          reinterpret_cast<RTCRay16*>(&rays.packets[p]));
+        }
+        best_bare_s = std::min(best_bare_s, now_s() - start);
+    }
+    rtcReleaseScene(bare);
+    rtcReleaseDevice(device);
+    const double million = static_cast<double>(traced) / 1e6;
+    fmt::print("{:18} {:10.1f} {:10.1f} {:8.2f}\n", scene.name, million / best_fan_s, million / best_bare_s,
+               best_bare_s / best_fan_s);
+}
+
+}  // namespace
+}  // namespace stilb
+
+int main() {
+    fmt::print("Fan rays, one thread, best of 15   [million rays / s]\n{:18} {:>10} {:>10} {:>8}\n", "",
+               "fan", "bare", "ratio");
+    stilb::compare(stilb::make_room(0));
+    stilb::compare(stilb::make_room(30));
+}
