@@ -11,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
+#include "files/canvas.h"
 #include "files/grid_picture.h"
 #include "files/results_csv.h"
 #include "files/results_json.h"
@@ -52,6 +53,7 @@ int run_measure(const MeasureRequest& request) {
     const SceneFile file = read_scene_file(request.scene);
     const std::vector<Sensor> sensors = chosen_sensors(file.sensors, request.sensors, request.scene);
     const RunOptions options = request.flags.over(file.run);
+    if (!request.picture.empty()) require_picture_path(request.picture);
     RunResult result;
     {
         TerminalProgress progress;

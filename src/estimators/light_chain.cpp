@@ -6,6 +6,7 @@ namespace stilb {
 
 void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSampler& lights, int max_nodes,
                       SampleStream stream, std::vector<ChainNode>& nodes) {
+    if (lights.count() == 0) return;
     const EmittedParticle particle = lights.sample_emission(stream);
     Vec3 origin = particle.origin;
     Vec3 direction = particle.direction;

@@ -19,8 +19,8 @@ std::vector<std::string> mirror_warnings(const Scene& scene, std::string_view wh
     });
     if (!point_like || !has_mirrors(scene)) return {};
     return {fmt::format(
-        "{}: that light is missing from the readings. A small sphere or area light in its place is "
-        "seen by mirrors.",
+        "{}: that light is missing from the readings. Area lights and spheres of a size that mirrors "
+        "can show have no such limit.",
         what)};
 }
 

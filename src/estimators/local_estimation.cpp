@@ -1,17 +1,18 @@
 // Local estimation: illuminance at all points from one set of light chains, by the kernel split (theory T.1b)
 //
-//   E(x) = E_direct + sum over nodes of W f_r w G + integral of L_r (1 - w) cos(theta_x) dw,    w = k / (k +
-//   G).
+//   E(x) = E_direct + sum over nodes of W f_r w G + integral of L_r (1 - w) cos(theta_x) dw
+//
+// with w = k / (k + s G) of kernel_split.h.
 //
 //   local   k = infinity: the estimator as published [LocalEstimation (5)]; rays from the point bring in only
 //   what
 //           mirrors show. Infinite variance where chains come arbitrarily near to a point: in corners.
-//   auto    k from the density of nodes that the point sees, which balances both ways of making the same
-//   light
-//           (see split_constants_per_m2). Unbiased and of finite variance everywhere.
+//   auto    k and the number of gathering rays by plan_splits(), nodes by select_nodes(). Unbiased and of
+//   finite
+//           variance, but for light that only chains can make (it met a mirror first), which keeps w = 1.
 //
-// Not made: light from point-like sources that reaches a point, or a surface that it sees by a mirror,
-// through mirrors alone; the run warns of it.
+// Not made: light that leaves a point-like source, meets a mirror first and comes to x by a mirror last; the
+// run warns of it.
 #include "estimators/local_estimation.h"
 
 #include <limits>
@@ -84,8 +85,8 @@ class LocalEstimation final : public Estimator {
     std::vector<std::string> warnings() const override {
         return mirror_warnings(
             scene_,
-            "local estimation cannot make light that goes from a point or photometry light "
-            "to the point, or to what the point sees in a mirror, by mirrors alone");
+            "local estimation cannot make light that leaves a point or photometry light, meets a "
+            "mirror first and comes to the point by a mirror last");
     }
 
   private:

@@ -42,7 +42,8 @@ class PathEstimator final : public Estimator {
     }
 
     std::span<const Spectrum> known_part_lx() const override { return known_part_lx_; }
-    std::uint64_t batch_granularity() const override { return 1; }
+    /// Enough for a first look at the error not to miss what few paths find.
+    std::uint64_t batch_granularity() const override { return 64; }
     double rays_per_sample() const override { return 10.0 * static_cast<double>(points_.size()); }
     std::vector<std::string> warnings() const override {
         return mirror_warnings(scene_,

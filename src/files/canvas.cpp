@@ -82,6 +82,16 @@ std::string picture_extension(const std::filesystem::path& path) {
 
 }  // namespace
 
+void require_picture_path(const std::filesystem::path& path) {
+    picture_extension(path);
+    const std::filesystem::path folder = path.parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+        throw InputError(fmt::format("the picture cannot be written: there is no folder '{}'. Make it first.",
+                                     folder.string()),
+                         {path.string()});
+    }
+}
+
 struct Canvas::Cairo {
     /// The SVG's text as it grows; Cairo writes to it until the surface is finished, hence before the
     /// surface.

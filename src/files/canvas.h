@@ -54,6 +54,10 @@ inline constexpr double kUpwards = -std::numbers::pi / 2;
 /// Advance of one line of text.
 double text_width(const std::string& text, double size, Weight weight = Weight::regular);
 
+/// Throws InputError where no picture can be written to `path`: another extension than .png or .svg (any
+/// case), or a folder that does not exist. For a look before a long computation.
+void require_picture_path(const std::filesystem::path& path);
+
 class Canvas {
   public:
     /// A white sheet. The extension of `path` says what it becomes: .png or .svg (any case); InputError

@@ -28,6 +28,8 @@ constexpr double kRaysPerRound = 3e7;
 constexpr std::uint64_t kLongestBatch = 1 << 16;
 /// Of a replicate: Sobol' indices have 32 bits.
 constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
+/// Granules before the first look: an error that is estimated from fewer may be far too small.
+constexpr std::uint64_t kLeastLook = 4;
 /// Contributions that may fail to be finite before the run does.
 constexpr double kInvalidRate = 1e-6;
 enum Purpose : std::uint64_t { kPreparation, kReplicates };
@@ -138,14 +140,14 @@ void require_valid(const RunOptions& options, std::size_t readings) {
     if (options.replicates < 2) throw InputError("replicates: at least 2 are needed");
 }
 
-/// Samples after which to look next: 1, 2, 3, 4, 6, 8, 12 ... times the granularity, where Sobol' points are
-/// at their best and the overshoot is at most a half.
+/// Samples after which to look next: 4, 6, 8, 12, 16 ... times the granularity, where Sobol' points are at
+/// their best and the overshoot is at most a half.
 std::uint64_t next_checkpoint(std::uint64_t samples, std::uint64_t granularity) {
-    std::uint64_t power = granularity;
+    std::uint64_t power = kLeastLook * granularity;
     while (2 * power <= samples) power *= 2;
     if (samples < power) return power;
     const std::uint64_t half_more = power + power / 2;
-    return samples < half_more && half_more % granularity == 0 ? half_more : 2 * power;
+    return samples < half_more ? half_more : 2 * power;
 }
 
 double attained_error(const Campaign& campaign, std::span<const Sensor> sensors) {

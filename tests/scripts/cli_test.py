@@ -122,6 +122,12 @@ class WrongInputTest(CommandLineTest):
                 self.expect_wrong_input(["measure", self.scene, f"{flag}={value}"], flag.lstrip("-"))
 
 
+    def test_pictures_that_cannot_be_written_are_named_before_measuring(self):
+        for name in ("desk.jpg", "no/folder/desk.png"):
+            with self.subTest(name=name):
+                self.expect_wrong_input(["measure", self.scene, "--falsecolor", self.folder / name], name)
+
+
 class HelpTest(CommandLineTest):
     def test_examples_come_first(self):
         for command in ("measure", "info", "falsecolor"):
@@ -221,6 +227,14 @@ class MeasureTest(CommandLineTest):
             for row, value in zip(rows, sensor["values"]):
                 self.assertAlmostEqual(float(row["illuminance_lx"]), value["value"], delta=1e-4 * value["value"])
                 self.assertAlmostEqual(float(row["x_m"]), value["position"][0], 5)
+
+    def test_without_lights_everything_is_dark(self):
+        lights = ROOM.index("[lights.bulb]")
+        self.scene = self.write("dark.toml", ROOM[:lights] + ROOM[ROOM.index("[sensors.desk]"):])
+        for method in ("auto", "local", "path"):
+            with self.subTest(method=method):
+                result = self.measure("--method", method, "--paths", "1")
+                self.assertEqual({value["value"] for sensor in result["sensors"] for value in sensor["values"]}, {0})
 
     def test_picture(self):
         picture = self.folder / "desk.png"
