@@ -11,7 +11,7 @@ constexpr double kGap = 4;
 Stroke tick_stroke() { return {kInk, 0.8}; }
 
 /// The point `distance` outside the frame.
-Point outside(Side side, const Rectangle& frame, double along, double distance) {
+Point outside(Side side, const PageRectangle& frame, double along, double distance) {
     if (side == Side::left) return {frame.left - distance, along};
     if (side == Side::right) return {frame.right() + distance, along};
     return {along, frame.bottom() + distance};
@@ -19,13 +19,14 @@ Point outside(Side side, const Rectangle& frame, double along, double distance) 
 
 }  // namespace
 
-double position_along(const Scale& scale, Side side, const Rectangle& frame, double value) {
+double position_along(const Scale& scale, Side side, const PageRectangle& frame, double value) {
     const double fraction = scale.fraction_of(value);
     return side == Side::bottom ? frame.left + fraction * frame.width
                                 : frame.bottom() - fraction * frame.height;
 }
 
-void draw_axis(Canvas& canvas, const Scale& scale, const Ticks& ticks, Side side, const Rectangle& frame) {
+void draw_axis(Canvas& canvas, const Scale& scale, const Ticks& ticks, Side side,
+               const PageRectangle& frame) {
     const auto mark = [&](double value, double length) {
         const double along = position_along(scale, side, frame, value);
         canvas.line(outside(side, frame, along, 0), outside(side, frame, along, length), tick_stroke());

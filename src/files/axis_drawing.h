@@ -16,10 +16,10 @@ inline constexpr Colour kFaintInk = grey(0.4);
 enum class Side { left, right, bottom };
 
 /// Where values lie along that side: left and right axes grow upwards.
-double position_along(const Scale& scale, Side side, const Rectangle& frame, double value);
+double position_along(const Scale& scale, Side side, const PageRectangle& frame, double value);
 
 /// Draws ticks outwards from the frame, with labels.
-void draw_axis(Canvas& canvas, const Scale& scale, const Ticks& ticks, Side side, const Rectangle& frame);
+void draw_axis(Canvas& canvas, const Scale& scale, const Ticks& ticks, Side side, const PageRectangle& frame);
 
 /// Room that ticks and labels take beyond the frame, away from it.
 double axis_extent(const Ticks& ticks, Side side);

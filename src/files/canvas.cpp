@@ -120,7 +120,7 @@ Canvas::~Canvas() = default;
 Canvas::Canvas(Canvas&&) noexcept = default;
 Canvas& Canvas::operator=(Canvas&&) noexcept = default;
 
-void Canvas::fill_rectangle(const Rectangle& rectangle, const Colour& colour) {
+void Canvas::fill_rectangle(const PageRectangle& rectangle, const Colour& colour) {
     cairo_t* context = cairo_->context.get();
     set_colour(context, colour);
     cairo_set_antialias(context, CAIRO_ANTIALIAS_NONE);
@@ -129,7 +129,7 @@ void Canvas::fill_rectangle(const Rectangle& rectangle, const Colour& colour) {
     cairo_set_antialias(context, CAIRO_ANTIALIAS_DEFAULT);
 }
 
-void Canvas::stroke_rectangle(const Rectangle& rectangle, const Stroke& stroke) {
+void Canvas::stroke_rectangle(const PageRectangle& rectangle, const Stroke& stroke) {
     cairo_t* context = cairo_->context.get();
     cairo_rectangle(context, rectangle.left, rectangle.top, rectangle.width, rectangle.height);
     set_stroke(context, stroke);
@@ -188,7 +188,7 @@ void Canvas::text(const Point& at, const std::string& text, const TextStyle& sty
     cairo_new_path(context);
 }
 
-void Canvas::clipped(const Rectangle& rectangle, const std::function<void()>& draw) {
+void Canvas::clipped(const PageRectangle& rectangle, const std::function<void()>& draw) {
     cairo_t* context = cairo_->context.get();
     cairo_save(context);
     cairo_rectangle(context, rectangle.left, rectangle.top, rectangle.width, rectangle.height);

@@ -20,7 +20,7 @@ struct Point {
     double x = 0, y = 0;
 };
 
-struct Rectangle {
+struct PageRectangle {
     double left = 0, top = 0, width = 0, height = 0;
 
     double right() const { return left + width; }
@@ -68,8 +68,8 @@ class Canvas {
     Canvas& operator=(Canvas&&) noexcept;
 
     /// With hard edges, so that neighbours leave no seam.
-    void fill_rectangle(const Rectangle& rectangle, const Colour& colour);
-    void stroke_rectangle(const Rectangle& rectangle, const Stroke& stroke);
+    void fill_rectangle(const PageRectangle& rectangle, const Colour& colour);
+    void stroke_rectangle(const PageRectangle& rectangle, const Stroke& stroke);
     void line(const Point& from, const Point& to, const Stroke& stroke);
     /// Open and with round joins.
     void polyline(std::span<const Point> points, const Stroke& stroke);
@@ -77,7 +77,7 @@ class Canvas {
     void fill_circle(const Point& center, double radius, const Colour& colour);
     void text(const Point& at, const std::string& text, const TextStyle& style);
     /// What `draw` draws shows only inside the rectangle.
-    void clipped(const Rectangle& rectangle, const std::function<void()>& draw);
+    void clipped(const PageRectangle& rectangle, const std::function<void()>& draw);
 
     /// Writes the file; nothing may be drawn afterwards. Throws InputError where it cannot be written.
     void save();

@@ -64,8 +64,8 @@ double header_height(const FalseColourPanel& panel) { return panel.subtitle.empt
 
 /// A panel's place: the frame holds the cells, the box also the header and the axes.
 struct Tile {
-    Rectangle frame;
-    Rectangle box;
+    PageRectangle frame;
+    PageRectangle box;
 };
 
 Tile make_tile(const FalseColourPanel& panel, double height) {
@@ -76,7 +76,7 @@ Tile make_tile(const FalseColourPanel& panel, double height) {
         left = axis_extent(ticks, Side::left);
         below += axis_extent(ticks, Side::bottom);
     }
-    const Rectangle frame{left, header_height(panel), aspect_of(panel) * height, height};
+    const PageRectangle frame{left, header_height(panel), aspect_of(panel) * height, height};
     const double name = text_width(panel.name, kNameSize, Weight::bold) + kNameGap +
                         text_width(headline_of(panel), kSmallSize);
     const double header = left + std::max(name, text_width(panel.subtitle, kSmallSize));
@@ -84,7 +84,7 @@ Tile make_tile(const FalseColourPanel& panel, double height) {
 }
 
 void move(Tile& tile, double x, double y) {
-    for (Rectangle* rectangle : {&tile.frame, &tile.box}) {
+    for (PageRectangle* rectangle : {&tile.frame, &tile.box}) {
         rectangle->left += x;
         rectangle->top += y;
     }
@@ -186,7 +186,7 @@ class Painter {
         if (has_size(panel)) draw_lengths(panel, tile.frame);
     }
 
-    void draw_bar(const Rectangle& bar, const std::string& unit) {
+    void draw_bar(const PageRectangle& bar, const std::string& unit) {
         constexpr int kStrips = 256;
         for (int i = 0; i < kStrips; ++i) {
             const double top = bar.top + bar.height * i / kStrips;
@@ -205,14 +205,14 @@ class Painter {
                             static_cast<std::size_t>(u)];
     }
 
-    static Rectangle cell(const FalseColourPanel& panel, const Rectangle& frame, int u, int v) {
+    static PageRectangle cell(const FalseColourPanel& panel, const PageRectangle& frame, int u, int v) {
         const double width = frame.width / panel.nu;
         const double height = frame.height / panel.nv;
         return {frame.left + u * width, frame.bottom() - (v + 1) * height, width, height};
     }
 
     template <typename Visit>
-    static void for_each_cell(const FalseColourPanel& panel, const Rectangle& frame, Visit visit) {
+    static void for_each_cell(const FalseColourPanel& panel, const PageRectangle& frame, Visit visit) {
         for (int v = 0; v < panel.nv; ++v) {
             for (int u = 0; u < panel.nu; ++u) visit(cell(panel, frame, u, v), value_at(panel, u, v));
         }
@@ -227,7 +227,7 @@ class Painter {
         canvas_.text({at.x, at.y + 17}, panel.subtitle, {.size = kSmallSize, .colour = kInk});
     }
 
-    void draw_lengths(const FalseColourPanel& panel, const Rectangle& frame) {
+    void draw_lengths(const FalseColourPanel& panel, const PageRectangle& frame) {
         const auto draw = [&](double length_m, double drawn, Side side) {
             draw_axis(canvas_, Scale(ScaleType::linear, {0, length_m}), length_ticks(length_m, drawn), side,
                       frame);
@@ -236,8 +236,8 @@ class Painter {
         draw(panel.height_m, frame.height, Side::left);
     }
 
-    void draw_cells(const FalseColourPanel& panel, const Rectangle& frame) {
-        for_each_cell(panel, frame, [&](const Rectangle& place, double value) {
+    void draw_cells(const FalseColourPanel& panel, const PageRectangle& frame) {
+        for_each_cell(panel, frame, [&](const PageRectangle& place, double value) {
             if (std::isnan(value)) {
                 draw_hatching(place);
             } else {
@@ -246,7 +246,7 @@ class Painter {
         });
     }
 
-    void draw_hatching(const Rectangle& place) {
+    void draw_hatching(const PageRectangle& place) {
         constexpr double kSpacing = 6;
         canvas_.fill_rectangle(place, grey(0.86));
         canvas_.clipped(place, [&] {
@@ -269,7 +269,7 @@ class Painter {
     }
 
     /// The size at which every number fits its cell; 0 where that would be too small to read.
-    double number_size(const FalseColourPanel& panel, const Rectangle& frame) const {
+    double number_size(const FalseColourPanel& panel, const PageRectangle& frame) const {
         constexpr double kLeast = 6;
         constexpr double kMost = 13;
         double widest = 0;  // at size 1
@@ -278,14 +278,14 @@ class Painter {
             widest = std::max(widest, text_width(number_text(value, decimals_of(panel)), 10) / 10);
         }
         if (widest == 0) return 0;
-        const Rectangle place = cell(panel, frame, 0, 0);
+        const PageRectangle place = cell(panel, frame, 0, 0);
         const double size = std::min({kMost, 0.84 * place.width / widest, 0.6 * place.height});
         return size < kLeast ? 0 : size;
     }
 
-    void draw_numbers(const FalseColourPanel& panel, const Rectangle& frame, double size) {
+    void draw_numbers(const FalseColourPanel& panel, const PageRectangle& frame, double size) {
         const int decimals = decimals_of(panel);
-        for_each_cell(panel, frame, [&](const Rectangle& place, double value) {
+        for_each_cell(panel, frame, [&](const PageRectangle& place, double value) {
             if (std::isnan(value)) return;
             // The halo is seen only where an isoline passes behind.
             const Colour background = map_.at(scale_.fraction_of(value));
@@ -298,7 +298,7 @@ class Painter {
         });
     }
 
-    void draw_isolines(const FalseColourPanel& panel, const Rectangle& frame, bool labelled) {
+    void draw_isolines(const FalseColourPanel& panel, const PageRectangle& frame, bool labelled) {
         // Along the scale's own measure, so that lines on a logarithmic scale lie where the colours say; the
         // lower limit stands in for values without a logarithm.
         std::vector<double> fractions;
@@ -363,11 +363,11 @@ void draw_false_colour(const FalseColour& picture, const FalseColourOptions& opt
     for (Tile& tile : layout.tiles) move(tile, kMargin, kMargin + kTitleHeight);
 
     // The bar stands beside the cells of the first row.
-    const Rectangle& first = layout.tiles.front().frame;
+    const PageRectangle& first = layout.tiles.front().frame;
     const double content_bottom = kMargin + kTitleHeight + layout.height;
     const double last_frame_bottom = layout.tiles.back().frame.bottom();
-    const Rectangle bar{kMargin + layout.width + kBarGap, first.top, kBarWidth,
-                        std::max(kLeastBarHeight, last_frame_bottom - first.top)};
+    const PageRectangle bar{kMargin + layout.width + kBarGap, first.top, kBarWidth,
+                            std::max(kLeastBarHeight, last_frame_bottom - first.top)};
     Canvas canvas(path, bar.left + bar_extent(scale) + kMargin,
                   std::max(content_bottom, bar.bottom() + 8) + kMargin - 8);
     canvas.text({layout.tiles.front().frame.left, kMargin + kTitleSize}, picture.title,

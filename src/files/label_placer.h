@@ -17,7 +17,7 @@ struct LabelPlace {
 /// Places labels of several lines within one frame so that they do not touch each other or the frame.
 class LabelPlacer {
   public:
-    explicit LabelPlacer(const Rectangle& frame) : frame_(frame) {}
+    explicit LabelPlacer(const PageRectangle& frame) : frame_(frame) {}
 
     /// On the straightest stretch that is free; nothing where the line is too short, too crooked or has no
     /// room.
@@ -30,7 +30,7 @@ class LabelPlacer {
         Point center;
         double radius;
     };
-    Rectangle frame_;
+    PageRectangle frame_;
     std::vector<Disk> taken_;
 };
 

@@ -74,7 +74,7 @@ void require_consistency(const Plot& plot) {
 struct Frame {
     Scale x, y;
     Ticks x_ticks, y_ticks;
-    Rectangle place;
+    PageRectangle place;
 
     Frame(const Scale& x_scale, const Scale& y_scale, double height)
         : x(x_scale),
@@ -138,7 +138,7 @@ void draw_marker(Canvas& canvas, MarkerStyle style, const Point& at, const Colou
         if (style == MarkerStyle::circle) canvas.fill_circle(at, radius, fill);
         if (style == MarkerStyle::square) {
             const double side = 1.8 * radius;
-            const Rectangle square{at.x - side / 2, at.y - side / 2, side, side};
+            const PageRectangle square{at.x - side / 2, at.y - side / 2, side, side};
             const std::array<Point, 4> corners{{{square.left, square.top},
                                                 {square.right(), square.top},
                                                 {square.right(), square.bottom()},
@@ -205,7 +205,7 @@ void draw_points(Canvas& canvas, const Frame& frame, const Series& series, const
 }
 
 void draw_grid_lines(Canvas& canvas, const Frame& frame) {
-    const Rectangle& place = frame.place;
+    const PageRectangle& place = frame.place;
     for (const Tick& tick : frame.x_ticks.major) {
         const double x = position_along(frame.x, Side::bottom, place, tick.value);
         canvas.line({x, place.top}, {x, place.bottom()}, {kGridColour, 0.8});
@@ -225,7 +225,7 @@ std::vector<std::size_t> named_series(const PlotPanel& panel) {
 }
 
 /// How much of the panel's curves lies within `area`.
-int crowd_within(const Rectangle& area, const PlotPanel& panel, const Frame& frame) {
+int crowd_within(const PageRectangle& area, const PlotPanel& panel, const Frame& frame) {
     constexpr int kPieces = 16;  // a long straight piece has few points of its own
     int crowd = 0;
     const auto count = [&](const Point& p) {
@@ -250,14 +250,14 @@ int crowd_within(const Rectangle& area, const PlotPanel& panel, const Frame& fra
 }
 
 /// The corner of the frame where the legend hides least.
-Rectangle place_legend(const PlotPanel& panel, const Frame& frame, double width, double height) {
+PageRectangle place_legend(const PlotPanel& panel, const Frame& frame, double width, double height) {
     constexpr double kInset = 10;
-    const Rectangle& place = frame.place;
-    Rectangle best;
+    const PageRectangle& place = frame.place;
+    PageRectangle best;
     int least = -1;
     for (const double top : {place.top + kInset, place.bottom() - kInset - height}) {
         for (const double left : {place.right() - kInset - width, place.left + kInset}) {
-            const Rectangle area{left, top, width, height};
+            const PageRectangle area{left, top, width, height};
             const int crowd = crowd_within(area, panel, frame);
             if (least >= 0 && crowd >= least) continue;
             least = crowd;
@@ -289,8 +289,8 @@ void draw_legend(Canvas& canvas, const PlotPanel& panel, const Frame& frame) {
     for (const std::size_t i : named) {
         widest = std::max(widest, text_width(panel.series[i].name, kLegendSize));
     }
-    const Rectangle box = place_legend(panel, frame, 2 * kLegendPadding + kSwatch + 8 + widest,
-                                       kLegendPadding + kLegendLine * double(named.size()));
+    const PageRectangle box = place_legend(panel, frame, 2 * kLegendPadding + kSwatch + 8 + widest,
+                                           kLegendPadding + kLegendLine * double(named.size()));
     canvas.fill_rectangle(box, with_alpha(grey(1), 0.88));
     canvas.stroke_rectangle(box, {grey(0.8), 0.8});
     Point at{box.left + kLegendPadding, box.top + (kLegendPadding + kLegendLine) / 2};
@@ -304,7 +304,7 @@ void draw_legend(Canvas& canvas, const PlotPanel& panel, const Frame& frame) {
 
 void draw_panel(Canvas& canvas, const PlotPanel& panel, const Frame& frame) {
     draw_grid_lines(canvas, frame);
-    const auto draw_all = [&](const Rectangle& within, auto draw) {
+    const auto draw_all = [&](const PageRectangle& within, auto draw) {
         canvas.clipped(within, [&] {
             for (std::size_t i = 0; i < panel.series.size(); ++i) {
                 draw(canvas, frame, panel.series[i], colour_of(panel, i));
@@ -312,7 +312,7 @@ void draw_panel(Canvas& canvas, const PlotPanel& panel, const Frame& frame) {
         });
     };
     constexpr double kOver = kMarkerRadius + 1;
-    const Rectangle& place = frame.place;
+    const PageRectangle& place = frame.place;
     draw_all(place, draw_areas);
     canvas.stroke_rectangle(place, {kInk, 0.8});
     draw_all({place.left - kOver, place.top - kOver, place.width + 2 * kOver, place.height + 2 * kOver},
@@ -354,7 +354,7 @@ void draw_plot(const Plot& plot, const std::filesystem::path& path) {
         frame.place.top = bottom;
         bottom = frame.place.bottom() + kPanelGap;
     }
-    const Rectangle& last = frames.back().place;
+    const PageRectangle& last = frames.back().place;
     const double x_label = last.bottom() + axis_extent(frames.back().x_ticks, Side::bottom) + 8 + kLabelSize;
 
     Canvas canvas(path, last.right() + kMargin + 8, x_label + kMargin);
