@@ -35,8 +35,10 @@ test: setup ## build everything and run all tests
 	@cmake --build --preset release
 	@ctest --preset release -j $(JOBS)
 
-verify-long: build ## all exact solutions at 0.2 %
+verify-long: build ## all exact solutions at 0.2 %, and closed meshes with 1e8 rays each
 	$(RELEASE)/stilb verify --error 0.2%
+	@cmake --build --preset release --target verify_watertight
+	$(RELEASE)/verify_watertight 100000000
 
 bench: setup ## the benchmarks
 	@$(call configure,release)

@@ -1,0 +1,182 @@
+// Every method against every other, and against itself with another seed, wherever both can make all light.
+//
+// Numbers of paths come from pilot runs with seeds of their own, so that a run's length does not depend on
+// its own error. Every reading, and the mean of all of a scene's readings, which averages errors, is
+// compared.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "agreement/scenes.h"
+#include "estimators/estimator_list.h"
+#include "run/run.h"
+#include "statistics/hypothesis.h"
+#include "support/scene_builder.h"
+
+namespace stilb {
+namespace {
+
+constexpr int kReplicates = 32;
+/// Relative standard error of a method's readings that is aimed at, by the pilot run, and that is required.
+constexpr double kTargetError = 0.0016;
+constexpr double kLargestError = 0.003;
+/// Chance that the whole file fails without a defect, when its seeds are first used.
+constexpr double kFamilyError = 0.01;
+
+bool can_measure(const EstimatorEntry& method, Demand demand) {
+    if (demand == Demand::finite_variance) return !method.has_heavy_tails;
+    if (demand == Demand::light_from_mirrors) return method.name != "path";
+    return true;
+}
+
+std::vector<std::string> methods_for(const AgreementScene& scene) {
+    std::vector<std::string> methods;
+    for (const EstimatorEntry& method : estimator_list()) {
+        if (can_measure(method, scene.demand)) methods.emplace_back(method.name);
+    }
+    return methods;
+}
+
+/// Of all methods in a scene: each pair, and each against itself, at every point and for the mean.
+std::size_t comparisons_in(const AgreementScene& scene) {
+    const std::size_t methods = methods_for(scene).size();
+    return methods * (methods + 1) / 2 * (scene.points.size() + 1);
+}
+
+double threshold_z() {
+    std::size_t comparisons = 0;
+    for (const AgreementScene& scene : agreement_scenes()) comparisons += comparisons_in(scene);
+    return sidak_threshold_z(kFamilyError, comparisons);
+}
+
+/// A scene's readings and their mean.
+struct Measured {
+    std::string what;
+    std::vector<Estimate> estimates;
+};
+
+double largest_relative_error(std::span<const Estimate> estimates) {
+    double largest = 0;
+    for (const Estimate& e : estimates) {
+        if (e.value > 0) largest = std::max(largest, e.standard_error / e.value);
+    }
+    return largest;
+}
+
+Measured measure(const Scene& scene, const AgreementScene& of, const std::string& method, std::uint64_t seed,
+                 std::uint64_t paths) {
+    RunOptions options;
+    options.method = method;
+    options.seed = seed;
+    options.paths = paths;
+    options.bounces = of.bounces;
+    options.replicates = kReplicates;
+    const std::vector<Sensor> sensors{point_sensor(of.points)};
+    const RunResult result = run(scene, sensors, options);
+    Measured measured{method + " with seed " + std::to_string(seed), {}};
+    for (const Reading& reading : result.sensors[0].readings) {
+        measured.estimates.push_back(reading.illuminance_lx);
+    }
+    measured.estimates.push_back(result.sensors[0].summary.mean);
+    return measured;
+}
+
+std::uint64_t paths_needed(const Scene& scene, const AgreementScene& of, const std::string& method,
+                           std::uint64_t seed) {
+    constexpr std::uint64_t pilot = kReplicates * 1024, least = kReplicates * 512, most = kReplicates << 16;
+    const Measured measured = measure(scene, of, method, seed, pilot);
+    const double ratio = largest_relative_error(measured.estimates) / kTargetError;
+    return static_cast<std::uint64_t>(std::clamp<double>(ratio * ratio * pilot, least, most));
+}
+
+/// A method's readings: two independent runs, and both together.
+struct TwoRuns {
+    Measured first, second, both;
+};
+
+TwoRuns measure_twice(const Scene& scene, const AgreementScene& of, const std::string& method,
+                      std::uint64_t seed) {
+    const std::uint64_t paths = paths_needed(scene, of, method, seed) / 2;
+    TwoRuns runs{measure(scene, of, method, seed + 1, paths),
+                 measure(scene, of, method, seed + 2, paths),
+                 {method, {}}};
+    for (std::size_t i = 0; i < runs.first.estimates.size(); ++i) {
+        const Estimate &a = runs.first.estimates[i], &b = runs.second.estimates[i];
+        runs.both.estimates.push_back(
+            {(a.value + b.value) / 2, std::hypot(a.standard_error, b.standard_error) / 2, 0, 0});
+    }
+    return runs;
+}
+
+/// Every method with seeds of its own.
+std::vector<TwoRuns> measure_all(const Scene& scene, const AgreementScene& of, std::uint64_t seed) {
+    std::vector<TwoRuns> all;
+    for (const std::string& method : methods_for(of)) {
+        all.push_back(measure_twice(scene, of, method, seed += 10));
+    }
+    return all;
+}
+
+/// Student's t of a difference, with the degrees of freedom of [Welch 1947], as a normal deviate.
+double apart_z(const Estimate& a, const Estimate& b) {
+    const double va = a.standard_error * a.standard_error, vb = b.standard_error * b.standard_error;
+    const double freedom = (kReplicates - 1) * (va + vb) * (va + vb) / (va * va + vb * vb);
+    // Without any error the two are either equal or infinitely far apart, whatever the degrees of freedom.
+    return equivalent_z(z_score(a, b), va + vb > 0 ? static_cast<int>(freedom) : 1);
+}
+
+/// The largest |z| over all readings.
+double worst_z(const Measured& a, const Measured& b) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.estimates.size(); ++i) {
+        worst = std::max(worst, std::abs(apart_z(a.estimates[i], b.estimates[i])));
+    }
+    return worst;
+}
+
+/// The parameter is a scene's place in the table.
+class Agreement : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Agreement, OfAllMethods) {
+    const AgreementScene& of = agreement_scenes()[GetParam()];
+    const std::vector<TwoRuns> all = measure_all(of.make(), of, 1000 * (GetParam() + 1) + 500);
+    double worst = 0;
+    const auto compare = [&](const Measured& a, const Measured& b) {
+        const double z = worst_z(a, b);
+        EXPECT_LT(z, threshold_z()) << a.what << " and " << b.what;
+        worst = std::max(worst, z);
+    };
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_LT(largest_relative_error(all[i].both.estimates), kLargestError) << all[i].both.what;
+        compare(all[i].first, all[i].second);
+        for (std::size_t j = 0; j < i; ++j) compare(all[i].both, all[j].both);
+    }
+    RecordProperty("worst_z", std::to_string(worst));
+}
+
+std::string name_of(const testing::TestParamInfo<std::size_t>& place) {
+    return std::string(agreement_scenes()[place.param].name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::Range<std::size_t>(0, agreement_scenes().size()),
+                         name_of);
+
+TEST(AgreementItself, NoticesOnePerCent) {
+    // The same comparison, of a room with the same room one per cent brighter.
+    const AgreementScene& of = agreement_scenes()[0];
+    Scene brighter = of.make();
+    std::get<PointLight>(brighter.lights[0].source).intensity_cd *= 1.01;
+    const std::vector<TwoRuns> right = measure_all(of.make(), of, 5);
+    const std::vector<TwoRuns> wrong = measure_all(brighter, of, 500);
+    for (const TwoRuns& a : right) {
+        for (const TwoRuns& b : wrong) {
+            EXPECT_GT(worst_z(a.both, b.both), threshold_z()) << a.both.what << " and " << b.both.what;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stilb

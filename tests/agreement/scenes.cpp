@@ -1,0 +1,219 @@
+#include "agreement/scenes.h"
+
+#include "support/scene_builder.h"
+
+namespace stilb {
+namespace {
+
+constexpr Box kRoom{{0, 0, 0}, {4, 3, 2.8}};
+constexpr Vec3 kUp{0, 0, 1}, kDown{0, 0, -1};
+const Spectrum kWhite = Spectrum::grey(1);
+
+Spectrum rgb(double red, double green, double blue) { return {{red, green, blue}}; }
+
+Material phong(double diffuse_part, double specular_part, double exponent) {
+    return Phong{Spectrum::grey(diffuse_part), Spectrum::grey(specular_part), exponent};
+}
+
+Material mirror(double reflectance) { return Mirror{Spectrum::grey(reflectance)}; }
+
+/// Shines down from under the ceiling; large, where cosine-distributed rays must find it in mirrors.
+Rectangle large_panel() { return {{0.8, 0.5, 2.6}, {0, 2, 0}, {2.4, 0, 0}}; }
+
+Rectangle ceiling_panel() { return {{1.5, 1, 2.6}, {0, 0.8, 0}, {0.6, 0, 0}}; }
+
+/// Four unequal C planes, the first repeated as the last; nothing beyond `last_deg` from the nadir.
+PhotometricSolid luminaire(double last_deg) {
+    PhotometricSolid::Grid grid;
+    grid.planes_deg = {0, 90, 180, 270, 360};
+    grid.polar_deg = {0, last_deg / 2, last_deg, last_deg + 1, 180};
+    grid.intensity_cd = {300, 200, 150, 0,   0,  300, 350, 90,  0,   0,   300, 100, 50,
+                         0,   0,   300, 250, 20, 0,   0,   300, 200, 150, 0,   0};
+    return PhotometricSolid(grid);
+}
+
+Scene coloured_box() {
+    Scene scene;
+    const auto wall_of = [](double r, double g, double b) -> Material { return Diffuse{rgb(r, g, b)}; };
+    add_walls(scene, kRoom,
+              {wall_of(0.9, 0.1, 0.05), wall_of(0.1, 0.7, 0.1), wall_of(0.7, 0.7, 0.7),
+               wall_of(0.05, 0.2, 0.9), wall_of(0.4, 0.3, 0.2), wall_of(0.85, 0.85, 0.8)});
+    add_area_light(scene, ceiling_panel(), rgb(300, 200, 80));
+    add_point_light(scene, {3.2, 0.8, 1.5}, rgb(5, 15, 60));
+    return scene;
+}
+
+Scene parallel_planes() {
+    Scene scene;
+    add_object(scene, Rectangle{{-10, -10, 0}, {20, 0, 0}, {0, 20, 0}}, diffuse(0.5));
+    add_object(scene, Rectangle{{-10, -10, 1.5}, {0, 20, 0}, {20, 0, 0}}, diffuse(0.8));
+    add_point_light(scene, {0, 0, 0.6}, 100 * kWhite);
+    return scene;
+}
+
+Scene bright_box() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.8));
+    add_area_light(scene, ceiling_panel(), 500 * kWhite);
+    return scene;
+}
+
+Scene phong_box(double exponent) {
+    Scene scene;
+    const Material gloss = phong(0.4, 0.3, exponent), matt = diffuse(0.5);
+    add_walls(scene, kRoom, {gloss, matt, gloss, matt, gloss, matt});
+    add_area_light(scene, Sphere{{1.7, 1.8, 1.9}, 0.25}, 500 * kWhite);
+    return scene;
+}
+Scene broad_phong_box() { return phong_box(5); }
+Scene narrow_phong_box() { return phong_box(200); }
+
+Scene mirror_and_panel() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_object(scene, Rectangle{{0.02, 1, 1}, {0, 1, 0}, {0, 0, 0.7}}, mirror(0.9));
+    add_object(scene, Rectangle{{2.5, 2.98, 0.8}, {0, 0, 0.6}, {0.8, 0, 0}}, mirror(0.7));
+    add_area_light(scene, large_panel(), 500 * kWhite, diffuse(0.5));
+    return scene;
+}
+
+/// The luminaire's light stays below the mirror, which hangs above 1.6 m.
+Scene mirror_above_the_light() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_object(scene, Rectangle{{0.05, 0.2, 1.6}, {0, 2.6, 0}, {0, 0, 1}}, mirror(0.9));
+    add_luminaire(scene, {2, 1.5, 2.5}, luminaire(45), kDown, 30, kWhite);
+    return scene;
+}
+
+Scene mirror_and_point_light() {
+    Scene scene;
+    const Material matt = diffuse(0.6);
+    add_walls(scene, kRoom, {mirror(0.9), matt, matt, matt, matt, matt});
+    add_point_light(scene, {1, 1.2, 2}, 100 * kWhite);
+    return scene;
+}
+
+Scene rooms_with_slit() {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.5}}, diffuse(0.7));
+    add_object(scene, Rectangle{{2, 0, 0}, {0, 1.2, 0}, {0, 0, 2.5}}, diffuse(0.7));
+    add_object(scene, Rectangle{{2, 1.5, 0}, {0, 1.5, 0}, {0, 0, 2.5}}, diffuse(0.7));
+    add_point_light(scene, {1, 1, 1.8}, 200 * kWhite);
+    return scene;
+}
+
+Scene sphere_light_at_wall() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_area_light(scene, Sphere{{0.3, 1.5, 2}, 0.2}, 900 * kWhite, diffuse(0.3));
+    return scene;
+}
+
+Scene mesh_light() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_area_light(scene, icosphere({{2, 1.2, 2}, 0.3}, 0), 400 * kWhite, diffuse(0.4));
+    return scene;
+}
+
+Scene flat_lights() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_area_light(scene, Disk{{1, 1, 2.7}, normalized(Vec3{0.3, 0.1, -1}), 0.3}, 700 * kWhite);
+    add_area_light(scene, Box{{2.8, 1.8, 1.6}, {3.2, 2.2, 1.7}}, 200 * kWhite);
+    return scene;
+}
+
+Scene photometry_luminaires() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_luminaire(scene, {1.2, 1, 2.8}, luminaire(80), kDown, 20, kWhite);
+    add_luminaire(scene, {3.9, 2, 1.8}, luminaire(60), normalized(Vec3{-1, -0.4, 0.5}), 70, 0.5 * kWhite);
+    return scene;
+}
+
+Scene black_objects() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.75));
+    add_object(scene, Box{{1, 0.8, 0}, {1.6, 1.5, 1.2}}, Black{});
+    add_object(scene, Sphere{{2.8, 1.2, 1.4}, 0.35}, Black{});
+    add_object(scene, Disk{{2, 2, 2}, kUp, 0.4}, Black{});
+    add_point_light(scene, {2, 1.4, 2.4}, 150 * kWhite);
+    return scene;
+}
+
+Scene many_lights() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    for (int i = 0; i < 12; ++i) {
+        const double x = 0.5 + 0.25 * i;
+        add_point_light(scene, {x, 0.6 + 0.15 * i, 2.5 - 0.05 * i}, (3 + 2 * i) * kWhite);
+        if (i % 4 == 0) add_area_light(scene, Sphere{{x, 2.5, 2.4}, 0.1}, 100 * (i + 1) * kWhite);
+    }
+    return scene;
+}
+
+/// Everything at once, for paths of few reflections.
+Scene mixed_room() {
+    Scene scene;
+    const Material gloss = phong(0.3, 0.4, 20), matt = diffuse(0.6);
+    add_walls(scene, kRoom, {mirror(0.9), matt, gloss, matt, matt, gloss});
+    add_area_light(scene, large_panel(), 500 * kWhite, diffuse(0.5));
+    return scene;
+}
+
+}  // namespace
+
+Scene closed_box() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.7));
+    add_point_light(scene, {1.3, 1.1, 2}, 100 * kWhite);
+    return scene;
+}
+
+std::span<const AgreementScene> agreement_scenes() {
+    using enum Demand;
+    // Away from walls, so that plain local estimation has finite variance.
+    static const std::vector<MeasuringPoint> inside{{{2, 1.5, 0.8}, kUp},
+                                                    {{3, 2.2, 0.8}, kUp},
+                                                    {{0.7, 2.3, 1.2}, normalized(Vec3{1, -1, 0.5})},
+                                                    {{2.6, 0.9, 1.4}, normalized(Vec3{-1, 0.5, 0.2})}};
+    static const std::vector<MeasuringPoint> between_planes{
+        {{0, 0, 0}, kUp}, {{1, 0.5, 0}, kUp}, {{0.3, 1, 1.5}, kDown}, {{-3, 0, 0.7}, {1, 0, 0}}};
+    // Nearer to walls, where much of the light is gathered.
+    static const std::vector<MeasuringPoint> near_walls{{{3.7, 1.5, 1}, kUp}, {{3.5, 2.7, 1}, kUp}};
+    static const std::vector<MeasuringPoint> corners{{{0.005, 0.005, 0.005}, kUp},
+                                                     {{3.995, 1.5, 0}, kUp},
+                                                     {{0, 2.995, 2.795}, {1, 0, 0}},
+                                                     {{2, 1.5, 0.005}, kDown}};
+    static const std::vector<MeasuringPoint> both_rooms{{{1, 1, 0.7}, kUp},
+                                                        {{2.8, 1.35, 1}, {-1, 0, 0}},
+                                                        {{2.6, 1.9, 1}, normalized(Vec3{-1, -1, 0})},
+                                                        {{1.4, 2, 1.2}, {1, 0, 0}}};
+    static const std::vector<AgreementScene> scenes{
+        {"ClosedBox", nothing, {}, closed_box, inside},
+        {"ColouredBox", nothing, {}, coloured_box, inside},
+        {"ParallelPlanes", nothing, {}, parallel_planes, between_planes},
+        {"Corners", finite_variance, {}, bright_box, corners},
+        {"BroadPhong", nothing, {}, broad_phong_box, inside},
+        {"NarrowPhong", nothing, {}, narrow_phong_box, inside},
+        {"MirrorAndPanel", nothing, {}, mirror_and_panel, inside},
+        {"MirrorAboveTheLight", nothing, {}, mirror_above_the_light, inside},
+        {"MirrorAndPointLight", light_from_mirrors, {}, mirror_and_point_light, near_walls},
+        {"RoomsWithSlit", nothing, {}, rooms_with_slit, both_rooms},
+        {"SphereLightAtWall", nothing, {}, sphere_light_at_wall, inside},
+        {"MeshLight", nothing, {}, mesh_light, inside},
+        {"FlatLights", nothing, {}, flat_lights, inside},
+        {"PhotometryLuminaires", nothing, {}, photometry_luminaires, inside},
+        {"BlackObjects", nothing, {}, black_objects, inside},
+        {"ManyLights", nothing, {}, many_lights, inside},
+        {"NoReflection", nothing, 0, mixed_room, inside},
+        {"OneReflection", nothing, 1, mixed_room, inside},
+        {"TwoReflections", nothing, 2, mixed_room, inside},
+        {"OnlyDiffuseTwice", nothing, 2, closed_box, inside},
+    };
+    return scenes;
+}
+
+}  // namespace stilb

@@ -1,0 +1,34 @@
+// The scenes that the methods are held together on.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+#include "sensors/sensor.h"
+
+namespace stilb {
+
+/// What a scene asks of a method to be measured without error or with finite variance.
+enum class Demand {
+    nothing,
+    finite_variance,     ///< points in corners: not for methods with heavy tails
+    light_from_mirrors,  ///< a point-like source shines on a mirror: only methods with light chains make that
+};
+
+struct AgreementScene {
+    std::string_view name;
+    Demand demand;
+    std::optional<int> bounces;
+    Scene (*make)();
+    std::vector<MeasuringPoint> points;
+};
+
+std::span<const AgreementScene> agreement_scenes();
+
+/// A room of 4 x 3 x 2.8 m with a point source, off its middle.
+Scene closed_box();
+
+}  // namespace stilb

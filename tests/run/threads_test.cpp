@@ -1,0 +1,49 @@
+// The number of threads changes no bit of a result.
+#include <gtest/gtest.h>
+
+#include "run/run.h"
+#include "support/scene_builder.h"
+
+namespace stilb {
+namespace {
+
+class Threads : public testing::TestWithParam<const char*> {};
+
+TEST_P(Threads, ChangeNoBit) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Phong{Spectrum::grey(0.4), Spectrum::grey(0.3), 10});
+    add_area_light(scene, Sphere{{2, 1, 2}, 0.2}, {{100, 200, 300}});
+    add_point_light(scene, {1, 1, 1}, {{10, 20, 30}});
+    const std::vector<Sensor> sensors{
+        make_grid_sensor("plane", {{0.1, 0.1, 0.8}, {3.8, 0, 0}, {0, 2.8, 0}, {7, 5}}, {0, 0, 1}),
+        point_sensor({{{0.01, 0.02, 0.03}, {1, 0, 0}}})};
+    const auto measure = [&](int threads) {
+        RunOptions options;
+        options.method = GetParam();
+        options.paths = 2048;
+        options.threads = threads;
+        return run(scene, sensors, options);
+    };
+    const RunResult one = measure(1);
+    for (const int threads : {1, 2, 3}) {
+        const RunResult other = measure(threads);
+        EXPECT_EQ(other.paths, one.paths);
+        EXPECT_EQ(other.rays, one.rays);
+        EXPECT_EQ(other.attained_error, one.attained_error);
+        EXPECT_EQ(other.warnings, one.warnings);
+        for (std::size_t s = 0; s < sensors.size(); ++s) {
+            EXPECT_EQ(other.sensors[s].summary.uniformity, one.sensors[s].summary.uniformity);
+            for (std::size_t j = 0; j < sensors[s].points.size(); ++j) {
+                const Reading &a = other.sensors[s].readings[j], &b = one.sensors[s].readings[j];
+                EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << threads << " threads, reading " << j;
+                EXPECT_EQ(a.rgb_lx, b.rgb_lx) << threads << " threads, reading " << j;
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Threads, testing::Values("auto", "local", "path"),
+                         [](const auto& method) { return std::string(method.param); });
+
+}  // namespace
+}  // namespace stilb

@@ -1,0 +1,94 @@
+// Closed meshes, and whether they lose rays.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include "base/sampling.h"
+#include "scene/ray_caster.h"
+#include "scene/transform.h"
+#include "support/random_pairs.h"
+#include "support/scene_builder.h"
+
+namespace stilb {
+
+struct ClosedMesh {
+    Mesh mesh;
+    Vec3 inside;
+};
+
+inline ClosedMesh plain_box(double size_m) {
+    const Vec3 edges{size_m, 0.7 * size_m, 0.6 * size_m};
+    return {triangulated(Box{{0, 0, 0}, edges}), 0.5 * edges};
+}
+
+/// 20,480 triangles, every vertex moved towards or away from the middle.
+inline ClosedMesh rough_sphere(double size_m) {
+    Mesh mesh = icosphere({{}, size_m / 2}, 5);
+    RandomPairs random(3);
+    for (Vec3& vertex : mesh.vertices) vertex = (1 + 0.02 * random.next()) * vertex;
+    return {mesh, {}};
+}
+
+/// Turned by odd angles, and moved a thousand times its size away.
+inline ClosedMesh distant_box(double size_m) {
+    ClosedMesh box = plain_box(size_m);
+    Transform place =
+        compose(Transform::rotation(normalized(Vec3{1, 2, 3}), 37.3), Transform::rotation({0, 1, 0}, 11.7));
+    place.translation = size_m * Vec3{1000, -700, 300};
+    for (Vec3& vertex : box.mesh.vertices) vertex = place.point(vertex);
+    return {box.mesh, place.point(box.inside)};
+}
+
+/// Two large faces that meet at 10 degrees.
+inline ClosedMesh acute_wedge(double size_m) {
+    const double height = size_m * std::tan(10 * std::numbers::pi / 180);
+    const Mesh mesh{{{0, 0, 0},
+                     {size_m, 0, 0},
+                     {size_m, 0, height},
+                     {0, size_m, 0},
+                     {size_m, size_m, 0},
+                     {size_m, size_m, height}},
+                    {{0, 1, 2}, {3, 5, 4}, {0, 4, 1}, {0, 3, 4}, {1, 4, 5}, {1, 5, 2}, {0, 2, 5}, {0, 5, 3}}};
+    return {mesh, {0.6 * size_m, 0.5 * size_m, 0.3 * height}};
+}
+
+struct ClosedMeshEntry {
+    std::string_view name;
+    ClosedMesh (*make)(double size_m);
+};
+inline constexpr std::array kClosedMeshes{
+    ClosedMeshEntry{"PlainBox", plain_box}, ClosedMeshEntry{"RoughSphere", rough_sphere},
+    ClosedMeshEntry{"DistantBox", distant_box}, ClosedMeshEntry{"AcuteWedge", acute_wedge}};
+
+/// How many of `rays` rays find no surface, of a walk by diffuse reflection that begins inside and begins
+/// anew where a ray is lost. Convex meshes lose every walk that gets outside.
+inline std::uint64_t lost_rays(const ClosedMesh& closed, std::uint64_t rays, std::uint64_t seed) {
+    Scene scene;
+    add_object(scene, closed.mesh, diffuse(0.5));
+    const RayCaster caster(scene);
+    RandomPairs random(seed);
+    const auto [first_u1, first_u2] = random.next_pair();
+    Vec3 origin = closed.inside;
+    Vec3 direction = sample_sphere(first_u1, first_u2).direction;
+    std::uint64_t lost = 0;
+    for (std::uint64_t i = 0; i < rays; ++i) {
+        const auto hit = caster.closest(origin, direction);
+        const auto [u1, u2] = random.next_pair();
+        if (hit) {
+            origin = hit->lifted;
+            direction = Frame::around(hit->normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
+        } else {
+            ++lost;
+            origin = closed.inside;
+            direction = sample_sphere(u1, u2).direction;
+        }
+    }
+    return lost;
+}
+
+}  // namespace stilb

@@ -1,0 +1,119 @@
+// Scenes made in code, for tests: one line per object or light.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/luminaire_frame.h"
+#include "scene/scene.h"
+#include "sensors/sensor.h"
+
+namespace stilb {
+
+inline Material diffuse(double reflectance) { return Diffuse{Spectrum::grey(reflectance)}; }
+
+inline MaterialId add_material(Scene& scene, const Material& material) {
+    scene.materials.push_back({std::to_string(scene.materials.size()), material});
+    return MaterialId{static_cast<std::uint32_t>(scene.materials.size() - 1)};
+}
+
+inline ObjectId add_object(Scene& scene, const Shape& shape, const Material& material) {
+    scene.objects.push_back({std::to_string(scene.objects.size()), shape, {add_material(scene, material)}});
+    return ObjectId{static_cast<std::uint32_t>(scene.objects.size() - 1)};
+}
+
+inline void add_point_light(Scene& scene, const Vec3& position, const Spectrum& intensity_cd) {
+    scene.lights.push_back({std::to_string(scene.lights.size()), PointLight{position, intensity_cd}});
+}
+
+inline void add_area_light(Scene& scene, const Shape& shape, const Spectrum& luminance_cd_m2,
+                           const Material& material = Black{}) {
+    const ObjectId object = add_object(scene, shape, material);
+    scene.lights.push_back({std::to_string(scene.lights.size()), AreaLight{object, luminance_cd_m2}});
+}
+
+inline void add_luminaire(Scene& scene, const Vec3& position, const PhotometricSolid& solid,
+                          const Vec3& unit_aim, double spin_deg, const Spectrum& factor) {
+    const LuminaireFrame frame = aim_luminaire(unit_aim, spin_deg);
+    const SolidId id{static_cast<std::uint32_t>(scene.solids.size())};
+    scene.solids.push_back({.file = "solid", .luminaire = "", .solid = solid});
+    scene.lights.push_back({std::to_string(scene.lights.size()),
+                            PhotometryLight{position, id, frame.c0, frame.c90, frame.nadir, factor}});
+}
+
+/// A box that is seen from inside: fronts inwards.
+inline Mesh inward(const Box& box) {
+    Mesh mesh = triangulated(box);
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+}
+
+/// One wall of a box, front inwards; `axis` 0 to 2.
+enum class Side { low, high };
+inline Rectangle wall(const Box& box, std::size_t axis, Side side) {
+    const Vec3 e = box.max - box.min;
+    const std::array<Vec3, 3> edges{Vec3{e.x, 0, 0}, Vec3{0, e.y, 0}, Vec3{0, 0, e.z}};
+    const Vec3& u = edges[(axis + 1) % 3];
+    const Vec3& v = edges[(axis + 2) % 3];
+    if (side == Side::low) return {box.min, u, v};
+    return {box.min + edges[axis], v, u};
+}
+
+/// The whole room, one material for each wall: x low, x high, y low ...
+inline void add_walls(Scene& scene, const Box& room, const std::array<Material, 6>& materials) {
+    for (std::size_t i = 0; i < 6; ++i) {
+        add_object(scene, wall(room, i / 2, i % 2 == 0 ? Side::low : Side::high), materials[i]);
+    }
+}
+
+/// Twenty triangles, fronts outside; each divided into four `subdivisions` times, vertices on the sphere.
+inline Mesh icosphere(const Sphere& sphere, int subdivisions) {
+    const double golden = std::numbers::phi;
+    Mesh mesh{{{-1, golden, 0},
+               {1, golden, 0},
+               {-1, -golden, 0},
+               {1, -golden, 0},
+               {0, -1, golden},
+               {0, 1, golden},
+               {0, -1, -golden},
+               {0, 1, -golden},
+               {golden, 0, -1},
+               {golden, 0, 1},
+               {-golden, 0, -1},
+               {-golden, 0, 1}},
+              {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+               {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+               {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+    for (int level = 0; level < subdivisions; ++level) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_of;
+        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+            const auto [found, is_new] =
+                middle_of.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.vertices.size()));
+            if (is_new) {
+                mesh.vertices.push_back(normalized(mesh.vertices[a]) + normalized(mesh.vertices[b]));
+            }
+            return found->second;
+        };
+        std::vector<Triangle> finer;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+            finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+        }
+        mesh.triangles = std::move(finer);
+    }
+    for (Vec3& vertex : mesh.vertices) vertex = sphere.center + sphere.radius * normalized(vertex);
+    return mesh;
+}
+
+inline Sensor point_sensor(std::vector<MeasuringPoint> points) {
+    return {"points", SensorType::illuminance, std::move(points), {}};
+}
+
+}  // namespace stilb
