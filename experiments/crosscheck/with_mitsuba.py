@@ -1,0 +1,107 @@
+"""Illuminances by Mitsuba 3 (package `mitsuba`).
+
+Mitsuba has no units: whatever goes in as radiance comes out as irradiance. Luminances [cd/m2] in, lux out.
+Emitters are given as "rgb" in an RGB variant; a spectral variant would multiply them by the illuminant D65.
+"""
+
+import mitsuba as mi
+import numpy as np
+
+mi.set_variant("llvm_ad_rgb")
+
+import drjit as dr  # noqa: E402
+
+from phong_for_mitsuba import Phong  # noqa: E402
+from scene import LUMINANCE_WEIGHTS, Rectangle, Scene, Sphere, Surface  # noqa: E402
+
+mi.register_bsdf("stilb_phong", lambda properties: Phong(properties))
+
+RAYS_AT_ONCE = 1 << 18
+
+
+def illuminance(scene: Scene, positions: np.ndarray, normals: np.ndarray, error: float, batches: int = 16):
+    """Values and standard errors [lx] at n x 3 points; stops where the errors are below `error`, relative."""
+    if scene.luminaires:
+        return None
+    world, integrator = _build(scene), mi.load_dict({"type": "path", "max_depth": -1, "rr_depth": 8})
+    size = max(1, RAYS_AT_ONCE // len(positions))
+    means: list[np.ndarray] = []
+    while True:
+        means += [_batch(world, integrator, positions, normals, size, len(means) + i) for i in range(batches)]
+        value = np.mean(means, axis=0)
+        standard_error = np.std(means, axis=0, ddof=1) / np.sqrt(len(means))
+        if np.all(standard_error <= error * value):
+            return value, standard_error
+
+
+def _batch(world, integrator, positions, normals, size: int, seed: int) -> np.ndarray:
+    """Mean illuminance of `size` samples a point."""
+    sampler = mi.load_dict({"type": "independent"})
+    sampler.seed(seed, size * len(positions))
+    here = dr.zeros(mi.SurfaceInteraction3f, size * len(positions))
+    here.p = mi.Point3f(np.repeat(positions, size, axis=0).T)
+    here.n = mi.Normal3f(np.repeat(normals, size, axis=0).T)
+    frame = mi.Frame3f(here.n)
+
+    # Light that arrives directly, by Mitsuba's sampling of its emitters ...
+    towards, weight = world.sample_emitter_direction(here, sampler.next_2d())
+    total = weight * dr.maximum(dr.dot(towards.d, here.n), 0)
+
+    # ... and what its path tracer sees over the hemisphere, less the emitters seen directly.
+    direction = frame.to_world(mi.warp.square_to_cosine_hemisphere(sampler.next_2d()))
+    ray = here.spawn_ray(direction)
+    radiance = integrator.sample(world, sampler, mi.RayDifferential3f(ray))[0]
+    first = world.ray_intersect(ray)
+    emitted = first.emitter(world).eval(first)
+    total += dr.pi * (radiance - emitted)
+
+    rgb = np.array(total).reshape(3, len(positions), size).mean(axis=2)
+    return LUMINANCE_WEIGHTS @ rgb
+
+
+def _build(scene: Scene):
+    parts = {"type": "scene"}
+    for i, surface in enumerate(scene.surfaces):
+        parts[f"surface{i}"] = _shape(surface)
+    for i, light in enumerate(scene.points):
+        intensity = {"type": "rgb", "value": light.intensity.tolist()}
+        parts[f"point{i}"] = {"type": "point", "position": light.position.tolist(), "intensity": intensity}
+    return mi.load_dict(parts)
+
+
+def _shape(surface: Surface):
+    shape = surface.shape
+    extra = {"bsdf": _bsdf(surface.material)}
+    if surface.luminance is not None:
+        extra["emitter"] = {"type": "area", "radiance": {"type": "rgb", "value": surface.luminance.tolist()}}
+    if isinstance(shape, Rectangle):
+        u, v = shape.edge_u / 2, shape.edge_v / 2
+        normal = np.cross(u, v) / np.linalg.norm(np.cross(u, v))
+        matrix = np.eye(4)
+        matrix[:3] = np.column_stack([u, v, normal, shape.corner + u + v])
+        return {"type": "rectangle", "to_world": mi.ScalarTransform4f(matrix), **extra}
+    if isinstance(shape, Sphere):
+        return {"type": "sphere", "center": shape.center.tolist(), "radius": shape.radius, **extra}
+    properties = mi.Properties()
+    properties["bsdf"] = mi.load_dict(extra["bsdf"])
+    mesh = mi.Mesh("triangles", len(shape.vertices), len(shape.faces), props=properties)
+    parameters = mi.traverse(mesh)
+    parameters["vertex_positions"] = shape.vertices.astype(np.float32).ravel()
+    parameters["faces"] = shape.faces.astype(np.uint32).ravel()
+    parameters.update()
+    return mesh
+
+
+def _bsdf(material: dict) -> dict:
+    def rgb(key):
+        return {"type": "rgb", "value": material[key].tolist()}
+
+    if material["type"] == "mirror":
+        inner = {"type": "conductor", "material": "none", "specular_reflectance": rgb("reflectance")}
+    elif material["type"] == "diffuse":
+        inner = {"type": "diffuse", "reflectance": rgb("reflectance")}
+    elif material["type"] == "phong":
+        inner = {"type": "stilb_phong", "diffuse": rgb("diffuse"), "specular": rgb("specular"), "exponent": float(material["exponent"])}
+    else:
+        inner = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.0}}
+    return {"type": "twosided", "bsdf": inner}
