@@ -192,12 +192,13 @@ class Schedule {
             const std::uint64_t checkpoint =
                 std::min(last_sample_, next_checkpoint(campaign.samples(), granularity_));
             while (campaign.samples() < checkpoint) {
-                if (const auto reason = early_stop(campaign)) {
+                const std::uint64_t next = std::min(campaign.batch_size(), checkpoint - campaign.samples());
+                if (const auto reason = early_stop(campaign, next)) {
                     result.stop_reason = *reason;
                     result.attained_error = attained_error(campaign, sensors);
                     return;
                 }
-                campaign.advance(std::min(campaign.batch_size(), checkpoint - campaign.samples()));
+                campaign.advance(next);
             }
             result.attained_error = attained_error(campaign, sensors);
             if (progress) progress->report(progress_of(campaign, result.attained_error));
@@ -211,13 +212,12 @@ class Schedule {
 
   private:
     /// A first round is always made: there is no result without one.
-    std::optional<StopReason> early_stop(const Campaign& campaign) const {
+    std::optional<StopReason> early_stop(const Campaign& campaign, std::uint64_t next) const {
         if (campaign.samples() == 0) return std::nullopt;
         if (interrupt_ && *interrupt_) return StopReason::interrupted;
         if (!options_.time_s) return std::nullopt;
         const double per_sample_s = clock_.elapsed_s() / static_cast<double>(campaign.samples());
-        const double after_next_s =
-            clock_.elapsed_s() + per_sample_s * static_cast<double>(campaign.batch_size());
+        const double after_next_s = clock_.elapsed_s() + per_sample_s * static_cast<double>(next);
         return after_next_s > *options_.time_s ? std::optional{StopReason::time_over} : std::nullopt;
     }
 

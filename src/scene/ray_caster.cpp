@@ -194,7 +194,7 @@ struct RayCaster::Implementation {
         center = 0.5 * (bounds.min + bounds.max);
         const Vec3 half = 0.5 * (bounds.max - bounds.min);
         half_extent = std::max({half.x, half.y, half.z});
-        device = rtcNewDevice("threads=1");
+        device = rtcNewDevice(nullptr);
         if (device == nullptr) throw std::runtime_error("Embree: no device could be made");
         rtcSetDeviceErrorFunction(device, throw_error, nullptr);
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) packet_width = 8;
