@@ -13,13 +13,12 @@ namespace stilb {
 
 /// Estimates, for every point x with its own k,
 ///
-///     integral over the hemisphere of L_r(y, y->x) (1 - w) cos(theta_x) dw,   1 - w = G / (k + G) (theory
-///     T.1b)
+///     integral over the hemisphere of L_r(y, y->x) (1 - w) cos(theta_x) dw      (theory T.1b)
 ///
-/// by cosine-distributed rays from x to y. The points of a packet share their directions, so that the rays
-/// are nearly parallel; what goes on from y is each point's own. What is seen by mirrors has w = 0 always,
-/// because no node on a mirror can be joined to x; emission counts behind mirrors only: the rest is direct
-/// light. Keeps references.
+/// with w of kernel_split.h, by cosine-distributed rays from x to y. The points of a packet share their
+/// directions, so that the rays are nearly parallel; what goes on from y is each point's own. What is seen by
+/// mirrors has w = 0 always, because no node on a mirror can be joined to x; emission counts behind mirrors
+/// only: the rest is direct light. Keeps references.
 class Gather {
   public:
     Gather(const RayCaster& caster, const PathTracer& tracer, const PackedPoints& points,

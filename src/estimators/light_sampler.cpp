@@ -106,12 +106,10 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster)
             has_area_lights_ = true;
         } else if (const auto* point = std::get_if<PointLight>(&light.source)) {
             emitter.middle = point->position;
-            has_point_like_lights_ = true;
         } else {
             const auto& luminaire = std::get<PhotometryLight>(light.source);
             const double offset = caster.offset_m(luminaire.position, caster.half_extent_m());
             emitter.middle = luminaire.position + offset * luminaire.nadir;
-            has_point_like_lights_ = true;
         }
         emitters_.push_back(std::move(emitter));
     }

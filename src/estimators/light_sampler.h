@@ -55,7 +55,6 @@ class LightSampler {
     /// Luminance that leaves `hit` towards where the ray came from, of an emitter; zero elsewhere.
     Spectrum emitted_luminance(const Hit& hit) const;
     bool has_area_lights() const { return has_area_lights_; }
-    bool has_point_like_lights() const { return has_point_like_lights_; }
 
   private:
     using Element = std::variant<Rectangle, std::array<Vec3, 3>, Sphere, Disk>;
@@ -80,7 +79,6 @@ class LightSampler {
     DiscreteDistribution by_flux_;
     std::vector<Spectrum> luminance_of_object_;
     bool has_area_lights_ = false;
-    bool has_point_like_lights_ = false;
 };
 
 }  // namespace stilb
