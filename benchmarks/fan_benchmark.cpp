@@ -84,7 +84,8 @@ void compare(const Scene& scene) {
     nodes.resize(std::min<std::size_t>(nodes.size(), 256));
     const PackedPoints points = packed(make_grid(32), caster);
     const std::vector<double> k(points.size(), 1.0);
-    const Fan fan(caster, points, k);
+    const std::vector<PointTile> tiles = tiles_of(points, k, caster);
+    const Fan fan(caster, tiles);
     PreparedRays rays = prepare_rays(points, nodes, caster.center());
 
     const RTCDevice device = rtcNewDevice(nullptr);

@@ -5,40 +5,27 @@
 // double.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "estimators/estimator.h"
 #include "estimators/light_chain.h"
-#include "estimators/packed_points.h"
+#include "estimators/point_tile.h"
 
 namespace stilb {
 
-/// The measuring points of a run, in packets of neighbours. Immutable.
+/// Keeps what its arguments refer to. Immutable.
 class Fan {
   public:
-    /// `k_per_m2` is the kernel split's constant of each point: infinity makes w = 1 (plain local
-    /// estimation). Nodes that path tracing cannot make (ChainNode::only_by_light) have w = 1 whatever k is.
-    Fan(const RayCaster& caster, std::span<const PackedPoint> points, std::span<const double> k_per_m2);
+    /// An infinite k of a tile's point makes w = 1 there (plain local estimation). Nodes that path tracing
+    /// cannot make (ChainNode::only_by_light) have w = 1 whatever k is.
+    Fan(const RayCaster& caster, std::span<const PointTile> tiles) : caster_(caster), tiles_(tiles) {}
 
     /// Adds what the nodes send to each point, and keeps the largest single contributions. Counts rays.
     void collect(std::span<const ChainNode> nodes, ReadingSums& sums) const;
 
-    /// Sixteen points, as a structure of arrays relative to the ray caster's centre.
-    struct alignas(64) Tile {
-        using Floats = std::array<float, kPacketWidth>;
-        Floats x{}, y{}, z{};                       ///< the points themselves: G is theirs
-        Floats lifted_x{}, lifted_y{}, lifted_z{};  ///< where segments end
-        Floats normal_x{}, normal_y{}, normal_z{};  ///< 0 in lanes without a point
-        Floats inverse_k{};
-        std::array<std::uint32_t, kPacketWidth> reading{};
-    };
-
   private:
     const RayCaster& caster_;
-    std::vector<Tile> tiles_;
+    std::span<const PointTile> tiles_;
 };
 
 }  // namespace stilb

@@ -180,7 +180,8 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
             if (!sample) return std::nullopt;
             const Vec3 normal = front_normal(element, sample->point);
             const Vec3 direction = normalized(sample->point - from);
-            if (dot(normal, direction) >= 0) return std::nullopt;
+            // Not >=: where `from` is the sampled point itself, there is no direction to compare.
+            if (!(dot(normal, direction) < 0)) return std::nullopt;
             const Spectrum& luminance = std::get<AreaLight>(source).luminance_cd_m2;
             return IncidentLight{sample->point + caster_.offset_m(sample->point, size(element)) * normal,
                                  direction, luminance * (1 / (sample->pdf_per_sr * choice.probability))};

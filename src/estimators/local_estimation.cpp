@@ -43,7 +43,7 @@ enum Purpose : std::uint64_t { kChains, kSelection, kDirect, kGather, kPilot, kP
 /// variance of both.
 std::uint64_t chains_per_selected(std::size_t points) {
     std::uint64_t chains = 1;
-    while (chains < 64 && 5 * 4 * chains * chains <= points) chains *= 2;
+    while (chains < 64 && 80 * chains * chains <= points) chains *= 2;
     return chains;
 }
 
@@ -62,8 +62,9 @@ class LocalEstimation final : public Estimator {
           chains_per_selected_(split == Split::balanced ? chains_per_selected(points_.size()) : 1),
           known_part_lx_(direct_from_points_lx(points_, caster_, lights_)),
           plans_(plans(split, input.preparation_key)),
-          fan_(caster_, points_, constants_per_m2(plans_)),
-          gather_(caster_, tracer_, points_, plans_, max_reflections_) {}
+          tiles_(tiles_of(points_, constants_per_m2(plans_), caster_)),
+          fan_(caster_, tiles_),
+          gather_(scene_, caster_, tracer_, points_, tiles_, plans_, max_reflections_) {}
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         const std::uint64_t end = batch.first + batch.count;
@@ -164,6 +165,7 @@ class LocalEstimation final : public Estimator {
     std::uint64_t chains_per_selected_;
     std::vector<Spectrum> known_part_lx_;
     std::vector<SplitPlan> plans_;
+    std::vector<PointTile> tiles_;
     Fan fan_;
     Gather gather_;
 };

@@ -58,8 +58,7 @@ class PathEstimator final : public Estimator {
             Frame::around(point.normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
         const auto hit = caster_.closest(point.lifted, direction);
         if (!hit) return {};
-        return std::numbers::pi *
-               tracer_.luminance_without_direct(*hit, direction, max_reflections_, {}, stream);
+        return std::numbers::pi * tracer_.luminance_without_direct(*hit, direction, max_reflections_, stream);
     }
 
     const Scene& scene_;

@@ -36,8 +36,34 @@ PathTracer::View PathTracer::look_through_mirrors(const Hit& hit, const Vec3& di
     return view;
 }
 
+std::optional<IncidentLight> PathTracer::sample_light(const Hit& surface, SampleStream& stream) const {
+    auto light = lights_.sample_one_light(surface.position, surface.normal, stream);
+    if (!light || dot(light->direction, surface.normal) <= 0 ||
+        caster_.occluded(surface.lifted, light->source_point)) {
+        return std::nullopt;
+    }
+    return light;
+}
+
+std::optional<PathTracer::IncomingBeam> PathTracer::sample_beam(const Hit& surface, const Vec3& outgoing,
+                                                                int max_reflections,
+                                                                SampleStream& stream) const {
+    const Material& material = scene_.material(surface.material);
+    const double survival = survival_probability(Spectrum::grey(1), reflectance_bound(material));
+    if (max_reflections == 0 || stream.next() >= survival) return std::nullopt;
+    const Frame frame = Frame::around(surface.normal);
+    const auto [u1, u2] = stream.next_two();
+    const auto scattered = sample_brdf(material, frame.to_local(outgoing), u1, u2);
+    if (!scattered) return std::nullopt;
+    const Vec3 direction = frame.to_world(scattered->direction);
+    const auto next = caster_.closest(surface.lifted, direction);
+    if (!next) return std::nullopt;
+    return IncomingBeam{direction,
+                        luminance_without_direct(*next, direction, max_reflections, stream) * (1 / survival)};
+}
+
 Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
-                                         GatheredShare share, SampleStream& stream) const {
+                                         SampleStream& stream) const {
     Spectrum luminance;
     Spectrum throughput = Spectrum::grey(1);
     Hit hit = surface;
@@ -46,22 +72,17 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
         const Material& material = scene_.material(hit.material);
         const Frame frame = Frame::around(hit.normal);
         const Vec3 local_out = frame.to_local(out);
-        if (const auto light = lights_.sample_one_light(hit.position, hit.normal, stream)) {
+        if (const auto light = sample_light(hit, stream)) {
             const Vec3 local_in = frame.to_local(light->direction);
-            const Spectrum brdf = evaluate_brdf_per_sr(material, local_in, local_out);
-            if (local_in.z > 0 && brdf.max() > 0 && !caster_.occluded(hit.lifted, light->source_point)) {
-                luminance += throughput * brdf * (local_in.z * share(relative_brdf(material, brdf))) *
-                             light->normal_illuminance_lx;
-            }
+            luminance += throughput * evaluate_brdf_per_sr(material, local_in, local_out) * local_in.z *
+                         light->normal_illuminance_lx;
         }
         const double survival = survival_probability(throughput, reflectance_bound(material));
         if (stream.next() >= survival) break;
         const auto [u1, u2] = stream.next_two();
         const auto scattered = sample_brdf(material, local_out, u1, u2);
         if (!scattered) break;
-        const Spectrum brdf = evaluate_brdf_per_sr(material, scattered->direction, local_out);
-        throughput *= scattered->weight * (share(relative_brdf(material, brdf)) / survival);
-        share = {};
+        throughput *= scattered->weight * (1 / survival);
         --reflections_left;
         const Vec3 direction = frame.to_world(scattered->direction);
         const auto next = caster_.closest(hit.lifted, direction);
@@ -78,13 +99,12 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
 }
 
 Spectrum PathTracer::luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
-                                              GatheredShare share, SampleStream& stream) const {
+                                              SampleStream& stream) const {
     const View view = look_through_mirrors(hit, direction, max_reflections, stream);
     if (!view.surface) return view.emission_cd_m2;
-    if (view.reflections > 0) share = {};
     return view.emission_cd_m2 + view.transmission * reflected_luminance(*view.surface, view.outgoing,
                                                                          max_reflections - view.reflections,
-                                                                         share, stream);
+                                                                         stream);
 }
 
 }  // namespace stilb

@@ -5,7 +5,6 @@
 // that leaves a point-like source and meets a mirror first.
 #pragma once
 
-#include "estimators/kernel_split.h"
 #include "estimators/light_sampler.h"
 
 namespace stilb {
@@ -28,18 +27,31 @@ class PathTracer {
     View look_through_mirrors(const Hit& hit, const Vec3& direction, int max_reflections,
                               SampleStream& stream) const;
 
+    /// Light from one source at `surface`, shadows included; nothing where none arrives.
+    std::optional<IncidentLight> sample_light(const Hit& surface, SampleStream& stream) const;
+
+    /// What arrives at `surface` (not specular) by other surfaces along one direction, drawn by the BRDF as
+    /// seen from `outgoing`, and has met at most `max_reflections` of them; emission that is seen by mirrors
+    /// included.
+    struct IncomingBeam {
+        Vec3 direction;            ///< unit, towards where the light comes from
+        Spectrum luminance_cd_m2;  ///< one unbiased sample, divided by the probability of going on
+    };
+    std::optional<IncomingBeam> sample_beam(const Hit& surface, const Vec3& outgoing, int max_reflections,
+                                            SampleStream& stream) const;
+
     /// One unbiased sample of the luminance [cd/m2] that `surface` (not specular) reflects towards
     /// `outgoing`, by at most `max_reflections` reflections, its own counted. Emission of the surface itself
-    /// is left out. Of every way of the light the share is taken that its BRDF value at `surface` leaves to
-    /// gathering.
+    /// is left out.
     Spectrum reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
-                                 GatheredShare share, SampleStream& stream) const;
+                                 SampleStream& stream) const;
 
     /// One sample of the luminance [cd/m2] that arrives along a ray that met `hit`: reflected light, and
-    /// emission that is seen by mirrors. Emission of `hit` itself is left out: that is direct light. `share`
-    /// counts where `hit` itself reflects the light, not behind mirrors.
+    /// emission that is seen by mirrors. Emission of `hit` itself is left out: that is direct light.
     Spectrum luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
-                                      GatheredShare share, SampleStream& stream) const;
+                                      SampleStream& stream) const;
+
+    const Material& material(const Hit& hit) const { return scene_.material(hit.material); }
 
   private:
     const Scene& scene_;

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "base/sampling.h"
 #include "estimators/fan.h"
+#include "estimators/kernel_split.h"
 
 namespace stilb {
 namespace {
@@ -15,10 +17,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // Costs in units of one ray of a fan, and factors of the variance model; measured in the example office.
-constexpr double kRayCost = 4;     ///< a gathering ray to its hit
-constexpr double kPathCost = 100;  ///< the path that goes on from there
-constexpr double kChainCost = 35;  ///< walking one chain
-constexpr double kPathVariance = 3;
+constexpr double kRayCost = 17;         ///< a gathering ray to its hit
+constexpr double kPathCost = 80;        ///< the path that goes on from there
+constexpr double kConnectionCost = 20;  ///< sharing it out among the packet's points
+constexpr double kChainCost = 35;       ///< walking one chain
+constexpr double kPathVariance = 0.5;
 /// What even selection leaves of the variance of a kernel that varies slowly, and how many nodes lie evenly;
 /// a kernel that is peaked between two of these keeps its variance.
 constexpr double kEvenVariance = 0.1;
@@ -28,6 +31,7 @@ constexpr double kEvenNodes = 512;
 struct RaySample {
     double g_per_m2 = 0;   ///< infinite where it is a mirror: what that shows is gathered always
     double luminance = 0;  ///< over the mean
+    double own_share = 1;  ///< of the rays of its packet that could have met the same place
 };
 
 /// What the model says of a point.
@@ -47,19 +51,19 @@ double remaining_variance(double peak) { return (kEvenVariance + peak) / (1 + pe
 
 Prediction predict(const PointModel& point, const SplitPlan& plan) {
     double fan_moment = 0, gathered = 0, gathered_moment = 0;
-    for (const auto& [g, l] : point.rays) {
+    for (const auto& [g, l, own] : point.rays) {
         const double rest = GatheredShare{g / plan.k_per_m2}(1);
         const double w = 1 - rest;
         if (w > 0) fan_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * point.density_per_m2));
         gathered += rest;
-        gathered_moment += l * l * rest;
+        gathered_moment += l * l * rest * own;
     }
     const double rays = static_cast<double>(point.rays.size());
     const double chains = static_cast<double>(plan.chains_per_ray);
     const double variance =
         (fan_moment / (kPi * point.density_per_m2) + chains * kPathVariance * gathered_moment) / rays;
     return {point.indirect_share * point.indirect_share * variance,
-            (kRayCost + kPathCost * gathered / rays) / chains};
+            (kRayCost + (kPathCost + kConnectionCost) * gathered / rays) / chains};
 }
 
 /// The k that is best for a given number of chains per ray, when a unit of cost is worth `price` units of
@@ -120,8 +124,20 @@ double usual_kernel_per_m2(std::span<const RaySample> rays, double fallback_per_
     return 4 * *quartile;
 }
 
+/// G of a lane over the sum of all lanes': visibility left out.
+double own_share(const RayCaster& caster, const Hit& hit, const PointTile& packet, std::size_t lane) {
+    RayPacket segments;
+    LaneMask lanes;
+    PointTile::Floats g_per_m2;
+    connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, caster.center()), packet, segments, lanes,
+            g_per_m2);
+    const double sum = std::accumulate(g_per_m2.begin(), g_per_m2.end(), 0.0);
+    return sum > 0 ? double{g_per_m2[lane]} / sum : 1;
+}
+
 std::vector<RaySample> sample_rays(const RayCaster& caster, const PathTracer& tracer,
-                                   const PackedPoint& point, unsigned count, RandomKey key) {
+                                   const PackedPoint& point, const PointTile& packet, std::size_t lane,
+                                   unsigned count, RandomKey key) {
     constexpr double floor = 0.2;  // light that comes by more than one reflection, as a share of the mean
     constexpr int only_direct_light = 1;
     const Frame frame = Frame::around(point.normal);
@@ -136,11 +152,13 @@ std::vector<RaySample> sample_rays(const RayCaster& caster, const PathTracer& tr
         if (!hit) continue;
         const PathTracer::View view = tracer.look_through_mirrors(*hit, direction, only_direct_light, stream);
         const double g = local.z * -dot(hit->normal, direction) / (hit->distance_m * hit->distance_m);
-        rays[i].g_per_m2 = view.reflections > 0 ? std::numeric_limits<double>::infinity() : g;
+        rays[i].g_per_m2 = view.reflections > 0 ? std::numeric_limits<double>::infinity()
+                                                : g * mean_concentration(tracer.material(*hit));
+        rays[i].own_share = view.reflections > 0 ? 1 : own_share(caster, *hit, packet, lane);
         Spectrum luminance = view.emission_cd_m2;
         if (view.surface) {
-            luminance += view.transmission * tracer.reflected_luminance(*view.surface, view.outgoing,
-                                                                        only_direct_light, {}, stream);
+            luminance += view.transmission *
+                         tracer.reflected_luminance(*view.surface, view.outgoing, only_direct_light, stream);
         }
         rays[i].luminance = luminance.luminance();
         sum += rays[i].luminance;
@@ -163,11 +181,14 @@ std::vector<PointModel> model_points(const RayCaster& caster, const PathTracer& 
     const unsigned rays = points.size() > 1000 ? 16 : 64;
     std::vector<PointModel> models(points.size());
     std::vector<double> bounds_per_m2;
+    const std::vector<PointTile> packets = tiles_of(points, std::vector<double>(points.size(), 1.0), caster);
     for (std::size_t j = 0; j < points.size(); ++j) {
-        models[j].rays = sample_rays(caster, tracer, points[j], rays, key.derived(j));
+        models[j].rays = sample_rays(caster, tracer, points[j], packets[j / kPacketWidth], j % kPacketWidth,
+                                     rays, key.derived(j));
         bounds_per_m2.push_back(usual_kernel_per_m2(models[j].rays, mean_density));
     }
-    const Fan fan(caster, points, bounds_per_m2);
+    const std::vector<PointTile> tiles = tiles_of(points, bounds_per_m2, caster);
+    const Fan fan(caster, tiles);
     ReadingSums indirect(points.size()), density(points.size());
     fan.collect(pilot.nodes, indirect);
     // Unit fluxes on white surfaces add up to nu.
@@ -183,8 +204,10 @@ std::vector<PointModel> model_points(const RayCaster& caster, const PathTracer& 
         const std::uint32_t reading = points[j].reading;
         const double indirect_lx = indirect.sum[reading].luminance() / chains;
         const double total_lx = indirect_lx + pilot.direct_lx[reading];
-        models[j].density_per_m2 = std::max(density.sum[reading][0] / chains, 1e-3 * mean_density);
-        models[j].indirect_share = total_lx > 0 ? indirect_lx / total_lx : 1;
+        // Nothing seen: a dark place, where nothing is to be gained.
+        models[j].density_per_m2 =
+            total_lx > 0 ? std::max(density.sum[reading][0] / chains, 1e-3 * mean_density) : mean_density;
+        models[j].indirect_share = total_lx > 0 ? indirect_lx / total_lx : 0;
     }
     return models;
 }

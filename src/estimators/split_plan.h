@@ -17,7 +17,7 @@ struct SplitPlan {
 };
 
 /// chains_per_ray is at most this.
-inline constexpr std::uint64_t kMostChainsPerRay = 32;
+inline constexpr std::uint64_t kMostChainsPerRay = 64;
 
 /// What is known of the light before planning, roughly.
 struct PilotLight {

@@ -60,13 +60,17 @@ std::optional<ScatterSample> sample(const Mirror& material, const Vec3& in, doub
 
 std::optional<ScatterSample> sample(const Black&, const Vec3&, double, double) { return std::nullopt; }
 
-double largest_brdf(const Diffuse& material) { return material.reflectance.max() * std::numbers::inv_pi; }
-double largest_brdf(const Phong& material) {
-    const double lobe_per_sr = (material.exponent + 2) / (2 * std::numbers::pi);
-    return (material.diffuse * std::numbers::inv_pi + material.specular * lobe_per_sr).max();
+double concentration(const Diffuse& material) { return material.reflectance.max() > 0 ? 1 : 0; }
+/// The horizon left out: pi f of the lobe is (n+2)/2 cos^n(alpha), of which its own light sees
+/// (n+1)/(2n+1) on average.
+double concentration(const Phong& material) {
+    const double diffuse = material.diffuse.luminance(), specular = material.specular.luminance();
+    if (!(diffuse + specular > 0)) return 0;
+    const double share = specular / (diffuse + specular), n = material.exponent;
+    return (1 - share) + share * share * (n + 2) / 2 * (n + 1) / (2 * n + 1);
 }
-double largest_brdf(const Mirror&) { return 0; }
-double largest_brdf(const Black&) { return 0; }
+double concentration(const Mirror&) { return 0; }
+double concentration(const Black&) { return 0; }
 
 Spectrum bound(const Diffuse& material) { return material.reflectance; }
 Spectrum bound(const Phong& material) { return material.diffuse + material.specular; }
@@ -85,8 +89,8 @@ double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
     return std::visit([&](const auto& m) { return pdf(m, in, out); }, material);
 }
 
-double largest_brdf_per_sr(const Material& material) {
-    return std::visit([](const auto& m) { return largest_brdf(m); }, material);
+double mean_concentration(const Material& material) {
+    return std::visit([](const auto& m) { return concentration(m); }, material);
 }
 
 bool is_specular(const Material& material) { return std::holds_alternative<Mirror>(material); }

@@ -113,7 +113,8 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
         const PackedPoints sorted = packed(points, caster);
         std::vector<double> sorted_k;
         for (const PackedPoint& point : sorted) sorted_k.push_back(k[point.reading]);
-        Fan(caster, sorted, sorted_k).collect(nodes, sums);
+        const std::vector<PointTile> tiles = tiles_of(sorted, sorted_k, caster);
+        Fan(caster, tiles).collect(nodes, sums);
         std::uint64_t rays = 0;
         for (std::size_t j = 0; j < count; ++j) {
             Spectrum expected;

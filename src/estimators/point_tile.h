@@ -1,0 +1,43 @@
+// Sixteen measuring points, and the segments from one place on a surface to all of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "estimators/packed_points.h"
+#include "scene/ray_caster.h"
+
+namespace stilb {
+
+/// A packet of neighbouring points as a structure of arrays, relative to the ray caster's centre.
+struct alignas(64) PointTile {
+    using Floats = std::array<float, kPacketWidth>;
+    Floats x{}, y{}, z{};                       ///< the points themselves: G is theirs
+    Floats lifted_x{}, lifted_y{}, lifted_z{};  ///< where segments end
+    Floats normal_x{}, normal_y{}, normal_z{};  ///< 0 in lanes without a point
+    Floats inverse_k{};                         ///< of the kernel split [m2]
+    std::array<std::uint32_t, kPacketWidth> reading{};
+    int count = 0;  ///< lanes with a point: the first ones
+};
+
+/// Points in packets, in their order. `k_per_m2`: of each point; may be infinite.
+std::vector<PointTile> tiles_of(std::span<const PackedPoint> points, std::span<const double> k_per_m2,
+                                const RayCaster& caster);
+
+/// A place on a surface in single precision, relative to the ray caster's centre.
+struct SegmentOrigin {
+    float x = 0, y = 0, z = 0;
+    float lifted_x = 0, lifted_y = 0, lifted_z = 0;
+    float normal_x = 0, normal_y = 0, normal_z = 0;
+
+    SegmentOrigin(const Vec3& position, const Vec3& lifted, const Vec3& normal, const Vec3& center);
+};
+
+/// Makes the segments from `origin` to a tile's points, and G = cos+ cos+ / d^2 [1/m2] without visibility;
+/// lanes where G is 0 are not set. False: no lane is.
+bool connect(const SegmentOrigin& origin, const PointTile& tile, RayPacket& segments, LaneMask& lanes,
+             PointTile::Floats& g_per_m2);
+
+}  // namespace stilb
