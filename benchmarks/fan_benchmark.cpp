@@ -60,7 +60,13 @@ PreparedRays prepare_rays(const PackedPoints& points, const std::vector<ChainNod
             for (std::size_t i = 0; i < kPacketWidth; ++i) {
                 const PackedPoint& point = points[first + i];
                 const Vec3 segment = point.lifted - node.lifted;
-                packet.set(static_cast<int>(i), node.lifted - center, segment);
+                const Vec3 origin = node.lifted - center;
+                packet.origin_x[i] = static_cast<float>(origin.x);
+                packet.origin_y[i] = static_cast<float>(origin.y);
+                packet.origin_z[i] = static_cast<float>(origin.z);
+                packet.direction_x[i] = static_cast<float>(segment.x);
+                packet.direction_y[i] = static_cast<float>(segment.y);
+                packet.direction_z[i] = static_cast<float>(segment.z);
                 packet.end[i] = 1;
                 const Vec3 exact = point.position - node.position;
                 lanes[i] = dot(node.normal, exact) > 0 && dot(point.normal, exact) < 0 ? -1 : 0;

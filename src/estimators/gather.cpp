@@ -12,6 +12,89 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// A place y that a ray has met, and the points of the ray's packet that may see it. Keeps references.
+class SharedPlace {
+  public:
+    SharedPlace(const Hit& hit, const Material& material, const PointTile& tile, const Vec3& center)
+        : material_(material), tile_(tile), frame_(Frame::around(hit.normal)) {
+        connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, center), tile, segments_, lanes_,
+                g_per_m2_);
+    }
+
+    bool reaches(std::size_t point) const { return lanes_[point] != 0; }
+
+    /// 1 - w as it is on average over the ways of the light, at the point where it is largest.
+    double gathered_share() const {
+        const double concentration = mean_concentration(material_);
+        double largest = 0;
+        for_each_point([&](std::size_t i) { largest = std::max(largest, share_at(i)(concentration)); });
+        return largest;
+    }
+
+    /// Leaves the points that see y. `own` does: its ray has shown it.
+    void test_visibility(const RayCaster& caster, std::size_t own) {
+        lanes_[own] = 0;
+        caster.occlude(segments_, lanes_);
+        lanes_[own] = -1;
+        for_each_point([&](std::size_t i) {
+            if (segments_.end[i] < 0) {
+                lanes_[i] = 0;
+                return;
+            }
+            const Vec3 segment{segments_.direction_x[i], segments_.direction_y[i], segments_.direction_z[i]};
+            out_[i] = frame_.to_local(normalized(segment));
+        });
+    }
+
+    Vec3 direction_to(std::size_t point) const { return frame_.to_world(out_[point]); }
+
+    /// How densely the packet's rays meet y [1/m2].
+    double ray_density() const {
+        double sum = 0;
+        for_each_point([&](std::size_t i) { sum += double{g_per_m2_[i]} / kPi; });
+        return sum;
+    }
+
+    /// How densely they meet y and go on along `direction` [1/(m2 sr)].
+    double beam_density(const Vec3& direction) const {
+        const Vec3 in = frame_.to_local(direction);
+        double sum = 0;
+        for_each_point(
+            [&](std::size_t i) { sum += double{g_per_m2_[i]} / kPi * pdf_per_sr(material_, out_[i], in); });
+        return sum;
+    }
+
+    /// Adds what the points receive of light that comes to y from `direction`, given its illuminance on a
+    /// surface across it, over the density of y.
+    void reflect(const Vec3& direction, const Spectrum& normal_illuminance, ReadingSums& sums) const {
+        const Vec3 in = frame_.to_local(direction);
+        for_each_point([&](std::size_t i) {
+            const Spectrum brdf = evaluate_brdf_per_sr(material_, in, out_[i]);
+            const double gathered = share_at(i)(relative_brdf(material_, brdf));
+            sums.add(tile_.reading[i], normal_illuminance * brdf * (in.z * double{g_per_m2_[i]} * gathered));
+        });
+    }
+
+  private:
+    template <typename Action>
+    void for_each_point(const Action& action) const {
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            if (lanes_[i] != 0) action(i);
+        }
+    }
+    GatheredShare share_at(std::size_t point) const {
+        return {double{g_per_m2_[point]} * double{tile_.inverse_k[point]}};
+    }
+
+    const Material& material_;
+    const PointTile& tile_;
+    Frame frame_;
+    RayPacket segments_;
+    LaneMask lanes_;
+    alignas(64) PointTile::Floats g_per_m2_;
+    std::array<Vec3, kPacketWidth> out_;  ///< to the points, in the frame of y
+};
+
 }  // namespace
 
 void Gather::collect(const Batch& batch, ReadingSums& sums) const {
@@ -32,90 +115,37 @@ void Gather::trace_round(std::size_t tile, RandomKey key, std::uint64_t round, d
     // drawn: the low digits of the index tell the cell that every coordinate lies in, and each ray needs all.
     constexpr std::uint64_t rotations = 0;
     const std::uint64_t rotation = random_block(key.derived(rotations), round, 0)[0];
-    std::vector<SampleStream> streams;
-    streams.reserve(points.size());
-    HitPacket packet;
-    LaneMask lanes{};
-    std::array<Vec3, kPacketWidth> directions;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        SampleStream& stream =
-            streams.emplace_back(key, round * points.size() + (i + rotation) % points.size());
+        SampleStream stream(key, round * points.size() + (i + rotation) % points.size());
         const auto [u1, u2] = stream.next_two();
-        directions[i] = Frame::around(points[i].normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
-        packet.rays.set(static_cast<int>(i), points[i].lifted - caster_.center(), directions[i]);
-        lanes[i] = -1;
-    }
-    caster_.closest(packet, lanes);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (packet.object[i] == HitPacket::kNone) continue;
-        const int lane = static_cast<int>(i);
-        const Hit hit = caster_.hit_of(packet, lane);
-        if (is_specular(scene_.material(hit.material))) {
+        const Vec3 direction =
+            Frame::around(points[i].normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
+        const auto hit = caster_.closest(points[i].lifted, direction);
+        if (!hit) continue;
+        if (is_specular(scene_.material(hit->material))) {
             const Spectrum luminance =
-                tracer_.luminance_without_direct(hit, directions[i], max_reflections_, streams[i]);
+                tracer_.luminance_without_direct(*hit, direction, max_reflections_, stream);
             sums.add(points[i].reading, weight * kPi * luminance);
         } else {
-            share_out(hit, tiles_[tile], lane, streams[i], weight, sums);
+            share_out(*hit, tiles_[tile], i, stream, weight, sums);
         }
     }
 }
 
-void Gather::share_out(const Hit& hit, const PointTile& tile, int own_lane, SampleStream& stream,
+void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, SampleStream& stream,
                        double weight, ReadingSums& sums) const {
-    RayPacket segments;
-    LaneMask lanes;
-    alignas(64) PointTile::Floats g_per_m2;
-    connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, caster_.center()), tile, segments, lanes,
-            g_per_m2);
-    const auto own = static_cast<std::size_t>(own_lane);
-    if (max_reflections_ == 0 || lanes[own] == 0) return;
-    const Material& material = scene_.material(hit.material);
-    const double concentration = mean_concentration(material);
-    const auto share = [&](std::size_t lane) {
-        return GatheredShare{double{g_per_m2[lane]} * double{tile.inverse_k[lane]}};
-    };
-    // Russian roulette with what 1 - w is on average over the ways of the light.
-    double survival = 0;
-    for (std::size_t i = 0; i < kPacketWidth; ++i) {
-        if (lanes[i] != 0) survival = std::max(survival, share(i)(concentration));
-    }
+    SharedPlace place(hit, scene_.material(hit.material), tile, caster_.center());
+    if (max_reflections_ == 0 || !place.reaches(own)) return;
+    const double survival = place.gathered_share();
     if (stream.next() >= survival) return;
-    // The own ray has shown that its point sees y.
-    lanes[own] = 0;
-    caster_.occlude(segments, lanes);
-    lanes[own] = -1;
-    double density_per_m2 = 0;
-    for (std::size_t i = 0; i < kPacketWidth; ++i) {
-        if (segments.end[i] < 0) lanes[i] = 0;
-        if (lanes[i] != 0) density_per_m2 += double{g_per_m2[i]} / kPi;
+    weight /= survival;
+    place.test_visibility(caster_, own);
+    if (const auto light = tracer_.sample_light(hit, stream)) {
+        place.reflect(light->direction, light->normal_illuminance_lx * (weight / place.ray_density()), sums);
     }
-
-    const auto light = tracer_.sample_light(hit, stream);
-    const Frame frame = Frame::around(hit.normal);
-    std::array<Vec3, kPacketWidth> out;
-    for (std::size_t i = 0; i < kPacketWidth; ++i) {
-        if (lanes[i] == 0) continue;
-        out[i] = frame.to_local(
-            normalized(Vec3{segments.direction_x[i], segments.direction_y[i], segments.direction_z[i]}));
-    }
-    const auto add = [&](const Vec3& towards, const Spectrum& per_density) {
-        const Vec3 in = frame.to_local(towards);
-        for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            if (lanes[i] == 0) continue;
-            const Spectrum brdf = evaluate_brdf_per_sr(material, in, out[i]);
-            const double kernel = double{g_per_m2[i]} * share(i)(relative_brdf(material, brdf)) * in.z;
-            sums.add(tile.reading[i], per_density * brdf * (weight * kernel / survival));
-        }
-    };
-    if (light) add(light->direction, light->normal_illuminance_lx * (1 / density_per_m2));
-    const auto beam = tracer_.sample_beam(hit, frame.to_world(out[own]), max_reflections_ - 1, stream);
-    if (beam) {
-        const Vec3 in = frame.to_local(beam->direction);
-        double density = 0;  // of y and the beam's direction, over all rays that could have made both
-        for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            if (lanes[i] != 0) density += double{g_per_m2[i]} / kPi * pdf_per_sr(material, out[i], in);
-        }
-        if (density > 0) add(beam->direction, beam->luminance_cd_m2 * (1 / density));
+    if (const auto beam = tracer_.sample_beam(hit, place.direction_to(own), max_reflections_ - 1, stream)) {
+        const double density = place.beam_density(beam->direction);
+        if (density > 0) place.reflect(beam->direction, beam->luminance_cd_m2 * (weight / density), sums);
     }
 }
 

@@ -41,8 +41,8 @@ class Gather {
   private:
     void trace_round(std::size_t tile, RandomKey key, std::uint64_t round, double weight,
                      ReadingSums& sums) const;
-    void share_out(const Hit& hit, const PointTile& tile, int own_lane, SampleStream& stream, double weight,
-                   ReadingSums& sums) const;
+    void share_out(const Hit& hit, const PointTile& tile, std::size_t own, SampleStream& stream,
+                   double weight, ReadingSums& sums) const;
 
     const Scene& scene_;
     const RayCaster& caster_;

@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A point of an element with the unit normal of its front.
-struct ElementPoint {
-    Vec3 position, normal;
-};
+/// What leaves a luminaire against `direction`, in the frame of its solid.
+Vec3 in_solid(const PhotometryLight& luminaire, const Vec3& direction) {
+    return {-dot(direction, luminaire.c0), -dot(direction, luminaire.c90), -dot(direction, luminaire.nadir)};
+}
 
 double area(const Rectangle& r) { return length(cross(r.edge_u, r.edge_v)); }
 double area(const std::array<Vec3, 3>& t) { return length(cross(t[1] - t[0], t[2] - t[0])) / 2; }
@@ -168,9 +168,8 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
     }
     if (const auto* luminaire = std::get_if<PhotometryLight>(&source)) {
         return from_point(luminaire->position, [&](const Vec3& direction) {
-            const Vec3 local{-dot(direction, luminaire->c0), -dot(direction, luminaire->c90),
-                             -dot(direction, luminaire->nadir)};
-            return scene_.solid(luminaire->solid).intensity_cd(local) * luminaire->factor;
+            return scene_.solid(luminaire->solid).intensity_cd(in_solid(*luminaire, direction)) *
+                   luminaire->factor;
         });
     }
     const auto choice = emitters_[light].by_area.choose(u[0]);
@@ -190,10 +189,24 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
 }
 
 double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const {
-    if (is_point_like(light)) {
-        const auto incident = sample_incident(light, from, {});
-        if (!incident) return 0;
-        return incident->normal_illuminance_lx.luminance() * std::max(0.0, dot(incident->direction, normal));
+    const auto from_point = [&](const Vec3& position, const auto& intensity_cd) {
+        const Vec3 towards = position - from;
+        const double squared_distance = squared_length(towards);
+        const double height = dot(towards, normal);
+        if (!(height > 0)) return 0.0;
+        const double distance = std::sqrt(squared_distance);
+        return intensity_cd(towards / distance) * height / (squared_distance * distance);
+    };
+    const auto& source = lights_[light]->source;
+    if (const auto* point = std::get_if<PointLight>(&source)) {
+        return from_point(point->position, [&](const Vec3&) { return point->intensity_cd.luminance(); });
+    }
+    if (const auto* luminaire = std::get_if<PhotometryLight>(&source)) {
+        return from_point(luminaire->position, [&](const Vec3& direction) {
+            const double bound_cd =
+                scene_.solid(luminaire->solid).intensity_bound_cd(in_solid(*luminaire, direction));
+            return bound_cd * luminaire->factor.luminance();
+        });
     }
     // Never zero: part of the emitter may be above the horizon wherever its middle is.
     const Emitter& emitter = emitters_[light];

@@ -170,6 +170,7 @@ PhotometricSolid::PhotometricSolid(const Grid& grid) : axes_(axes_of(grid.type))
         relative_intensity_.insert(relative_intensity_.end(), only_plane.begin(), only_plane.end());
     }
     add_up_flux();
+    find_bounds();
 }
 
 void PhotometricSolid::add_up_flux() {
@@ -197,6 +198,30 @@ void PhotometricSolid::add_up_flux() {
         throw InputError(
             fmt::format("the flux of the distribution is {} lm: intensities are out of range", flux_lm_));
     }
+}
+
+void PhotometricSolid::find_bounds() {
+    // Wider than the step, so that rounding of a direction never leads out of it.
+    constexpr double step = 2.0 / kBounds, margin = step / 64;
+    for (std::size_t i = 0; i < kBounds; ++i) {
+        const double low = -1 + step * static_cast<double>(i);
+        const double first = std::acos(std::min(low + step + margin, 1.0));
+        const double last = std::acos(std::max(low - margin, -1.0));
+        // Intensities are linear between rings: those about the step hold the largest.
+        for (std::size_t ring = 0; ring + 1 < polar_.size(); ++ring) {
+            if (polar_[ring] > last || polar_[ring + 1] < first) continue;
+            for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
+                const double largest = std::max(relative(plane, ring), relative(plane, ring + 1));
+                bound_cd_[i] = std::max(bound_cd_[i], peak_cd_ * largest);
+            }
+        }
+    }
+}
+
+double PhotometricSolid::intensity_bound_cd(const Vec3& direction) const {
+    const double cos_polar = dot(direction, axes_.w);
+    const double step = (cos_polar + 1) * (kBounds / 2.0);
+    return bound_cd_[std::min(static_cast<std::size_t>(std::max(step, 0.0)), kBounds - 1)];
 }
 
 double PhotometricSolid::intensity_cd(const Vec3& direction) const {

@@ -1,6 +1,7 @@
 // The luminous intensity distribution of a luminaire, as IES and EULUMDAT files state it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -37,6 +38,8 @@ class PhotometricSolid {
     explicit PhotometricSolid(const Grid& grid);
 
     double intensity_cd(const Vec3& direction) const;
+    /// Never less than intensity_cd(direction), and fast: the largest intensity at about its polar angle.
+    double intensity_bound_cd(const Vec3& direction) const;
     /// Integral of the interpolated intensity over the sphere: exact, not a sum over the grid.
     double flux_lm() const { return flux_lm_; }
     double peak_cd() const { return peak_cd_; }
@@ -52,6 +55,7 @@ class PhotometricSolid {
         return relative_intensity_[plane * polar_.size() + ring];
     }
     void add_up_flux();
+    void find_bounds();
 
     Frame axes_;                              ///< plane angle 0 and 90 on the equator, pole of polar angle 0
     std::vector<double> planes_;              ///< radians
@@ -59,6 +63,8 @@ class PhotometricSolid {
     std::vector<double> relative_intensity_;  ///< intensity / peak: neither sums nor squares overflow
     std::vector<double> flux_below_;   ///< planes x polar: per radian of plane angle, from the pole down
     std::vector<double> flux_before_;  ///< per plane: of all slices before it
+    static constexpr std::size_t kBounds = 128;
+    std::array<double, kBounds> bound_cd_{};  ///< in equal steps of cos(polar angle), from -1 on
     double flux_lm_ = 0;
     double peak_cd_ = 0;
 };

@@ -20,10 +20,6 @@ static_assert(offsetof(RayPacket, direction_x) == offsetof(RTCRay16, dir_x));
 static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
 static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
 
-static_assert(sizeof(HitPacket) == sizeof(RTCRayHit16));
-static_assert(offsetof(HitPacket, normal_x) == offsetof(RTCRayHit16, hit));
-static_assert(offsetof(HitPacket, object) - offsetof(HitPacket, normal_x) == offsetof(RTCHit16, geomID));
-
 constexpr double kRelativeOffset = 0x1p-19;
 /// Hits are moved so many offsets away from edges: lifting stays on this side of neighbours at up to 7
 /// degrees.
@@ -263,50 +259,46 @@ struct RayCaster::Implementation {
         return handle;
     }
 
-    /// A ray as it was traced (relative to the centre) and where it ended.
-    struct RawHit {
-        Vec3 origin, direction;
-        double distance_m, u, v;
-        std::uint32_t object, primitive;
-    };
-
-    Hit hit_of(const RawHit& raw) const {
-        const Geometry& geometry = *geometries[raw.object];
+    Hit hit_of(const RTCRayHit& found) const {
+        const auto& [ray, met] = found;
+        const Vec3 origin{ray.org_x, ray.org_y, ray.org_z}, direction{ray.dir_x, ray.dir_y, ray.dir_z};
+        const double u = met.u, v = met.v;
+        const Geometry& geometry = *geometries[met.geomID];
         Hit hit;
         double size = 0;
         bool at_edge = false;
         if (geometry.vertices != nullptr) {
-            const Triangle& t = geometry.triangles[raw.primitive];
-            std::array<Vec3, 3> v;
+            const Triangle& t = geometry.triangles[met.primID];
+            std::array<Vec3, 3> p;
             for (std::size_t i = 0; i < 3; ++i) {
                 const Float3& f = geometry.vertices[t[i]];
-                v[i] = {f.x, f.y, f.z};
+                p[i] = {f.x, f.y, f.z};
                 size = std::max(
-                    {size, std::abs(v[i].x - v[0].x), std::abs(v[i].y - v[0].y), std::abs(v[i].z - v[0].z)});
+                    {size, std::abs(p[i].x - p[0].x), std::abs(p[i].y - p[0].y), std::abs(p[i].z - p[0].z)});
             }
-            const Vec3 doubled = cross(v[1] - v[0], v[2] - v[0]);
+            const Vec3 doubled = cross(p[1] - p[0], p[2] - p[0]);
             const double doubled_area = length(doubled);
             hit.normal = doubled / doubled_area;
-            const Vec3 near_by = v[0] + raw.u * (v[1] - v[0]) + raw.v * (v[2] - v[0]);
+            const Vec3 near_by = p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]);
             const double margin = kEdgeMargin * offset(near_by, size);
-            const auto inner = away_from_edges({1 - raw.u - raw.v, raw.u, raw.v}, v, margin, doubled_area);
-            hit.position = inner.b[0] * v[0] + inner.b[1] * v[1] + inner.b[2] * v[2];
+            const auto inner = away_from_edges({1 - u - v, u, v}, p, margin, doubled_area);
+            hit.position = inner.b[0] * p[0] + inner.b[1] * p[1] + inner.b[2] * p[2];
             at_edge = inner.was_at_edge;
         } else {
-            const Vec3 near_by = raw.origin + raw.distance_m * raw.direction;
+            const Vec3 near_by = origin + ray.tfar * direction;
             const SurfacePoint point = nearest_surface_point(geometry.analytic, near_by);
             hit.position = point.position;
             hit.normal = point.normal;
             size = point.size_m;
         }
-        hit.on_front = dot(hit.normal, raw.direction) < 0;
+        hit.on_front = dot(hit.normal, direction) < 0;
         if (!hit.on_front) hit.normal = -hit.normal;
         const Vec3 lift = offset(hit.position, size) * hit.normal;
         hit.lifted = hit.position + lift;
         // At an edge where the mesh folds towards the ray, rounding may have picked the face behind the fold,
         // whose side towards the ray is outside. Then the ray's origin sees the other side instead.
         const bool is_behind_fold =
-            at_edge && occluded(raw.origin, hit.lifted) && !occluded(raw.origin, hit.position - lift);
+            at_edge && occluded(origin, hit.lifted) && !occluded(origin, hit.position - lift);
         if (is_behind_fold) {
             hit.lifted = hit.position - lift;
             hit.normal = -hit.normal;
@@ -314,10 +306,10 @@ struct RayCaster::Implementation {
         }
         hit.lifted += center;
         hit.position += center;
-        hit.distance_m = raw.distance_m;
-        hit.object = ObjectId{raw.object};
-        hit.triangle = raw.primitive;
-        hit.material = material_of(raw.object, raw.primitive);
+        hit.distance_m = ray.tfar;
+        hit.object = ObjectId{met.geomID};
+        hit.triangle = met.primID;
+        hit.material = material_of(met.geomID, met.primID);
         return hit;
     }
 
@@ -354,18 +346,6 @@ struct RayCaster::Implementation {
     }
 };
 
-void RayPacket::set(int lane, const Vec3& origin, const Vec3& direction) {
-    const auto i = static_cast<std::size_t>(lane);
-    origin_x[i] = static_cast<float>(origin.x);
-    origin_y[i] = static_cast<float>(origin.y);
-    origin_z[i] = static_cast<float>(origin.z);
-    direction_x[i] = static_cast<float>(direction.x);
-    direction_y[i] = static_cast<float>(direction.y);
-    direction_z[i] = static_cast<float>(direction.z);
-    start[i] = 0;
-    end[i] = kInfinity;
-}
-
 RayCaster::RayCaster(const Scene& scene) : implementation_(std::make_unique<Implementation>(scene)) {}
 RayCaster::~RayCaster() = default;
 
@@ -382,42 +362,7 @@ std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction)
     rtcInitIntersectContext(&context);
     rtcIntersect1(implementation_->embree_scene, &context, &ray_hit);
     if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    const auto& [ray, hit] = ray_hit;
-    return implementation_->hit_of({{ray.org_x, ray.org_y, ray.org_z},
-                                    {ray.dir_x, ray.dir_y, ray.dir_z},
-                                    ray.tfar,
-                                    hit.u,
-                                    hit.v,
-                                    hit.geomID,
-                                    hit.primID});
-}
-
-void RayCaster::closest(HitPacket& packet, const LaneMask& lanes) const {
-    packet.object.fill(HitPacket::kNone);
-    packet.instance.fill(RTC_INVALID_GEOMETRY_ID);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect16(lanes.data(), implementation_->embree_scene, &context,
-                   reinterpret_cast<RTCRayHit16*>(&packet));
-}
-
-Hit RayCaster::hit_of(const HitPacket& packet, int lane) const {
-    const auto i = static_cast<std::size_t>(lane);
-    const RayPacket& rays = packet.rays;
-    return implementation_->hit_of({{rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]},
-                                    {rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]},
-                                    rays.end[i],
-                                    packet.u[i],
-                                    packet.v[i],
-                                    packet.object[i],
-                                    packet.primitive[i]});
-}
-
-const Material& RayCaster::material_of(const HitPacket& packet, int lane) const {
-    const auto i = static_cast<std::size_t>(lane);
-    return implementation_->scene.material(
-        implementation_->material_of(packet.object[i], packet.primitive[i]));
+    return implementation_->hit_of(ray_hit);
 }
 
 bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {

@@ -48,18 +48,6 @@ struct alignas(64) RayPacket {
     Words mask, id{}, flags{};
 
     RayPacket() { mask.fill(~0u); }
-
-    /// Makes a lane a ray without end from `origin` (relative to the centre) along a unit vector.
-    void set(int lane, const Vec3& origin, const Vec3& direction);
-};
-
-/// Sixteen rays and what they met, in the memory layout of Embree's RTCRayHit16.
-struct alignas(64) HitPacket {
-    static constexpr std::uint32_t kNone = ~0u;
-    RayPacket rays;                                        ///< `end` becomes the distance
-    RayPacket::Floats normal_x{}, normal_y{}, normal_z{};  ///< geometric, of any length and either side
-    RayPacket::Floats u{}, v{};
-    RayPacket::Words primitive{}, object{}, instance{};  ///< object: kNone where nothing was met
 };
 
 /// Immutable after construction; all queries may run in parallel. Keeps a reference to the scene.
@@ -78,13 +66,6 @@ class RayCaster {
 
     /// For lanes that are set: `end` becomes negative where something is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes) const;
-
-    /// For lanes that are set: the first surface between `start` and `end`. Sets `object` of all lanes.
-    void closest(HitPacket& packet, const LaneMask& lanes) const;
-    /// What a lane of such a packet met.
-    Hit hit_of(const HitPacket& packet, int lane) const;
-    /// The material of a lane's surface, without the cost of the whole hit.
-    const Material& material_of(const HitPacket& packet, int lane) const;
 
     /// The origin of packet coordinates: the middle of the scene's bounding box.
     const Vec3& center() const;
