@@ -1,5 +1,7 @@
 #include "estimators/split_plan.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,10 +19,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // Costs in units of one ray of a fan, and factors of the variance model; measured in the example office.
-constexpr double kRayCost = 17;         ///< a gathering ray to its hit
-constexpr double kPathCost = 80;        ///< the path that goes on from there
-constexpr double kConnectionCost = 20;  ///< sharing it out among the packet's points
-constexpr double kChainCost = 35;       ///< walking one chain
+constexpr double kRayCost = 12;     ///< a gathering ray to its hit
+constexpr double kPathCost = 75;    ///< the path that goes on from there, shared out in its packet
+constexpr double kChainCost = 30;   ///< walking one chain
 constexpr double kPathVariance = 0.5;
 /// What even selection leaves of the variance of a kernel that varies slowly, and how many nodes lie evenly;
 /// a kernel that is peaked between two of these keeps its variance.
@@ -34,81 +35,92 @@ struct RaySample {
     double own_share = 1;  ///< of the rays of its packet that could have met the same place
 };
 
-/// What the model says of a point.
-struct PointModel {
-    std::vector<RaySample> rays;
-    double density_per_m2 = 0;  ///< nu
-    double indirect_share = 0;  ///< of the illuminance
+/// What the model says of a point and a k.
+struct Outcome {
+    double k_per_m2 = 0;
+    double fan_variance = 0;     ///< of one chain, relative to the whole illuminance squared
+    double gather_variance = 0;  ///< of one gathering ray, likewise
+    double gather_cost = 0;      ///< of one gathering ray
 };
-
 struct Prediction {
-    double variance = 0;  ///< of a chain with its share of gathering, relative to the whole illuminance
-    double cost = 0;      ///< of the gathering for a chain
+    double variance = 0, cost = 0;  ///< of a chain with its share of gathering
 };
+Prediction predict(const Outcome& outcome, std::uint64_t chains_per_ray) {
+    const double chains = static_cast<double>(chains_per_ray);
+    return {outcome.fan_variance + chains * outcome.gather_variance, outcome.gather_cost / chains};
+}
+
+/// Powers of two times pi nu that are tried for k: from -4 to 8.
+constexpr int kFirstStep = -4;
+constexpr std::size_t kSteps = 13;
+using PointModel = std::array<Outcome, kSteps>;
 
 /// `peak` is G times the area that one of the evenly lying nodes stands for.
 double remaining_variance(double peak) { return (kEvenVariance + peak) / (1 + peak); }
 
-Prediction predict(const PointModel& point, const SplitPlan& plan) {
-    double fan_moment = 0, gathered = 0, gathered_moment = 0;
-    for (const auto& [g, l, own] : point.rays) {
-        const double rest = GatheredShare{g / plan.k_per_m2}(1);
-        const double w = 1 - rest;
-        if (w > 0) fan_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * point.density_per_m2));
-        gathered += rest;
-        gathered_moment += l * l * rest * own;
+PointModel model_of(std::span<const RaySample> rays, double density_per_m2, double indirect_share) {
+    PointModel model;
+    for (std::size_t step = 0; step < kSteps; ++step) {
+        const double k = kPi * density_per_m2 * std::ldexp(1.0, kFirstStep + static_cast<int>(step));
+        double fan_moment = 0, gathered = 0, gathered_moment = 0;
+        for (const auto& [g, l, own_share] : rays) {
+            const double rest = GatheredShare{g / k}(1);
+            const double w = 1 - rest;
+            if (w > 0) fan_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * density_per_m2));
+            gathered += rest;
+            gathered_moment += l * l * rest * own_share;
+        }
+        const double per_ray = 1 / static_cast<double>(rays.size());
+        const double squared_share = indirect_share * indirect_share;
+        model[step] = {k, squared_share * per_ray * fan_moment / (kPi * density_per_m2),
+                       squared_share * per_ray * kPathVariance * gathered_moment,
+                       kRayCost + kPathCost * per_ray * gathered};
     }
-    const double rays = static_cast<double>(point.rays.size());
-    const double chains = static_cast<double>(plan.chains_per_ray);
-    const double variance =
-        (fan_moment / (kPi * point.density_per_m2) + chains * kPathVariance * gathered_moment) / rays;
-    return {point.indirect_share * point.indirect_share * variance,
-            (kRayCost + (kPathCost + kConnectionCost) * gathered / rays) / chains};
+    return model;
 }
 
+struct Choice {
+    Prediction prediction;
+    double k_per_m2 = 0;
+};
 /// The k that is best for a given number of chains per ray, when a unit of cost is worth `price` units of
 /// variance.
-SplitPlan best_constant(const PointModel& point, std::uint64_t chains_per_ray, double price) {
-    SplitPlan best;
+Choice best_constant(const PointModel& point, std::uint64_t chains_per_ray, double price) {
+    Choice best;
     double least = std::numeric_limits<double>::infinity();
-    for (int step = -4; step <= 8; ++step) {
-        const SplitPlan plan{kPi * point.density_per_m2 * std::ldexp(1.0, step), chains_per_ray};
-        const Prediction prediction = predict(point, plan);
+    for (const Outcome& outcome : point) {
+        const Prediction prediction = predict(outcome, chains_per_ray);
         const double loss = prediction.variance + price * prediction.cost;
         if (loss < least) {
             least = loss;
-            best = plan;
+            best = {prediction, outcome.k_per_m2};
         }
     }
     return best;
 }
 
-void plan_packet(std::span<const PointModel> packet, double price, std::span<SplitPlan> plans) {
+/// Plans for the points of a packet, which have the number of chains per ray in common; returns what they
+/// add up to.
+Prediction plan_packet(std::span<const PointModel> packet, double price, std::span<SplitPlan> plans) {
+    Prediction best;
     double least = std::numeric_limits<double>::infinity();
     for (std::uint64_t chains = 1; chains <= kMostChainsPerRay; chains *= 2) {
         std::array<SplitPlan, kPacketWidth> tried;
-        double loss = 0;
+        Prediction sum;
         for (std::size_t j = 0; j < packet.size(); ++j) {
-            tried[j] = best_constant(packet[j], chains, price);
-            const Prediction prediction = predict(packet[j], tried[j]);
-            loss += prediction.variance + price * prediction.cost;
+            const Choice choice = best_constant(packet[j], chains, price);
+            tried[j] = {choice.k_per_m2, chains};
+            sum.variance += choice.prediction.variance;
+            sum.cost += choice.prediction.cost;
         }
+        const double loss = sum.variance + price * sum.cost;
         if (loss < least) {
             least = loss;
+            best = sum;
             std::copy_n(tried.begin(), packet.size(), plans.begin());
         }
     }
-}
-
-/// The price at which variance times cost is least for the given plans: the quotient of both.
-double price_of(std::span<const PointModel> points, std::span<const SplitPlan> plans, double fan_cost) {
-    double variance = 0, cost = 0;
-    for (std::size_t j = 0; j < points.size(); ++j) {
-        const Prediction prediction = predict(points[j], plans[j]);
-        variance += prediction.variance;
-        cost += prediction.cost + fan_cost;
-    }
-    return variance / cost;
+    return best;
 }
 
 /// A bound for G that leaves out what is unusually near, so that single near nodes do not decide: a few times
@@ -171,44 +183,64 @@ std::vector<RaySample> sample_rays(const RayCaster& caster, const PathTracer& tr
     return rays;
 }
 
-std::vector<PointModel> model_points(const RayCaster& caster, const PathTracer& tracer,
-                                     std::span<const PackedPoint> points, const PilotLight& pilot,
-                                     RandomKey key) {
-    const double chains = static_cast<double>(pilot.chains);
-    const double mean_density =
-        (static_cast<double>(pilot.nodes.size()) + 1) / (chains * pilot.scene_area_m2);
-    // Few rays for each of many points: those of a packet share a plan.
-    const unsigned rays = points.size() > 1000 ? 16 : 64;
-    std::vector<PointModel> models(points.size());
-    std::vector<double> bounds_per_m2;
-    const std::vector<PointTile> packets = tiles_of(points, std::vector<double>(points.size(), 1.0), caster);
-    for (std::size_t j = 0; j < points.size(); ++j) {
-        models[j].rays = sample_rays(caster, tracer, points[j], packets[j / kPacketWidth], j % kPacketWidth,
-                                     rays, key.derived(j));
-        bounds_per_m2.push_back(usual_kernel_per_m2(models[j].rays, mean_density));
-    }
-    const std::vector<PointTile> tiles = tiles_of(points, bounds_per_m2, caster);
-    const Fan fan(caster, tiles);
-    ReadingSums indirect(points.size()), density(points.size());
-    fan.collect(pilot.nodes, indirect);
-    // Unit fluxes on white surfaces add up to nu.
-    const Material white = Diffuse{Spectrum::grey(1)};
-    std::vector<ChainNode> unit_nodes(pilot.nodes.begin(), pilot.nodes.end());
-    for (ChainNode& node : unit_nodes) {
+/// Nodes of unit flux on white surfaces: what they send to a point adds up to nu.
+std::vector<ChainNode> unit_nodes(std::span<const ChainNode> nodes) {
+    static const Material white = Diffuse{Spectrum::grey(1)};
+    std::vector<ChainNode> result(nodes.begin(), nodes.end());
+    for (ChainNode& node : result) {
         node.material = &white;
         node.flux_lm = Spectrum::grey(1);
         node.only_by_light = false;
     }
-    fan.collect(unit_nodes, density);
-    for (std::size_t j = 0; j < points.size(); ++j) {
-        const std::uint32_t reading = points[j].reading;
-        const double indirect_lx = indirect.sum[reading].luminance() / chains;
-        const double total_lx = indirect_lx + pilot.direct_lx[reading];
-        // Nothing seen: a dark place, where nothing is to be gained.
-        models[j].density_per_m2 =
-            total_lx > 0 ? std::max(density.sum[reading][0] / chains, 1e-3 * mean_density) : mean_density;
-        models[j].indirect_share = total_lx > 0 ? indirect_lx / total_lx : 0;
+    return result;
+}
+
+/// Models of the points of a packet.
+void model_packet(const RayCaster& caster, const PathTracer& tracer, std::span<const PackedPoint> points,
+                  const PilotLight& pilot, std::span<const ChainNode> units, unsigned rays_per_point,
+                  RandomKey key, std::span<PointModel> models) {
+    const double chains = static_cast<double>(pilot.chains);
+    const double mean_density =
+        (static_cast<double>(pilot.nodes.size()) + 1) / (chains * pilot.scene_area_m2);
+    std::vector<PackedPoint> packet(points.begin(), points.end());
+    for (std::size_t i = 0; i < packet.size(); ++i) packet[i].reading = static_cast<std::uint32_t>(i);
+    std::vector<double> bounds_per_m2(packet.size(), 1);
+    const PointTile unbounded = tiles_of(packet, bounds_per_m2, caster).front();
+    std::vector<std::vector<RaySample>> rays;
+    for (std::size_t i = 0; i < packet.size(); ++i) {
+        rays.push_back(
+            sample_rays(caster, tracer, packet[i], unbounded, i, rays_per_point, key.derived(i)));
+        bounds_per_m2[i] = usual_kernel_per_m2(rays[i], mean_density);
     }
+    const std::vector<PointTile> tile = tiles_of(packet, bounds_per_m2, caster);
+    const Fan fan(caster, tile);
+    ReadingSums indirect(packet.size()), density(packet.size());
+    fan.collect(pilot.nodes, indirect);
+    fan.collect(units, density);
+    for (std::size_t i = 0; i < packet.size(); ++i) {
+        const double indirect_lx = indirect.sum[i].luminance() / chains;
+        const double total_lx = indirect_lx + pilot.direct_lx[points[i].reading];
+        // Where nothing is seen, in the dark, nothing is to be gained.
+        const bool lit = total_lx > 0;
+        const double density_per_m2 =
+            lit ? std::max(density.sum[i][0] / chains, 1e-3 * mean_density) : mean_density;
+        models[i] = model_of(rays[i], density_per_m2, lit ? indirect_lx / total_lx : 0);
+    }
+}
+
+std::vector<PointModel> model_points(const RayCaster& caster, const PathTracer& tracer,
+                                     std::span<const PackedPoint> points, const PilotLight& pilot,
+                                     RandomKey key) {
+    // Few rays for each of many points: those of a packet share a plan.
+    const unsigned rays_per_point = points.size() > 1000 ? 16 : 64;
+    const std::vector<ChainNode> units = unit_nodes(pilot.nodes);
+    std::vector<PointModel> models(points.size());
+    tbb::parallel_for(std::size_t{0}, (points.size() + kPacketWidth - 1) / kPacketWidth, [&](std::size_t p) {
+        const std::size_t first = p * kPacketWidth;
+        const std::size_t count = std::min<std::size_t>(kPacketWidth, points.size() - first);
+        model_packet(caster, tracer, points.subspan(first, count), pilot, units, rays_per_point,
+                     key.derived(p), {models.data() + first, count});
+    });
     return models;
 }
 
@@ -221,18 +253,26 @@ std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tr
     // About half of the nodes face a point; the walk is shared by all points.
     const double nodes_per_chain =
         (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
-    const double fan_cost = 0.5 * nodes_per_chain + kChainCost *
-                                                        static_cast<double>(pilot.chains_per_selected) /
-                                                        static_cast<double>(points.size());
-    std::vector<SplitPlan> plans;
-    for (const PointModel& model : models) plans.push_back({kPi * model.density_per_m2, 16});
-    constexpr int rounds = 3;  // the price depends on the plans that it leads to; more rounds change little
+    const double point_count = static_cast<double>(points.size());
+    const double fan_cost = 0.5 * nodes_per_chain * point_count +
+                            kChainCost * static_cast<double>(pilot.chains_per_selected);
+    // What a unit of cost is worth: at the best plan, the quotient of variance and cost. Both depend on the
+    // plan; after some rounds they change little.
+    double price = 0;
+    for (const PointModel& model : models) price += predict(model[-kFirstStep], 16).variance;
+    price /= fan_cost;
+    std::vector<SplitPlan> plans(points.size());
+    constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
-        const double price = price_of(models, plans, fan_cost);
+        Prediction sum{0, fan_cost};
         for (std::size_t first = 0; first < models.size(); first += kPacketWidth) {
             const std::size_t count = std::min<std::size_t>(kPacketWidth, models.size() - first);
-            plan_packet({models.data() + first, count}, price, {plans.data() + first, count});
+            const Prediction packet =
+                plan_packet({models.data() + first, count}, price, {plans.data() + first, count});
+            sum.variance += packet.variance;
+            sum.cost += packet.cost;
         }
+        price = sum.variance / sum.cost;
     }
     return plans;
 }

@@ -289,17 +289,20 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     const Clock clock;
     const RayCaster caster(scene);
     const int unlimited = std::numeric_limits<int>::max();
-    const auto estimator = method.make({scene, caster, points, options.bounces.value_or(unlimited),
-                                        RandomKey{options.seed}.derived(kPreparation)});
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    const auto estimator = arena.execute([&] {
+        return method.make({scene, caster, points, options.bounces.value_or(unlimited),
+                            RandomKey{options.seed}.derived(kPreparation)});
+    });
     Campaign campaign(*estimator, points.size(), options.replicates, options.seed);
     RunResult result;
     result.method = options.method;
     result.seed = options.seed;
     result.replicates = options.replicates;
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
-                                          static_cast<std::size_t>(threads));
-    tbb::task_arena(threads).execute([&] {
+    arena.execute([&] {
         Schedule(options, *estimator, clock, interrupt).proceed(campaign, sensors, progress, result);
     });
     campaign.require_valid();
