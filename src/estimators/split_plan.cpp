@@ -123,17 +123,11 @@ Prediction plan_packet(std::span<const PointModel> packet, double price, std::sp
     return best;
 }
 
-/// A bound for G that leaves out what is unusually near, so that single near nodes do not decide: a few times
-/// the upper quartile of what the rays meet.
-double usual_kernel_per_m2(std::span<const RaySample> rays, double fallback_per_m2) {
-    std::vector<double> kernels;
-    for (const RaySample& ray : rays) {
-        if (ray.g_per_m2 > 0 && std::isfinite(ray.g_per_m2)) kernels.push_back(ray.g_per_m2);
-    }
-    if (kernels.empty()) return fallback_per_m2;
-    const auto quartile = kernels.begin() + static_cast<std::ptrdiff_t>(3 * kernels.size() / 4);
-    std::nth_element(kernels.begin(), quartile, kernels.end());
-    return 4 * *quartile;
+/// The mean of w over rays.
+double mean_chain_share(std::span<const RaySample> rays, double k_per_m2) {
+    double sum = 0;
+    for (const RaySample& ray : rays) sum += 1 - GatheredShare{ray.g_per_m2 / k_per_m2}(1);
+    return sum / static_cast<double>(rays.size());
 }
 
 /// G of a lane over the sum of all lanes': visibility left out.
@@ -204,27 +198,27 @@ void model_packet(const RayCaster& caster, const PathTracer& tracer, std::span<c
         (static_cast<double>(pilot.nodes.size()) + 1) / (chains * pilot.scene_area_m2);
     std::vector<PackedPoint> packet(points.begin(), points.end());
     for (std::size_t i = 0; i < packet.size(); ++i) packet[i].reading = static_cast<std::uint32_t>(i);
-    std::vector<double> bounds_per_m2(packet.size(), 1);
-    const PointTile unbounded = tiles_of(packet, bounds_per_m2, caster).front();
-    std::vector<std::vector<RaySample>> rays;
-    for (std::size_t i = 0; i < packet.size(); ++i) {
-        rays.push_back(
-            sample_rays(caster, tracer, packet[i], unbounded, i, rays_per_point, key.derived(i)));
-        bounds_per_m2[i] = usual_kernel_per_m2(rays[i], mean_density);
-    }
-    const std::vector<PointTile> tile = tiles_of(packet, bounds_per_m2, caster);
+    // Few nodes are there, and in a corner one may be very near by chance. Kernels bounded so that they are
+    // wider than the space between nodes keep such a node from deciding.
+    constexpr double nodes_within = 16;
+    const double k_per_m2 = kPi * chains * mean_density / nodes_within;
+    const std::vector<PointTile> tile =
+        tiles_of(packet, std::vector<double>(packet.size(), k_per_m2), caster);
     const Fan fan(caster, tile);
     ReadingSums indirect(packet.size()), density(packet.size());
     fan.collect(pilot.nodes, indirect);
     fan.collect(units, density);
     for (std::size_t i = 0; i < packet.size(); ++i) {
-        const double indirect_lx = indirect.sum[i].luminance() / chains;
+        const std::vector<RaySample> rays =
+            sample_rays(caster, tracer, packet[i], tile.front(), i, rays_per_point, key.derived(i));
+        const double seen = chains * std::max(mean_chain_share(rays, k_per_m2), 0.01);
+        const double indirect_lx = indirect.sum[i].luminance() / seen;
         const double total_lx = indirect_lx + pilot.direct_lx[points[i].reading];
         // Where nothing is seen, in the dark, nothing is to be gained.
         const bool lit = total_lx > 0;
         const double density_per_m2 =
-            lit ? std::max(density.sum[i][0] / chains, 1e-3 * mean_density) : mean_density;
-        models[i] = model_of(rays[i], density_per_m2, lit ? indirect_lx / total_lx : 0);
+            lit ? std::max(density.sum[i][0] / seen, 1e-3 * mean_density) : mean_density;
+        models[i] = model_of(rays, density_per_m2, lit ? indirect_lx / total_lx : 0);
     }
 }
 

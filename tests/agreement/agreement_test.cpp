@@ -142,7 +142,7 @@ class Agreement : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Agreement, OfAllMethods) {
     const AgreementScene& of = agreement_scenes()[GetParam()];
-    const std::vector<TwoRuns> all = measure_all(of.make(), of, 1000 * (GetParam() + 1) + 500);
+    const std::vector<TwoRuns> all = measure_all(of.make(), of, 1000 * (GetParam() + 1));
     double worst = 0;
     const auto compare = [&](const Measured& a, const Measured& b) {
         const double z = worst_z(a, b);
