@@ -111,12 +111,8 @@ void Gather::trace_round(std::size_t tile, RandomKey key, std::uint64_t round, d
                          ReadingSums& sums) const {
     const std::span<const PackedPoint> points =
         points_.subspan(tile * kPacketWidth).first(static_cast<std::size_t>(tiles_[tile].count));
-    // Consecutive Sobol' points: the rays of a round are spread evenly by themselves. Which ray has which is
-    // drawn: the low digits of the index tell the cell that every coordinate lies in, and each ray needs all.
-    constexpr std::uint64_t rotations = 0;
-    const std::uint64_t rotation = random_block(key.derived(rotations), round, 0)[0];
     for (std::size_t i = 0; i < points.size(); ++i) {
-        SampleStream stream(key, round * points.size() + (i + rotation) % points.size());
+        SampleStream stream(key.derived(i), round);
         const auto [u1, u2] = stream.next_two();
         const Vec3 direction =
             Frame::around(points[i].normal).to_world(sample_cosine_hemisphere(u1, u2).direction);

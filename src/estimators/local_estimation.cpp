@@ -61,7 +61,7 @@ class LocalEstimation final : public Estimator {
           gathers_(split == Split::balanced || has_mirrors(scene_)),
           chains_per_selected_(split == Split::balanced ? chains_per_selected(points_.size()) : 1),
           known_part_lx_(direct_from_points_lx(points_, caster_, lights_)),
-          plans_(plans(split, input.preparation_key)),
+          plans_(plans(split, input.weights, input.preparation_key)),
           tiles_(tiles_of(points_, constants_per_m2(plans_), caster_)),
           fan_(caster_, tiles_),
           gather_(scene_, caster_, tracer_, points_, tiles_, plans_, max_reflections_) {}
@@ -120,7 +120,7 @@ class LocalEstimation final : public Estimator {
         }
     }
 
-    std::vector<SplitPlan> plans(Split split, RandomKey key) const {
+    std::vector<SplitPlan> plans(Split split, std::span<const double> weights, RandomKey key) const {
         if (split == Split::none) {
             return std::vector<SplitPlan>(points_.size(),
                                           {std::numeric_limits<double>::infinity(), kChainsPerMirrorRay});
@@ -129,9 +129,10 @@ class LocalEstimation final : public Estimator {
         for (const Object& object : scene_.objects) area += area_m2(object.shape);
         const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
         const std::vector<double> direct_lx = pilot_direct_lx(key.derived(kDirect));
-        std::vector<SplitPlan> plans =
-            plan_splits(caster_, tracer_, points_,
-                        {nodes, kPilotChains, direct_lx, area, chains_per_selected_}, key.derived(kPlan));
+        const std::vector<double> alike(weights.empty() ? points_.size() : 0, 1.0);
+        const PilotLight pilot{nodes, kPilotChains, direct_lx, area, max_reflections_, chains_per_selected_};
+        std::vector<SplitPlan> plans = plan_splits(
+            caster_, tracer_, points_, weights.empty() ? alike : weights, pilot, key.derived(kPlan));
         for (SplitPlan& plan : plans) plan.chains_per_ray *= chains_per_selected_;
         return plans;
     }

@@ -19,9 +19,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // Costs in units of one ray of a fan, and factors of the variance model; measured in the example office.
-constexpr double kRayCost = 12;     ///< a gathering ray to its hit
-constexpr double kPathCost = 75;    ///< the path that goes on from there, shared out in its packet
-constexpr double kChainCost = 30;   ///< walking one chain
+constexpr double kRayCost = 12;      ///< a gathering ray to its hit
+constexpr double kPathCost = 75;     ///< the path that goes on from there, shared out in its packet
+constexpr double kSegmentCost = 12;  ///< a chain's way from one node to the next
 constexpr double kPathVariance = 0.5;
 /// What even selection leaves of the variance of a kernel that varies slowly, and how many nodes lie evenly;
 /// a kernel that is peaked between two of these keeps its variance.
@@ -143,9 +143,8 @@ double own_share(const RayCaster& caster, const Hit& hit, const PointTile& packe
 
 std::vector<RaySample> sample_rays(const RayCaster& caster, const PathTracer& tracer,
                                    const PackedPoint& point, const PointTile& packet, std::size_t lane,
-                                   unsigned count, RandomKey key) {
-    constexpr double floor = 0.2;  // light that comes by more than one reflection, as a share of the mean
-    constexpr int only_direct_light = 1;
+                                   int max_reflections, unsigned count, RandomKey key) {
+    constexpr double floor = 0.2;  // of the mean: single bright paths are not to decide alone
     const Frame frame = Frame::around(point.normal);
     std::vector<RaySample> rays(count);
     double sum = 0;
@@ -156,17 +155,15 @@ std::vector<RaySample> sample_rays(const RayCaster& caster, const PathTracer& tr
         const Vec3 direction = frame.to_world(local);
         const auto hit = caster.closest(point.lifted, direction);
         if (!hit) continue;
-        const PathTracer::View view = tracer.look_through_mirrors(*hit, direction, only_direct_light, stream);
-        const double g = local.z * -dot(hit->normal, direction) / (hit->distance_m * hit->distance_m);
-        rays[i].g_per_m2 = view.reflections > 0 ? std::numeric_limits<double>::infinity()
-                                                : g * mean_concentration(tracer.material(*hit));
-        rays[i].own_share = view.reflections > 0 ? 1 : own_share(caster, *hit, packet, lane);
-        Spectrum luminance = view.emission_cd_m2;
-        if (view.surface) {
-            luminance += view.transmission *
-                         tracer.reflected_luminance(*view.surface, view.outgoing, only_direct_light, stream);
+        if (is_specular(tracer.material(*hit))) {
+            rays[i].g_per_m2 = std::numeric_limits<double>::infinity();
+        } else {
+            const double g = local.z * -dot(hit->normal, direction) / (hit->distance_m * hit->distance_m);
+            rays[i].g_per_m2 = g * mean_concentration(tracer.material(*hit));
+            rays[i].own_share = own_share(caster, *hit, packet, lane);
         }
-        rays[i].luminance = luminance.luminance();
+        rays[i].luminance =
+            tracer.luminance_without_direct(*hit, direction, max_reflections, stream).luminance();
         sum += rays[i].luminance;
     }
     const double mean = sum / count;
@@ -210,7 +207,8 @@ void model_packet(const RayCaster& caster, const PathTracer& tracer, std::span<c
     fan.collect(units, density);
     for (std::size_t i = 0; i < packet.size(); ++i) {
         const std::vector<RaySample> rays =
-            sample_rays(caster, tracer, packet[i], tile.front(), i, rays_per_point, key.derived(i));
+            sample_rays(caster, tracer, packet[i], tile.front(), i, pilot.max_reflections, rays_per_point,
+                        key.derived(i));
         const double seen = chains * std::max(mean_chain_share(rays, k_per_m2), 0.01);
         const double indirect_lx = indirect.sum[i].luminance() / seen;
         const double total_lx = indirect_lx + pilot.direct_lx[points[i].reading];
@@ -241,15 +239,23 @@ std::vector<PointModel> model_points(const RayCaster& caster, const PathTracer& 
 }  // namespace
 
 std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
-                                   std::span<const PackedPoint> points, const PilotLight& pilot,
-                                   RandomKey key) {
-    const std::vector<PointModel> models = model_points(caster, tracer, points, pilot, key);
+                                   std::span<const PackedPoint> points, std::span<const double> weights,
+                                   const PilotLight& pilot, RandomKey key) {
+    std::vector<PointModel> models = model_points(caster, tracer, points, pilot, key);
+    for (std::size_t j = 0; j < points.size(); ++j) {
+        for (Outcome& outcome : models[j]) {
+            outcome.fan_variance *= weights[points[j].reading];
+            outcome.gather_variance *= weights[points[j].reading];
+        }
+    }
     // About half of the nodes face a point; the walk is shared by all points.
     const double nodes_per_chain =
         (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
-    const double point_count = static_cast<double>(points.size());
-    const double fan_cost = 0.5 * nodes_per_chain * point_count +
-                            kChainCost * static_cast<double>(pilot.chains_per_selected);
+    const double lanes =
+        static_cast<double>((points.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth);
+    const double fan_cost =
+        0.5 * nodes_per_chain * lanes +
+        kSegmentCost * (nodes_per_chain + 1) * static_cast<double>(pilot.chains_per_selected);
     // What a unit of cost is worth: at the best plan, the quotient of variance and cost. Both depend on the
     // plan; after some rounds they change little.
     double price = 0;

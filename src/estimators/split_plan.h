@@ -25,13 +25,15 @@ struct PilotLight {
     std::uint64_t chains = 1;           ///< that made the nodes
     std::span<const double> direct_lx;  ///< direct illuminance of each reading
     double scene_area_m2 = 1;
+    int max_reflections = 0;
     std::uint64_t chains_per_selected = 1;  ///< chains walked for each whose nodes go into the fan
 };
 
-/// Plans that make the sum over the points of variance / value^2, times the cost, about as small as can be;
-/// the rays of a packet's points are equally many. Variance and cost come from a model: surfaces that a point
-/// sees hold nu l [1/m2 per chain] nodes, l being their luminance over its mean, which gives, E[] being the
-/// mean over cosine-distributed rays and in units of the indirect light squared,
+/// Plans that make the sum over the points of weight variance / value^2, times the cost, about as small as
+/// can be; the rays of a packet's points are equally many. `weights`: of every reading. Variance and cost
+/// come from a model: surfaces that a point sees hold nu l [1/m2 per chain] nodes, l being their luminance
+/// over its mean, which gives, E[] being the mean over cosine-distributed rays and in units of the indirect
+/// light squared,
 ///
 ///     variance of a chain's fan    E[l w^2 G] / (pi nu)        of a gathering ray    c E[l^2 (1 - w)]
 ///
@@ -39,7 +41,7 @@ struct PilotLight {
 /// alone). Any plan is unbiased; a poor one costs time only. The plans depend on `key`, which must be
 /// independent of what they are used for.
 std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
-                                   std::span<const PackedPoint> points, const PilotLight& pilot,
-                                   RandomKey key);
+                                   std::span<const PackedPoint> points, std::span<const double> weights,
+                                   const PilotLight& pilot, RandomKey key);
 
 }  // namespace stilb

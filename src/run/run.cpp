@@ -281,8 +281,11 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
               ProgressSink* progress, const std::atomic<bool>* interrupt) {
     const RunOptions options = with_default_target(asked_options);
     std::vector<MeasuringPoint> points;
-    for (const Sensor& sensor : sensors)
+    std::vector<double> weights;  // a run stops when each sensor as a whole is exact enough
+    for (const Sensor& sensor : sensors) {
         points.insert(points.end(), sensor.points.begin(), sensor.points.end());
+        weights.insert(weights.end(), sensor.points.size(), 1 / static_cast<double>(sensor.points.size()));
+    }
     require_valid(options, points.size());
     const EstimatorEntry& method = find_estimator(options.method);
 
@@ -295,7 +298,7 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     tbb::task_arena arena(threads);
     const auto estimator = arena.execute([&] {
         return method.make({scene, caster, points, options.bounces.value_or(unlimited),
-                            RandomKey{options.seed}.derived(kPreparation)});
+                            RandomKey{options.seed}.derived(kPreparation), weights});
     });
     Campaign campaign(*estimator, points.size(), options.replicates, options.seed);
     RunResult result;
