@@ -61,13 +61,13 @@ std::optional<ScatterSample> sample(const Mirror& material, const Vec3& in, doub
 std::optional<ScatterSample> sample(const Black&, const Vec3&, double, double) { return std::nullopt; }
 
 double concentration(const Diffuse& material) { return material.reflectance.max() > 0 ? 1 : 0; }
-/// The horizon left out: pi f of the lobe is (n+2)/2 cos^n(alpha), of which its own light sees
-/// (n+1)/(2n+1) on average.
+/// Exact for grey ones at normal incidence, where pi f of the lobe is (n+2)/2 cos^n and its own light sees
+/// (n+2)^2 / (4 (n+1)) of it on average; what the lobe sees of the diffuse part, and the reverse, is 1.
 double concentration(const Phong& material) {
     const double diffuse = material.diffuse.luminance(), specular = material.specular.luminance();
     if (!(diffuse + specular > 0)) return 0;
     const double share = specular / (diffuse + specular), n = material.exponent;
-    return (1 - share) + share * share * (n + 2) / 2 * (n + 1) / (2 * n + 1);
+    return 1 + share * share * ((n + 2) * (n + 2) / (4 * (n + 1)) - 1);
 }
 double concentration(const Mirror&) { return 0; }
 double concentration(const Black&) { return 0; }

@@ -75,7 +75,7 @@ std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& i
 double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out);
 /// True where the whole reflection is a delta function: no connection to such a surface is possible.
 bool is_specular(const Material& material);
-/// pi f / albedo, averaged over reflected light, roughly: 1 on diffuse surfaces, large where a lobe
+/// pi f / albedo, averaged over the reflected light, roughly: 1 on diffuse surfaces, large where a lobe
 /// dominates; 0 for delta functions and where nothing is reflected.
 double mean_concentration(const Material& material);
 /// Largest share of arriving light that is reflected, per band (a bound over directions).

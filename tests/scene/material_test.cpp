@@ -220,6 +220,29 @@ TEST(EveryMaterial, IsReciprocalAndBlackFromBelow) {
     }
 }
 
+TEST(EveryMaterial, KnowsItsMeanConcentration) {
+    EXPECT_EQ(mean_concentration(Diffuse{Spectrum::grey(0.3)}), 1);
+    EXPECT_EQ(mean_concentration(Mirror{Spectrum::grey(0.3)}), 0);
+    EXPECT_EQ(mean_concentration(Diffuse{}), 0);
+    EXPECT_EQ(mean_concentration(Black{}), 0);
+    // At normal incidence: the integral of pi f / albedo over the light that is reflected.
+    const Vec3 in{0, 0, 1};
+    for (const double exponent : {0.0, 1.0, 20.0, 500.0}) {
+        for (const double specular : {0.0, 0.1, 0.6}) {
+            const Phong material{Spectrum::grey(0.6 - specular), Spectrum::grey(specular), exponent};
+            double mean = 0;
+            constexpr int steps = 200000;
+            for (int i = 0; i < steps; ++i) {
+                const double cosine = (i + 0.5) / steps;
+                const Vec3 out{std::sqrt(1 - cosine * cosine), 0, cosine};
+                const double relative = kPi * evaluate_brdf_per_sr(material, in, out)[0] / 0.6;
+                mean += relative * relative * 2 * cosine / steps;
+            }
+            EXPECT_NEAR(mean_concentration(material), mean, 1e-4 * mean) << exponent << ' ' << specular;
+        }
+    }
+}
+
 TEST(EveryMaterial, KnowsWhetherItIsSpecular) {
     EXPECT_TRUE(is_specular(Mirror{}));
     EXPECT_FALSE(is_specular(phong(1e6)));

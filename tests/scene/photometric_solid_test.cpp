@@ -196,6 +196,35 @@ TEST(PhotometricSolid, LightsOnlyWithinItsAngles) {
     EXPECT_EQ(window.intensity_cd({-1, 0, 0}), 0);
 }
 
+TEST(PhotometricSolid, BoundIsNeverLessThanTheIntensity) {
+    const std::vector<PhotometricSolid> solids{
+        PhotometricSolid({PhotometryType::C, {0}, {0, 90}, {10, 10}}),
+        PhotometricSolid({PhotometryType::C,
+                          {0, 90, 180, 270, 360},
+                          {0, 1, 2, 60, 180},
+                          {9, 1, 0, 5, 0, 9, 2, 0, 6, 0, 9, 30, 0, 0, 0, 9, 1, 0, 7, 1, 9, 1, 0, 5, 0}}),
+        PhotometricSolid({PhotometryType::A, {-30, 30}, {-20, 20}, {5, 1, 2, 5}}),
+        PhotometricSolid({PhotometryType::B, {-90, 0, 90}, {-60, 0, 60}, {1, 2, 3, 4, 5, 6, 7, 8, 9}})};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (const PhotometricSolid& solid : solids) {
+        double mean = 0, mean_bound = 0;
+        for (int i = 0; i < 100000; ++i) {
+            const Vec3 any{uniform(random), uniform(random), uniform(random)};
+            const Vec3 direction = normalized(any);
+            const double bound = solid.intensity_bound_cd(direction);
+            ASSERT_GE(bound, solid.intensity_cd(direction)) << i;
+            ASSERT_LE(bound, solid.peak_cd());
+            mean += solid.intensity_cd(direction);
+            mean_bound += bound;
+        }
+        if (&solid == &solids[0]) EXPECT_LT(mean_bound, 1.1 * mean);  // where all planes are alike
+        for (const Vec3& pole : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0, 1, 0}, Vec3{0, -1, 0}}) {
+            EXPECT_GE(solid.intensity_bound_cd(pole), solid.intensity_cd(pole));
+        }
+    }
+}
+
 TEST(PhotometricSolid, TypeCPlanesMayStartAnywhere) {
     const PhotometricSolid from_zero(
         {PhotometryType::C, {0, 90, 180, 270, 360}, {0, 180}, {1, 1, 2, 2, 3, 3, 4, 4, 1, 1}});
