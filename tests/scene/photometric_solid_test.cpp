@@ -218,7 +218,9 @@ TEST(PhotometricSolid, BoundIsNeverLessThanTheIntensity) {
             mean += solid.intensity_cd(direction);
             mean_bound += bound;
         }
-        if (&solid == &solids[0]) EXPECT_LT(mean_bound, 1.1 * mean);  // where all planes are alike
+        if (&solid == &solids[0]) {
+            EXPECT_LT(mean_bound, 1.1 * mean);  // all planes are alike
+        }
         for (const Vec3& pole : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0, 1, 0}, Vec3{0, -1, 0}}) {
             EXPECT_GE(solid.intensity_bound_cd(pole), solid.intensity_cd(pole));
         }
