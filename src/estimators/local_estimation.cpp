@@ -4,12 +4,11 @@
 //
 // with w = k / (k + s G) of kernel_split.h.
 //
-//   local   k = infinity: the estimator as published [LocalEstimation (5)]; rays from the point bring in only
-//   what
-//           mirrors show. Infinite variance where chains come arbitrarily near to a point: in corners.
+//   local   k = infinity: the estimator as published [LocalEstimation (5)]. Rays from the point bring in
+//           only what mirrors show. Infinite variance where chains come arbitrarily near to a point: in
+//           corners.
 //   auto    k and the number of gathering rays by plan_splits(), nodes by select_nodes(). Unbiased and of
-//   finite
-//           variance, but for light that only chains can make (it met a mirror first), which keeps w = 1.
+//           finite variance, but for light that only chains can make (it met a mirror first): w = 1.
 //
 // Not made: light that leaves a point-like source, meets a mirror first and comes to x by a mirror last; the
 // run warns of it.

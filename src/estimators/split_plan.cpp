@@ -19,10 +19,10 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // Costs in units of one ray of a fan, and factors of the variance model; measured in the example office.
-constexpr double kRayCost = 12;      ///< a gathering ray to its hit
-constexpr double kPathCost = 75;     ///< the path that goes on from there, shared out in its packet
-constexpr double kSegmentCost = 12;  ///< a chain's way from one node to the next
-constexpr double kPathVariance = 0.5;
+constexpr double kRayCost = 12;        ///< a gathering ray to its hit
+constexpr double kPathCost = 75;       ///< the path that goes on from there, shared out in its packet
+constexpr double kSegmentCost = 12;    ///< a chain's way from one node to the next
+constexpr double kPathVariance = 0.5;  ///< what Sobol' points leave of that of independent paths
 /// What even selection leaves of the variance of a kernel that varies slowly, and how many nodes lie evenly;
 /// a kernel that is peaked between two of these keeps its variance.
 constexpr double kEvenVariance = 0.1;
@@ -259,11 +259,11 @@ std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tr
     // What a unit of cost is worth: at the best plan, the quotient of variance and cost. Both depend on the
     // plan; after some rounds they change little.
     double price = 0;
-    for (const PointModel& model : models) price += predict(model[-kFirstStep], 16).variance;
-    price /= fan_cost;
+    for (const PointModel& model : models) price += predict(model[-kFirstStep], 16).variance / fan_cost;
     std::vector<SplitPlan> plans(points.size());
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
+        price = std::max(price, std::numeric_limits<double>::min());  // cost decides where nothing varies
         Prediction sum{0, fan_cost};
         for (std::size_t first = 0; first < models.size(); first += kPacketWidth) {
             const std::size_t count = std::min<std::size_t>(kPacketWidth, models.size() - first);

@@ -19,7 +19,7 @@ struct SplitPlan {
 /// chains_per_ray is at most this.
 inline constexpr std::uint64_t kMostChainsPerRay = 64;
 
-/// What is known of the light before planning, roughly.
+/// What is known of the light before planning, roughly, and how it was learnt.
 struct PilotLight {
     std::span<const ChainNode> nodes;
     std::uint64_t chains = 1;           ///< that made the nodes
@@ -35,11 +35,11 @@ struct PilotLight {
 /// over its mean, which gives, E[] being the mean over cosine-distributed rays and in units of the indirect
 /// light squared,
 ///
-///     variance of a chain's fan    E[l w^2 G] / (pi nu)        of a gathering ray    c E[l^2 (1 - w)]
+///     variance of a chain's fan    E[l w^2 G] / (pi nu)        of a gathering ray    c E[l^2 (1 - w) r]
 ///
-/// The pilot gives nu and the share of indirect light, a few rays from each point G and l (by direct light
-/// alone). Any plan is unbiased; a poor one costs time only. The plans depend on `key`, which must be
-/// independent of what they are used for.
+/// with r the ray's share of the density of all rays of its packet where it ends. The pilot gives nu and the
+/// share of indirect light, a few paths from each point G, l and r. Any plan is unbiased; a poor one costs
+/// time only. The plans depend on `key`, which must be independent of what they are used for.
 std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
                                    std::span<const PackedPoint> points, std::span<const double> weights,
                                    const PilotLight& pilot, RandomKey key);

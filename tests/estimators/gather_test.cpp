@@ -51,8 +51,7 @@ class Rounds {
         const std::vector<double> k(points.size(), k_per_m2);
         const std::vector<PointTile> tiles = tiles_of(sorted, k, caster_);
         const std::vector<SplitPlan> plans(points.size(), SplitPlan{k_per_m2, 1});
-        const Gather gather(scene_, caster_, tracer_, sorted, tiles, plans,
-                            std::numeric_limits<int>::max());
+        const Gather gather(scene_, caster_, tracer_, sorted, tiles, plans, std::numeric_limits<int>::max());
         std::vector<double> sum(points.size()), squares(points.size());
         for (std::uint64_t r = 0; r < kReplicates; ++r) {
             ReadingSums sums(points.size());
