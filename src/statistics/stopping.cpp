@@ -17,8 +17,4 @@ double attained_error(std::span<const Estimate> readings, double share) {
     return *last;
 }
 
-bool reached(std::span<const Estimate> readings, double relative_error, double share) {
-    return attained_error(readings, share) <= relative_error;
-}
-
 }  // namespace stilb

@@ -19,7 +19,4 @@ inline constexpr double kStoppedConfidence = 0.96;
 /// The relative half-width that this share of the readings is within; 0 without readings.
 double attained_error(std::span<const Estimate> readings, double share = kReadingShare);
 
-/// Whether this share of the readings has relative half-widths within the target.
-bool reached(std::span<const Estimate> readings, double relative_error, double share = kReadingShare);
-
 }  // namespace stilb
