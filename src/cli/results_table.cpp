@@ -30,12 +30,12 @@ std::string place(const MeasuringPoint& point) {
 }
 
 std::string grid_values(const SensorResult& result, const std::array<int, 2>& count) {
+    const auto columns = static_cast<std::size_t>(count[0]);
     std::string text;
-    for (int v = count[1] - 1; v >= 0; --v) {  // as on a plan: v upwards
+    for (auto v = static_cast<std::size_t>(count[1]); v-- > 0;) {  // as on a plan: v upwards
         text += "   ";
-        for (int u = 0; u < count[0]; ++u) {
-            const auto& reading = result.readings[static_cast<std::size_t>(v * count[0] + u)].illuminance_lx;
-            text += fmt::format(" {:5.0f}", reading.value);
+        for (std::size_t u = 0; u < columns; ++u) {
+            text += fmt::format(" {:5.0f}", result.readings[v * columns + u].illuminance_lx.value);
         }
         text += '\n';
     }
