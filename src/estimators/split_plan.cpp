@@ -50,18 +50,21 @@ Prediction predict(const Outcome& outcome, std::uint64_t chains_per_ray) {
     return {outcome.fan_variance + chains * outcome.gather_variance, outcome.gather_cost / chains};
 }
 
-/// Powers of two times pi nu that are tried for k: from -4 to 8.
-constexpr int kFirstStep = -4;
-constexpr std::size_t kSteps = 13;
-using PointModel = std::array<Outcome, kSteps>;
+/// One for each k that is tried: powers of two times pi nu.
+using PointModel = std::vector<Outcome>;
+constexpr double kLeastFactor = 1.0 / 16;
+/// The largest factor for each ray that the model is made from. Surfaces near by that cover little of the
+/// hemisphere may be met by no ray; their nodes make the variance grow with k.
+constexpr double kLargestFactorPerRay = 16;
 
 /// `peak` is G times the area that one of the evenly lying nodes stands for.
 double remaining_variance(double peak) { return (kEvenVariance + peak) / (1 + peak); }
 
 PointModel model_of(std::span<const RaySample> rays, double density_per_m2, double indirect_share) {
     PointModel model;
-    for (std::size_t step = 0; step < kSteps; ++step) {
-        const double k = kPi * density_per_m2 * std::ldexp(1.0, kFirstStep + static_cast<int>(step));
+    const double largest = kLargestFactorPerRay * static_cast<double>(rays.size());
+    for (double factor = kLeastFactor; factor <= largest; factor *= 2) {
+        const double k = factor * kPi * density_per_m2;
         double fan_moment = 0, gathered = 0, gathered_moment = 0;
         for (const auto& [g, l, own_share] : rays) {
             const double rest = GatheredShare{g / k}(1);
@@ -72,9 +75,9 @@ PointModel model_of(std::span<const RaySample> rays, double density_per_m2, doub
         }
         const double per_ray = 1 / static_cast<double>(rays.size());
         const double squared_share = indirect_share * indirect_share;
-        model[step] = {k, squared_share * per_ray * fan_moment / (kPi * density_per_m2),
-                       squared_share * per_ray * kPathVariance * gathered_moment,
-                       kRayCost + kPathCost * per_ray * gathered};
+        model.push_back({k, squared_share * per_ray * fan_moment / (kPi * density_per_m2),
+                         squared_share * per_ray * kPathVariance * gathered_moment,
+                         kRayCost + kPathCost * per_ray * gathered});
     }
     return model;
 }
@@ -223,8 +226,10 @@ void model_packet(const RayCaster& caster, const PathTracer& tracer, std::span<c
 std::vector<PointModel> model_points(const RayCaster& caster, const PathTracer& tracer,
                                      std::span<const PackedPoint> points, const PilotLight& pilot,
                                      RandomKey key) {
-    // Few rays for each of many points: those of a packet share a plan.
-    const unsigned rays_per_point = points.size() > 1000 ? 16 : 64;
+    // As many for all points together, but for very few or very many points.
+    constexpr std::size_t rays = 1u << 14;
+    const auto rays_per_point =
+        static_cast<unsigned>(std::clamp<std::size_t>(rays / points.size(), 16, 1024));
     const std::vector<ChainNode> units = unit_nodes(pilot.nodes);
     std::vector<PointModel> models(points.size());
     tbb::parallel_for(std::size_t{0}, (points.size() + kPacketWidth - 1) / kPacketWidth, [&](std::size_t p) {
@@ -259,7 +264,7 @@ std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tr
     // What a unit of cost is worth: at the best plan, the quotient of variance and cost. Both depend on the
     // plan; after some rounds they change little.
     double price = 0;
-    for (const PointModel& model : models) price += predict(model[-kFirstStep], 16).variance / fan_cost;
+    for (const PointModel& model : models) price += predict(model[model.size() / 2], 16).variance / fan_cost;
     std::vector<SplitPlan> plans(points.size());
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
