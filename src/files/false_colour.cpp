@@ -46,7 +46,7 @@ double aspect_of(const FalseColourPanel& panel) {
 }
 
 std::string headline_of(const FalseColourPanel& panel) {
-    const std::string count = fmt::format("{} × {} values", panel.nu, panel.nv);
+    std::string count = fmt::format("{} × {} values", panel.nu, panel.nv);
     if (!has_size(panel)) return count;
     return fmt::format("{:.2f} m × {:.2f} m, {}", panel.width_m, panel.height_m, count);
 }

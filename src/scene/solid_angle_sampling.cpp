@@ -19,7 +19,7 @@ constexpr double kEdgeOn = 1e-12;
 /// Edges count as right-angled up to this cosine.
 constexpr double kRightAngle = 1e-9;
 /// [sr] Smaller spherical triangles are sampled by area.
-constexpr double kSmallestTriangle_sr = 1e-9;
+constexpr double kSmallestTriangle = 1e-9;
 /// The solid angle of a rectangle is a difference of two angles. It is exact to about 1e-16 of these, so
 /// below this share of them rectangles are sampled by area.
 constexpr double kSmallestRectangle = 1e-6;
@@ -232,7 +232,7 @@ std::optional<SolidAngleSample> sample_skewed(const Rectangle& r, const Vec3& fr
     const SphericalTriangle second(to_corner, r.edge_v, diagonal);
     if (first.is_edge_on() && second.is_edge_on()) return std::nullopt;
     const double total_sr = first.solid_angle_sr() + second.solid_angle_sr();
-    if (total_sr < kSmallestTriangle_sr) {
+    if (total_sr < kSmallestTriangle) {
         const Vec3 point = r.corner + u1 * r.edge_u + u2 * r.edge_v;
         return SolidAngleSample{point,
                                 area_pdf_per_sr(length(point - from), first.height_m(), 2 * first.area_m2())};
@@ -280,7 +280,7 @@ std::optional<SolidAngleSample> sample_by_solid_angle(const std::array<Vec3, 3>&
     const Vec3& a = triangle[0];
     const SphericalTriangle seen(a - from, triangle[1] - a, triangle[2] - a);
     if (seen.is_edge_on()) return std::nullopt;
-    if (seen.solid_angle_sr() >= kSmallestTriangle_sr) {
+    if (seen.solid_angle_sr() >= kSmallestTriangle) {
         return SolidAngleSample{a + seen.offset_by_solid_angle(u1, u2), 1 / seen.solid_angle_sr()};
     }
     const Vec3 point = a + seen.offset_by_area(u1, u2);
