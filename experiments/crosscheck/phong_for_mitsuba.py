@@ -1,6 +1,6 @@
-"""Stilb's Phong BRDF for Mitsuba, which has none of its own: diffuse/pi + specular (n+2)/(2 pi) cos+^n(alpha).
+"""Stilb's Phong BRDF for Mitsuba, which has none: diffuse/pi + specular (n+2)/(2 pi) cos+^n(alpha).
 
-Written for this comparison from docs/materials.md; it shares no code with Stilb, but it is not Mitsuba's either.
+Written for this comparison from docs/materials.md: it shares no code with Stilb, but is not Mitsuba's either.
 """
 
 import drjit as dr
@@ -10,8 +10,10 @@ import mitsuba as mi
 class Phong(mi.BSDF):
     def __init__(self, properties):
         super().__init__(properties)
-        self.diffuse, self.specular = properties["diffuse"], properties["specular"]
+        self.diffuse, self.specular = mi.Color3f(properties["diffuse"]), mi.Color3f(properties["specular"])
         self.exponent = properties["exponent"]
+        diffuse, specular = mi.luminance(self.diffuse), mi.luminance(self.specular)
+        self.lobe_share = specular / dr.maximum(diffuse + specular, 1e-9)
         self.m_components = [mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide]
         self.m_flags = self.m_components[0]
 
@@ -19,18 +21,14 @@ class Phong(mi.BSDF):
         mirrored = mi.Vector3f(-si.wi.x, -si.wi.y, si.wi.z)
         return dr.maximum(dr.dot(mirrored, wo), 0), mi.Frame3f(mirrored)
 
-    def _lobe_share(self, si):
-        diffuse, specular = mi.luminance(self.diffuse.eval(si)), mi.luminance(self.specular.eval(si))
-        return specular / dr.maximum(diffuse + specular, 1e-9)
-
     def eval(self, context, si, wo, active=True):
         cosine = self._lobe_cosine(si, wo)[0]
         lobe = (self.exponent + 2) / (2 * dr.pi) * dr.power(cosine, self.exponent)
-        value = (self.diffuse.eval(si) / dr.pi + self.specular.eval(si) * lobe) * wo.z
+        value = (self.diffuse / dr.pi + self.specular * lobe) * wo.z
         return value & (active & (si.wi.z > 0) & (wo.z > 0))
 
     def pdf(self, context, si, wo, active=True):
-        cosine, share = self._lobe_cosine(si, wo)[0], self._lobe_share(si)
+        cosine, share = self._lobe_cosine(si, wo)[0], self.lobe_share
         lobe = (self.exponent + 1) / (2 * dr.pi) * dr.power(cosine, self.exponent)
         value = share * lobe + (1 - share) * dr.maximum(wo.z, 0) / dr.pi
         return dr.select(active & (si.wi.z > 0) & (wo.z > 0), value, 0)
@@ -43,7 +41,7 @@ class Phong(mi.BSDF):
         sine, angle = dr.safe_sqrt(1 - dr.square(cosine)), 2 * dr.pi * sample2.y
         frame = self._lobe_cosine(si, mi.Vector3f(0, 0, 1))[1]
         glossy = frame.to_world(mi.Vector3f(sine * dr.cos(angle), sine * dr.sin(angle), cosine))
-        wo = dr.select(sample1 < self._lobe_share(si), glossy, mi.warp.square_to_cosine_hemisphere(sample2))
+        wo = dr.select(sample1 < self.lobe_share, glossy, mi.warp.square_to_cosine_hemisphere(sample2))
         pdf = self.pdf(context, si, wo, active)
         found = active & (pdf > 0)
         sample = dr.zeros(mi.BSDFSample3f)

@@ -114,7 +114,8 @@ def _read_shapes(entry: dict, directory: Path) -> list:
         return [(Sphere(_vector(entry["center"]), entry["radius"]), material)]
     if kind == "mesh":
         chosen = entry.get("materials", {})
-        return [(mesh, chosen.get(name, material)) for name, mesh in read_obj(directory / entry["file"]).items()]
+        meshes = read_obj(directory / entry["file"])
+        return [(mesh, chosen.get(name, material)) for name, mesh in meshes.items()]
     raise ValueError(f"shape {kind} is not compared")
 
 
@@ -159,6 +160,6 @@ def _read_light(light: dict, directory: Path, scene: Scene) -> None:
     elif light["type"] == "photometry":
         if light.get("aim", [0, 0, -1]) != [0, 0, -1] or "flux" in light:
             raise ValueError("luminaires are compared that hang straight down and have their file's flux")
-        scene.luminaires.append(
-            Luminaire(directory / light["file"], _vector(light["position"]), light.get("spin", 0), light.get("dimming", 1))
-        )
+        turn_and_dimming = light.get("spin", 0), light.get("dimming", 1)
+        position = _vector(light["position"])
+        scene.luminaires.append(Luminaire(directory / light["file"], position, *turn_and_dimming))

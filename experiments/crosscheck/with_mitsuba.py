@@ -101,7 +101,8 @@ def _bsdf(material: dict) -> dict:
     elif material["type"] == "diffuse":
         inner = {"type": "diffuse", "reflectance": rgb("reflectance")}
     elif material["type"] == "phong":
-        inner = {"type": "stilb_phong", "diffuse": rgb("diffuse"), "specular": rgb("specular"), "exponent": float(material["exponent"])}
+        inner = {"type": "stilb_phong", "diffuse": rgb("diffuse"), "specular": rgb("specular")}
+        inner["exponent"] = float(material["exponent"])
     else:
         inner = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.0}}
     return {"type": "twosided", "bsdf": inner}

@@ -42,9 +42,10 @@ def illuminance(scene: Scene, positions: np.ndarray, normals: np.ndarray, error:
 
 def _run(command: list, text: str = "") -> bytes:
     environment = {"RAYPATH": f".:{LIBRARY}", "PATH": str(PROGRAMS)}
-    done = subprocess.run([PROGRAMS / command[0], *command[1:]], input=text.encode(), env=environment, capture_output=True)
+    command = [PROGRAMS / command[0], *command[1:]]
+    done = subprocess.run(command, input=text.encode(), env=environment, capture_output=True)
     if done.returncode:
-        raise RuntimeError(f"{command[0]}: {done.stderr.decode()}")
+        raise RuntimeError(f"{command[0].name}: {done.stderr.decode()}")
     return done.stdout
 
 
@@ -93,10 +94,12 @@ def _surface(surface: Surface, name: str) -> list[str]:
         polygons = [[a, a + u, a + u + v, a + v]]
     else:
         polygons = shape.vertices[shape.faces]
-    return lines + [f"{modifier} polygon s{name}.{i} 0 0 {3 * len(p)} {_text(p)}" for i, p in enumerate(polygons)]
+    sides = [f"polygon s{name}.{i} 0 0 {3 * len(p)} {_text(p)}" for i, p in enumerate(polygons)]
+    return lines + [f"{modifier} {side}" for side in sides]
 
 
 def _luminaire(luminaire: Luminaire, folder: Path, name: str) -> str:
-    _run(["ies2rad", "-dm", "-t", "default", "-i", str(POINT_RADIUS), "-m", str(luminaire.dimming), "-o", folder / name, luminaire.file])
+    settings = ["-dm", "-t", "default", "-i", str(POINT_RADIUS), "-m", str(luminaire.dimming)]
+    _run(["ies2rad", *settings, "-o", folder / name, luminaire.file])
     turn = ["-rz", str(luminaire.spin_deg), "-t", *(f"{x:.9g}" for x in luminaire.position)]
     return _run(["xform", *turn, folder / f"{name}.rad"]).decode()
