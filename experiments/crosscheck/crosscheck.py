@@ -70,8 +70,8 @@ def compare(scene: Path, arguments) -> float:
             z = (value - reference) / np.hypot(error, reference_error)
             difference = np.mean(value / reference - 1)
             largest = max(largest, float(np.max(np.abs(z))))
-            cells = [program, method, f"{difference:+.3%}", f"{np.max(np.abs(z)):.1f}", f"{np.mean(z**2):.2f}"]
-            print("| " + " | ".join(cells) + " |")
+            numbers = f"{difference:+.3%} | {np.max(np.abs(z)):.1f} | {np.mean(z**2):.2f}"
+            print(f"| {program} | {method} | {numbers} |")
     sys.stdout.flush()
     return largest
 

@@ -1,6 +1,6 @@
 """Stilb's Phong BRDF for Mitsuba, which has none: diffuse/pi + specular (n+2)/(2 pi) cos+^n(alpha).
 
-Written for this comparison from docs/materials.md: it shares no code with Stilb, but is not Mitsuba's either.
+Written for this comparison from docs/materials.md: it shares no code with Stilb, nor is it Mitsuba's.
 """
 
 import drjit as dr

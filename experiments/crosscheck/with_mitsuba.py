@@ -20,14 +20,15 @@ RAYS_AT_ONCE = 1 << 18
 
 
 def illuminance(scene: Scene, positions: np.ndarray, normals: np.ndarray, error: float, batches: int = 16):
-    """Values and standard errors [lx] at n x 3 points; stops where the errors are below `error`, relative."""
+    """Values and standard errors [lx] at n x 3 points; stops when all relative errors are below `error`."""
     if scene.luminaires:
         return None
     world, integrator = _build(scene), mi.load_dict({"type": "path", "max_depth": -1, "rr_depth": 8})
     size = max(1, RAYS_AT_ONCE // len(positions))
     means: list[np.ndarray] = []
     while True:
-        means += [_batch(world, integrator, positions, normals, size, len(means) + i) for i in range(batches)]
+        seeds = range(len(means), len(means) + batches)
+        means += [_batch(world, integrator, positions, normals, size, seed) for seed in seeds]
         value = np.mean(means, axis=0)
         standard_error = np.std(means, axis=0, ddof=1) / np.sqrt(len(means))
         if np.all(standard_error <= error * value):

@@ -1,6 +1,6 @@
 """Illuminances by Radiance's rtrace and ies2rad (package `pyradiance`, which carries the programs).
 
-Radiance is radiometric: luminance / 179 lm/W goes in as radiance [W/(sr m2)], and irradiance x 179 comes out.
+Radiance is radiometric: luminance / 179 lm/W goes in as radiance [W/(sr m2)], irradiance x 179 comes out.
 The 179 is a convention of Radiance (it is also in ies2rad), not the 683 lm/W of the candela. The bands are
 weighted here as in Stilb, not with Radiance's own 0.265, 0.670, 0.065.
 """
@@ -26,8 +26,8 @@ SETTINGS = (
 
 
 def illuminance(scene: Scene, positions: np.ndarray, normals: np.ndarray, error: float, repeats: int = 256):
-    """Values and standard errors [lx] at n x 3 points; stops where the errors are below `error`, relative."""
-    if any(surface.material["type"] == "phong" for surface in scene.surfaces):
+    """Values and standard errors [lx] at n x 3 points; stops when all relative errors are below `error`."""
+    if any(_is_beyond_radiance(surface) for surface in scene.surfaces):
         return None
     with tempfile.TemporaryDirectory() as folder:
         octree = _build(scene, Path(folder))
@@ -38,6 +38,12 @@ def illuminance(scene: Scene, positions: np.ndarray, normals: np.ndarray, error:
             standard_error = np.std(samples, axis=0, ddof=1) / np.sqrt(len(samples))
             if np.all(standard_error <= error * value):
                 return value, standard_error
+
+
+def _is_beyond_radiance(surface: Surface) -> bool:
+    """It has no Phong material, and what gives light there reflects nothing."""
+    kind = surface.material["type"]
+    return kind == "phong" or (surface.luminance is not None and kind != "black")
 
 
 def _run(command: list, text: str = "") -> bytes:
