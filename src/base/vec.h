@@ -51,6 +51,16 @@ struct Frame {
                 {b, sign + unit_w.y * unit_w.y * a, -unit_w.y},
                 unit_w};
     }
+    /// The frame of a surface, for materials that know directions on it: u is horizontal and, seen from the
+    /// normal's side, points to the right of the surface's way up, v; where the normal is vertical (within
+    /// 1e-5), u is the x axis.
+    static Frame of_surface(const Vec3& unit_normal) {
+        const Vec3& n = unit_normal;
+        const double horizontal = std::hypot(n.x, n.y);
+        const Vec3 u = horizontal > 1e-5 ? Vec3{-n.y / horizontal, n.x / horizontal, 0}
+                                         : normalized(Vec3{1, 0, 0} - n.x * n);
+        return {u, cross(n, u), n};
+    }
     Vec3 to_world(const Vec3& local) const { return local.x * u + local.y * v + local.z * w; }
     Vec3 to_local(const Vec3& world) const { return {dot(world, u), dot(world, v), dot(world, w)}; }
 };

@@ -33,6 +33,27 @@ struct MaterialReport {
                 {"specular", m.specular.luminance()},
                 {"exponent", m.exponent}};
     }
+    Json operator()(const Rough& m) const {
+        return {{"type", "rough"},
+                {"reflectance", m.reflectance().luminance()},
+                {"rgb", m.reflectance().band},
+                {"roughness", m.roughness()}};
+    }
+    Json operator()(const Ward& m) const {
+        return {{"type", "ward"},
+                {"reflectance", (m.diffuse() + m.specular()).luminance()},
+                {"diffuse", m.diffuse().luminance()},
+                {"specular", m.specular().luminance()},
+                {"roughness", Json::array({m.roughness().u, m.roughness().v})},
+                {"rotation", m.rotation_deg()}};
+    }
+    Json operator()(const Plastic& m) const {
+        return {{"type", "plastic"},
+                {"reflectance", m.mean_reflectance().luminance()},
+                {"diffuse", m.diffuse().luminance()},
+                {"ior", m.ior()},
+                {"roughness", m.roughness()}};
+    }
     Json operator()(const Mirror& m) const {
         return {{"type", "mirror"}, {"reflectance", m.reflectance.luminance()}, {"rgb", m.reflectance.band}};
     }

@@ -37,6 +37,16 @@ std::string material_text(const Json& material) {
         line +=
             fmt::format(" (diffuse {:.3g}, specular {:.3g}, exponent {:.4g})", number(material, "diffuse"),
                         number(material, "specular"), number(material, "exponent"));
+    } else if (material.contains("rotation")) {
+        line += fmt::format(" (diffuse {:.3g}, specular {:.3g}, roughness {:.3g} x {:.3g}, rotation {:.4g})",
+                            number(material, "diffuse"), number(material, "specular"),
+                            material["roughness"][0].get<double>(), material["roughness"][1].get<double>(),
+                            number(material, "rotation"));
+    } else if (material.contains("ior")) {
+        line += fmt::format(" (diffuse {:.3g}, ior {:.4g}, roughness {:.3g})", number(material, "diffuse"),
+                            number(material, "ior"), number(material, "roughness"));
+    } else if (material.contains("roughness")) {
+        line += fmt::format(" (roughness {:.3g})", number(material, "roughness"));
     }
     return line;
 }

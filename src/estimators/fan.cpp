@@ -51,7 +51,7 @@ STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTil
 /// included.
 void add_visible_directional(const FanNode& node, const PointTile& tile, const RayPacket& packet,
                              const LaneMask& lanes, const Floats& g_per_m2, TileSums& sums) {
-    const Frame frame = Frame::around(node.directional->normal);
+    const Frame frame = Frame::of_surface(node.directional->normal);
     const Vec3 in = frame.to_local(node.directional->incoming);
     for (int i = 0; i < kPacketWidth; ++i) {
         if (lanes[i] == 0 || packet.end[i] < 0) continue;

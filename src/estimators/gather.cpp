@@ -16,7 +16,7 @@ constexpr double kPi = std::numbers::pi;
 class SharedPlace {
   public:
     SharedPlace(const Hit& hit, const Material& material, const PointTile& tile, const Vec3& center)
-        : material_(material), tile_(tile), frame_(Frame::around(hit.normal)) {
+        : material_(material), tile_(tile), frame_(Frame::of_surface(hit.normal)) {
         connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, center), tile, segments_, lanes_,
                 g_per_m2_);
     }

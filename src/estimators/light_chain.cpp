@@ -25,7 +25,7 @@ void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSa
             nodes.push_back(
                 {hit->position, hit->lifted, hit->normal, -direction, &material, flux, only_by_light});
         }
-        const Frame frame = Frame::around(hit->normal);
+        const Frame frame = Frame::of_surface(hit->normal);
         const auto [u1, u2] = stream.next_two();
         const auto scattered = sample_brdf(material, frame.to_local(-direction), u1, u2);
         if (!scattered) return;

@@ -18,7 +18,7 @@ PathTracer::View PathTracer::look_through_mirrors(const Hit& hit, const Vec3& di
             view.surface.reset();
             return view;
         }
-        const Frame frame = Frame::around(view.surface->normal);
+        const Frame frame = Frame::of_surface(view.surface->normal);
         const auto [u1, u2] = stream.next_two();
         const auto scattered = sample_brdf(mirror, frame.to_local(view.outgoing), u1, u2);
         if (!scattered) {
@@ -51,7 +51,7 @@ std::optional<PathTracer::IncomingBeam> PathTracer::sample_beam(const Hit& surfa
     const Material& material = scene_.material(surface.material);
     const double survival = survival_probability(Spectrum::grey(1), reflectance_bound(material));
     if (max_reflections == 0 || stream.next() >= survival) return std::nullopt;
-    const Frame frame = Frame::around(surface.normal);
+    const Frame frame = Frame::of_surface(surface.normal);
     const auto [u1, u2] = stream.next_two();
     const auto scattered = sample_brdf(material, frame.to_local(outgoing), u1, u2);
     if (!scattered) return std::nullopt;
@@ -70,7 +70,7 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
     Vec3 out = outgoing;
     for (int reflections_left = max_reflections; reflections_left > 0;) {
         const Material& material = scene_.material(hit.material);
-        const Frame frame = Frame::around(hit.normal);
+        const Frame frame = Frame::of_surface(hit.normal);
         const Vec3 local_out = frame.to_local(out);
         if (const auto light = sample_light(hit, stream)) {
             const Vec3 local_in = frame.to_local(light->direction);

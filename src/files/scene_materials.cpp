@@ -10,25 +10,52 @@ namespace {
 
 constexpr Range kReflectance{0, 1, "from 0 to 1 (no surface reflects more light than it receives)"};
 constexpr Range kPhongExponent{0, 1e6, "from 0 to 1e6"};
+constexpr Range kIor{1, 4, "from 1 to 4 (1.5 is common)"};
+constexpr Range kRoughness{0.001, 1, "from 0.001 to 1 (a mirror has type \"mirror\")"};
 
 Material read_diffuse(TomlTable& table) {
     table.expect_keys({"type", "reflectance"}, "type \"diffuse\"");
     return Diffuse{table.at("reflectance").spectrum(kReflectance)};
 }
 
-Material read_phong(TomlTable& table) {
-    table.expect_keys({"type", "diffuse", "specular", "exponent"}, "type \"phong\"");
-    const Phong phong{table.at("diffuse").spectrum(kReflectance), table.at("specular").spectrum(kReflectance),
-                      table.at("exponent").number(kPhongExponent)};
+void expect_no_gain(const TomlTable& table, const Spectrum& diffuse, const Spectrum& specular) {
     constexpr double rounding = 1e-12;  // 0.7 + 0.3 need not be 1 to the last bit
-    const double largest = (phong.diffuse + phong.specular).max();
+    const double largest = (diffuse + specular).max();
     if (largest > 1 + rounding) {
         table.fail(
             fmt::format("diffuse + specular is {}: no surface reflects more light than it receives. "
                         "Allowed: at most 1 in each channel.",
                         largest));
     }
+}
+
+Material read_phong(TomlTable& table) {
+    table.expect_keys({"type", "diffuse", "specular", "exponent"}, "type \"phong\"");
+    const Phong phong{table.at("diffuse").spectrum(kReflectance), table.at("specular").spectrum(kReflectance),
+                      table.at("exponent").number(kPhongExponent)};
+    expect_no_gain(table, phong.diffuse, phong.specular);
     return phong;
+}
+
+Material read_rough(TomlTable& table) {
+    table.expect_keys({"type", "reflectance", "roughness"}, "type \"rough\"");
+    return Rough(table.at("reflectance").spectrum(kReflectance), table.at("roughness").number(kRoughness));
+}
+
+Material read_ward(TomlTable& table) {
+    table.expect_keys({"type", "diffuse", "specular", "roughness", "rotation"}, "type \"ward\"");
+    const Spectrum diffuse = table.at("diffuse").spectrum(kReflectance);
+    const Spectrum specular = table.at("specular").spectrum(kReflectance);
+    expect_no_gain(table, diffuse, specular);
+    const std::vector<double> roughness = table.at("roughness").numbers(2, kRoughness);
+    const auto rotation = table.find("rotation");
+    return Ward(diffuse, specular, {roughness[0], roughness[1]}, rotation ? rotation->number(kAngle) : 0);
+}
+
+Material read_plastic(TomlTable& table) {
+    table.expect_keys({"type", "diffuse", "ior", "roughness"}, "type \"plastic\"");
+    return Plastic(table.at("diffuse").spectrum(kReflectance), table.at("ior").number(kIor),
+                   table.at("roughness").number(kRoughness));
 }
 
 Material read_mirror(TomlTable& table) {
@@ -41,13 +68,17 @@ Material read_black(TomlTable& table) {
     return Black{};
 }
 
-constexpr std::array<std::string_view, 4> kTypes{"diffuse", "phong", "mirror", "black"};
-constexpr std::array<std::string_view, 5> kLaterTypes{"rough", "ward", "plastic", "glass", "pane"};
+constexpr std::array<std::string_view, 7> kTypes{"diffuse", "phong",  "rough", "ward",
+                                                 "plastic", "mirror", "black"};
+constexpr std::array<std::string_view, 2> kLaterTypes{"glass", "pane"};
 
 Material read_material(TomlTable& table) {
     const std::string_view type = table.choose("type", kTypes, kLaterTypes);
     if (type == "diffuse") return read_diffuse(table);
     if (type == "phong") return read_phong(table);
+    if (type == "rough") return read_rough(table);
+    if (type == "ward") return read_ward(table);
+    if (type == "plastic") return read_plastic(table);
     if (type == "mirror") return read_mirror(table);
     return read_black(table);
 }

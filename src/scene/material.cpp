@@ -28,6 +28,9 @@ double pdf(const Phong& material, const Vec3& in, const Vec3& out) {
     return *diffuse * cosine_hemisphere_pdf_per_sr(out.z) + (1 - *diffuse) * lobe_per_sr;
 }
 
+double pdf(const Rough& material, const Vec3& in, const Vec3& out) { return material.pdf_per_sr(in, out); }
+double pdf(const Ward& material, const Vec3& in, const Vec3& out) { return material.pdf_per_sr(in, out); }
+double pdf(const Plastic& material, const Vec3& in, const Vec3& out) { return material.pdf_per_sr(in, out); }
 double pdf(const Mirror&, const Vec3&, const Vec3&) { return 0; }
 double pdf(const Black&, const Vec3&, const Vec3&) { return 0; }
 
@@ -54,6 +57,18 @@ std::optional<ScatterSample> sample(const Phong& material, const Vec3& in, doubl
     return ScatterSample{out, evaluate_brdf_per_sr(material, in, out) * (out.z / density), density};
 }
 
+std::optional<ScatterSample> sample(const Rough& material, const Vec3& in, double u1, double u2) {
+    return material.sample(in, u1, u2);
+}
+
+std::optional<ScatterSample> sample(const Ward& material, const Vec3& in, double u1, double u2) {
+    return material.sample(in, u1, u2);
+}
+
+std::optional<ScatterSample> sample(const Plastic& material, const Vec3& in, double u1, double u2) {
+    return material.sample(in, u1, u2);
+}
+
 std::optional<ScatterSample> sample(const Mirror& material, const Vec3& in, double, double) {
     return ScatterSample{{-in.x, -in.y, in.z}, material.reflectance, 0, true};
 }
@@ -69,11 +84,17 @@ double concentration(const Phong& material) {
     const double share = specular / (diffuse + specular), n = material.exponent;
     return 1 + share * share * ((n + 2) * (n + 2) / (4 * (n + 1)) - 1);
 }
+double concentration(const Rough& material) { return material.concentration(); }
+double concentration(const Ward& material) { return material.concentration(); }
+double concentration(const Plastic& material) { return material.concentration(); }
 double concentration(const Mirror&) { return 0; }
 double concentration(const Black&) { return 0; }
 
 Spectrum bound(const Diffuse& material) { return material.reflectance; }
 Spectrum bound(const Phong& material) { return material.diffuse + material.specular; }
+Spectrum bound(const Rough& material) { return material.reflectance(); }
+Spectrum bound(const Ward& material) { return material.diffuse() + material.specular(); }
+Spectrum bound(const Plastic& material) { return material.mean_reflectance(); }
 Spectrum bound(const Mirror& material) { return material.reflectance; }
 Spectrum bound(const Black&) { return {}; }
 

@@ -1,7 +1,8 @@
 // Materials: how a surface reflects. Every material is two-sided: both sides reflect alike.
 //
-// Directions are unit vectors in the local frame of the surface, z along the normal on the side that light
-// arrives on, both pointing away from the surface. Formulas and limits: docs/materials.md.
+// Directions are unit vectors in the local frame of the surface (Frame::of_surface), z along the normal on
+// the side that light arrives on, both pointing away from the surface. Formulas and limits:
+// docs/materials.md.
 #pragma once
 
 #include <cmath>
@@ -11,6 +12,10 @@
 
 #include "base/spectrum.h"
 #include "base/vec.h"
+#include "scene/plastic.h"
+#include "scene/rough.h"
+#include "scene/scatter_sample.h"
+#include "scene/ward.h"
 
 namespace stilb {
 
@@ -35,15 +40,7 @@ struct Mirror {
 /// Reflects nothing.
 struct Black {};
 
-using Material = std::variant<Diffuse, Phong, Mirror, Black>;
-
-/// A scattered direction and what the light is multiplied by: weight = f cos(theta_out) / pdf.
-struct ScatterSample {
-    Vec3 direction;
-    Spectrum weight;
-    double pdf_per_sr = 0;  ///< 0 where `specular`: a delta function has no density
-    bool specular = false;
-};
+using Material = std::variant<Diffuse, Phong, Rough, Ward, Plastic, Mirror, Black>;
 
 /// cos+^n(alpha): the unnormalised lobe.
 inline double phong_lobe(const Phong& material, const Vec3& in, const Vec3& out) {
@@ -62,6 +59,15 @@ inline Spectrum evaluate_brdf_per_sr(const Phong& material, const Vec3& in, cons
         (material.exponent + 2) / (2 * std::numbers::pi) * phong_lobe(material, in, out);
     return material.diffuse * std::numbers::inv_pi + material.specular * lobe_per_sr;
 }
+inline Spectrum evaluate_brdf_per_sr(const Rough& material, const Vec3& in, const Vec3& out) {
+    return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Spectrum{};
+}
+inline Spectrum evaluate_brdf_per_sr(const Ward& material, const Vec3& in, const Vec3& out) {
+    return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Spectrum{};
+}
+inline Spectrum evaluate_brdf_per_sr(const Plastic& material, const Vec3& in, const Vec3& out) {
+    return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Spectrum{};
+}
 inline Spectrum evaluate_brdf_per_sr(const Mirror&, const Vec3&, const Vec3&) { return {}; }
 inline Spectrum evaluate_brdf_per_sr(const Black&, const Vec3&, const Vec3&) { return {}; }
 inline Spectrum evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
@@ -78,7 +84,8 @@ bool is_specular(const Material& material);
 /// pi f / albedo, averaged over the reflected light, roughly: 1 on diffuse surfaces, large where a lobe
 /// dominates; 0 for delta functions and where nothing is reflected.
 double mean_concentration(const Material& material);
-/// Largest share of arriving light that is reflected, per band (a bound over directions).
+/// Largest share of arriving light that is reflected, per band (a bound over directions); but for plastic,
+/// whose share rises to 1 along the surface, that of light from everywhere.
 Spectrum reflectance_bound(const Material& material);
 
 }  // namespace stilb

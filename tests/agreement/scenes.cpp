@@ -58,15 +58,19 @@ Scene bright_box() {
     return scene;
 }
 
-Scene phong_box(double exponent) {
+Scene glossy_box(const Material& gloss) {
     Scene scene;
-    const Material gloss = phong(0.4, 0.3, exponent), matt = diffuse(0.5);
+    const Material matt = diffuse(0.5);
     add_walls(scene, kRoom, {gloss, matt, gloss, matt, gloss, matt});
     add_area_light(scene, Sphere{{1.7, 1.8, 1.9}, 0.25}, 500 * kWhite);
     return scene;
 }
-Scene broad_phong_box() { return phong_box(5); }
-Scene narrow_phong_box() { return phong_box(200); }
+Scene broad_phong_box() { return glossy_box(phong(0.4, 0.3, 5)); }
+Scene narrow_phong_box() { return glossy_box(phong(0.4, 0.3, 200)); }
+Scene rough_box() { return glossy_box(Rough(rgb(0.8, 0.7, 0.5), 0.3)); }
+
+Scene ward_box() { return glossy_box(Ward(rgb(0.5, 0.4, 0.3), rgb(0.3, 0.4, 0.2), {0.1, 0.4}, 30)); }
+Scene plastic_box() { return glossy_box(Plastic(rgb(0.7, 0.6, 0.4), 1.5, 0.2)); }
 
 Scene mirror_and_panel() {
     Scene scene;
@@ -212,6 +216,9 @@ std::span<const AgreementScene> agreement_scenes() {
         {"OneReflection", nothing, 1, mixed_room, inside},
         {"TwoReflections", nothing, 2, mixed_room, inside},
         {"OnlyDiffuseTwice", nothing, 2, closed_box, inside},
+        {"RoughMetal", nothing, {}, rough_box, inside},
+        {"BrushedWard", nothing, {}, ward_box, inside},
+        {"Plastic", nothing, {}, plastic_box, inside},
     };
     return scenes;
 }

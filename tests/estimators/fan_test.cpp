@@ -66,7 +66,7 @@ Spectrum contribution_lx(const ChainNode& node, const MeasuringPoint& point, dou
         return {};
     }
     const double g = cos_node * cos_point / squared_length(point.position - node.position);
-    const Frame frame = Frame::around(node.normal);
+    const Frame frame = Frame::of_surface(node.normal);
     // BRDFs see the ray, which goes between lifted points.
     const Vec3 out = frame.to_local(normalized(to - node.lifted));
     const Spectrum brdf = evaluate_brdf_per_sr(*node.material, frame.to_local(node.incoming), out);

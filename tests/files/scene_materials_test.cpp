@@ -18,17 +18,19 @@ TEST(SceneMaterials, RefusesUnknownAndLaterTypes) {
     EXPECT_REFUSAL(
         material("type = \"difuse\""),
         "s.toml:2: materials.m.type: unknown type \"difuse\". Did you mean \"diffuse\"? Allowed: diffuse, "
-        "phong, mirror, black.");
-    for (const std::string later : {"rough", "ward", "plastic", "glass", "pane"}) {
-        EXPECT_REFUSAL(material("type = \"" + later + "\"\nior = 1.5"),
-                       "s.toml:2: materials.m.type: type \"" + later +
-                           "\" is not supported yet. Allowed: diffuse, phong, mirror, black.");
+        "phong, rough, ward, plastic, mirror, black.");
+    for (const std::string later : {"glass", "pane"}) {
+        EXPECT_REFUSAL(
+            material("type = \"" + later + "\"\nior = 1.5"),
+            "s.toml:2: materials.m.type: type \"" + later +
+                "\" is not supported yet. Allowed: diffuse, phong, rough, ward, plastic, mirror, black.");
     }
 }
 
 TEST(SceneMaterials, RefusesMissingKeys) {
     EXPECT_REFUSAL("\n[materials.m]\nreflectance = 1",
-                   "s.toml:2: materials.m: key \"type\" is missing. Allowed: diffuse, phong, mirror, black.");
+                   "s.toml:2: materials.m: key \"type\" is missing. Allowed: diffuse, phong, rough, ward, "
+                   "plastic, mirror, black.");
     EXPECT_REFUSAL(material("type = \"diffuse\""),
                    "s.toml:1: materials.m: key \"reflectance\" is missing for type \"diffuse\".");
 }
@@ -72,6 +74,69 @@ TEST(SceneMaterials, RefusesPhongThatGainsEnergy) {
     const std::string allowed = " is not allowed. Allowed: from 0 to 1e6.";
     EXPECT_REFUSAL(material(phong + "-1"), "s.toml:5: materials.m.exponent: -1" + allowed);
     EXPECT_REFUSAL(material(phong + "2e6"), "s.toml:5: materials.m.exponent: 2000000" + allowed);
+}
+
+TEST(SceneMaterials, ReadsRough) {
+    const std::string rough = "type = \"rough\"\nreflectance = [0.9, 0.6, 0.3]\n";
+    const Material read = read_text(material(rough + "roughness = 0.25")).scene.materials[0].material;
+    EXPECT_EQ(std::get<Rough>(read).reflectance(), (Spectrum{{0.9, 0.6, 0.3}}));
+    EXPECT_EQ(std::get<Rough>(read).roughness(), 0.25);
+    const std::string allowed = " is not allowed. Allowed: from 0.001 to 1 (a mirror has type \"mirror\").";
+    EXPECT_REFUSAL(material(rough + "roughness = 0"), "s.toml:4: materials.m.roughness: 0" + allowed);
+    EXPECT_REFUSAL(material(rough + "roughness = 1.5"), "s.toml:4: materials.m.roughness: 1.5" + allowed);
+    EXPECT_REFUSAL(material(rough + "roughnes = 0.3"),
+                   "s.toml:4: materials.m: unknown key \"roughnes\" for type \"rough\". Did you mean "
+                   "\"roughness\"? Allowed: type, reflectance, roughness.");
+    EXPECT_REFUSAL(material(rough),
+                   "s.toml:1: materials.m: key \"roughness\" is missing for type \"rough\".");
+    EXPECT_REFUSAL(material("type = \"rough\"\nreflectance = 1.2\nroughness = 0.3"),
+                   "s.toml:3: materials.m.reflectance: 1.2 is not allowed. Allowed: from 0 to 1 (no surface "
+                   "reflects more light than it receives).");
+}
+
+TEST(SceneMaterials, ReadsWard) {
+    const std::string ward =
+        "type = \"ward\"\ndiffuse = 0.3\nspecular = [0.1, 0.2, 0.3]\nroughness = [0.05, 0.2]\n";
+    const Material read = read_text(material(ward + "rotation = -30")).scene.materials[0].material;
+    EXPECT_EQ(std::get<Ward>(read).diffuse(), Spectrum::grey(0.3));
+    EXPECT_EQ(std::get<Ward>(read).specular(), (Spectrum{{0.1, 0.2, 0.3}}));
+    EXPECT_EQ(std::get<Ward>(read).roughness().u, 0.05);
+    EXPECT_EQ(std::get<Ward>(read).roughness().v, 0.2);
+    EXPECT_EQ(std::get<Ward>(read).rotation_deg(), -30);
+    const Material straight = read_text(material(ward)).scene.materials[0].material;
+    EXPECT_EQ(std::get<Ward>(straight).rotation_deg(), 0);
+    const std::string start = "type = \"ward\"\ndiffuse = 0.3\nspecular = ";
+    EXPECT_REFUSAL(
+        material(start + "0.2\nroughness = [0.05, 2]"),
+        "s.toml:5: materials.m.roughness[1]: 2 is not allowed. Allowed: from 0.001 to 1 (a mirror has "
+        "type \"mirror\").");
+    EXPECT_REFUSAL(
+        material(start + "0.2\nroughness = 0.1"),
+        "s.toml:5: materials.m.roughness: found the number 0.1 where an array of 2 numbers is needed.");
+    EXPECT_REFUSAL(material(start + "0.8\nroughness = [0.1, 0.1]"),
+                   "s.toml:1: materials.m: diffuse + specular is 1.1: no surface reflects more light than it "
+                   "receives. Allowed: at most 1 in each channel.");
+    EXPECT_REFUSAL(
+        material(ward + "rotatoin = 3"),
+        "s.toml:6: materials.m: unknown key \"rotatoin\" for type \"ward\". Did you mean \"rotation\"? "
+        "Allowed: type, diffuse, specular, roughness, rotation.");
+}
+
+TEST(SceneMaterials, ReadsPlastic) {
+    const std::string plastic = "type = \"plastic\"\ndiffuse = [0.5, 0.4, 0.3]\n";
+    const Material read =
+        read_text(material(plastic + "ior = 1.5\nroughness = 0.1")).scene.materials[0].material;
+    EXPECT_EQ(std::get<Plastic>(read).diffuse(), (Spectrum{{0.5, 0.4, 0.3}}));
+    EXPECT_EQ(std::get<Plastic>(read).ior(), 1.5);
+    EXPECT_EQ(std::get<Plastic>(read).roughness(), 0.1);
+    EXPECT_REFUSAL(material(plastic + "ior = 0.9\nroughness = 0.1"),
+                   "s.toml:4: materials.m.ior: 0.9 is not allowed. Allowed: from 1 to 4 (1.5 is common).");
+    EXPECT_REFUSAL(
+        material(plastic + "ior = 1.5\nroughness = 0"),
+        "s.toml:5: materials.m.roughness: 0 is not allowed. Allowed: from 0.001 to 1 (a mirror has type "
+        "\"mirror\").");
+    EXPECT_REFUSAL(material(plastic + "roughness = 0.1"),
+                   "s.toml:1: materials.m: key \"ior\" is missing for type \"plastic\".");
 }
 
 }  // namespace

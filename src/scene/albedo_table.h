@@ -1,0 +1,42 @@
+// A directional albedo as a function of the cosine: tabulated once, interpolated, integrated and sampled.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+
+namespace stilb {
+
+/// Piecewise linear in log(1 + cosine / alpha), so that what happens at cosines near alpha, where facets hide
+/// each other, is resolved as well for alpha = 0.001 as for 1.
+class AlbedoTable {
+  public:
+    /// Of a function of the cosine in [0, 1], not negative.
+    AlbedoTable(double alpha, const std::function<double(double)>& albedo);
+
+    double at(double cosine) const;
+    /// Integral of at(c) 2 c dc: the albedo under light from everywhere.
+    double average() const { return average_; }
+
+    /// A cosine with a density near that of at(c) 2 c / average().
+    double sample_cosine(double u) const;
+    /// The density of sample_cosine(), per unit of the cosine; 0 where the average is 0.
+    double pdf_of_cosine(double cosine) const;
+
+  private:
+    static constexpr std::size_t kCells = 128;
+    struct Place {
+        std::size_t cell = 0;
+        double fraction = 0;
+    };
+    Place place_of(double cosine) const;
+    double cosine_at(double place) const;
+
+    double alpha_;
+    double cells_per_log_;
+    std::array<double, kCells + 1> values_{};      ///< at the edges of cells
+    std::array<double, kCells + 1> cumulative_{};  ///< chance of the cells below each edge; or all 0
+    double average_ = 0;
+};
+
+}  // namespace stilb
