@@ -21,4 +21,8 @@ DiscreteDistribution::Choice DiscreteDistribution::choose(double u) const {
     return {static_cast<std::size_t>(found - cumulative_.begin()), weight / total(), remainder};
 }
 
+double DiscreteDistribution::probability(std::size_t index) const {
+    return (cumulative_[index] - (index == 0 ? 0 : cumulative_[index - 1])) / total();
+}
+
 }  // namespace stilb

@@ -21,6 +21,7 @@ class DiscreteDistribution {
         double remainder = 0;  ///< uniform in [0, 1), independent of the choice
     };
     Choice choose(double u) const;
+    double probability(std::size_t index) const;
 
     double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "base/sampling.h"
@@ -136,12 +137,23 @@ void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, S
     if (stream.next() >= survival) return;
     weight /= survival;
     place.test_visibility(caster_, own);
+    const double ray_density = place.ray_density();
     if (const auto light = tracer_.sample_light(hit, stream)) {
-        place.reflect(light->direction, light->normal_illuminance_lx * (weight / place.ray_density()), sums);
+        // Beams make the light of emitters too; the balance heuristic over both.
+        const double light_density = light->pdf_per_sr * ray_density;
+        const double share = std::isinf(light_density)
+                                 ? 1
+                                 : light_density / (light_density + place.beam_density(light->direction));
+        place.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
     }
     if (const auto beam = tracer_.sample_beam(hit, place.direction_to(own), max_reflections_ - 1, stream)) {
         const double density = place.beam_density(beam->direction);
-        if (density > 0) place.reflect(beam->direction, beam->luminance_cd_m2 * (weight / density), sums);
+        if (!(density > 0)) return;
+        const double emission_density = density + beam->light_pdf_per_sr * ray_density;
+        place.reflect(beam->direction,
+                      beam->luminance_cd_m2 * (weight / density) +
+                          beam->emission_cd_m2 * (weight / emission_density),
+                      sums);
     }
 }
 

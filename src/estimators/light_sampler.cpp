@@ -1,6 +1,7 @@
 #include "estimators/light_sampler.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scene/bounds.h"
@@ -49,6 +50,7 @@ Vec3 point_by_area(const Disk& d, double u1, double u2) {
     return d.center + d.radius * (p.x * frame.u + p.y * frame.v);
 }
 
+/// In the order of the mesh's triangles: hits tell which one they met.
 template <typename Element>
 void add_mesh(const Mesh& mesh, std::vector<Element>& elements) {
     for (const Triangle& t : mesh.triangles) {
@@ -57,23 +59,13 @@ void add_mesh(const Mesh& mesh, std::vector<Element>& elements) {
     }
 }
 
-/// The six faces, fronts outside.
-template <typename Element>
-void add_box(const Box& box, std::vector<Element>& elements) {
-    const Vec3 e = box.max - box.min;
-    const Vec3 x{e.x, 0, 0}, y{0, e.y, 0}, z{0, 0, e.z};
-    elements.push_back(Rectangle{box.min, y, x});
-    elements.push_back(Rectangle{box.min, z, y});
-    elements.push_back(Rectangle{box.min, x, z});
-    elements.push_back(Rectangle{box.max, -x, -y});
-    elements.push_back(Rectangle{box.max, -y, -z});
-    elements.push_back(Rectangle{box.max, -z, -x});
-}
-
 }  // namespace
 
 LightSampler::LightSampler(const Scene& scene, const RayCaster& caster)
-    : scene_(scene), caster_(caster), luminance_of_object_(scene.objects.size()) {
+    : scene_(scene),
+      caster_(caster),
+      luminance_of_object_(scene.objects.size()),
+      light_of_object_(scene.objects.size(), kNoLight) {
     std::vector<double> luminous_flux;
     for (const Light& light : scene.lights) {
         lights_.push_back(&light);
@@ -83,7 +75,7 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster)
         if (const auto* area_light = std::get_if<AreaLight>(&light.source)) {
             const Shape& shape = scene.object(area_light->object).shape;
             if (const auto* mesh = std::get_if<Mesh>(&shape)) add_mesh(*mesh, emitter.elements);
-            if (const auto* box = std::get_if<Box>(&shape)) add_box(*box, emitter.elements);
+            if (const auto* box = std::get_if<Box>(&shape)) add_mesh(triangulated(*box), emitter.elements);
             if (const auto* rectangle = std::get_if<Rectangle>(&shape))
                 emitter.elements.emplace_back(*rectangle);
             if (const auto* sphere = std::get_if<Sphere>(&shape)) emitter.elements.emplace_back(*sphere);
@@ -103,6 +95,7 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster)
             emitter.middle = 0.5 * (bounds.min + bounds.max);
             emitter.radius_m = length(bounds.max - bounds.min) / 2;
             luminance_of_object_[index_of(area_light->object)] = area_light->luminance_cd_m2;
+            light_of_object_[index_of(area_light->object)] = static_cast<std::uint32_t>(emitters_.size());
             has_area_lights_ = true;
         } else if (const auto* point = std::get_if<PointLight>(&light.source)) {
             emitter.middle = point->position;
@@ -160,7 +153,8 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
         if (squared_distance == 0) return std::nullopt;
         const Vec3 direction = towards / std::sqrt(squared_distance);
         return IncidentLight{emitters_[light].middle, direction,
-                             intensity_cd(direction) * (1 / squared_distance)};
+                             intensity_cd(direction) * (1 / squared_distance),
+                             std::numeric_limits<double>::infinity()};
     };
     const auto& source = lights_[light]->source;
     if (const auto* point = std::get_if<PointLight>(&source)) {
@@ -183,7 +177,8 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
             if (!(dot(normal, direction) < 0)) return std::nullopt;
             const Spectrum& luminance = std::get<AreaLight>(source).luminance_cd_m2;
             return IncidentLight{sample->point + caster_.offset_m(sample->point, size(element)) * normal,
-                                 direction, luminance * (1 / (sample->pdf_per_sr * choice.probability))};
+                                 direction, luminance * (1 / (sample->pdf_per_sr * choice.probability)),
+                                 element_pdf_per_sr(emitters_[light], choice.index, from)};
         },
         emitters_[light].elements[choice.index]);
 }
@@ -227,8 +222,34 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
     if (!(total > 0)) return std::nullopt;
     const auto choice = DiscreteDistribution(weights).choose(u);
     auto incident = sample_incident(choice.index, from, point);
-    if (incident) incident->normal_illuminance_lx *= 1 / choice.probability;
+    if (incident) {
+        incident->normal_illuminance_lx *= 1 / choice.probability;
+        incident->pdf_per_sr *= choice.probability;
+    }
     return incident;
+}
+
+double LightSampler::element_pdf_per_sr(const Emitter& emitter, std::size_t element,
+                                        const Vec3& from) const {
+    const double probability = emitter.by_area.probability(element);
+    return std::visit(
+        [&](const auto& e) {
+            // In the middle: the density is the same everywhere but on very small shapes.
+            const auto middle = sample_by_solid_angle(e, from, 0.5, 0.5);
+            return middle ? middle->pdf_per_sr * probability : 0;
+        },
+        emitter.elements[element]);
+}
+
+double LightSampler::pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const {
+    const std::uint32_t light = light_of_object_[index_of(hit.object)];
+    if (light == kNoLight) return 0;
+    const Emitter& emitter = emitters_[light];
+    const double pdf = element_pdf_per_sr(emitter, emitter.elements.size() == 1 ? 0 : hit.triangle, from);
+    if (count() == 1) return pdf;
+    double total = 0;
+    for (std::size_t i = 0; i < count(); ++i) total += rough_illuminance(i, from, normal);
+    return total > 0 ? pdf * rough_illuminance(light, from, normal) / total : 0;
 }
 
 Spectrum LightSampler::emitted_luminance(const Hit& hit) const {

@@ -29,6 +29,9 @@ struct IncidentLight {
     /// Multiply by the cosine at the receiver (and the BRDF), and by visibility. The division by the density
     /// is in it; for a point source it is intensity / distance^2 [lx].
     Spectrum normal_illuminance_lx;
+    /// About the density of `direction`, as LightSampler::pdf_per_sr() has it: for weighing samples of lights
+    /// against others. Infinite for point sources.
+    double pdf_per_sr = 0;
 };
 
 /// All lights of a scene. Keeps references to both arguments. Immutable.
@@ -52,6 +55,10 @@ class LightSampler {
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
                                                   SampleStream& stream) const;
 
+    /// About the density with which sample_one_light() draws the direction to `hit`, on an emitter: exact up
+    /// to its variation over one of the emitter's shapes. 0 where it never does.
+    double pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const;
+
     /// Luminance that leaves `hit` towards where the ray came from, of an emitter; zero elsewhere.
     Spectrum emitted_luminance(const Hit& hit) const;
     bool has_area_lights() const { return has_area_lights_; }
@@ -68,6 +75,10 @@ class LightSampler {
         double radius_m = 0;
     };
 
+    static constexpr std::uint32_t kNoLight = ~0u;
+
+    /// About the density of directions to an element by sample_incident().
+    double element_pdf_per_sr(const Emitter& emitter, std::size_t element, const Vec3& from) const;
     double rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const;
     EmittedParticle emit(std::size_t light, SampleStream& stream) const;
 
@@ -78,6 +89,7 @@ class LightSampler {
     std::vector<Spectrum> flux_lm_;
     DiscreteDistribution by_flux_;
     std::vector<Spectrum> luminance_of_object_;
+    std::vector<std::uint32_t> light_of_object_;  ///< kNoLight where it is none
     bool has_area_lights_ = false;
 };
 

@@ -5,6 +5,14 @@
 #include "estimators/russian_roulette.h"
 
 namespace stilb {
+namespace {
+
+/// The balance heuristic's weight of a sample that was drawn with the first density.
+double balance(double pdf, double other_pdf) {
+    return std::isinf(pdf) ? 1 : pdf / (pdf + other_pdf);
+}
+
+}  // namespace
 
 PathTracer::View PathTracer::look_through_mirrors(const Hit& hit, const Vec3& direction, int max_reflections,
                                                   SampleStream& stream) const {
@@ -50,7 +58,7 @@ std::optional<PathTracer::IncomingBeam> PathTracer::sample_beam(const Hit& surfa
                                                                 SampleStream& stream) const {
     const Material& material = scene_.material(surface.material);
     const double survival = survival_probability(Spectrum::grey(1), reflectance_bound(material));
-    if (max_reflections == 0 || stream.next() >= survival) return std::nullopt;
+    if (stream.next() >= survival) return std::nullopt;
     const Frame frame = Frame::of_surface(surface.normal);
     const auto [u1, u2] = stream.next_two();
     const auto scattered = sample_brdf(material, frame.to_local(outgoing), u1, u2);
@@ -58,8 +66,15 @@ std::optional<PathTracer::IncomingBeam> PathTracer::sample_beam(const Hit& surfa
     const Vec3 direction = frame.to_world(scattered->direction);
     const auto next = caster_.closest(surface.lifted, direction);
     if (!next) return std::nullopt;
-    return IncomingBeam{direction,
-                        luminance_without_direct(*next, direction, max_reflections, stream) * (1 / survival)};
+    IncomingBeam beam;
+    beam.direction = direction;
+    beam.luminance_cd_m2 =
+        luminance_without_direct(*next, direction, max_reflections, stream) * (1 / survival);
+    beam.emission_cd_m2 = lights_.emitted_luminance(*next) * (1 / survival);
+    if (beam.emission_cd_m2.max() > 0) {
+        beam.light_pdf_per_sr = lights_.pdf_per_sr(*next, surface.position, surface.normal);
+    }
+    return beam;
 }
 
 Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
@@ -74,8 +89,9 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
         const Vec3 local_out = frame.to_local(out);
         if (const auto light = sample_light(hit, stream)) {
             const Vec3 local_in = frame.to_local(light->direction);
-            luminance += throughput * evaluate_brdf_per_sr(material, local_in, local_out) * local_in.z *
-                         light->normal_illuminance_lx;
+            const double weight = balance(light->pdf_per_sr, pdf_per_sr(material, local_out, local_in));
+            luminance += throughput * evaluate_brdf_per_sr(material, local_in, local_out) *
+                         (local_in.z * weight) * light->normal_illuminance_lx;
         }
         const double survival = survival_probability(throughput, reflectance_bound(material));
         if (stream.next() >= survival) break;
@@ -87,6 +103,11 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
         const Vec3 direction = frame.to_world(scattered->direction);
         const auto next = caster_.closest(hit.lifted, direction);
         if (!next) break;
+        const Spectrum emission = lights_.emitted_luminance(*next);
+        if (emission.max() > 0) {
+            const double light_pdf = lights_.pdf_per_sr(*next, hit.position, hit.normal);
+            luminance += throughput * emission * balance(scattered->pdf_per_sr, light_pdf);
+        }
         const View view = look_through_mirrors(*next, direction, reflections_left, stream);
         luminance += throughput * view.emission_cd_m2;
         if (!view.surface) break;

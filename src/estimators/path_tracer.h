@@ -1,8 +1,9 @@
 // Path tracing from a surface point: the luminance that it reflects.
 //
-// Every reflection adds the light of one source, chosen and sampled by next-event estimation; emitters that a
-// path runs into count only behind mirrors, which next-event estimation cannot see through. Not made: light
-// that leaves a point-like source and meets a mirror first.
+// Every reflection adds the light of one source, chosen and sampled by next-event estimation, and that of
+// emitters that the path runs into, weighted against each other by the balance heuristic [Veach and Guibas
+// 1995]. Behind mirrors, which next-event estimation cannot see through, emitters count in full. Not made:
+// light that leaves a point-like source and meets a mirror first.
 #pragma once
 
 #include "estimators/light_sampler.h"
@@ -30,12 +31,14 @@ class PathTracer {
     /// Light from one source at `surface`, shadows included; nothing where none arrives.
     std::optional<IncidentLight> sample_light(const Hit& surface, SampleStream& stream) const;
 
-    /// What arrives at `surface` (not specular) by other surfaces along one direction, drawn by the BRDF as
-    /// seen from `outgoing`, and has met at most `max_reflections` of them; emission that is seen by mirrors
-    /// included.
+    /// What arrives at `surface` (not specular) along one direction, drawn by the BRDF as seen from
+    /// `outgoing`: one unbiased sample, divided by the probability of going on. Reflected light has met at
+    /// most `max_reflections` surfaces before.
     struct IncomingBeam {
-        Vec3 direction;            ///< unit, towards where the light comes from
-        Spectrum luminance_cd_m2;  ///< one unbiased sample, divided by the probability of going on
+        Vec3 direction;             ///< unit, towards where the light comes from
+        Spectrum luminance_cd_m2;   ///< reflected, and emission that is seen by mirrors
+        Spectrum emission_cd_m2;    ///< of an emitter that `direction` meets: sample_light() makes it as well
+        double light_pdf_per_sr = 0;  ///< with this density
     };
     std::optional<IncomingBeam> sample_beam(const Hit& surface, const Vec3& outgoing, int max_reflections,
                                             SampleStream& stream) const;
