@@ -150,10 +150,10 @@ void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, S
         const double density = place.beam_density(beam->direction);
         if (!(density > 0)) return;
         const double emission_density = density + beam->light_pdf_per_sr * ray_density;
-        place.reflect(beam->direction,
-                      beam->luminance_cd_m2 * (weight / density) +
-                          beam->emission_cd_m2 * (weight / emission_density),
-                      sums);
+        place.reflect(
+            beam->direction,
+            beam->luminance_cd_m2 * (weight / density) + beam->emission_cd_m2 * (weight / emission_density),
+            sums);
     }
 }
 

@@ -229,8 +229,7 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
     return incident;
 }
 
-double LightSampler::element_pdf_per_sr(const Emitter& emitter, std::size_t element,
-                                        const Vec3& from) const {
+double LightSampler::element_pdf_per_sr(const Emitter& emitter, std::size_t element, const Vec3& from) const {
     const double probability = emitter.by_area.probability(element);
     return std::visit(
         [&](const auto& e) {

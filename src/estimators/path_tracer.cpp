@@ -8,9 +8,7 @@ namespace stilb {
 namespace {
 
 /// The balance heuristic's weight of a sample that was drawn with the first density.
-double balance(double pdf, double other_pdf) {
-    return std::isinf(pdf) ? 1 : pdf / (pdf + other_pdf);
-}
+double balance(double pdf, double other_pdf) { return std::isinf(pdf) ? 1 : pdf / (pdf + other_pdf); }
 
 }  // namespace
 

@@ -35,9 +35,9 @@ class PathTracer {
     /// `outgoing`: one unbiased sample, divided by the probability of going on. Reflected light has met at
     /// most `max_reflections` surfaces before.
     struct IncomingBeam {
-        Vec3 direction;             ///< unit, towards where the light comes from
-        Spectrum luminance_cd_m2;   ///< reflected, and emission that is seen by mirrors
-        Spectrum emission_cd_m2;    ///< of an emitter that `direction` meets: sample_light() makes it as well
+        Vec3 direction;            ///< unit, towards where the light comes from
+        Spectrum luminance_cd_m2;  ///< reflected, and emission that is seen by mirrors
+        Spectrum emission_cd_m2;   ///< of an emitter that `direction` meets: sample_light() makes it as well
         double light_pdf_per_sr = 0;  ///< with this density
     };
     std::optional<IncomingBeam> sample_beam(const Hit& surface, const Vec3& outgoing, int max_reflections,
