@@ -99,6 +99,36 @@ TEST(IncidentLight, OfOneChosenLightIsThatOfAll) {
     EXPECT_LT(std::abs(equivalent_z(z_score(estimate_from_replicates(means), exact_lx), 31)), 4);
 }
 
+TEST(IncidentLight, DensityIsThatOfRaysThatMeetTheEmitter) {
+    Scene scene;
+    add_area_light(scene, Box{{1, 1, 1}, {1.5, 1.3, 1.2}}, 10 * kWhite);
+    add_area_light(scene, inward(Box{{-9, -9, -9}, {9, 9, 9}}), kWhite);
+    add_area_light(scene, Rectangle{{-1, -1, 2}, {0, 1, 0}, {1, 0.2, 0}}, 5 * kWhite);
+    add_area_light(scene, Disk{{-1, 1, 1}, normalized(Vec3{1, -1, -1}), 0.4}, 20 * kWhite);
+    add_area_light(scene, Sphere{{1, -1, 1}, 0.3}, 20 * kWhite);
+    add_point_light(scene, {0, 0, 1.5}, kWhite);
+    const RayCaster caster(scene);
+    const LightSampler lights(scene, caster);
+    const Vec3 from{0, 0, 0}, normal{0, 0, 1};
+    std::vector<int> met(scene.objects.size());
+    constexpr std::uint64_t kSamples = 4096;
+    for (std::uint64_t i = 0; i < kSamples; ++i) {
+        SampleStream stream(RandomKey{3}, i);
+        const auto light = lights.sample_one_light(from, normal, stream);
+        if (!light || std::isinf(light->pdf_per_sr)) continue;
+        const auto hit = caster.closest(from, light->direction);
+        ASSERT_TRUE(hit);
+        if (length(hit->lifted - light->source_point) > 1e-3) continue;  // something stands before it
+        ++met[index_of(hit->object)];
+        const double pdf = lights.pdf_per_sr(*hit, from, normal);
+        EXPECT_NEAR(pdf, light->pdf_per_sr, 1e-6 * pdf) << index_of(hit->object);
+        // Light over density: the luminance.
+        const Spectrum luminance = lights.emitted_luminance(*hit);
+        EXPECT_NEAR(light->normal_illuminance_lx[0] * pdf, luminance[0], 1e-6 * luminance[0]);
+    }
+    for (const int count : met) EXPECT_GT(count, 10);
+}
+
 TEST(Emission, SharesFluxAmongLightsAndLeavesTheirFronts) {
     Scene scene;
     add_point_light(scene, {0, 0, 5}, {{1, 2, 3}});
