@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/info_report.h"
+#include "files/text.h"
 
 namespace stilb {
 namespace {
@@ -18,9 +18,7 @@ struct InfoRequest {
 };
 
 InfoReport report_file(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = extension_of(file);
     const auto is_one_of = [&](const auto& extensions) {
         return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
     };

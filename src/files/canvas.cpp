@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
 #include "base/error.h"
+#include "files/text.h"
 #include "files/write_file.h"
 
 namespace stilb {
@@ -70,9 +70,7 @@ void set_stroke(cairo_t* context, const Stroke& stroke) {
 
 /// The extension in lower case; InputError where no picture can have it.
 std::string picture_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::string extension = extension_of(path);
     if (extension != ".png" && extension != ".svg") {
         throw InputError(fmt::format(
             "cannot tell the kind of picture from '{}'. End the name in .png or .svg.", path.string()));

@@ -144,6 +144,13 @@ SceneFile read_scene(std::string_view toml, const std::string& name, const std::
 }
 
 SceneFile read_scene_file(const std::filesystem::path& path) {
+    for (const std::string_view other : {".obj", ".ply", ".ies", ".ldt"}) {
+        if (extension_of(path) != other) continue;
+        throw InputError(fmt::format("not a scene but a {} file: a scene (.toml) names it as the file of {}. "
+                                     "`stilb info` shows what it holds.",
+                                     other, other == ".obj" || other == ".ply" ? "an object" : "a light"),
+                         {path.string()});
+    }
     return read_scene(read_whole_file(path), path.string(), path.parent_path());
 }
 

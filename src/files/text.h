@@ -11,6 +11,9 @@ namespace stilb {
 /// The file, byte for byte. Throws InputError where it cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
 
+/// The extension with its dot, in lower case.
+std::string extension_of(const std::filesystem::path& path);
+
 /// `text` in quotes for a message: shortened, bytes that are not printable ASCII as \xNN.
 std::string in_quotes(std::string_view text);
 

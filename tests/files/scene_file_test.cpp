@@ -250,5 +250,18 @@ TEST(SceneFile, IsReadFromDisk) {
     EXPECT_THROW(read_scene_file(path), InputError);
 }
 
+TEST(SceneFile, SaysWhatOtherFilesAre) {
+    for (const auto& [name, use] : {std::pair{"room.OBJ", "an object"}, {"lamp.ies", "a light"}}) {
+        try {
+            read_scene_file(name);
+            ADD_FAILURE() << "accepted";
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            EXPECT_TRUE(message.starts_with(std::string(name) + ": not a scene but a .")) << message;
+            EXPECT_NE(message.find(use), std::string::npos) << message;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace stilb
