@@ -296,13 +296,17 @@ struct RayCaster::Implementation {
         const Vec3 lift = offset(hit.position, size) * hit.normal;
         hit.lifted = hit.position + lift;
         // At an edge where the mesh folds towards the ray, rounding may have picked the face behind the fold,
-        // whose side towards the ray is outside. Then the ray's origin sees the other side instead.
-        const bool is_behind_fold =
-            at_edge && occluded(origin, hit.lifted) && !occluded(origin, hit.position - lift);
-        if (is_behind_fold) {
-            hit.lifted = hit.position - lift;
-            hit.normal = -hit.normal;
-            hit.on_front = !hit.on_front;
+        // whose side towards the ray is outside. Then the ray's origin sees the other side instead or, where
+        // the fold is sharp, neither: what it does see is the ray's own last stretch.
+        if (at_edge && occluded(origin, hit.lifted)) {
+            if (!occluded(origin, hit.position - lift)) {
+                hit.lifted = hit.position - lift;
+                hit.normal = -hit.normal;
+                hit.on_front = !hit.on_front;
+            } else {
+                const double back = kEdgeMargin * length(lift) / length(direction);
+                hit.lifted = origin + std::max(ray.tfar - back, 0.0) * direction;
+            }
         }
         hit.lifted += center;
         hit.position += center;
