@@ -7,6 +7,9 @@
 
 namespace stilb {
 
+/// The largest number below 1: what rounding may not carry a number in [0, 1) beyond.
+inline constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+
 struct DirectionSample {
     Vec3 direction;  ///< unit vector
     double pdf_per_sr = 0;

@@ -1,5 +1,5 @@
-// How readings are estimated. An estimator knows nothing of threads, files, progress or stopping: it adds
-// batches of samples to sums, and a run makes values with intervals of them.
+// How readings are estimated. An estimator knows nothing of files, progress or stopping: it adds batches of
+// samples to sums, and a run makes values with intervals of them. Only making one may use several threads.
 #pragma once
 
 #include <algorithm>

@@ -20,7 +20,7 @@ struct EstimatorInput {
     int max_reflections;
     /// For decisions that are taken before sampling starts; independent of all batches' keys.
     RandomKey preparation_key;
-    /// How much each point's relative variance matters: efforts are divided by it. Empty: all alike.
+    /// How much each point's relative variance matters beside the others'. Empty: all alike.
     std::span<const double> weights = {};
 };
 

@@ -119,7 +119,7 @@ void Gather::trace_round(std::size_t tile, RandomKey key, std::uint64_t round, d
             Frame::around(points[i].normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
         const auto hit = caster_.closest(points[i].lifted, direction);
         if (!hit) continue;
-        if (is_specular(scene_.material(hit->material))) {
+        if (is_specular(tracer_.material(*hit))) {
             const Spectrum luminance =
                 tracer_.luminance_without_direct(*hit, direction, max_reflections_, stream);
             sums.add(points[i].reading, weight * kPi * luminance);
@@ -131,7 +131,7 @@ void Gather::trace_round(std::size_t tile, RandomKey key, std::uint64_t round, d
 
 void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, SampleStream& stream,
                        double weight, ReadingSums& sums) const {
-    SharedPlace place(hit, scene_.material(hit.material), tile, caster_.center());
+    SharedPlace place(hit, tracer_.material(hit), tile, caster_.center());
     if (max_reflections_ == 0 || !place.reaches(own)) return;
     const double survival = place.gathered_share();
     if (stream.next() >= survival) return;

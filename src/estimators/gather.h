@@ -24,11 +24,9 @@ namespace stilb {
 /// arguments refer to.
 class Gather {
   public:
-    Gather(const Scene& scene, const RayCaster& caster, const PathTracer& tracer,
-           std::span<const PackedPoint> points, std::span<const PointTile> tiles,
-           std::span<const SplitPlan> plans, int max_reflections)
-        : scene_(scene),
-          caster_(caster),
+    Gather(const RayCaster& caster, const PathTracer& tracer, std::span<const PackedPoint> points,
+           std::span<const PointTile> tiles, std::span<const SplitPlan> plans, int max_reflections)
+        : caster_(caster),
           tracer_(tracer),
           points_(points),
           tiles_(tiles),
@@ -44,7 +42,6 @@ class Gather {
     void share_out(const Hit& hit, const PointTile& tile, std::size_t own, SampleStream& stream,
                    double weight, ReadingSums& sums) const;
 
-    const Scene& scene_;
     const RayCaster& caster_;
     const PathTracer& tracer_;
     std::span<const PackedPoint> points_;

@@ -63,7 +63,7 @@ class LocalEstimation final : public Estimator {
           plans_(plans(split, input.weights, input.preparation_key)),
           tiles_(tiles_of(points_, constants_per_m2(plans_), caster_)),
           fan_(caster_, tiles_),
-          gather_(scene_, caster_, tracer_, points_, tiles_, plans_, max_reflections_) {}
+          gather_(caster_, tracer_, points_, tiles_, plans_, max_reflections_) {}
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         const std::uint64_t end = batch.first + batch.count;

@@ -16,18 +16,6 @@ class PathTracer {
     PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights)
         : scene_(scene), caster_(caster), lights_(lights) {}
 
-    /// Follows a ray that met `hit` through mirrors: the surface behind them and what they leave of the
-    /// light.
-    struct View {
-        std::optional<Hit> surface;  ///< not specular; nothing where the ray left the scene or was absorbed
-        Vec3 outgoing;               ///< unit, from the surface towards where it is seen from
-        Spectrum transmission = Spectrum::grey(1);
-        Spectrum emission_cd_m2;  ///< of emitters on the way that are seen by mirrors, transmission included
-        int reflections = 0;      ///< at mirrors
-    };
-    View look_through_mirrors(const Hit& hit, const Vec3& direction, int max_reflections,
-                              SampleStream& stream) const;
-
     /// Light from one source at `surface`, shadows included; nothing where none arrives.
     std::optional<IncidentLight> sample_light(const Hit& surface, SampleStream& stream) const;
 
@@ -43,12 +31,6 @@ class PathTracer {
     std::optional<IncomingBeam> sample_beam(const Hit& surface, const Vec3& outgoing, int max_reflections,
                                             SampleStream& stream) const;
 
-    /// One unbiased sample of the luminance [cd/m2] that `surface` (not specular) reflects towards
-    /// `outgoing`, by at most `max_reflections` reflections, its own counted. Emission of the surface itself
-    /// is left out.
-    Spectrum reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
-                                 SampleStream& stream) const;
-
     /// One sample of the luminance [cd/m2] that arrives along a ray that met `hit`: reflected light, and
     /// emission that is seen by mirrors. Emission of `hit` itself is left out: that is direct light.
     Spectrum luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
@@ -57,6 +39,24 @@ class PathTracer {
     const Material& material(const Hit& hit) const { return scene_.material(hit.material); }
 
   private:
+    /// Follows a ray that met `hit` through mirrors: the surface behind them and what they leave of the
+    /// light.
+    struct View {
+        std::optional<Hit> surface;  ///< not specular; nothing where the ray left the scene or was absorbed
+        Vec3 outgoing;               ///< unit, from the surface towards where it is seen from
+        Spectrum transmission = Spectrum::grey(1);
+        Spectrum emission_cd_m2;  ///< of emitters on the way that are seen by mirrors, transmission included
+        int reflections = 0;      ///< at mirrors
+    };
+    View look_through_mirrors(const Hit& hit, const Vec3& direction, int max_reflections,
+                              SampleStream& stream) const;
+
+    /// One unbiased sample of the luminance [cd/m2] that `surface` (not specular) reflects towards
+    /// `outgoing`, by at most `max_reflections` reflections, its own counted. Emission of the surface itself
+    /// is left out.
+    Spectrum reflected_luminance(const Hit& surface, const Vec3& outgoing, int max_reflections,
+                                 SampleStream& stream) const;
+
     const Scene& scene_;
     const RayCaster& caster_;
     const LightSampler& lights_;

@@ -7,8 +7,6 @@
 namespace stilb {
 namespace {
 
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
-
 /// Probability of drawing from the diffuse part; nothing where the material reflects nothing. In proportion
 /// to luminance, so that the luminance of a weighted sample stays near the albedo.
 std::optional<double> diffuse_probability(const Phong& material) {
@@ -28,9 +26,11 @@ double pdf(const Phong& material, const Vec3& in, const Vec3& out) {
     return *diffuse * cosine_hemisphere_pdf_per_sr(out.z) + (1 - *diffuse) * lobe_per_sr;
 }
 
-double pdf(const Rough& material, const Vec3& in, const Vec3& out) { return material.pdf_per_sr(in, out); }
-double pdf(const Ward& material, const Vec3& in, const Vec3& out) { return material.pdf_per_sr(in, out); }
-double pdf(const Plastic& material, const Vec3& in, const Vec3& out) { return material.pdf_per_sr(in, out); }
+/// Rough, Ward, Plastic: classes that know their own.
+template <typename Own>
+double pdf(const Own& material, const Vec3& in, const Vec3& out) {
+    return material.pdf_per_sr(in, out);
+}
 double pdf(const Mirror&, const Vec3&, const Vec3&) { return 0; }
 double pdf(const Black&, const Vec3&, const Vec3&) { return 0; }
 
@@ -57,15 +57,8 @@ std::optional<ScatterSample> sample(const Phong& material, const Vec3& in, doubl
     return ScatterSample{out, evaluate_brdf_per_sr(material, in, out) * (out.z / density), density};
 }
 
-std::optional<ScatterSample> sample(const Rough& material, const Vec3& in, double u1, double u2) {
-    return material.sample(in, u1, u2);
-}
-
-std::optional<ScatterSample> sample(const Ward& material, const Vec3& in, double u1, double u2) {
-    return material.sample(in, u1, u2);
-}
-
-std::optional<ScatterSample> sample(const Plastic& material, const Vec3& in, double u1, double u2) {
+template <typename Own>
+std::optional<ScatterSample> sample(const Own& material, const Vec3& in, double u1, double u2) {
     return material.sample(in, u1, u2);
 }
 
@@ -84,9 +77,10 @@ double concentration(const Phong& material) {
     const double share = specular / (diffuse + specular), n = material.exponent;
     return 1 + share * share * ((n + 2) * (n + 2) / (4 * (n + 1)) - 1);
 }
-double concentration(const Rough& material) { return material.concentration(); }
-double concentration(const Ward& material) { return material.concentration(); }
-double concentration(const Plastic& material) { return material.concentration(); }
+template <typename Own>
+double concentration(const Own& material) {
+    return material.concentration();
+}
 double concentration(const Mirror&) { return 0; }
 double concentration(const Black&) { return 0; }
 

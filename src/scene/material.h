@@ -59,13 +59,9 @@ inline Spectrum evaluate_brdf_per_sr(const Phong& material, const Vec3& in, cons
         (material.exponent + 2) / (2 * std::numbers::pi) * phong_lobe(material, in, out);
     return material.diffuse * std::numbers::inv_pi + material.specular * lobe_per_sr;
 }
-inline Spectrum evaluate_brdf_per_sr(const Rough& material, const Vec3& in, const Vec3& out) {
-    return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Spectrum{};
-}
-inline Spectrum evaluate_brdf_per_sr(const Ward& material, const Vec3& in, const Vec3& out) {
-    return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Spectrum{};
-}
-inline Spectrum evaluate_brdf_per_sr(const Plastic& material, const Vec3& in, const Vec3& out) {
+/// Rough, Ward, Plastic.
+template <typename Own>
+Spectrum evaluate_brdf_per_sr(const Own& material, const Vec3& in, const Vec3& out) {
     return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Spectrum{};
 }
 inline Spectrum evaluate_brdf_per_sr(const Mirror&, const Vec3&, const Vec3&) { return {}; }

@@ -10,7 +10,6 @@ namespace stilb {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
 double transmission_at(const Ggx& facets, double ior, double cosine) {
     const double reflectance =

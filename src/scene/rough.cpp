@@ -8,7 +8,6 @@ namespace stilb {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
 /// Share of the light from this direction that white facets keep among themselves at the first reflection.
 double loss_at(const Ggx& facets, double cosine) {

@@ -9,7 +9,6 @@ namespace stilb {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
 }  // namespace
 

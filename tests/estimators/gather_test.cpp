@@ -51,7 +51,7 @@ class Rounds {
         const std::vector<double> k(points.size(), k_per_m2);
         const std::vector<PointTile> tiles = tiles_of(sorted, k, caster_);
         const std::vector<SplitPlan> plans(points.size(), SplitPlan{k_per_m2, 1});
-        const Gather gather(scene_, caster_, tracer_, sorted, tiles, plans, std::numeric_limits<int>::max());
+        const Gather gather(caster_, tracer_, sorted, tiles, plans, std::numeric_limits<int>::max());
         std::vector<double> sum(points.size()), squares(points.size());
         for (std::uint64_t r = 0; r < kReplicates; ++r) {
             ReadingSums sums(points.size());
@@ -128,7 +128,7 @@ TEST(Gather, WithoutReflectionsThereIsNothing) {
     const std::vector<PointTile> tiles = tiles_of(points, std::vector<double>(4, 1.0), caster);
     const std::vector<SplitPlan> plans(4, SplitPlan{1, 1});
     ReadingSums sums(4);
-    Gather(scene, caster, tracer, points, tiles, plans, 0).collect({RandomKey{1}, 0, 64}, sums);
+    Gather(caster, tracer, points, tiles, plans, 0).collect({RandomKey{1}, 0, 64}, sums);
     for (const Spectrum& sum : sums.sum) EXPECT_EQ(sum, Spectrum{});
 }
 
