@@ -57,7 +57,7 @@ Efficiency measure(const Estimator& estimator, std::size_t readings, std::uint64
 
 void compare(const Scene& scene) {
     const RayCaster caster(scene);
-    const std::vector<MeasuringPoint> points = make_grid(64);
+    const std::vector<Measurand> points = make_grid(64);
     const auto make = [&](std::string_view name) {
         return find_estimator(name).make({scene, caster, points, 1 << 20, RandomKey{5}});
     };

@@ -51,9 +51,9 @@ inline Scene make_room(unsigned balls) {
 }
 
 /// Points on a horizontal plane at desk height.
-inline std::vector<MeasuringPoint> make_grid(int cells) {
+inline std::vector<Measurand> make_grid(int cells) {
     return make_grid_sensor("grid", {{0.05, 0.05, 0.8}, {3.9, 0, 0}, {0, 3.9, 0}, {cells, cells}}, {0, 0, 1})
-        .points;
+        .measurands;
 }
 
 }  // namespace stilb

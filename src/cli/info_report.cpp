@@ -138,9 +138,8 @@ Json luminaire_json(const NamedSolid& solid) {
 Json sensor_json(const Sensor& sensor) {
     const bool is_grid = sensor.type == SensorType::grid;
     Bounds bounds;
-    for (const MeasuringPoint& point : sensor.points) bounds.include(point.position);
-    Json json{
-        {"name", sensor.name}, {"type", is_grid ? "grid" : "illuminance"}, {"points", sensor.points.size()}};
+    for (const Measurand& measurand : sensor.measurands) bounds.include(position_of(measurand));
+    Json json{{"name", sensor.name}, {"type", name_of(sensor.type)}, {"points", sensor.measurands.size()}};
     if (is_grid) json["count"] = sensor.grid.count;
     json["extent"] = extent_json(bounds);
     return json;

@@ -51,8 +51,9 @@ std::vector<double> exact_lx(const std::vector<double>& radii) {
 
 /// All radii from the same chains, as in the paper: the errors of neighbours go together.
 Profile measure_profile(const std::vector<double>& radii, std::uint64_t chains, const std::string& name) {
-    Sensor sensor{"radius", SensorType::illuminance, {}, {}};
-    for (const double r : radii) sensor.points.push_back(sobolev_point(kPlanes, exact::Plane::first, r, 0));
+    Sensor sensor{"radius", SensorType::illuminance, {}};
+    for (const double r : radii)
+        sensor.measurands.push_back(sobolev_point(kPlanes, exact::Plane::first, r, 0));
     RunOptions options;
     options.method = "local";
     options.paths = chains;
@@ -62,7 +63,7 @@ Profile measure_profile(const std::vector<double>& radii, std::uint64_t chains, 
         run(make_sobolev_scene(kPlanes, kLargestRadius), {&sensor, 1}, options, &progress);
     Profile profile{name + " chains", fmt::format("local_{}", result.paths), {}};
     for (const Reading& reading : result.sensors[0].readings) {
-        profile.illuminance_lx.push_back(reading.illuminance_lx);
+        profile.illuminance_lx.push_back(reading.estimate);
     }
     return profile;
 }

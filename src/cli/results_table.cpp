@@ -35,7 +35,7 @@ std::string grid_values(const SensorResult& result, const std::array<int, 2>& co
     for (auto v = static_cast<std::size_t>(count[1]); v-- > 0;) {  // as on a plan: v upwards
         text += "   ";
         for (std::size_t u = 0; u < columns; ++u) {
-            text += fmt::format(" {:5.0f}", result.readings[v * columns + u].illuminance_lx.value);
+            text += fmt::format(" {:5.0f}", result.readings[v * columns + u].estimate.value);
         }
         text += '\n';
     }
@@ -43,14 +43,14 @@ std::string grid_values(const SensorResult& result, const std::array<int, 2>& co
 }
 
 std::string sensor_table(const SensorResult& result, const Sensor& sensor) {
-    if (sensor.points.size() == 1) {
-        return fmt::format("{:12}  {} lx   {}\n", sensor.name, with_error(result.readings[0].illuminance_lx),
-                           place(sensor.points[0]));
+    if (sensor.measurands.size() == 1) {
+        return fmt::format("{:12}  {} lx   {}\n", sensor.name, with_error(result.readings[0].estimate),
+                           place(place_of(sensor.measurands[0])));
     }
     const bool is_grid = sensor.type == SensorType::grid;
     const auto& count = sensor.grid.count;
     const std::string size = is_grid ? fmt::format("{} x {} grid", count[0], count[1])
-                                     : fmt::format("{} points", sensor.points.size());
+                                     : fmt::format("{} points", sensor.measurands.size());
     const GridSummary& s = result.summary;
     std::string text = fmt::format(
         "{:12}  {}; 95 % of the readings within {:.2g} %\n"
@@ -59,10 +59,10 @@ std::string sensor_table(const SensorResult& result, const Sensor& sensor) {
         with_error(s.maximum), std::isnan(s.uniformity.value) ? "-" : with_error(s.uniformity));
     if (is_grid && count[0] <= kMostColumns && count[1] <= kMostRows)
         return text + grid_values(result, count);
-    if (!is_grid && sensor.points.size() <= kMostPoints) {
-        for (std::size_t j = 0; j < sensor.points.size(); ++j) {
-            text += fmt::format("    {} lx   {}\n", with_error(result.readings[j].illuminance_lx),
-                                place(sensor.points[j]));
+    if (!is_grid && sensor.measurands.size() <= kMostPoints) {
+        for (std::size_t j = 0; j < sensor.measurands.size(); ++j) {
+            text += fmt::format("    {} lx   {}\n", with_error(result.readings[j].estimate),
+                                place(place_of(sensor.measurands[j])));
         }
     }
     return text;

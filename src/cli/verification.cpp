@@ -33,14 +33,14 @@ Verification verify(const VerificationCase& verification_case, const RunOptions&
                     ProgressSink* progress, const std::atomic<bool>* interrupt) {
     std::vector<Sensor> sensors;  // one for each reading: a run's target is met by 95 % of each sensor's
     for (const ExactReading& reading : verification_case.readings) {
-        sensors.push_back({"", SensorType::illuminance, {reading.point}, {}});
+        sensors.push_back({"", SensorType::illuminance, {reading.point}});
     }
     const RunResult measured = run(verification_case.scene, sensors, options, progress, interrupt);
     Verification result{verification_case.name, verification_case.variant, options.method, {},
                         measured.stop_reason,   measured.elapsed_s};
     for (std::size_t j = 0; j < sensors.size(); ++j) {
         result.readings.push_back(check(verification_case.readings[j],
-                                        measured.sensors[j].readings[0].illuminance_lx, measured.replicates));
+                                        measured.sensors[j].readings[0].estimate, measured.replicates));
     }
     return result;
 }

@@ -12,11 +12,11 @@
 namespace stilb {
 
 /// What every estimator is made from. The estimator keeps references to scene and caster, and copies the
-/// points.
+/// measurands.
 struct EstimatorInput {
     const Scene& scene;
     const RayCaster& caster;
-    std::span<const MeasuringPoint> points;
+    std::span<const Measurand> measurands;
     int max_reflections;
     /// For decisions that are taken before sampling starts; independent of all batches' keys.
     RandomKey preparation_key;

@@ -53,7 +53,7 @@ class LocalEstimation final : public Estimator {
     LocalEstimation(const EstimatorInput& input, Split split)
         : scene_(input.scene),
           caster_(input.caster),
-          points_(packed(input.points, caster_)),
+          points_(packed(input.measurands, caster_)),
           max_reflections_(input.max_reflections),
           lights_(scene_, caster_),
           tracer_(scene_, caster_, lights_),

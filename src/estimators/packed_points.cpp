@@ -6,9 +6,13 @@
 #include "scene/morton.h"
 
 namespace stilb {
-PackedPoints packed(std::span<const MeasuringPoint> points, const RayCaster& caster) {
+PackedPoints packed(std::span<const Measurand> measurands, const RayCaster& caster) {
+    std::vector<MeasuringPoint> points;
     std::vector<Vec3> positions;
-    for (const MeasuringPoint& point : points) positions.push_back(point.position);
+    for (const Measurand& measurand : measurands) {
+        points.push_back(place_of(measurand));
+        positions.push_back(points.back().position);
+    }
     const std::vector<std::uint64_t> codes = morton_codes(positions);
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0u);

@@ -22,6 +22,6 @@ struct PackedPoint {
 /// kPacketWidth on.
 using PackedPoints = std::vector<PackedPoint>;
 
-PackedPoints packed(std::span<const MeasuringPoint> points, const RayCaster& caster);
+PackedPoints packed(std::span<const Measurand> measurands, const RayCaster& caster);
 
 }  // namespace stilb

@@ -24,7 +24,7 @@ class PathEstimator final : public Estimator {
     explicit PathEstimator(const EstimatorInput& input)
         : scene_(input.scene),
           caster_(input.caster),
-          points_(packed(input.points, caster_)),
+          points_(packed(input.measurands, caster_)),
           max_reflections_(input.max_reflections),
           lights_(scene_, caster_),
           tracer_(scene_, caster_, lights_),

@@ -20,19 +20,19 @@ void write_sensor(const SensorResult& result, const Sensor& sensor, const std::f
         {"normal_x", [](const auto& p, const auto&) { return p.normal.x; }},
         {"normal_y", [](const auto& p, const auto&) { return p.normal.y; }},
         {"normal_z", [](const auto& p, const auto&) { return p.normal.z; }},
-        {"illuminance_lx", [](const auto&, const auto& r) { return r.illuminance_lx.value; }},
-        {"standard_error_lx", [](const auto&, const auto& r) { return r.illuminance_lx.standard_error; }},
-        {"interval_low_lx", [](const auto&, const auto& r) { return r.illuminance_lx.lower; }},
-        {"interval_high_lx", [](const auto&, const auto& r) { return r.illuminance_lx.upper; }},
-        {"red_lx", [](const auto&, const auto& r) { return r.rgb_lx[0]; }},
-        {"green_lx", [](const auto&, const auto& r) { return r.rgb_lx[1]; }},
-        {"blue_lx", [](const auto&, const auto& r) { return r.rgb_lx[2]; }},
+        {"illuminance_lx", [](const auto&, const auto& r) { return r.estimate.value; }},
+        {"standard_error_lx", [](const auto&, const auto& r) { return r.estimate.standard_error; }},
+        {"interval_low_lx", [](const auto&, const auto& r) { return r.estimate.lower; }},
+        {"interval_high_lx", [](const auto&, const auto& r) { return r.estimate.upper; }},
+        {"red_lx", [](const auto&, const auto& r) { return r.rgb[0]; }},
+        {"green_lx", [](const auto&, const auto& r) { return r.rgb[1]; }},
+        {"blue_lx", [](const auto&, const auto& r) { return r.rgb[2]; }},
     };
     std::vector<Column> columns;
     for (const auto& [name, value] : contents) {
         std::vector<double> cells;
         for (std::size_t j = 0; j < result.readings.size(); ++j) {
-            cells.push_back(value(sensor.points[j], result.readings[j]));
+            cells.push_back(value(place_of(sensor.measurands[j]), result.readings[j]));
         }
         columns.push_back({name, std::move(cells)});
     }

@@ -10,13 +10,13 @@ using Json = nlohmann::ordered_json;
 Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 Json interval_json(const Estimate& e) { return {e.lower, e.upper}; }
 
-Json reading_json(const Reading& reading, const MeasuringPoint& point) {
-    return {{"position", vector_json(point.position)},
-            {"normal", vector_json(point.normal)},
-            {"value", reading.illuminance_lx.value},
-            {"standard_error", reading.illuminance_lx.standard_error},
-            {"interval", interval_json(reading.illuminance_lx)},
-            {"rgb", reading.rgb_lx.band}};
+Json reading_json(const Reading& reading, const Measurand& measurand) {
+    return {{"position", vector_json(position_of(measurand))},
+            {"normal", vector_json(place_of(measurand).normal)},
+            {"value", reading.estimate.value},
+            {"standard_error", reading.estimate.standard_error},
+            {"interval", interval_json(reading.estimate)},
+            {"rgb", reading.rgb.band}};
 }
 
 Json summary_json(const GridSummary& summary) {
@@ -32,15 +32,13 @@ Json summary_json(const GridSummary& summary) {
 
 Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     const bool is_grid = sensor.type == SensorType::grid;
-    Json json{{"name", sensor.name},
-              {"type", is_grid ? "grid" : "illuminance"},
-              {"quantity", "illuminance"},
-              {"unit", "lx"}};
+    Json json{
+        {"name", sensor.name}, {"type", name_of(sensor.type)}, {"quantity", "illuminance"}, {"unit", "lx"}};
     if (is_grid) json["count"] = sensor.grid.count;
     json["attained_error"] = result.attained_error;
     Json values = Json::array();
     for (std::size_t j = 0; j < result.readings.size(); ++j) {
-        values.push_back(reading_json(result.readings[j], sensor.points[j]));
+        values.push_back(reading_json(result.readings[j], sensor.measurands[j]));
     }
     json["values"] = std::move(values);
     json["summary"] = summary_json(result.summary);

@@ -27,7 +27,7 @@ Sensor read_illuminance(TomlTable& table, std::vector<std::string>& warnings) {
     Sensor sensor;
     const std::vector<Vec3> positions = read_positions(table);
     const Vec3 normal = read_normal(table.at("normal"), warnings);
-    for (const Vec3& position : positions) sensor.points.push_back({position, normal});
+    for (const Vec3& position : positions) sensor.measurands.push_back(MeasuringPoint{position, normal});
     return sensor;
 }
 
@@ -61,7 +61,7 @@ void read_sensors(const TomlTable& section, SceneFile& file) {
         Sensor sensor =
             type == "grid" ? read_grid(table, file.warnings) : read_illuminance(table, file.warnings);
         sensor.name = name;
-        points += static_cast<std::int64_t>(sensor.points.size());
+        points += static_cast<std::int64_t>(sensor.measurands.size());
         if (points > kMostPoints) {
             table.fail(
                 fmt::format("the sensors so far have {} points. Allowed: {} in all.", points, kMostPoints));

@@ -154,7 +154,7 @@ double attained_error(const Campaign& campaign, std::span<const Sensor> sensors)
     double worst = 0;
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
-        const std::size_t count = sensor.points.size();
+        const std::size_t count = sensor.measurands.size();
         const std::vector<double> means = campaign.replicate_means(first, count);
         worst = std::max(worst, stilb::attained_error(estimate_readings({means, count}, kStoppedConfidence)));
         first += count;
@@ -245,7 +245,7 @@ class Schedule {
 
 SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::size_t first,
                            double confidence) {
-    const std::size_t count = sensor.points.size();
+    const std::size_t count = sensor.measurands.size();
     const std::vector<double> means = campaign.replicate_means(first, count);
     const ReplicateTable table{means, count};
     const std::vector<Estimate> estimates = estimate_readings(table, confidence);
@@ -262,15 +262,16 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
         std::size_t heavy = 0;
-        for (std::size_t j = 0; j < sensor.points.size(); ++j) heavy += campaign.is_heavy_tailed(first + j);
+        for (std::size_t j = 0; j < sensor.measurands.size(); ++j)
+            heavy += campaign.is_heavy_tailed(first + j);
         if (heavy > 0) {
             warnings.push_back(fmt::format(
                 "sensor \"{}\": in {} of {} readings a single contribution is more than {:.2g} % of the sum; "
                 "the variance "
                 "is probably infinite there (a corner) and the interval may not hold. Use --method auto.",
-                sensor.name, heavy, sensor.points.size(), 100 * heavy_tail_share(campaign.paths())));
+                sensor.name, heavy, sensor.measurands.size(), 100 * heavy_tail_share(campaign.paths())));
         }
-        first += sensor.points.size();
+        first += sensor.measurands.size();
     }
     return warnings;
 }
@@ -280,13 +281,14 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
 RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked_options,
               ProgressSink* progress, const std::atomic<bool>* interrupt) {
     const RunOptions options = with_default_target(asked_options);
-    std::vector<MeasuringPoint> points;
+    std::vector<Measurand> measurands;
     std::vector<double> weights;  // a run stops when each sensor as a whole is exact enough
     for (const Sensor& sensor : sensors) {
-        points.insert(points.end(), sensor.points.begin(), sensor.points.end());
-        weights.insert(weights.end(), sensor.points.size(), 1 / static_cast<double>(sensor.points.size()));
+        measurands.insert(measurands.end(), sensor.measurands.begin(), sensor.measurands.end());
+        weights.insert(weights.end(), sensor.measurands.size(),
+                       1 / static_cast<double>(sensor.measurands.size()));
     }
-    require_valid(options, points.size());
+    require_valid(options, measurands.size());
     const EstimatorEntry& method = find_estimator(options.method);
 
     const Clock clock;
@@ -297,10 +299,10 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
                                           static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     const auto estimator = arena.execute([&] {
-        return method.make({scene, caster, points, options.bounces.value_or(unlimited),
+        return method.make({scene, caster, measurands, options.bounces.value_or(unlimited),
                             RandomKey{options.seed}.derived(kPreparation), weights});
     });
-    Campaign campaign(*estimator, points.size(), options.replicates, options.seed);
+    Campaign campaign(*estimator, measurands.size(), options.replicates, options.seed);
     RunResult result;
     result.method = options.method;
     result.seed = options.seed;
@@ -320,7 +322,7 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
         result.sensors.push_back(sensor_result(campaign, sensor, first, confidence));
-        first += sensor.points.size();
+        first += sensor.measurands.size();
     }
     result.warnings = estimator->warnings();
     for (auto& warning : placement_warnings(scene, caster, sensors))

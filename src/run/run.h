@@ -17,8 +17,8 @@
 namespace stilb {
 
 struct Reading {
-    Estimate illuminance_lx;
-    Spectrum rgb_lx;
+    Estimate estimate;  ///< [lx] or [cd/m2]
+    Spectrum rgb;
 };
 
 struct SensorResult {

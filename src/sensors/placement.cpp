@@ -45,7 +45,7 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Space, 
         dark_points += count;
     }
     if (most == nullptr) return std::nullopt;
-    const std::size_t points = sensor.points.size();
+    const std::size_t points = sensor.measurands.size();
     const std::string which =
         points == 1 ? "it lies" : fmt::format("{} of {} points lie", dark_points, points);
     return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 lx. Move {} into the lit space.",
@@ -79,8 +79,10 @@ std::vector<std::string> placement_warnings(const Scene& scene, const RayCaster&
     std::vector<std::string> warnings;
     for (const Sensor& sensor : sensors) {
         std::map<Space, std::size_t> counts;
-        for (const MeasuringPoint& point : sensor.points)
+        for (const Measurand& measurand : sensor.measurands) {
+            const MeasuringPoint point = place_of(measurand);
             ++counts[spaces.space_of({lifted_position(point, caster), point.normal})];
+        }
         for (const auto& [space, count] : counts) of_sensors.push_back(space);
         if (auto fault = fault_of(sensor, counts, lit, scene)) warnings.push_back(std::move(*fault));
     }

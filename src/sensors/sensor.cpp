@@ -6,11 +6,33 @@
 
 namespace stilb {
 
+MeasuringPoint place_of(const Measurand& measurand) {
+    if (const auto* sight = std::get_if<LineOfSight>(&measurand)) return {sight->position, sight->direction};
+    if (const auto* ray = std::get_if<EmergentRay>(&measurand)) return {ray->position, ray->normal};
+    return std::get<MeasuringPoint>(measurand);
+}
+
 Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster) {
     const double most = caster.offset_m(point.position, caster.half_extent_m());
     const auto below = caster.closest(point.position + most * point.normal, -point.normal);
     if (below && below->distance_m < 2 * most) return below->lifted;
     return point.position + caster.offset_m(point.position, 0) * point.normal;
+}
+
+std::string_view name_of(SensorType type) {
+    switch (type) {
+        case SensorType::illuminance:
+            return "illuminance";
+        case SensorType::grid:
+            return "grid";
+        case SensorType::luminance:
+            return "luminance";
+        case SensorType::goniometer:
+            return "goniometer";
+        case SensorType::camera:
+            return "camera";
+    }
+    return "";
 }
 
 Sensor make_grid_sensor(std::string name, const Grid& grid, const Vec3& normal) {
@@ -19,7 +41,7 @@ Sensor make_grid_sensor(std::string name, const Grid& grid, const Vec3& normal) 
     for (int v = 0; v < nv; ++v) {
         for (int u = 0; u < nu; ++u) {
             const Vec3 position = grid.corner + (u + 0.5) / nu * grid.edge_u + (v + 0.5) / nv * grid.edge_v;
-            sensor.points.push_back({position, normal});
+            sensor.measurands.push_back(MeasuringPoint{position, normal});
         }
     }
     return sensor;

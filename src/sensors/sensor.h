@@ -1,18 +1,44 @@
-// What is measured: illuminance at points, each with a normal.
+// What is measured: illuminance at points, luminance along lines of sight, pictures.
 #pragma once
 
 #include <array>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "base/vec.h"
+#include "sensors/camera.h"
 
 namespace stilb {
 
-/// One reading: the illuminance [lx] that arrives at `position` on the side that the unit `normal` points to.
+/// The illuminance [lx] that arrives at `position` on the side that the unit `normal` points to.
 struct MeasuringPoint {
     Vec3 position, normal;
 };
+
+/// The luminance [cd/m2] that arrives at `position` when one looks along the unit `direction`.
+struct LineOfSight {
+    Vec3 position, direction;
+};
+
+/// The luminance [cd/m2] that leaves the surface at `position`, on the side that the unit `normal` points to,
+/// along the unit `direction`, away from the surface.
+struct EmergentRay {
+    Vec3 position, normal, direction;
+};
+
+/// What one reading is of.
+using Measurand = std::variant<MeasuringPoint, LineOfSight, EmergentRay>;
+
+inline const Vec3& position_of(const Measurand& measurand) {
+    return std::visit([](const auto& m) -> const Vec3& { return m.position; }, measurand);
+}
+/// Where a reading is made, and the side that light comes from.
+MeasuringPoint place_of(const Measurand& measurand);
+inline bool is_luminance(const Measurand& measurand) {
+    return !std::holds_alternative<MeasuringPoint>(measurand);
+}
 
 /// A rectangle of cells that are measured at their centres.
 struct Grid {
@@ -25,15 +51,20 @@ class RayCaster;
 /// Where rays from a measuring point start: lifted along its normal, off the surface that it lies on, if any.
 Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster);
 
-enum class SensorType { illuminance, grid };
+enum class SensorType { illuminance, grid, luminance, goniometer, camera };
+std::string_view name_of(SensorType type);
 
 struct Sensor {
     std::string name;
     SensorType type = SensorType::illuminance;
-    /// Grids: u fastest.
-    std::vector<MeasuringPoint> points;
+    /// One for each reading, all of one quantity; grids: u fastest. Cameras have none.
+    std::vector<Measurand> measurands;
     /// Meaningful for SensorType::grid.
-    Grid grid;
+    Grid grid{};
+    /// Meaningful for SensorType::camera.
+    Camera camera{};
+
+    bool measures_luminance() const { return type >= SensorType::luminance; }
 };
 
 /// A grid sensor with a point at every cell's centre, all with the unit vector `normal`.

@@ -78,7 +78,7 @@ Measured measure(const Scene& scene, const AgreementScene& of, const std::string
     const RunResult result = run(scene, sensors, options);
     Measured measured{method + " with seed " + std::to_string(seed), {}};
     for (const Reading& reading : result.sensors[0].readings) {
-        measured.estimates.push_back(reading.illuminance_lx);
+        measured.estimates.push_back(reading.estimate);
     }
     measured.estimates.push_back(result.sensors[0].summary.mean);
     return measured;

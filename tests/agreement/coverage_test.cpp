@@ -33,7 +33,7 @@ Coverage coverage_of(const Scene& scene, const MeasuringPoint& point, double exa
         options.method = method;
         options.seed = 1'000'000 + static_cast<std::uint64_t>(i);
         options.paths = paths;
-        const Estimate e = run(scene, sensors, options).sensors[0].readings[0].illuminance_lx;
+        const Estimate e = run(scene, sensors, options).sensors[0].readings[0].estimate;
         coverage.share += e.lower <= exact_lx && exact_lx <= e.upper ? 1.0 / kRuns : 0;
         coverage.mean_half_width += relative_half_width(e) / kRuns;
     }

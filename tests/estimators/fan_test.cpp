@@ -39,7 +39,7 @@ TEST(PackedPoints, ArePermutedSoThatNeighboursStandTogether) {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Black{});
     const RayCaster caster(scene);
-    const PackedPoints sorted = packed(points, caster);
+    const PackedPoints sorted = packed(measurands(points), caster);
     double steps = 0, unsorted_steps = 0;
     std::set<std::uint32_t> readings;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -54,7 +54,7 @@ TEST(PackedPoints, ArePermutedSoThatNeighboursStandTogether) {
     EXPECT_LT(steps, unsorted_steps / 3);
     EXPECT_EQ(readings.size(), points.size());
     EXPECT_EQ(*readings.rbegin(), points.size() - 1);
-    EXPECT_EQ(packed(std::vector<MeasuringPoint>(3), caster).size(), 3u);  // all in one place
+    EXPECT_EQ(packed(std::vector<Measurand>(3), caster).size(), 3u);  // all in one place
 }
 
 /// W f_r w G (theory T.1b), one node and point at a time, in double precision.
@@ -110,7 +110,7 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
         }
         ASSERT_GT(nodes.size(), 64u);
         ReadingSums sums(count);
-        const PackedPoints sorted = packed(points, caster);
+        const PackedPoints sorted = packed(measurands(points), caster);
         std::vector<double> sorted_k;
         for (const PackedPoint& point : sorted) sorted_k.push_back(k[point.reading]);
         const std::vector<PointTile> tiles = tiles_of(sorted, sorted_k, caster);

@@ -47,7 +47,7 @@ class Rounds {
 
     std::vector<MeanAndError> gather(const std::vector<MeasuringPoint>& points, double k_per_m2,
                                      RandomKey key) const {
-        const PackedPoints sorted = packed(points, caster_);
+        const PackedPoints sorted = packed(measurands(points), caster_);
         const std::vector<double> k(points.size(), k_per_m2);
         const std::vector<PointTile> tiles = tiles_of(sorted, k, caster_);
         const std::vector<SplitPlan> plans(points.size(), SplitPlan{k_per_m2, 1});
@@ -124,7 +124,7 @@ TEST(Gather, WithoutReflectionsThereIsNothing) {
     const RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     const PathTracer tracer(scene, caster, lights);
-    const PackedPoints points = packed(points_beside_the_box(4), caster);
+    const PackedPoints points = packed(measurands(points_beside_the_box(4)), caster);
     const std::vector<PointTile> tiles = tiles_of(points, std::vector<double>(4, 1.0), caster);
     const std::vector<SplitPlan> plans(4, SplitPlan{1, 1});
     ReadingSums sums(4);

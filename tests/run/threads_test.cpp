@@ -33,10 +33,10 @@ TEST_P(Threads, ChangeNoBit) {
         EXPECT_EQ(other.warnings, one.warnings);
         for (std::size_t s = 0; s < sensors.size(); ++s) {
             EXPECT_EQ(other.sensors[s].summary.uniformity, one.sensors[s].summary.uniformity);
-            for (std::size_t j = 0; j < sensors[s].points.size(); ++j) {
+            for (std::size_t j = 0; j < sensors[s].measurands.size(); ++j) {
                 const Reading &a = other.sensors[s].readings[j], &b = one.sensors[s].readings[j];
-                EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << threads << " threads, reading " << j;
-                EXPECT_EQ(a.rgb_lx, b.rgb_lx) << threads << " threads, reading " << j;
+                EXPECT_EQ(a.estimate, b.estimate) << threads << " threads, reading " << j;
+                EXPECT_EQ(a.rgb, b.rgb) << threads << " threads, reading " << j;
             }
         }
     }

@@ -20,7 +20,7 @@ Scene furnished_room() {
 }
 
 Sensor at(const Vec3& position, const Vec3& normal = {0, 0, 1}) {
-    return {"probe", SensorType::illuminance, {{position, normal}}, {}};
+    return {"probe", SensorType::illuminance, {MeasuringPoint{position, normal}}};
 }
 
 Texts warnings_of(const Scene& scene, const std::vector<Sensor>& sensors) {

@@ -112,8 +112,12 @@ inline Mesh icosphere(const Sphere& sphere, int subdivisions) {
     return mesh;
 }
 
-inline Sensor point_sensor(std::vector<MeasuringPoint> points) {
-    return {"points", SensorType::illuminance, std::move(points), {}};
+inline std::vector<Measurand> measurands(const std::vector<MeasuringPoint>& points) {
+    return {points.begin(), points.end()};
+}
+
+inline Sensor point_sensor(const std::vector<MeasuringPoint>& points) {
+    return {"points", SensorType::illuminance, measurands(points)};
 }
 
 }  // namespace stilb

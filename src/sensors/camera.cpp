@@ -1,0 +1,49 @@
+#include "sensors/camera.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double per_pixel(const Camera& camera) {
+    const double fov_rad = camera.fov_deg * kPi / 180;
+    const double width = camera.projection == Projection::perspective ? 2 * std::tan(fov_rad / 2) : fov_rad;
+    return width / camera.resolution[0];
+}
+
+}  // namespace
+
+CameraView::CameraView(const Camera& camera)
+    : position_(camera.position),
+      forward_(normalized(camera.target - camera.position)),
+      resolution_(camera.resolution),
+      projection_(camera.projection),
+      per_pixel_(per_pixel(camera)) {
+    right_ = normalized(cross(forward_, camera.up));
+    up_ = cross(right_, forward_);
+}
+
+std::optional<Vec3> CameraView::direction_at(double x, double y) const {
+    const double across = (x - resolution_[0] / 2.0) * per_pixel_;
+    const double upwards = (resolution_[1] / 2.0 - y) * per_pixel_;
+    switch (projection_) {
+        case Projection::perspective:
+            return normalized(forward_ + across * right_ + upwards * up_);
+        case Projection::fisheye: {
+            const double angle = std::hypot(across, upwards);
+            if (angle > std::min(kPi, resolution_[0] / 2.0 * per_pixel_)) return std::nullopt;
+            const double side = angle > 0 ? std::sin(angle) / angle : 1;
+            return normalized(std::cos(angle) * forward_ + side * (across * right_ + upwards * up_));
+        }
+        case Projection::panorama:
+            if (std::abs(across) > kPi || std::abs(upwards) > kPi / 2) return std::nullopt;
+            return normalized(std::cos(upwards) * (std::cos(across) * forward_ + std::sin(across) * right_) +
+                              std::sin(upwards) * up_);
+    }
+    return std::nullopt;
+}
+
+}  // namespace stilb

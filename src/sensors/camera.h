@@ -1,0 +1,47 @@
+// Pictures: which way each place on them looks.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "base/vec.h"
+
+namespace stilb {
+
+/// How directions are laid out on a picture.
+enum class Projection {
+    perspective,  ///< onto a plane: straight lines stay straight
+    fisheye,      ///< equiangular: the distance from the middle is proportional to the angle from the axis
+    panorama,     ///< equirectangular: azimuth across, elevation upwards
+};
+
+struct Camera {
+    Vec3 position, target{1, 0, 0}, up{0, 0, 1};
+    double fov_deg = 60;  ///< from the left edge to the right one
+    std::array<int, 2> resolution{1, 1};
+    Projection projection = Projection::perspective;
+};
+
+/// A camera with its axes. Places are in pixels from the upper left corner of the picture, y downwards:
+/// pixel (i, j) reaches from (i, j) to (i + 1, j + 1).
+class CameraView {
+  public:
+    /// `up` and the way to the target must not be parallel, nor any of them 0.
+    explicit CameraView(const Camera& camera);
+
+    /// The unit direction that one looks along at a place; nothing where the picture shows none (beside the
+    /// circle of a fisheye).
+    std::optional<Vec3> direction_at(double x, double y) const;
+    const Vec3& position() const { return position_; }
+    const Vec3& right() const { return right_; }
+    const Vec3& up() const { return up_; }
+    const Vec3& forward() const { return forward_; }
+
+  private:
+    Vec3 position_, right_, up_, forward_;  ///< right x up = -forward
+    std::array<int, 2> resolution_;
+    Projection projection_;
+    double per_pixel_;  ///< at the middle: length on a plane at distance 1, or angle [rad]
+};
+
+}  // namespace stilb
