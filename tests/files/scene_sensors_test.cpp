@@ -81,11 +81,11 @@ TEST(SceneSensors, RefusesWrongGeometry) {
         sensor("type = \"illuminance\"\nnormal = [0, 0, 1]"),
         "s.toml:1: sensors.s: key \"position\" or \"points\" is missing for type \"illuminance\".");
     EXPECT_REFUSAL(sensor("type = \"illuminance\"\nposition = [0, 0, 1]\npoints = []\nnormal = [0, 0, 1]"),
-                   "s.toml:4: sensors.s.measurands: contradicts \"position\", which is given too. Allowed: "
+                   "s.toml:4: sensors.s.points: contradicts \"position\", which is given too. Allowed: "
                    "one of the two.");
     EXPECT_REFUSAL(
         sensor("type = \"illuminance\"\npoints = []\nnormal = [0, 0, 1]"),
-        "s.toml:3: sensors.s.measurands: found no point. Allowed: [[x, y, z], ...] with one point or more.");
+        "s.toml:3: sensors.s.points: found no point. Allowed: [[x, y, z], ...] with one point or more.");
 }
 
 }  // namespace
