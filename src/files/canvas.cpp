@@ -82,12 +82,7 @@ std::string picture_extension(const std::filesystem::path& path) {
 
 void require_picture_path(const std::filesystem::path& path) {
     picture_extension(path);
-    const std::filesystem::path folder = path.parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-        throw InputError(fmt::format("the picture cannot be written: there is no folder '{}'. Make it first.",
-                                     folder.string()),
-                         {path.string()});
-    }
+    require_folder_of(path);
 }
 
 struct Canvas::Cairo {
