@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -120,6 +121,28 @@ void Canvas::fill_rectangle(const PageRectangle& rectangle, const Colour& colour
     cairo_rectangle(context, rectangle.left, rectangle.top, rectangle.width, rectangle.height);
     cairo_fill(context);
     cairo_set_antialias(context, CAIRO_ANTIALIAS_DEFAULT);
+}
+
+void Canvas::image(const PageRectangle& place, const PixelImage& image) {
+    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height));
+    require_success(cairo_surface_status(surface.get()));
+    unsigned char* row = cairo_image_surface_get_data(surface.get());
+    auto pixel = image.pixels.begin();
+    for (int y = 0; y < image.height; ++y, row += cairo_image_surface_get_stride(surface.get())) {
+        for (int x = 0; x < image.width; ++x, ++pixel) {
+            const std::uint32_t argb = *pixel == PixelImage::kTransparent ? 0 : 0xff000000 | *pixel;
+            std::memcpy(row + 4 * x, &argb, 4);
+        }
+    }
+    cairo_surface_mark_dirty(surface.get());
+    cairo_t* context = cairo_->context.get();
+    cairo_save(context);
+    cairo_translate(context, place.left, place.top);
+    cairo_scale(context, place.width / image.width, place.height / image.height);
+    cairo_set_source_surface(context, surface.get(), 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(context), CAIRO_FILTER_NEAREST);
+    cairo_paint(context);
+    cairo_restore(context);
 }
 
 void Canvas::stroke_rectangle(const PageRectangle& rectangle, const Stroke& stroke) {

@@ -2,6 +2,7 @@
 // sees Cairo.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -49,6 +50,13 @@ struct TextStyle {
     std::optional<Colour> halo{};
 };
 
+/// Pixels row by row from the top: 0xRRGGBB, or kTransparent.
+struct PixelImage {
+    static constexpr std::uint32_t kTransparent = 0xff000000;
+    int width = 0, height = 0;  ///< up to 32767
+    std::vector<std::uint32_t> pixels;
+};
+
 inline constexpr double kUpwards = -std::numbers::pi / 2;
 
 /// Advance of one line of text.
@@ -69,6 +77,8 @@ class Canvas {
 
     /// With hard edges, so that neighbours leave no seam.
     void fill_rectangle(const PageRectangle& rectangle, const Colour& colour);
+    /// Pixels stay sharp, however large they are drawn.
+    void image(const PageRectangle& place, const PixelImage& image);
     void stroke_rectangle(const PageRectangle& rectangle, const Stroke& stroke);
     void line(const Point& from, const Point& to, const Stroke& stroke);
     /// Open and with round joins.

@@ -10,22 +10,12 @@
 
 #include "files/axis_drawing.h"
 #include "files/canvas.h"
-#include "files/colour_map.h"
-#include "files/isolines.h"
-#include "files/label_placer.h"
+#include "files/false_colour_painter.h"
 
 namespace stilb {
 namespace {
 
-constexpr double kMargin = 24;
-constexpr double kTitleSize = 17;
-constexpr double kNameSize = 12.5;
-constexpr double kSmallSize = 10.5;
 constexpr double kNameGap = 12;
-constexpr double kTitleHeight = 36;
-constexpr double kBarWidth = 18;
-constexpr double kBarGap = 30;
-constexpr double kLeastBarHeight = 180;
 constexpr double kColumnGap = 32;
 constexpr double kRowGap = 24;
 /// Rows fill this width unless they got too high by it.
@@ -35,8 +25,6 @@ constexpr double kMostHeight = 600;
 constexpr double kLeastRowHeight = 100;
 constexpr std::size_t kMostColumns = 6;
 constexpr double kNiceAspect = 1.5;
-constexpr int kMostDecades = 4;
-constexpr int kBarTicks = 9;
 
 bool has_size(const FalseColourPanel& panel) { return panel.width_m > 0 && panel.height_m > 0; }
 
@@ -152,72 +140,59 @@ Layout lay_out(Panels panels) {
     return best;
 }
 
-Scale choose_scale(const FalseColour& picture, const FalseColourOptions& options) {
+std::vector<double> all_values(const FalseColour& picture) {
     std::vector<double> all;
-    for (const FalseColourPanel& panel : picture.panels) {
+    for (const FalseColourPanel& panel : picture.panels)
         all.insert(all.end(), panel.values.begin(), panel.values.end());
-    }
-    Range range = nice_range(options.scale, all);
-    if (options.scale == ScaleType::logarithmic) {
-        range.low = std::max(range.low, range.high * std::pow(10.0, -kMostDecades));
-    }
-    range.low = options.minimum.value_or(range.low);
-    range.high = options.maximum.value_or(range.high);
-    return Scale(options.scale, range);
+    return all;
 }
 
-double bar_extent(const Scale& scale) {
-    return kBarWidth + axis_extent(nice_ticks(scale, kBarTicks), Side::right);
+int decimals_of(const FalseColourPanel& panel) {
+    double largest = 0;
+    for (const double value : panel.values) {
+        if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    }
+    return three_digit_decimals(largest);
+}
+
+/// The size at which every number fits its cell; 0 where that would be too small to read.
+double number_size(const FalseColourPanel& panel, const PageRectangle& frame) {
+    constexpr double kLeast = 6;
+    constexpr double kMost = 13;
+    const PageRectangle place = cell_in(frame, panel, 0, 0);
+    const double highest = std::min(kMost, 0.6 * place.height);
+    if (highest < kLeast) return 0;
+    const int decimals = decimals_of(panel);
+    double widest = 0;  // at size 1
+    for (const double value : panel.values) {
+        if (!std::isfinite(value)) continue;
+        widest = std::max(widest, text_width(number_text(value, decimals), 10) / 10);
+    }
+    if (widest == 0) return 0;
+    const double size = std::min(highest, 0.84 * place.width / widest);
+    return size < kLeast ? 0 : size;
 }
 
 /// Draws one panel after the other; holds what they share.
-class Painter {
+class PanelPainter {
   public:
-    Painter(Canvas& canvas, const Scale& scale, const FalseColourOptions& options)
-        : canvas_(canvas), scale_(scale), options_(options), ticks_(nice_ticks(scale, kBarTicks)) {}
+    PanelPainter(Canvas& canvas, FalseColourPainter& painter, const FalseColourOptions& options)
+        : canvas_(canvas), painter_(painter), options_(options) {}
 
-    void draw_panel(const FalseColourPanel& panel, const Tile& tile) {
+    void draw(const FalseColourPanel& panel, const Tile& tile) {
         draw_header(panel, tile);
-        draw_cells(panel, tile.frame);
+        painter_.draw_cells(panel, tile.frame);
         const double text_size = options_.numbers ? number_size(panel, tile.frame) : 0;
-        if (options_.isolines) draw_isolines(panel, tile.frame, text_size == 0);
+        if (options_.isolines) {
+            const std::vector<Isoline> isolines = painter_.draw_isolines(panel, tile.frame);
+            if (text_size == 0) painter_.label_isolines(isolines, tile.frame);
+        }
         if (text_size > 0) draw_numbers(panel, tile.frame, text_size);
         canvas_.stroke_rectangle(tile.frame, {kInk, 0.8});
         if (has_size(panel)) draw_lengths(panel, tile.frame);
     }
 
-    void draw_bar(const PageRectangle& bar, const std::string& unit) {
-        constexpr int kStrips = 256;
-        for (int i = 0; i < kStrips; ++i) {
-            const double top = bar.top + bar.height * i / kStrips;
-            canvas_.fill_rectangle({bar.left, top, bar.width, bar.bottom() - top},
-                                   map_.at(1 - (i + 0.5) / kStrips));
-        }
-        canvas_.stroke_rectangle(bar, {kInk, 0.8});
-        draw_axis(canvas_, scale_, ticks_, Side::right, bar);
-        canvas_.text({bar.left, bar.top - 10}, unit,
-                     {.size = kNameSize, .colour = kInk, .weight = Weight::bold});
-    }
-
   private:
-    static double value_at(const FalseColourPanel& panel, int u, int v) {
-        return panel.values[static_cast<std::size_t>(v) * static_cast<std::size_t>(panel.nu) +
-                            static_cast<std::size_t>(u)];
-    }
-
-    static PageRectangle cell(const FalseColourPanel& panel, const PageRectangle& frame, int u, int v) {
-        const double width = frame.width / panel.nu;
-        const double height = frame.height / panel.nv;
-        return {frame.left + u * width, frame.bottom() - (v + 1) * height, width, height};
-    }
-
-    template <typename Visit>
-    static void for_each_cell(const FalseColourPanel& panel, const PageRectangle& frame, Visit visit) {
-        for (int v = 0; v < panel.nv; ++v) {
-            for (int u = 0; u < panel.nu; ++u) visit(cell(panel, frame, u, v), value_at(panel, u, v));
-        }
-    }
-
     void draw_header(const FalseColourPanel& panel, const Tile& tile) {
         const Point at{tile.frame.left, tile.box.top + 10};
         canvas_.text(at, panel.name, {.size = kNameSize, .colour = kInk, .weight = Weight::bold});
@@ -236,110 +211,18 @@ class Painter {
         draw(panel.height_m, frame.height, Side::left);
     }
 
-    void draw_cells(const FalseColourPanel& panel, const PageRectangle& frame) {
-        for_each_cell(panel, frame, [&](const PageRectangle& place, double value) {
-            if (std::isnan(value)) {
-                draw_hatching(place);
-            } else {
-                canvas_.fill_rectangle(place, map_.at(scale_.fraction_of(value)));
-            }
-        });
-    }
-
-    void draw_hatching(const PageRectangle& place) {
-        constexpr double kSpacing = 6;
-        canvas_.fill_rectangle(place, grey(0.86));
-        canvas_.clipped(place, [&] {
-            // Lines x + y = n * spacing, so that the hatching runs on into the next cell.
-            const double last = place.right() + place.bottom();
-            for (double sum = std::ceil((place.left + place.top) / kSpacing) * kSpacing; sum < last;
-                 sum += kSpacing) {
-                canvas_.line({sum - place.top, place.top}, {sum - place.bottom(), place.bottom()},
-                             {grey(0.62), 1});
-            }
-        });
-    }
-
-    int decimals_of(const FalseColourPanel& panel) const {
-        double largest = 0;
-        for (const double value : panel.values) {
-            if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-        }
-        return three_digit_decimals(largest);
-    }
-
-    /// The size at which every number fits its cell; 0 where that would be too small to read.
-    double number_size(const FalseColourPanel& panel, const PageRectangle& frame) const {
-        constexpr double kLeast = 6;
-        constexpr double kMost = 13;
-        double widest = 0;  // at size 1
-        for (const double value : panel.values) {
-            if (!std::isfinite(value)) continue;
-            widest = std::max(widest, text_width(number_text(value, decimals_of(panel)), 10) / 10);
-        }
-        if (widest == 0) return 0;
-        const PageRectangle place = cell(panel, frame, 0, 0);
-        const double size = std::min({kMost, 0.84 * place.width / widest, 0.6 * place.height});
-        return size < kLeast ? 0 : size;
-    }
-
     void draw_numbers(const FalseColourPanel& panel, const PageRectangle& frame, double size) {
         const int decimals = decimals_of(panel);
-        for_each_cell(panel, frame, [&](const PageRectangle& place, double value) {
-            if (std::isnan(value)) return;
-            // The halo is seen only where an isoline passes behind.
-            const Colour background = map_.at(scale_.fraction_of(value));
-            canvas_.text(place.center(), number_text(value, decimals),
-                         {.size = size,
-                          .colour = readable_on(background),
-                          .horizontal = HorizontalPart::center,
-                          .vertical = VerticalPart::middle,
-                          .halo = background});
-        });
-    }
-
-    void draw_isolines(const FalseColourPanel& panel, const PageRectangle& frame, bool labelled) {
-        // Along the scale's own measure, so that lines on a logarithmic scale lie where the colours say; the
-        // lower limit stands in for values without a logarithm.
-        std::vector<double> fractions;
-        for (const double value : panel.values) {
-            fractions.push_back(std::isnan(value) ? value : std::max(scale_.fraction_of(value), -1.0));
-        }
-        LabelPlacer placer(frame);
-        std::vector<std::pair<LabelPlace, std::string>> labels;
-        for (const Tick& tick : ticks_.major) {
-            const double level = scale_.fraction_of(tick.value);
-            if (level <= 0 || level >= 1)
-                continue;  // what lies at the ends has one colour with what is beyond
-            for (std::vector<Point> line : find_isolines(fractions, panel.nu, panel.nv, level)) {
-                for (Point& point : line) {
-                    point = {frame.left + point.x / panel.nu * frame.width,
-                             frame.bottom() - point.y / panel.nv * frame.height};
-                }
-                // White in a dark casing: seen on every colour.
-                canvas_.polyline(line, {with_alpha(grey(0), 0.5), 2.6});
-                canvas_.polyline(line, {grey(1), 1.2});
-                if (!labelled) continue;
-                const auto place = placer.place(line, text_width(tick.label, kSmallSize));
-                if (place) labels.emplace_back(*place, tick.label);
-            }
-        }
-        for (const auto& [place, label] : labels) {
-            canvas_.text(place.center, label,
-                         {.size = kSmallSize,
-                          .colour = grey(0),
-                          .horizontal = HorizontalPart::center,
-                          .vertical = VerticalPart::middle,
-                          .angle_rad = place.angle_rad,
-                          .halo = grey(1)});
+        auto value = panel.values.begin();
+        for (int v = 0; v < panel.nv; ++v) {
+            for (int u = 0; u < panel.nu; ++u, ++value)
+                painter_.draw_number(cell_in(frame, panel, u, v).center(), *value, decimals, size);
         }
     }
 
     Canvas& canvas_;
-    const Scale& scale_;
+    FalseColourPainter& painter_;
     const FalseColourOptions& options_;
-    Ticks ticks_;
-    ColourMap map_;
 };
 
 void require_consistency(const FalseColour& picture) {
@@ -358,23 +241,24 @@ void require_consistency(const FalseColour& picture) {
 void draw_false_colour(const FalseColour& picture, const FalseColourOptions& options,
                        const std::filesystem::path& path) {
     require_consistency(picture);
-    const Scale scale = choose_scale(picture, options);
+    const Scale scale = choose_scale(all_values(picture), options);
     Layout layout = lay_out(picture.panels);
-    for (Tile& tile : layout.tiles) move(tile, kMargin, kMargin + kTitleHeight);
+    for (Tile& tile : layout.tiles) move(tile, kSheetMargin, kSheetMargin + kTitleHeight);
 
     // The bar stands beside the cells of the first row.
     const PageRectangle& first = layout.tiles.front().frame;
-    const double content_bottom = kMargin + kTitleHeight + layout.height;
+    const double content_bottom = kSheetMargin + kTitleHeight + layout.height;
     const double last_frame_bottom = layout.tiles.back().frame.bottom();
-    const PageRectangle bar{kMargin + layout.width + kBarGap, first.top, kBarWidth,
+    const PageRectangle bar{kSheetMargin + layout.width + kBarGap, first.top, kBarWidth,
                             std::max(kLeastBarHeight, last_frame_bottom - first.top)};
-    Canvas canvas(path, bar.left + bar_extent(scale) + kMargin,
-                  std::max(content_bottom, bar.bottom() + 8) + kMargin - 8);
-    canvas.text({layout.tiles.front().frame.left, kMargin + kTitleSize}, picture.title,
+    Canvas canvas(path, bar.left + bar_extent(scale) + kSheetMargin,
+                  std::max(content_bottom, bar.bottom() + 8) + kSheetMargin - 8);
+    canvas.text({layout.tiles.front().frame.left, kSheetMargin + kTitleSize}, picture.title,
                 {.size = kTitleSize, .colour = kInk, .weight = Weight::bold});
-    Painter painter(canvas, scale, options);
+    FalseColourPainter painter(canvas, scale);
+    PanelPainter panel_painter(canvas, painter, options);
     for (std::size_t i = 0; i < picture.panels.size(); ++i) {
-        painter.draw_panel(picture.panels[i], layout.tiles[i]);
+        panel_painter.draw(picture.panels[i], layout.tiles[i]);
     }
     painter.draw_bar(bar, picture.unit);
     canvas.save();

@@ -17,6 +17,11 @@ struct FalseColourPanel {
     int nu = 1, nv = 1;
     double width_m = 0, height_m = 0;  ///< along u and v; both 0 where unknown: cells are square then
     std::vector<double> values;        ///< nu x nv, u fastest; NaN is drawn as a hatched cell
+
+    double value_at(int u, int v) const {
+        return values[static_cast<std::size_t>(v) * static_cast<std::size_t>(nu) +
+                      static_cast<std::size_t>(u)];
+    }
 };
 
 struct FalseColour {
