@@ -1,7 +1,8 @@
-// stilb falsecolor: measured grids as a picture.
+// stilb falsecolor: measured grids, or a luminance picture, in false colours.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,7 +10,10 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "files/canvas.h"
+#include "files/false_colour_picture.h"
 #include "files/grid_picture.h"
+#include "files/picture_file.h"
 
 namespace stilb {
 namespace {
@@ -36,7 +40,26 @@ void keep_only(const std::vector<std::string>& wanted, ResultsFile& results, con
     });
 }
 
+void draw_picture(const FalseColourRequest& request) {
+    if (!request.sensors.empty()) {
+        throw InputError("--sensor chooses among measured grids, and a picture has none. Leave it out.",
+                         {request.input});
+    }
+    const Picture picture = read_picture(request.input);
+    const PictureOrigin& origin = picture.origin;
+    const std::string source =
+        origin.scene.empty() ? std::filesystem::path(request.input).filename().string() : origin.scene;
+    const std::string sensor = origin.sensor.empty() ? "" : fmt::format(", {}", origin.sensor);
+    draw_false_colour(picture, fmt::format("Luminance, {}{}", source, sensor), request.options,
+                      request.output);
+}
+
 int run_falsecolor(const FalseColourRequest& request) {
+    require_picture_path(request.output);
+    if (is_picture_file(request.input)) {
+        draw_picture(request);
+        return kExitDone;
+    }
     ResultsFile results = read_results_file(request.input);
     if (!request.sensors.empty()) keep_only(request.sensors, results, request.input);
     draw_false_colour(picture_of(results), request.options, request.output);
@@ -46,23 +69,29 @@ int run_falsecolor(const FalseColourRequest& request) {
 }  // namespace
 
 void add_falsecolor(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("falsecolor", "Draw measured grids as a false-colour picture");
+    CLI::App* command =
+        app.add_subcommand("falsecolor", "Draw measured grids or a luminance picture in false colours");
     set_examples(*command,
                  "  stilb measure office.toml --json > office.json\n"
                  "  stilb falsecolor office.json -o office.png --isolines\n"
-                 "  stilb falsecolor office.json -o desk.svg --sensor desk --numbers --min 0 --max 750\n");
+                 "  stilb falsecolor office.json -o desk.svg --sensor desk --numbers --min 0 --max 750\n"
+                 "  stilb falsecolor view.exr -o luminance.png --log --isolines\n");
     auto request = std::make_shared<FalseColourRequest>();
     FalseColourOptions& options = request->options;
-    command->add_option("IN", request->input, "Results of 'stilb measure --json'")->required();
+    command
+        ->add_option("IN", request->input,
+                     "Results of 'stilb measure --json', or a picture: OpenEXR or Radiance HDR")
+        ->required();
     command->add_option("-o,--output", request->output, "Picture to write: .png or .svg")->required();
-    command->add_option("--sensor", request->sensors, "Draw this grid only (may be repeated)")
+    command->add_option("--sensor", request->sensors, "Of results, draw this grid only (may be repeated)")
         ->allow_extra_args(false);
     command->add_flag_callback(
         "--log", [&options] { options.scale = ScaleType::logarithmic; }, "Logarithmic scale");
     command->add_option("--min", options.minimum, "Lower end of the scale; a round number by default");
     command->add_option("--max", options.maximum, "Upper end of the scale");
     command->add_flag("--isolines", options.isolines, "Lines of equal value, labelled");
-    command->add_flag("--numbers", options.numbers, "The value in every cell that is large enough");
+    command->add_flag("--numbers", options.numbers,
+                      "Values: in cells that are large enough, on a coarse grid over pictures");
     command->callback([request, &exit_code] { exit_code = run_falsecolor(*request); });
 }
 

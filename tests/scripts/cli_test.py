@@ -128,6 +128,29 @@ class WrongInputTest(CommandLineTest):
                 self.expect_wrong_input(["measure", self.scene, "--falsecolor", self.folder / name], name)
 
 
+class FalsecolorTest(CommandLineTest):
+    def radiance_picture(self):
+        """Two grey pixels as Radiance writes them."""
+        picture = self.folder / "view.hdr"
+        pixels = bytes([128, 128, 128, 129, 200, 200, 200, 130])
+        picture.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + pixels)
+        return picture
+
+    def test_pictures(self):
+        drawing = self.folder / "view.png"
+        result = run("falsecolor", self.radiance_picture(), "-o", drawing, "--log", "--isolines", "--numbers")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(drawing.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_wrong_input(self):
+        picture = self.radiance_picture()
+        drawing = self.folder / "view.png"
+        self.expect_wrong_input(["falsecolor", picture, "-o", drawing, "--sensor", "desk"], "--sensor")
+        self.expect_wrong_input(["falsecolor", self.folder / "none.exr", "-o", drawing], "none.exr", "cannot be read")
+        picture.write_bytes(picture.read_bytes()[:-1])
+        self.expect_wrong_input(["falsecolor", picture, "-o", drawing], "view.hdr", "row 1 of 1")
+
+
 class HelpTest(CommandLineTest):
     def test_examples_come_first(self):
         for command in ("measure", "info", "falsecolor"):
