@@ -1,5 +1,6 @@
 #include "sensors/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +8,12 @@ namespace stilb {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+
+/// False also where rounding alone puts a place on the edge beyond it.
+bool is_beyond(double angle, double limit) {
+    constexpr double rounding = 1e-12;
+    return std::abs(angle) > limit * (1 + rounding);
+}
 
 double per_pixel(const Camera& camera) {
     const double fov_rad = camera.fov_deg * kPi / 180;
@@ -34,12 +41,12 @@ std::optional<Vec3> CameraView::direction_at(double x, double y) const {
             return normalized(forward_ + across * right_ + upwards * up_);
         case Projection::fisheye: {
             const double angle = std::hypot(across, upwards);
-            if (angle > std::min(kPi, resolution_[0] / 2.0 * per_pixel_)) return std::nullopt;
+            if (is_beyond(angle, std::min(kPi, resolution_[0] / 2.0 * per_pixel_))) return std::nullopt;
             const double side = angle > 0 ? std::sin(angle) / angle : 1;
             return normalized(std::cos(angle) * forward_ + side * (across * right_ + upwards * up_));
         }
         case Projection::panorama:
-            if (std::abs(across) > kPi || std::abs(upwards) > kPi / 2) return std::nullopt;
+            if (is_beyond(across, kPi) || is_beyond(upwards, kPi / 2)) return std::nullopt;
             return normalized(std::cos(upwards) * (std::cos(across) * forward_ + std::sin(across) * right_) +
                               std::sin(upwards) * up_);
     }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include "base/vec.h"
 
@@ -15,11 +16,27 @@ enum class Projection {
     panorama,     ///< equirectangular: azimuth across, elevation upwards
 };
 
+inline constexpr std::array<std::string_view, 3> kProjectionNames{"perspective", "fisheye", "panorama"};
+constexpr std::string_view name_of(Projection projection) {
+    return kProjectionNames[static_cast<std::size_t>(projection)];
+}
+
+/// How the luminances around a pixel make its value.
+enum class PixelFilter {
+    box,       ///< their mean over the pixel
+    gaussian,  ///< their mean about its middle, weighted by a Gaussian of half a pixel's standard deviation
+};
+inline constexpr std::array<std::string_view, 2> kPixelFilterNames{"box", "gaussian"};
+constexpr std::string_view name_of(PixelFilter filter) {
+    return kPixelFilterNames[static_cast<std::size_t>(filter)];
+}
+
 struct Camera {
     Vec3 position, target{1, 0, 0}, up{0, 0, 1};
-    double fov_deg = 60;  ///< from the left edge to the right one
-    std::array<int, 2> resolution{1, 1};
+    double fov_deg = 60;                  ///< from the left edge to the right one
+    std::array<int, 2> resolution{1, 1};  ///< width and height in pixels
     Projection projection = Projection::perspective;
+    PixelFilter filter = PixelFilter::box;
 };
 
 /// A camera with its axes. Places are in pixels from the upper left corner of the picture, y downwards:

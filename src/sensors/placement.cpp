@@ -35,22 +35,31 @@ std::string whereabouts(const Space& dark, const SpaceList& lit, const Scene& sc
     return "in a closed space without a light";
 }
 
+std::vector<MeasuringPoint> places_of(const Sensor& sensor) {
+    const Camera& camera = sensor.camera;
+    if (sensor.type == SensorType::camera) return {{camera.position, CameraView(camera).forward()}};
+    std::vector<MeasuringPoint> places;
+    for (const Measurand& measurand : sensor.measurands) places.push_back(place_of(measurand));
+    return places;
+}
+
 std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Space, std::size_t>& counts,
                                     const SpaceList& lit, const Scene& scene) {
-    std::size_t dark_points = 0;
+    std::size_t dark_points = 0, points = 0;
     const Space* most = nullptr;
     for (const auto& [space, count] : counts) {
+        points += count;
         if (contains(lit, space)) continue;
         if (most == nullptr || count > counts.at(*most)) most = &space;
         dark_points += count;
     }
     if (most == nullptr) return std::nullopt;
-    const std::size_t points = sensor.measurands.size();
     const std::string which =
         points == 1 ? "it lies" : fmt::format("{} of {} points lie", dark_points, points);
-    return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 lx. Move {} into the lit space.",
+    return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} into the lit space.",
                        sensor.name, which, whereabouts(*most, lit, scene),
-                       points == 1 ? "it reads" : "they read", points == 1 ? "it" : "them");
+                       points == 1 ? "it reads" : "they read", sensor.quantity().unit,
+                       points == 1 ? "it" : "them");
 }
 
 std::optional<std::string> fault_of(const Light& light, const SpaceList& of_light,
@@ -79,10 +88,8 @@ std::vector<std::string> placement_warnings(const Scene& scene, const RayCaster&
     std::vector<std::string> warnings;
     for (const Sensor& sensor : sensors) {
         std::map<Space, std::size_t> counts;
-        for (const Measurand& measurand : sensor.measurands) {
-            const MeasuringPoint point = place_of(measurand);
+        for (const MeasuringPoint& point : places_of(sensor))
             ++counts[spaces.space_of({lifted_position(point, caster), point.normal})];
-        }
         for (const auto& [space, count] : counts) of_sensors.push_back(space);
         if (auto fault = fault_of(sensor, counts, lit, scene)) warnings.push_back(std::move(*fault));
     }

@@ -19,22 +19,6 @@ Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster) {
     return point.position + caster.offset_m(point.position, 0) * point.normal;
 }
 
-std::string_view name_of(SensorType type) {
-    switch (type) {
-        case SensorType::illuminance:
-            return "illuminance";
-        case SensorType::grid:
-            return "grid";
-        case SensorType::luminance:
-            return "luminance";
-        case SensorType::goniometer:
-            return "goniometer";
-        case SensorType::camera:
-            return "camera";
-    }
-    return "";
-}
-
 Sensor make_grid_sensor(std::string name, const Grid& grid, const Vec3& normal) {
     Sensor sensor{std::move(name), SensorType::grid, {}, grid};
     const auto [nu, nv] = grid.count;

@@ -52,7 +52,22 @@ class RayCaster;
 Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster);
 
 enum class SensorType { illuminance, grid, luminance, goniometer, camera };
-std::string_view name_of(SensorType type);
+inline constexpr std::array<std::string_view, 5> kSensorTypeNames{"illuminance", "grid", "luminance",
+                                                                  "goniometer", "camera"};
+constexpr std::string_view name_of(SensorType type) {
+    return kSensorTypeNames[static_cast<std::size_t>(type)];
+}
+
+/// What a number says, as in "illuminance [lx]".
+struct Quantity {
+    std::string_view name, unit;
+};
+
+/// A direction in the frame of a surface: `theta_deg` from its normal, `phi_deg` about it. In a polar plane
+/// theta has a sign and phi is the plane's azimuth; otherwise theta is at least 0.
+struct PolarAngles {
+    double theta_deg = 0, phi_deg = 0;
+};
 
 struct Sensor {
     std::string name;
@@ -63,8 +78,13 @@ struct Sensor {
     Grid grid{};
     /// Meaningful for SensorType::camera.
     Camera camera{};
+    /// SensorType::goniometer: the direction of each measurand.
+    std::vector<PolarAngles> angles{};
 
     bool measures_luminance() const { return type >= SensorType::luminance; }
+    Quantity quantity() const {
+        return measures_luminance() ? Quantity{"luminance", "cd/m2"} : Quantity{"illuminance", "lx"};
+    }
 };
 
 /// A grid sensor with a point at every cell's centre, all with the unit vector `normal`.

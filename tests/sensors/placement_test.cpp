@@ -120,6 +120,27 @@ TEST(Placement, AMeshOfSeveralClosedParts) {
     EXPECT_EQ(warnings_of(scene, {at({0.5, 0.5, 0.75})}).size(), 1u);
 }
 
+TEST(Placement, LinesOfSightAndCamerasInTheDark) {
+    const Sensor sight{"sight", SensorType::luminance, {LineOfSight{{0.5, 0.5, 1}, {1, 0, 0}}}};
+    Sensor camera{"view", SensorType::camera, {}};
+    camera.camera = {.position = {0.5, 0.5, 1}, .target = {3, 3, 1}};
+    const Texts warnings = warnings_of(furnished_room(), {sight, camera});
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_TRUE(has(warnings[0], "sensor \"sight\": it lies inside object \"cabinet\"")) << warnings[0];
+    EXPECT_TRUE(has(warnings[0], "it reads 0 cd/m2")) << warnings[0];
+    EXPECT_TRUE(has(warnings[1], "sensor \"view\": it lies inside object \"cabinet\"")) << warnings[1];
+    camera.camera.position = {2, 2, 1};
+    EXPECT_EQ(warnings_of(furnished_room(), {camera}), Texts{});
+}
+
+TEST(Placement, GoniometersMeasureOnTheSideOfTheirNormal) {
+    const auto goniometer = [](const Vec3& normal) {
+        return Sensor{"probe", SensorType::goniometer, {EmergentRay{{4, 2, 1}, normal, normal}}};
+    };
+    EXPECT_EQ(warnings_of(furnished_room(), {goniometer({-1, 0, 0})}).size(), 0u);
+    EXPECT_EQ(warnings_of(furnished_room(), {goniometer({1, 0, 0})}).size(), 1u);
+}
+
 TEST(Placement, NoLightNoWarning) {
     Scene scene = furnished_room();
     scene.lights.clear();
