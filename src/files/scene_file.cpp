@@ -76,7 +76,7 @@ std::vector<NamedTable> named_tables(const TomlTable& section) {
     return tables;
 }
 
-Vec3 read_normal(const TomlItem& item, std::vector<std::string>& warnings) {
+Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings) {
     const Vec3 given = item.vector();
     const Vec3 normal = item.made_unit(given);
     constexpr double rounding = 1e-3;  // three digits are enough to say that a unit vector is meant

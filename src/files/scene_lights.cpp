@@ -41,13 +41,13 @@ Spectrum read_colour(const TomlTable& table) {
 
 PointLight read_point(TomlTable& table) {
     table.expect_keys({"type", "position", "flux", "intensity", "cct", "color"}, "type \"point\"");
-    const double quantity = table.either("flux", "intensity").number(kLightQuantity);
+    const double quantity = table.one_of({"flux", "intensity"}).item.number(kLightQuantity);
     const double intensity_cd = table.has("flux") ? quantity / (4 * kPi) : quantity;
     return {table.at("position").vector(), intensity_cd * read_colour(table)};
 }
 
 double read_luminance(const TomlTable& table, const Shape& shape) {
-    const TomlItem item = table.either("flux", "luminance");
+    const TomlItem item = table.one_of({"flux", "luminance"}).item;
     const double quantity = item.number(kLightQuantity);
     if (table.has("luminance")) return quantity;
     const double luminance_cd_m2 = quantity / (kPi * area_m2(shape));

@@ -42,7 +42,7 @@ Sphere read_sphere(const TomlTable& table) {
 }
 
 Disk read_disk(const TomlTable& table, SceneFile& file) {
-    return {table.at("center").vector(), read_normal(table.at("normal"), file.warnings),
+    return {table.at("center").vector(), read_direction(table.at("normal"), file.warnings),
             table.at("radius").number(kRadius)};
 }
 

@@ -30,7 +30,7 @@ RunOptions read_run(TomlTable section);
 Transform read_transform(const TomlTable& object);
 
 /// A direction made a unit vector, with a warning where it was far from one.
-Vec3 read_normal(const TomlItem& item, std::vector<std::string>& warnings);
+Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings);
 /// The keys corner, edge_u, edge_v.
 Rectangle read_rectangle(const TomlTable& table);
 

@@ -208,11 +208,18 @@ std::string_view TomlTable::choose(std::string_view key, std::span<const std::st
     return names[item->index_in(names, key, later)];
 }
 
-TomlItem TomlTable::either(std::string_view first, std::string_view second) const {
-    expect_not_both(first, second);
-    if (const auto item = find(first)) return *item;
-    if (const auto item = find(second)) return *item;
-    fail(fmt::format("key {} or {} is missing{}.", in_quotes(first), in_quotes(second), kind_));
+TomlTable::NamedItem TomlTable::one_of(const std::vector<std::string_view>& keys) const {
+    std::optional<NamedItem> found;
+    std::string named;
+    for (const std::string_view key : keys) {
+        if (found) expect_not_both(found->key, key);
+        const auto item = find(key);
+        if (item && !found) found = NamedItem{std::string(key), *item};
+        named += named.empty() ? "" : key == keys.back() ? " or " : ", ";
+        named += in_quotes(key);
+    }
+    if (found) return *found;
+    fail(fmt::format("key {} is missing{}.", named, kind_));
 }
 
 void TomlTable::expect_not_both(std::string_view first, std::string_view second) const {

@@ -95,8 +95,8 @@ class TomlTable {
     /// The one of the names that stands at the key; `later` as in TomlItem::index_in().
     std::string_view choose(std::string_view key, std::span<const std::string_view> names,
                             std::span<const std::string_view> later = {}) const;
-    /// Whichever of the two keys is there; throws where both or none are.
-    TomlItem either(std::string_view first, std::string_view second) const;
+    /// Whichever of the keys is there; throws where several or none are.
+    NamedItem one_of(const std::vector<std::string_view>& keys) const;
     /// Throws where both are there.
     void expect_not_both(std::string_view first, std::string_view second) const;
 
