@@ -135,12 +135,25 @@ Json luminaire_json(const NamedSolid& solid) {
             {"flux_check", solid.flux_statement}};
 }
 
+Json camera_json(const Camera& camera) {
+    return {{"resolution", camera.resolution},
+            {"projection", name_of(camera.projection)},
+            {"fov_deg", camera.fov_deg},
+            {"filter", name_of(camera.filter)},
+            {"position", vector_json(camera.position)},
+            {"target", vector_json(camera.target)}};
+}
+
 Json sensor_json(const Sensor& sensor) {
-    const bool is_grid = sensor.type == SensorType::grid;
+    Json json{{"name", sensor.name}, {"type", name_of(sensor.type)}};
+    if (sensor.type == SensorType::camera) {
+        json.update(camera_json(sensor.camera));
+        return json;
+    }
     Bounds bounds;
     for (const Measurand& measurand : sensor.measurands) bounds.include(position_of(measurand));
-    Json json{{"name", sensor.name}, {"type", name_of(sensor.type)}, {"points", sensor.measurands.size()}};
-    if (is_grid) json["count"] = sensor.grid.count;
+    json["points"] = sensor.measurands.size();
+    if (sensor.type == SensorType::grid) json["count"] = sensor.grid.count;
     json["extent"] = extent_json(bounds);
     return json;
 }

@@ -21,13 +21,14 @@ std::string joined(const Json& names) {
     return result;
 }
 
+std::string point_text(const Json& p) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0].get<double>(), p[1].get<double>(),
+                       p[2].get<double>());
+}
+
 std::string extent_text(const Json& extent) {
-    const auto point = [](const Json& p) {
-        return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0].get<double>(), p[1].get<double>(),
-                           p[2].get<double>());
-    };
-    if (extent[0] == extent[1]) return "at " + point(extent[0]);
-    return fmt::format("from {} to {}", point(extent[0]), point(extent[1]));
+    if (extent[0] == extent[1]) return "at " + point_text(extent[0]);
+    return fmt::format("from {} to {}", point_text(extent[0]), point_text(extent[1]));
 }
 
 std::string material_text(const Json& material) {
@@ -96,13 +97,31 @@ std::string luminaire_text(const Json& luminaire) {
     return line;
 }
 
+std::string size_text(const Json& size, const char* things) {
+    return fmt::format("{} x {} {}", size[0].get<int>(), size[1].get<int>(), things);
+}
+
+std::string camera_text(const Json& camera) {
+    return fmt::format("{}, {}, {:.4g} degrees across, from {} to {}",
+                       size_text(camera.at("resolution"), "pixels"), text(camera, "projection"),
+                       number(camera, "fov_deg"), point_text(camera.at("position")),
+                       point_text(camera.at("target")));
+}
+
+std::string readings_text(const Json& sensor) {
+    if (sensor.contains("count")) return size_text(sensor["count"], "points");
+    const std::size_t readings = count(sensor, "points");
+    const std::string type = text(sensor, "type");
+    const char* thing = type == "luminance" ? "line" : type == "goniometer" ? "direction" : "point";
+    return fmt::format("{} {}{}{}", readings, thing, readings == 1 ? "" : "s",
+                       type == "luminance" ? " of sight" : "");
+}
+
 std::string sensor_text(const Json& sensor) {
-    const std::string size =
-        sensor.contains("count")
-            ? fmt::format("{} x {} points", sensor["count"][0].get<int>(), sensor["count"][1].get<int>())
-            : fmt::format("{} point{}", count(sensor, "points"), count(sensor, "points") == 1 ? "" : "s");
-    return fmt::format("{:16} {:12} {}, {}", text(sensor, "name"), text(sensor, "type"), size,
-                       extent_text(sensor.at("extent")));
+    const std::string what = sensor.contains("resolution")
+                                 ? camera_text(sensor)
+                                 : readings_text(sensor) + ", " + extent_text(sensor.at("extent"));
+    return fmt::format("{:16} {:12} {}", text(sensor, "name"), text(sensor, "type"), what);
 }
 
 std::string run_text(const Json& run) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "base/error.h"
@@ -28,23 +29,45 @@ struct MeasureRequest {
     RunFlags flags;
 };
 
+const Sensor& sensor_named(const std::string& name, const std::vector<Sensor>& all, const std::string& file) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Sensor& s) { return s.name == name; });
+    if (found != all.end()) return *found;
+    std::vector<std::string_view> known;
+    for (const Sensor& sensor : all) known.push_back(sensor.name);
+    const std::string nearest = nearest_name(name, known);
+    throw InputError(fmt::format("--sensor {}: there is no such sensor.{} Sensors: {}.", name,
+                                 nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
+                                 fmt::join(known, ", ")),
+                     {file});
+}
+
+bool is_camera(const Sensor& sensor) { return sensor.type == SensorType::camera; }
+
+/// All sensors but cameras.
+std::vector<Sensor> measured_sensors(const std::vector<Sensor>& all, const std::string& file) {
+    std::vector<Sensor> measured;
+    std::remove_copy_if(all.begin(), all.end(), std::back_inserter(measured), is_camera);
+    if (measured.empty() && !all.empty()) {
+        throw InputError(
+            "no sensor to measure: all are cameras, and these make pictures. Use `stilb render`, or add "
+            "another sensor.",
+            {file});
+    }
+    return measured;
+}
+
 std::vector<Sensor> chosen_sensors(const std::vector<Sensor>& all, const std::vector<std::string>& names,
                                    const std::string& file) {
-    if (names.empty()) return all;
+    if (names.empty()) return measured_sensors(all, file);
     std::vector<Sensor> chosen;
     for (const std::string& name : names) {
-        const auto found =
-            std::find_if(all.begin(), all.end(), [&](const Sensor& s) { return s.name == name; });
-        if (found == all.end()) {
-            std::vector<std::string_view> known;
-            for (const Sensor& sensor : all) known.push_back(sensor.name);
-            const std::string nearest = nearest_name(name, known);
-            throw InputError(fmt::format("--sensor {}: there is no such sensor.{} Sensors: {}.", name,
-                                         nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
-                                         fmt::join(known, ", ")),
-                             {file});
+        chosen.push_back(sensor_named(name, all, file));
+        if (is_camera(chosen.back())) {
+            throw InputError(
+                fmt::format("--sensor {}: this is a camera, which makes a picture. Use `stilb render`.",
+                            name),
+                {file});
         }
-        chosen.push_back(*found);
     }
     return chosen;
 }
@@ -79,7 +102,7 @@ int run_measure(const MeasureRequest& request) {
 
 void add_measure(CLI::App& app, int& exit_code) {
     CLI::App* command =
-        app.add_subcommand("measure", "Illuminance at all sensors of a scene, with error bars");
+        app.add_subcommand("measure", "Illuminance and luminance at the sensors of a scene, with error bars");
     set_examples(*command,
                  "  stilb measure office.toml\n"
                  "  stilb measure office.toml --error 0.5% --sensor desk\n"

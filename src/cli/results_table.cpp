@@ -11,8 +11,8 @@ namespace {
 /// Columns and rows up to which a grid's values are printed one by one.
 constexpr int kMostColumns = 20;
 constexpr int kMostRows = 40;
-/// Points of a list that are printed one by one.
-constexpr std::size_t kMostPoints = 40;
+/// Readings of a list that are printed one by one.
+constexpr std::size_t kMostReadings = 40;
 
 double half_width(const Estimate& e) { return (e.upper - e.lower) / 2; }
 
@@ -23,10 +23,34 @@ int decimals_for(const Estimate& e) {
     return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 6);
 }
 
-std::string place(const MeasuringPoint& point) {
-    const auto [p, n] = point;
-    return fmt::format("at ({:.5g}, {:.5g}, {:.5g}) facing ({:.3g}, {:.3g}, {:.3g})", p.x, p.y, p.z, n.x, n.y,
-                       n.z);
+std::string unit_of(const Sensor& sensor) {
+    return sensor.measures_luminance() ? "cd/m²" : std::string(sensor.quantity().unit);
+}
+
+std::string place_text(const Vec3& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z); }
+std::string direction_text(const Vec3& d) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x, d.y, d.z); }
+
+/// What a line of sight ends at: nothing where the run did not tell.
+std::string end_text(const SensorResult& result, std::size_t j) {
+    if (result.sub_points.empty()) return "";
+    const auto& hit = result.sub_points[j];
+    return hit ? ", meets " + place_text(*hit) : ", leaves the scene";
+}
+
+/// Where a reading is made and which way it looks.
+std::string reading_place(const SensorResult& result, const Sensor& sensor, std::size_t j) {
+    const auto [position, way] = place_of(sensor.measurands[j]);
+    if (sensor.type != SensorType::luminance)
+        return fmt::format("at {} facing {}", place_text(position), direction_text(way));
+    return fmt::format("from {} along {}{}", place_text(position), direction_text(way), end_text(result, j));
+}
+
+std::string reading_text(const SensorResult& result, const Sensor& sensor, std::size_t j) {
+    const std::string value = fmt::format("{} {}", with_error(result.readings[j].estimate), unit_of(sensor));
+    if (sensor.type != SensorType::goniometer)
+        return fmt::format("{}   {}\n", value, reading_place(result, sensor, j));
+    const auto [theta_deg, phi_deg] = sensor.angles[j];
+    return fmt::format("theta {:5.5g}°  phi {:5.5g}°   {}\n", theta_deg, phi_deg, value);
 }
 
 std::string grid_values(const SensorResult& result, const std::array<int, 2>& count) {
@@ -42,30 +66,55 @@ std::string grid_values(const SensorResult& result, const std::array<int, 2>& co
     return text;
 }
 
-std::string sensor_table(const SensorResult& result, const Sensor& sensor) {
-    if (sensor.measurands.size() == 1) {
-        return fmt::format("{:12}  {} lx   {}\n", sensor.name, with_error(result.readings[0].estimate),
-                           place(place_of(sensor.measurands[0])));
-    }
-    const bool is_grid = sensor.type == SensorType::grid;
+std::string size_text(const Sensor& sensor) {
+    const std::size_t readings = sensor.measurands.size();
     const auto& count = sensor.grid.count;
-    const std::string size = is_grid ? fmt::format("{} x {} grid", count[0], count[1])
-                                     : fmt::format("{} points", sensor.measurands.size());
-    const GridSummary& s = result.summary;
-    std::string text = fmt::format(
-        "{:12}  {}; 95 % of the readings within {:.2g} %\n"
-        "    mean {} lx   minimum {} lx   maximum {} lx   uniformity {}\n",
-        sensor.name, size, 100 * result.attained_error, with_error(s.mean), with_error(s.minimum),
-        with_error(s.maximum), std::isnan(s.uniformity.value) ? "-" : with_error(s.uniformity));
-    if (is_grid && count[0] <= kMostColumns && count[1] <= kMostRows)
-        return text + grid_values(result, count);
-    if (!is_grid && sensor.measurands.size() <= kMostPoints) {
-        for (std::size_t j = 0; j < sensor.measurands.size(); ++j) {
-            text += fmt::format("    {} lx   {}\n", with_error(result.readings[j].estimate),
-                                place(place_of(sensor.measurands[j])));
+    switch (sensor.type) {
+        case SensorType::grid:
+            return fmt::format("{} x {} grid", count[0], count[1]);
+        case SensorType::luminance:
+            return fmt::format("{} lines of sight", readings);
+        case SensorType::goniometer: {
+            const auto [point, normal] = place_of(sensor.measurands.front());
+            return fmt::format("{} directions from {} facing {}", readings, place_text(point),
+                               direction_text(normal));
         }
+        default:
+            return fmt::format("{} points", readings);
     }
+}
+
+std::string summary_text(const GridSummary& summary, const Sensor& sensor) {
+    const std::string unit = unit_of(sensor);
+    std::string text =
+        fmt::format("    mean {} {}   minimum {} {}   maximum {} {}", with_error(summary.mean), unit,
+                    with_error(summary.minimum), unit, with_error(summary.maximum), unit);
+    if (!sensor.measures_luminance()) {
+        const Estimate& uniformity = summary.uniformity;
+        text += "   uniformity " + (std::isnan(uniformity.value) ? "-" : with_error(uniformity));
+    }
+    return text + '\n';
+}
+
+std::string sensor_table(const SensorResult& result, const Sensor& sensor) {
+    const std::size_t readings = sensor.measurands.size();
+    if (readings == 1) return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0));
+    std::string text = fmt::format("{:12}  {}; 95 % of the readings within {:.2g} %\n", sensor.name,
+                                   size_text(sensor), 100 * result.attained_error);
+    text += summary_text(result.summary, sensor);
+    const auto& count = sensor.grid.count;
+    if (sensor.type == SensorType::grid)
+        return count[0] <= kMostColumns && count[1] <= kMostRows ? text + grid_values(result, count) : text;
+    if (readings > kMostReadings) return text;
+    for (std::size_t j = 0; j < readings; ++j) text += "    " + reading_text(result, sensor, j);
     return text;
+}
+
+std::string title_of(std::span<const Sensor> sensors) {
+    const auto luminances = std::count_if(sensors.begin(), sensors.end(),
+                                          [](const Sensor& sensor) { return sensor.measures_luminance(); });
+    if (luminances == 0) return "Illuminance";
+    return luminances < std::ssize(sensors) ? "Illuminance and luminance" : "Luminance";
 }
 
 std::string ending(const RunResult& result) {
@@ -91,7 +140,7 @@ std::string with_error(const Estimate& estimate) {
 }
 
 std::string to_table(const RunResult& result, std::span<const Sensor> sensors) {
-    std::string text = "Illuminance, with 95 % intervals\n\n";
+    std::string text = title_of(sensors) + ", with 95 % intervals\n\n";
     for (std::size_t s = 0; s < sensors.size(); ++s) text += sensor_table(result.sensors[s], sensors[s]);
     return text + fmt::format("\n{}, {} paths in {:.2f} s: {}\n", result.method, result.paths,
                               result.elapsed_s, ending(result));

@@ -2,41 +2,83 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <array>
+#include <limits>
 
 #include "base/error.h"
+#include "files/sub_point.h"
 #include "files/table.h"
 
 namespace stilb {
 namespace {
 
-using Value = std::function<double(const MeasuringPoint&, const Reading&)>;
+/// Columns of a sensor's readings, made of what is told of each.
+class ReadingColumns {
+  public:
+    explicit ReadingColumns(std::size_t readings) : readings_(readings) {}
+
+    void add(std::string name, const auto& number_of) {
+        std::vector<double> cells;
+        for (std::size_t j = 0; j < readings_; ++j) cells.push_back(number_of(j));
+        columns_.push_back({std::move(name), std::move(cells)});
+    }
+    void add_vector(const std::array<const char*, 3>& names, const auto& vector_of) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            add(names[axis], [&](std::size_t j) { return vector_of(j)[axis]; });
+    }
+    const std::vector<Column>& columns() const { return columns_; }
+
+  private:
+    std::size_t readings_;
+    std::vector<Column> columns_;
+};
+
+constexpr std::array kNormal{"normal_x", "normal_y", "normal_z"};
+constexpr std::array kDirection{"direction_x", "direction_y", "direction_z"};
+
+template <typename Kind, typename Part>
+auto part_of(const Sensor& sensor, Part Kind::*part) {
+    return [&sensor, part](std::size_t j) { return std::get<Kind>(sensor.measurands[j]).*part; };
+}
+
+void add_places(ReadingColumns& columns, const Sensor& sensor) {
+    columns.add_vector({"x_m", "y_m", "z_m"},
+                       [&](std::size_t j) { return position_of(sensor.measurands[j]); });
+    if (sensor.type == SensorType::luminance) {
+        columns.add_vector(kDirection, part_of(sensor, &LineOfSight::direction));
+    } else if (sensor.type == SensorType::goniometer) {
+        columns.add_vector(kNormal, part_of(sensor, &EmergentRay::normal));
+        columns.add_vector(kDirection, part_of(sensor, &EmergentRay::direction));
+        columns.add("theta_deg", [&](std::size_t j) { return sensor.angles[j].theta_deg; });
+        columns.add("phi_deg", [&](std::size_t j) { return sensor.angles[j].phi_deg; });
+    } else {
+        columns.add_vector(kNormal, part_of(sensor, &MeasuringPoint::normal));
+    }
+}
+
+void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings, const Quantity& quantity) {
+    const std::string unit = quantity.unit == "lx" ? "_lx" : "_cd_m2";
+    const auto estimate = [&](std::size_t j) -> const Estimate& { return readings[j].estimate; };
+    columns.add(std::string(quantity.name) + unit, [&](std::size_t j) { return estimate(j).value; });
+    columns.add("standard_error" + unit, [&](std::size_t j) { return estimate(j).standard_error; });
+    columns.add("interval_low" + unit, [&](std::size_t j) { return estimate(j).lower; });
+    columns.add("interval_high" + unit, [&](std::size_t j) { return estimate(j).upper; });
+    constexpr std::array<const char*, kBands> bands{"red", "green", "blue"};
+    for (std::size_t b = 0; b < kBands; ++b)
+        columns.add(bands[b] + unit, [&](std::size_t j) { return readings[j].rgb[b]; });
+}
 
 void write_sensor(const SensorResult& result, const Sensor& sensor, const std::filesystem::path& path) {
-    const std::pair<const char*, Value> contents[] = {
-        {"x_m", [](const auto& p, const auto&) { return p.position.x; }},
-        {"y_m", [](const auto& p, const auto&) { return p.position.y; }},
-        {"z_m", [](const auto& p, const auto&) { return p.position.z; }},
-        {"normal_x", [](const auto& p, const auto&) { return p.normal.x; }},
-        {"normal_y", [](const auto& p, const auto&) { return p.normal.y; }},
-        {"normal_z", [](const auto& p, const auto&) { return p.normal.z; }},
-        {"illuminance_lx", [](const auto&, const auto& r) { return r.estimate.value; }},
-        {"standard_error_lx", [](const auto&, const auto& r) { return r.estimate.standard_error; }},
-        {"interval_low_lx", [](const auto&, const auto& r) { return r.estimate.lower; }},
-        {"interval_high_lx", [](const auto&, const auto& r) { return r.estimate.upper; }},
-        {"red_lx", [](const auto&, const auto& r) { return r.rgb[0]; }},
-        {"green_lx", [](const auto&, const auto& r) { return r.rgb[1]; }},
-        {"blue_lx", [](const auto&, const auto& r) { return r.rgb[2]; }},
-    };
-    std::vector<Column> columns;
-    for (const auto& [name, value] : contents) {
-        std::vector<double> cells;
-        for (std::size_t j = 0; j < result.readings.size(); ++j) {
-            cells.push_back(value(place_of(sensor.measurands[j]), result.readings[j]));
-        }
-        columns.push_back({name, std::move(cells)});
+    ReadingColumns columns(result.readings.size());
+    add_places(columns, sensor);
+    if (sensor.measures_luminance()) {
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        columns.add_vector({"hit_x_m", "hit_y_m", "hit_z_m"}, [&](std::size_t j) {
+            return sub_point(result, sensor, j).value_or(Vec3{none, none, none});
+        });
     }
-    write_csv(columns, path);
+    add_readings(columns, result.readings, sensor.quantity());
+    write_csv(columns.columns(), path);
 }
 
 }  // namespace

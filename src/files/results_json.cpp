@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "files/sub_point.h"
+
 namespace stilb {
 namespace {
 
@@ -10,38 +12,64 @@ using Json = nlohmann::ordered_json;
 Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 Json interval_json(const Estimate& e) { return {e.lower, e.upper}; }
 
-Json reading_json(const Reading& reading, const Measurand& measurand) {
-    return {{"position", vector_json(position_of(measurand))},
-            {"normal", vector_json(place_of(measurand).normal)},
-            {"value", reading.estimate.value},
-            {"standard_error", reading.estimate.standard_error},
-            {"interval", interval_json(reading.estimate)},
-            {"rgb", reading.rgb.band}};
+/// Where a reading is made and which way it looks.
+struct PlaceJson {
+    Json operator()(const MeasuringPoint& point) const {
+        return {{"position", vector_json(point.position)}, {"normal", vector_json(point.normal)}};
+    }
+    Json operator()(const LineOfSight& sight) const {
+        return {{"position", vector_json(sight.position)}, {"direction", vector_json(sight.direction)}};
+    }
+    Json operator()(const EmergentRay& ray) const {
+        return {{"position", vector_json(ray.position)},
+                {"normal", vector_json(ray.normal)},
+                {"direction", vector_json(ray.direction)}};
+    }
+};
+
+Json reading_json(const SensorResult& result, const Sensor& sensor, std::size_t j) {
+    Json json = std::visit(PlaceJson{}, sensor.measurands[j]);
+    if (sensor.measures_luminance()) {
+        const auto hit = sub_point(result, sensor, j);
+        json["hit"] = hit ? vector_json(*hit) : Json();
+    }
+    if (sensor.type == SensorType::goniometer) {
+        json["theta"] = sensor.angles[j].theta_deg;
+        json["phi"] = sensor.angles[j].phi_deg;
+    }
+    const Reading& reading = result.readings[j];
+    json["value"] = reading.estimate.value;
+    json["standard_error"] = reading.estimate.standard_error;
+    json["interval"] = interval_json(reading.estimate);
+    json["rgb"] = reading.rgb.band;
+    return json;
 }
 
-Json summary_json(const GridSummary& summary) {
-    return {{"mean", summary.mean.value},
-            {"minimum", summary.minimum.value},
-            {"maximum", summary.maximum.value},
-            {"uniformity", summary.uniformity.value},
-            {"mean_interval", interval_json(summary.mean)},
-            {"minimum_interval", interval_json(summary.minimum)},
-            {"maximum_interval", interval_json(summary.maximum)},
-            {"uniformity_interval", interval_json(summary.uniformity)}};
+/// Uniformity is a property of an illuminated area: luminances in several directions have none.
+Json summary_json(const GridSummary& summary, bool has_uniformity) {
+    Json json{
+        {"mean", summary.mean.value}, {"minimum", summary.minimum.value}, {"maximum", summary.maximum.value}};
+    if (has_uniformity) json["uniformity"] = summary.uniformity.value;
+    json["mean_interval"] = interval_json(summary.mean);
+    json["minimum_interval"] = interval_json(summary.minimum);
+    json["maximum_interval"] = interval_json(summary.maximum);
+    if (has_uniformity) json["uniformity_interval"] = interval_json(summary.uniformity);
+    return json;
 }
 
 Json sensor_json(const SensorResult& result, const Sensor& sensor) {
-    const bool is_grid = sensor.type == SensorType::grid;
-    Json json{
-        {"name", sensor.name}, {"type", name_of(sensor.type)}, {"quantity", "illuminance"}, {"unit", "lx"}};
-    if (is_grid) json["count"] = sensor.grid.count;
+    const Quantity quantity = sensor.quantity();
+    Json json{{"name", sensor.name},
+              {"type", name_of(sensor.type)},
+              {"quantity", quantity.name},
+              {"unit", quantity.unit}};
+    if (sensor.type == SensorType::grid) json["count"] = sensor.grid.count;
     json["attained_error"] = result.attained_error;
     Json values = Json::array();
-    for (std::size_t j = 0; j < result.readings.size(); ++j) {
-        values.push_back(reading_json(result.readings[j], sensor.measurands[j]));
-    }
+    for (std::size_t j = 0; j < result.readings.size(); ++j)
+        values.push_back(reading_json(result, sensor, j));
     json["values"] = std::move(values);
-    json["summary"] = summary_json(result.summary);
+    json["summary"] = summary_json(result.summary, !sensor.measures_luminance());
     return json;
 }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +23,9 @@ struct Reading {
 };
 
 struct SensorResult {
-    std::vector<Reading> readings;  ///< in the order of the sensor's points
+    std::vector<Reading> readings;  ///< in the order of the sensor's measurands
+    /// Luminance sensors: where each line of sight ends; nothing where it leaves the scene. Empty: not known.
+    std::vector<std::optional<Vec3>> sub_points;
     GridSummary summary;
     double attained_error = 0;  ///< relative half-width that 95 % of the readings keep
 };

@@ -1,0 +1,50 @@
+#include "cli/results_table.h"
+
+#include <gtest/gtest.h>
+
+#include "files/luminance_results.h"
+
+namespace stilb {
+namespace {
+
+std::string table_of(const HandMade& made) { return to_table(made.result, made.sensors); }
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ResultsTable, ShowsLinesOfSightAndDirections) {
+    EXPECT_EQ(table_of(luminance_results()),
+              "Luminance, with 95 % intervals\n"
+              "\n"
+              "view          2 lines of sight; 95 % of the readings within 2 %\n"
+              "    mean 150.0 ± 2.0 cd/m²   minimum 100.0 ± 2.0 cd/m²   maximum 200.0 ± 2.0 cd/m²\n"
+              "    100.0 ± 2.0 cd/m²   from (2, 0, 1) along (0, 1, 0), meets (2, 4, 1)\n"
+              "    200.0 ± 2.0 cd/m²   from (2, 0, 1) along (0, 0, 1), leaves the scene\n"
+              "solid         2 directions from (2, 2, 0) facing (0, 0, 1); 95 % of the readings within 7 %\n"
+              "    mean 150.0 ± 2.0 cd/m²   minimum 100.0 ± 2.0 cd/m²   maximum 200.0 ± 2.0 cd/m²\n"
+              "    theta     0°  phi    90°   30.0 ± 2.0 cd/m²\n"
+              "    theta 36.87°  phi    90°   31.0 ± 2.0 cd/m²\n"
+              "\n"
+              "auto, 0 paths in 0.00 s: all paths done; error 0 %\n");
+}
+
+TEST(ResultsTable, OneLineOfSightIsOneLine) {
+    HandMade made = luminance_results();
+    made.sensors.resize(1);
+    made.sensors[0].measurands.resize(1);
+    made.result.sensors[0].sub_points.clear();
+    EXPECT_TRUE(has(table_of(made), "\nview          100.0 ± 2.0 cd/m²   from (2, 0, 1) along (0, 1, 0)\n"))
+        << table_of(made);
+}
+
+TEST(ResultsTable, NamesTheQuantities) {
+    HandMade made = luminance_results();
+    made.sensors.push_back({"eye", SensorType::illuminance, {MeasuringPoint{{1, 2, 3}, {0, 0, 1}}}});
+    made.result.sensors.push_back({{reading(500)}, {}, {}, 0.01});
+    EXPECT_TRUE(table_of(made).starts_with("Illuminance and luminance, with 95 % intervals\n"));
+    EXPECT_TRUE(has(table_of(made), "\neye           500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 0, 1)\n"));
+    made.sensors.erase(made.sensors.begin(), made.sensors.begin() + 2);
+    made.result.sensors.erase(made.result.sensors.begin(), made.result.sensors.begin() + 2);
+    EXPECT_TRUE(table_of(made).starts_with("Illuminance, with 95 % intervals\n"));
+}
+
+}  // namespace
+}  // namespace stilb

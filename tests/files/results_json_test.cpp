@@ -1,0 +1,65 @@
+#include "files/results_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "files/luminance_results.h"
+#include "files/results_file.h"
+
+namespace stilb {
+namespace {
+
+using Json = nlohmann::json;
+
+Json json_of(const HandMade& made) {
+    return Json::parse(to_json(made.result, made.sensors, "room.toml"))["sensors"];
+}
+
+TEST(ResultsJson, LuminancesSayWhereTheLightComesFrom) {
+    const Json view = json_of(luminance_results())[0];
+    EXPECT_EQ(view["type"], "luminance");
+    EXPECT_EQ(view["quantity"], "luminance");
+    EXPECT_EQ(view["unit"], "cd/m2");
+    EXPECT_EQ(view["values"][0], Json::parse(R"({"position": [2.0, 0.0, 1.0], "direction": [0.0, 1.0, 0.0],
+        "hit": [2.0, 4.0, 1.0], "value": 100.0, "standard_error": 1.0, "interval": [98.0, 102.0],
+        "rgb": [110.0, 100.0, 90.0]})"));
+    EXPECT_TRUE(view["values"][1]["hit"].is_null());
+}
+
+TEST(ResultsJson, UnknownSubPointsAreNull) {
+    HandMade made = luminance_results();
+    made.result.sensors[0].sub_points.clear();
+    for (const Json& value : json_of(made)[0]["values"]) EXPECT_TRUE(value.at("hit").is_null());
+}
+
+TEST(ResultsJson, GoniometersHaveAngles) {
+    const Json solid = json_of(luminance_results())[1];
+    EXPECT_EQ(solid["type"], "goniometer");
+    EXPECT_EQ(solid["quantity"], "luminance");
+    EXPECT_EQ(solid["values"][1], Json::parse(R"({"position": [2.0, 2.0, 0.0], "normal": [0.0, 0.0, 1.0],
+        "direction": [0.6, 0.0, 0.8], "hit": [2.0, 2.0, 0.0], "theta": 36.87, "phi": 90.0, "value": 31.0,
+        "standard_error": 1.0, "interval": [29.0, 33.0], "rgb": [41.0, 31.0, 21.0]})"));
+}
+
+TEST(ResultsJson, LuminancesHaveNoUniformity) {
+    for (const Json& sensor : json_of(luminance_results())) {
+        EXPECT_EQ(sensor["summary"], Json::parse(R"({"mean": 150.0, "minimum": 100.0, "maximum": 200.0,
+            "mean_interval": [148.0, 152.0], "minimum_interval": [98.0, 102.0],
+            "maximum_interval": [198.0, 202.0]})"));
+    }
+}
+
+TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
+    HandMade made = luminance_results();
+    made.sensors.push_back(make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1}));
+    made.result.sensors.push_back({{reading(500), reading(510)}, {}, {}, 0.01});
+    const ResultsFile read = read_results(to_json(made.result, made.sensors, "room.toml"), "room.json");
+    ASSERT_EQ(read.grids.size(), 1u);
+    EXPECT_EQ(read.grids[0].name, "desk");
+    EXPECT_EQ(read.grids[0].values, (std::vector<double>{500, 510}));
+    EXPECT_EQ(read.grids[0].unit, "lx");
+}
+
+}  // namespace
+}  // namespace stilb
