@@ -55,6 +55,15 @@ position = [4, 1.5, 1.2]
 normal = [-1, 0, 0]
 """
 
+CAMERA = """
+[sensors.view]
+type = "camera"
+position = [0.5, 2.5, 1.6]
+target = [4, 1, 1]
+resolution = [640, 480]
+projection = "fisheye"
+"""
+
 MOST_SECONDS = 60  # for a command that should end by itself: generous, machines may be busy
 
 
@@ -111,6 +120,12 @@ class WrongInputTest(CommandLineTest):
 
     def test_misspelt_sensor(self):
         self.expect_wrong_input(["measure", self.scene, "--sensor", "desc"], 'Did you mean "desk"?', "wall")
+
+    def test_cameras_are_not_measured(self):
+        scene = self.write("view.toml", ROOM + CAMERA)
+        self.expect_wrong_input(["measure", scene, "--sensor", "view"], "--sensor view: this is a camera", "stilb render")
+        scene = self.write("views.toml", ROOM[: ROOM.index("[sensors.desk]")] + CAMERA)
+        self.expect_wrong_input(["measure", scene], "views.toml: no sensor to measure: all are cameras", "stilb render")
 
     def test_misspelt_method(self):
         self.expect_wrong_input(["measure", self.scene, "--method", "locl"], "locl", "local")
@@ -194,6 +209,11 @@ class MeasureTest(CommandLineTest):
     def test_one_sensor(self):
         document = self.measure("--error", "5%", "--sensor", "wall")
         self.assertEqual([s["name"] for s in document["sensors"]], ["wall"])
+
+    def test_cameras_are_left_out(self):
+        self.scene = self.write("view.toml", ROOM + CAMERA)
+        document = self.measure("--error", "5%")
+        self.assertEqual([s["name"] for s in document["sensors"]], ["desk", "wall"])
 
     def test_no_reflections_is_the_inverse_square_law(self):
         document = self.measure("--bounces", "0", "--sensor", "wall", "--paths", "1024")
@@ -297,6 +317,32 @@ class InfoTest(CommandLineTest):
         self.assertAlmostEqual(report["materials"][0]["reflectance"], 0.2126 * 0.7 + 0.7152 * 0.5 + 0.0722 * 0.3)
         self.assertEqual([s["points"] for s in report["sensors"]], [6, 1])
         self.assertGreater(report["memory"]["peak_bytes"], report["memory"]["meshes_bytes"])
+
+    def test_sensors_of_luminance(self):
+        scene = self.write("view.toml", ROOM + CAMERA + """
+[sensors.glare]
+type = "luminance"
+position = [0.5, 2.5, 1.2]
+targets = [[2, 1.5, 2], [4, 1, 1]]
+
+[sensors.floor]
+type = "goniometer"
+point = [2, 2, 0]
+normal = [0, 0, 1]
+plane = 0
+step = 5
+""")
+        report = self.info(scene)
+        self.assertEqual(report["warnings"], [])
+        _, _, view, glare, floor = report["sensors"]
+        self.assertEqual(view, {"name": "view", "type": "camera", "resolution": [640, 480], "projection": "fisheye",
+                                "fov_deg": 180, "filter": "box", "position": [0.5, 2.5, 1.6], "target": [4, 1, 1]})
+        self.assertEqual((glare["type"], glare["points"]), ("luminance", 2))
+        self.assertEqual((floor["type"], floor["points"], floor["extent"]), ("goniometer", 35, [[2, 2, 0]] * 2))
+        text = run("info", scene).stdout
+        for part in ("640 x 480 pixels, fisheye, 180 degrees across, from (0.5, 2.5, 1.6) to (4, 1, 1)",
+                     "2 lines of sight, at (0.5, 2.5, 1.2)", "35 directions, at (2, 2, 0)"):
+            self.assertIn(part, text)
 
     def test_text_shows_all_sections(self):
         result = run("info", self.scene)
