@@ -102,7 +102,7 @@ int run_measure(const MeasureRequest& request) {
 
 void add_measure(CLI::App& app, int& exit_code) {
     CLI::App* command =
-        app.add_subcommand("measure", "Illuminance and luminance at the sensors of a scene, with error bars");
+        app.add_subcommand("measure", "Illuminance at all sensors of a scene, with error bars");
     set_examples(*command,
                  "  stilb measure office.toml\n"
                  "  stilb measure office.toml --error 0.5% --sensor desk\n"

@@ -12,7 +12,8 @@ namespace {
 
 /// Of all sensors together: 10 million measurands take 0.8 gigabytes.
 constexpr std::int64_t kMostReadings = 10'000'000;
-constexpr std::int64_t kMostPixels = 64'000'000;
+/// Of a picture; files of larger ones could not be read back.
+constexpr std::int64_t kLongestSide = 100'000, kMostPixels = 64'000'000;
 constexpr Range kStep{0.001, 90, "an angle above 0 (from 0.001 to 90 degrees)"};
 
 using Warnings = std::vector<std::string>;
@@ -39,17 +40,18 @@ Sensor read_illuminance(TomlTable& table, Warnings& warnings) {
 /// How many there may be of what a pair of counts makes.
 struct CountLimit {
     std::string_view form;
-    std::int64_t most;
+    std::int64_t most_each, most;
     std::string_view things, where;
 };
-constexpr CountLimit kGridLimit{"[nu, nv]", kMostReadings, "points", "in all sensors together"};
-constexpr CountLimit kPictureLimit{"[width, height]", kMostPixels, "pixels", "in a picture"};
+constexpr CountLimit kGridLimit{"[nu, nv]", kMostReadings, kMostReadings, "points",
+                                "in all sensors together"};
+constexpr CountLimit kPictureLimit{"[width, height]", kLongestSide, kMostPixels, "pixels", "in a picture"};
 
 std::array<int, 2> read_counts(const TomlItem& item, const CountLimit& limit) {
     const std::vector<TomlItem> counts = item.elements();
     if (counts.size() != 2)
         item.fail(fmt::format("found an array of {} where {} is needed.", counts.size(), limit.form));
-    const std::int64_t a = counts[0].integer(1, limit.most), b = counts[1].integer(1, limit.most);
+    const std::int64_t a = counts[0].integer(1, limit.most_each), b = counts[1].integer(1, limit.most_each);
     if (a * b > limit.most) {
         item.fail(
             fmt::format("asks for {} {}. Allowed: {} {}.", a * b, limit.things, limit.most, limit.where));
@@ -127,7 +129,7 @@ struct FieldOfView {
 FieldOfView field_of_view(Projection projection) {
     switch (projection) {
         case Projection::perspective:
-            return {{0.001, 179.999, "an angle above 0 and below 180 degrees (from 0.001 to 179.999)"}, 60};
+            return {{0.001, 179.9, "an angle above 0 and below 180 degrees (from 0.001 to 179.9)"}, 60};
         case Projection::fisheye:
             return {{0.001, 360, "an angle above 0 (from 0.001 to 360 degrees)"}, 180};
         case Projection::panorama:
