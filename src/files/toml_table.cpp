@@ -154,7 +154,7 @@ std::size_t TomlItem::index_in(std::span<const std::string_view> names, std::str
 }
 
 std::filesystem::path TomlItem::existing_file(const std::filesystem::path& directory) const {
-    const std::filesystem::path path = directory / text();
+    std::filesystem::path path = directory / text();
     std::error_code error;  // whatever it is, the file cannot be read
     if (!std::filesystem::is_regular_file(path, error)) {
         fail(fmt::format("there is no file {}. Paths are relative to the scene file; looked for {}.",
