@@ -32,7 +32,7 @@ Efficiency measure(const Estimator& estimator, std::size_t readings, std::uint64
         ReadingSums sums(readings);
         estimator.run_batch({RandomKey{3}.derived(r), 0, samples}, sums);
         for (std::size_t j = 0; j < readings; ++j) {
-            const double value = estimator.known_part_lx()[j].luminance() +
+            const double value = estimator.known_part()[j].luminance() +
                                  sums.sum[j].luminance() / static_cast<double>(samples);
             sum[j] += value;
             sum_of_squares[j] += value * value;

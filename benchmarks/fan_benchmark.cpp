@@ -49,7 +49,7 @@ struct PreparedRays {
 };
 
 /// The rays that the fan traces, in its order: by packets of points, then nodes.
-PreparedRays prepare_rays(const PackedPoints& points, const std::vector<ChainNode>& nodes,
+PreparedRays prepare_rays(const std::vector<Receiver>& points, const std::vector<ChainNode>& nodes,
                           const Vec3& center) {
     PreparedRays rays;
     for (std::size_t first = 0; first < points.size(); first += kPacketWidth) {
@@ -58,8 +58,8 @@ PreparedRays prepare_rays(const PackedPoints& points, const std::vector<ChainNod
             LaneMask lanes{};
             bool any = false;
             for (std::size_t i = 0; i < kPacketWidth; ++i) {
-                const PackedPoint& point = points[first + i];
-                const Vec3 segment = point.lifted - node.lifted;
+                const Receiver& point = points[first + i];
+                const Vec3 segment = point.lifted() - node.lifted;
                 const Vec3 origin = node.lifted - center;
                 packet.origin_x[i] = static_cast<float>(origin.x);
                 packet.origin_y[i] = static_cast<float>(origin.y);
@@ -68,8 +68,8 @@ PreparedRays prepare_rays(const PackedPoints& points, const std::vector<ChainNod
                 packet.direction_y[i] = static_cast<float>(segment.y);
                 packet.direction_z[i] = static_cast<float>(segment.z);
                 packet.end[i] = 1;
-                const Vec3 exact = point.position - node.position;
-                lanes[i] = dot(node.normal, exact) > 0 && dot(point.normal, exact) < 0 ? -1 : 0;
+                const Vec3 exact = point.position() - node.position;
+                lanes[i] = dot(node.normal, exact) > 0 && dot(point.normal(), exact) < 0 ? -1 : 0;
                 any = any || lanes[i] != 0;
             }
             if (!any) continue;
@@ -88,9 +88,13 @@ void compare(const Scene& scene) {
         walk_light_chain(scene, caster, lights, 100, SampleStream(RandomKey{1}, chain), nodes);
     }
     nodes.resize(std::min<std::size_t>(nodes.size(), 256));
-    const PackedPoints points = packed(make_grid(32), caster);
+    std::vector<Receiver> points;
+    for (const Measurand& measurand : make_grid(32)) {
+        points.emplace_back(static_cast<std::uint32_t>(points.size()), place_of(measurand), caster);
+    }
+    points = sorted_receivers(std::move(points));
     const std::vector<double> k(points.size(), 1.0);
-    const std::vector<PointTile> tiles = tiles_of(points, k, caster);
+    const std::vector<PointTile> tiles = tiles_of(points, k, caster, kUnlimited);
     const Fan fan(caster, tiles);
     PreparedRays rays = prepare_rays(points, nodes, caster.center());
 

@@ -57,7 +57,23 @@ struct MaterialReport {
     Json operator()(const Mirror& m) const {
         return {{"type", "mirror"}, {"reflectance", m.reflectance.luminance()}, {"rgb", m.reflectance.band}};
     }
+    Json operator()(const Glass& m) const {
+        return {{"type", "glass"}, {"reflectance", normal_reflectance(m)}, {"ior", m.ior}};
+    }
+    Json operator()(const Pane& m) const {
+        const PaneShares shares = pane_shares(m, 1);
+        return {{"type", "pane"},
+                {"reflectance", shares.reflectance.luminance()},
+                {"transmittance", shares.transmittance.luminance()},
+                {"ior", m.ior},
+                {"internal_transmittance", m.internal_transmittance.luminance()}};
+    }
     Json operator()(const Black&) const { return {{"type", "black"}, {"reflectance", 0.0}}; }
+
+  private:
+    static double normal_reflectance(const Glass& glass) {
+        return specular_branches(glass, LightSide::outside, {0, 0, 1}).list().front().share.luminance();
+    }
 };
 
 struct ShapeReport {

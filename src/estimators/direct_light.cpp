@@ -1,40 +1,62 @@
 #include "estimators/direct_light.h"
 
+#include "estimators/balance.h"
+
 namespace stilb {
 namespace {
 
-/// Direction and distance are those of the point itself; only the shadow ray starts lifted.
-Spectrum received_lx(const std::optional<IncidentLight>& light, const PackedPoint& point,
-                     const RayCaster& caster) {
-    if (!light) return {};
-    const double cosine = dot(light->direction, point.normal);
-    if (cosine <= 0 || caster.occluded(point.lifted, light->source_point)) return {};
-    return cosine * light->normal_illuminance_lx;
+/// Without the response. Direction and distance are those of the point itself; only the shadow ray starts
+/// lifted.
+Spectrum illuminance_lx(const IncidentLight& light, const Receiver& receiver, const RayCaster& caster) {
+    const double cosine = dot(light.direction, receiver.normal());
+    if (cosine <= 0 || caster.occluded(receiver.lifted(), light.source_point)) return {};
+    return cosine * light.normal_illuminance_lx;
+}
+
+/// The emitters' light along a ray in proportion to the response; beside samples of each light.
+Spectrum sample_by_response(const Receiver& receiver, const RayCaster& caster, const LightSampler& lights,
+                            SampleStream& stream) {
+    const auto [u1, u2] = stream.next_two();
+    const auto sample = receiver.sample(u1, u2);
+    if (!sample) return {};
+    const auto hit = caster.closest(receiver.lifted(), sample->direction);
+    if (!hit) return {};
+    const Spectrum emission = lights.emitted_luminance(*hit);
+    if (!(emission.max() > 0)) return {};
+    const double light_pdf = lights.pdf_of_its_light_per_sr(*hit, receiver.position());
+    return sample->weight * emission * balance(sample->pdf_per_sr, light_pdf);
 }
 
 }  // namespace
 
-std::vector<Spectrum> direct_from_points_lx(std::span<const PackedPoint> points, const RayCaster& caster,
-                                            const LightSampler& lights) {
-    std::vector<Spectrum> sums(points.size());
-    for (const PackedPoint& point : points) {
-        for (std::size_t light = 0; light < lights.count(); ++light) {
-            if (!lights.is_point_like(light)) continue;
-            sums[point.reading] +=
-                received_lx(lights.sample_incident(light, point.position, {}), point, caster);
+Spectrum direct_from_points(const Receiver& receiver, const RayCaster& caster, const LightSampler& lights) {
+    Spectrum sum;
+    for (std::size_t i = 0; i < lights.count(); ++i) {
+        if (!lights.is_point_like(i)) continue;
+        if (const auto light = lights.sample_incident(i, receiver.position(), {})) {
+            const Spectrum received = illuminance_lx(*light, receiver, caster);
+            if (received.max() > 0) sum += received * receiver.response(light->direction);
         }
     }
-    return sums;
+    return sum;
 }
 
-Spectrum sample_direct_from_areas_lx(const PackedPoint& point, const RayCaster& caster,
-                                     const LightSampler& lights, SampleStream& stream) {
+Spectrum sample_direct_from_areas(const Receiver& receiver, const RayCaster& caster,
+                                  const LightSampler& lights, SampleStream& stream) {
+    const bool directional = !receiver.constant_response();
     Spectrum sum;
-    for (std::size_t light = 0; light < lights.count(); ++light) {
-        if (lights.is_point_like(light)) continue;
+    for (std::size_t i = 0; i < lights.count(); ++i) {
+        if (lights.is_point_like(i)) continue;
         const auto u = stream.next_two();
-        sum += received_lx(lights.sample_incident(light, point.position, u), point, caster);
+        const auto light = lights.sample_incident(i, receiver.position(), u);
+        if (!light) continue;
+        const Spectrum received = illuminance_lx(*light, receiver, caster);
+        if (!(received.max() > 0)) continue;
+        const double weight =
+            directional ? balance(light->pdf_per_sr, receiver.pdf_per_sr(light->direction)) : 1;
+        sum += received * receiver.response(light->direction) * weight;
     }
+    if (directional && lights.has_area_lights()) sum += sample_by_response(receiver, caster, lights, stream);
     return sum;
 }
 

@@ -1,20 +1,21 @@
-// Light that reaches measuring points straight from the sources, integrated on its own [LocalEstimation 3].
+// Light that reaches receivers straight from the sources, integrated on its own [LocalEstimation 3].
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "estimators/light_sampler.h"
-#include "estimators/packed_points.h"
+#include "estimators/receiver.h"
 
 namespace stilb {
 
-/// Illuminance [lx] of every reading from all point and photometry lights: exact, one shadow ray each.
-std::vector<Spectrum> direct_from_points_lx(std::span<const PackedPoint> points, const RayCaster& caster,
-                                            const LightSampler& lights);
+/// What a receiver gets from all point and photometry lights: exact, one shadow ray each.
+Spectrum direct_from_points(const Receiver& receiver, const RayCaster& caster, const LightSampler& lights);
 
-/// One sample of the illuminance [lx] from all area lights, each by its solid angle.
-Spectrum sample_direct_from_areas_lx(const PackedPoint& point, const RayCaster& caster,
-                                     const LightSampler& lights, SampleStream& stream);
+/// One sample of what a receiver gets from all area lights: each by its solid angle and, where the response
+/// depends on direction, all by a ray in proportion to the response as well, weighted by the balance
+/// heuristic.
+Spectrum sample_direct_from_areas(const Receiver& receiver, const RayCaster& caster,
+                                  const LightSampler& lights, SampleStream& stream);
 
 }  // namespace stilb

@@ -23,21 +23,21 @@ struct Batch {
 
 /// What batches of one replicate add up to. The value of a reading is known part + sum / samples.
 struct ReadingSums {
-    std::vector<Spectrum> sum;       ///< one for each reading [lx x samples]
-    std::vector<double> largest_lx;  ///< largest single contribution to each reading, before division
+    std::vector<Spectrum> sum;    ///< one for each reading [lx or cd/m2, x samples]
+    std::vector<double> largest;  ///< largest single contribution to each reading, before division
     std::uint64_t rays = 0;
     std::uint64_t invalid = 0;  ///< contributions that were not finite, left out
 
-    explicit ReadingSums(std::size_t readings) : sum(readings), largest_lx(readings) {}
+    explicit ReadingSums(std::size_t readings) : sum(readings), largest(readings) {}
 
     /// Adds a contribution to a reading.
-    void add(std::size_t reading, const Spectrum& contribution_lx) {
-        if (!contribution_lx.is_finite()) {
+    void add(std::size_t reading, const Spectrum& contribution) {
+        if (!contribution.is_finite()) {
             ++invalid;
             return;
         }
-        sum[reading] += contribution_lx;
-        largest_lx[reading] = std::max(largest_lx[reading], contribution_lx.luminance());
+        sum[reading] += contribution;
+        largest[reading] = std::max(largest[reading], contribution.luminance());
     }
 };
 
@@ -47,8 +47,8 @@ class Estimator {
 
     /// Adds a batch. Batches may run in parallel on different sums.
     virtual void run_batch(const Batch& batch, ReadingSums& sums) const = 0;
-    /// The part of each reading that is known without sampling [lx].
-    virtual std::span<const Spectrum> known_part_lx() const = 0;
+    /// The part of each reading that is known without sampling [lx or cd/m2].
+    virtual std::span<const Spectrum> known_part() const = 0;
     /// The number of samples of a batch is a multiple of this.
     virtual std::uint64_t batch_granularity() const = 0;
     /// Rays that one sample costs, roughly, over all readings: batches are made long or short by it.

@@ -21,7 +21,8 @@ struct FanNode {
     float split;  ///< 0: w = 1
     std::array<float, kBands>
         coefficient;               ///< flux times BRDF; flux alone where the BRDF depends on direction
-    const ChainNode* directional;  ///< null where the BRDF is constant
+    const ChainNode* node;
+    bool directional;  ///< the BRDF depends on direction
 };
 
 struct alignas(64) TileSums {
@@ -47,32 +48,40 @@ STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTil
     }
 }
 
-/// As add_visible() for a BRDF that depends on the direction to the point: evaluated lane by lane, w
-/// included.
+/// As add_visible() where the BRDF of the node or the response of a receiver depends on direction: lane by
+/// lane, w and response included.
 void add_visible_directional(const FanNode& node, const PointTile& tile, const RayPacket& packet,
                              const LaneMask& lanes, const Floats& g_per_m2, TileSums& sums) {
-    const Frame frame = Frame::of_surface(node.directional->normal);
-    const Vec3 in = frame.to_local(node.directional->incoming);
-    for (int i = 0; i < kPacketWidth; ++i) {
+    const ChainNode& chain_node = *node.node;
+    const Frame frame = Frame::of_surface(chain_node.normal);
+    const Vec3 in = frame.to_local(chain_node.incoming);
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         if (lanes[i] == 0 || packet.end[i] < 0) continue;
-        const Vec3 to_point{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
+        const Vec3 to_point =
+            normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
         const Spectrum brdf =
-            evaluate_brdf_per_sr(*node.directional->material, in, frame.to_local(normalized(to_point)));
+            evaluate_brdf_per_sr(*chain_node.material, in, frame.to_local(to_point));
+        const Receiver& receiver = tile.receivers[i];
+        const double relative =
+            relative_brdf(*chain_node.material, brdf) * receiver.relative_response(-to_point);
         const double g = g_per_m2[i];
-        const double gathered = relative_brdf(*node.directional->material, brdf) * g * tile.inverse_k[i];
-        const double chain_share = node.directional->only_by_light ? 1 : 1 / (1 + gathered);
-        const Spectrum added = node.directional->flux_lm * brdf * (g * chain_share);
+        const double chain_share =
+            chain_node.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
+        const Spectrum added = chain_node.flux_lm * brdf * receiver.response(-to_point) * (g * chain_share);
         for (std::size_t b = 0; b < kBands; ++b) sums.band[b][i] += static_cast<float>(added[b]);
         sums.largest[i] = std::max(sums.largest[i], static_cast<float>(added.luminance()));
     }
 }
 
+/// Constant responses are multiplied here: add_visible() leaves them out.
 void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
-    for (std::size_t i = 0; i < kPacketWidth; ++i) {
-        if (tile.normal_x[i] == 0 && tile.normal_y[i] == 0 && tile.normal_z[i] == 0) continue;
-        const std::uint32_t reading = tile.reading[i];
-        for (std::size_t b = 0; b < kBands; ++b) readings.sum[reading][b] += double{sums.band[b][i]};
-        readings.largest_lx[reading] = std::max(readings.largest_lx[reading], double{sums.largest[i]});
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        const Receiver& receiver = tile.receivers[i];
+        const Spectrum response = tile.directional ? Spectrum::grey(1) : *receiver.constant_response();
+        const Spectrum received{{sums.band[0][i], sums.band[1][i], sums.band[2][i]}};
+        readings.sum[receiver.reading()] += response * received;
+        double& largest = readings.largest[receiver.reading()];
+        largest = std::max(largest, response.luminance() * double{sums.largest[i]});
     }
     sums = {};
 }
@@ -84,7 +93,8 @@ FanNode fan_node(const ChainNode& node, const Vec3& center) {
     FanNode result{SegmentOrigin(node.position, node.lifted, node.normal, center),
                    node.only_by_light || !diffuse ? 0.0f : 1.0f,
                    {},
-                   diffuse ? nullptr : &node};
+                   &node,
+                   diffuse == nullptr};
     for (std::size_t b = 0; b < kBands; ++b) result.coefficient[b] = static_cast<float>(coefficient[b]);
     return result;
 }
@@ -102,13 +112,13 @@ void Fan::collect(std::span<const ChainNode> nodes, ReadingSums& sums) const {
         TileSums tile_sums;
         for (std::size_t n = 0; n < fan_nodes.size(); ++n) {
             const FanNode& node = fan_nodes[n];
-            if (connect(node.origin, tile, packet, lanes, g_per_m2)) {
+            if (connect(node.origin, node.node->reflections, tile, packet, lanes, g_per_m2)) {
                 sums.rays += static_cast<std::uint64_t>(-std::accumulate(lanes.begin(), lanes.end(), 0));
                 caster_.occlude(packet, lanes);
-                if (node.directional == nullptr) {
-                    add_visible(node, tile, packet, lanes, g_per_m2, tile_sums);
-                } else {
+                if (node.directional || tile.directional) {
                     add_visible_directional(node, tile, packet, lanes, g_per_m2, tile_sums);
+                } else {
+                    add_visible(node, tile, packet, lanes, g_per_m2, tile_sums);
                 }
             }
             if (n % kBlock == kBlock - 1) flush(tile, tile_sums, sums);

@@ -1,7 +1,7 @@
-// The fan: light from the nodes of chains to all measuring points, in packets of rays with a common origin.
+// The fan: light from the nodes of chains to all receivers, in packets of rays with a common origin.
 //
-// From node y point x receives W f_r(y; in, y->x) w G, with G = cos+ cos+ V / d^2 and w of the kernel split
-// (theory T.1 and T.1b). Geometry is in single precision; sums over more than a short block of nodes are in
+// From node y receiver x gets W f_r(y; in, y->x) w G response(x->y), with G = cos+ cos+ V / d^2 and w of the
+// kernel split (theory T.1, T.1b and, with a BRDF at both ends, T.2). Geometry is in single precision; sums over more than a short block of nodes are in
 // double.
 #pragma once
 
@@ -16,11 +16,11 @@ namespace stilb {
 /// Keeps what its arguments refer to. Immutable.
 class Fan {
   public:
-    /// An infinite k of a tile's point makes w = 1 there (plain local estimation). Nodes that path tracing
+    /// An infinite k of a tile's receiver makes w = 1 there (plain local estimation). Nodes that path tracing
     /// cannot make (ChainNode::only_by_light) have w = 1 whatever k is.
     Fan(const RayCaster& caster, std::span<const PointTile> tiles) : caster_(caster), tiles_(tiles) {}
 
-    /// Adds what the nodes send to each point, and keeps the largest single contributions. Counts rays.
+    /// Adds what the nodes send to each receiver, and keeps the largest single contributions. Counts rays.
     void collect(std::span<const ChainNode> nodes, ReadingSums& sums) const;
 
   private:

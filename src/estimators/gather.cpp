@@ -13,46 +13,53 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A place y that a ray has met, and the points of the ray's packet that may see it. Keeps references.
+/// A place y that a ray has met, and the receivers of the ray's packet that may see it. Keeps references.
 class SharedPlace {
   public:
-    SharedPlace(const Hit& hit, const Material& material, const PointTile& tile, const Vec3& center)
+    /// Light for receivers that are farther from their sensors may have met fewer surfaces: only those like
+    /// `own` share.
+    SharedPlace(const Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
+                const Vec3& center)
         : material_(material), tile_(tile), frame_(Frame::of_surface(hit.normal)) {
-        connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, center), tile, segments_, lanes_,
+        // At y at least one reflection takes place.
+        connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, center), 1, tile, segments_, lanes_,
                 g_per_m2_);
+        for_each_lane([&](std::size_t i) {
+            if (tile.reflections_left[i] == tile.reflections_left[own]) {
+                join(i, hit);
+            } else {
+                lanes_[i] = 0;
+            }
+        });
     }
 
-    bool reaches(std::size_t point) const { return lanes_[point] != 0; }
+    bool reaches(std::size_t lane) const { return lanes_[lane] != 0; }
 
-    /// 1 - w as it is on average over the ways of the light, at the point where it is largest.
+    /// 1 - w as it is on average over the ways of the light, at the receiver where it is largest.
     double gathered_share() const {
         const double concentration = mean_concentration(material_);
         double largest = 0;
-        for_each_point([&](std::size_t i) { largest = std::max(largest, share_at(i)(concentration)); });
+        for_each_lane([&](std::size_t i) { largest = std::max(largest, share_at(i)(concentration)); });
         return largest;
     }
 
-    /// Leaves the points that see y. `own` does: its ray has shown it.
+    /// Leaves the receivers that see y. `own` does: its ray has shown it.
     void test_visibility(const RayCaster& caster, std::size_t own) {
         lanes_[own] = 0;
         caster.occlude(segments_, lanes_);
         lanes_[own] = -1;
-        for_each_point([&](std::size_t i) {
-            if (segments_.end[i] < 0) {
-                lanes_[i] = 0;
-                return;
-            }
-            const Vec3 segment{segments_.direction_x[i], segments_.direction_y[i], segments_.direction_z[i]};
-            out_[i] = frame_.to_local(normalized(segment));
+        for_each_lane([&](std::size_t i) {
+            if (segments_.end[i] < 0) lanes_[i] = 0;
         });
     }
 
-    Vec3 direction_to(std::size_t point) const { return frame_.to_world(out_[point]); }
+    /// Unit, from y to a receiver.
+    Vec3 direction_to(std::size_t lane) const { return frame_.to_world(out_[lane]); }
 
     /// How densely the packet's rays meet y [1/m2].
     double ray_density() const {
         double sum = 0;
-        for_each_point([&](std::size_t i) { sum += double{g_per_m2_[i]} / kPi; });
+        for_each_lane([&](std::size_t i) { sum += ray_density_per_m2_[i]; });
         return sum;
     }
 
@@ -60,31 +67,47 @@ class SharedPlace {
     double beam_density(const Vec3& direction) const {
         const Vec3 in = frame_.to_local(direction);
         double sum = 0;
-        for_each_point(
-            [&](std::size_t i) { sum += double{g_per_m2_[i]} / kPi * pdf_per_sr(material_, out_[i], in); });
+        for_each_lane(
+            [&](std::size_t i) { sum += ray_density_per_m2_[i] * pdf_per_sr(material_, out_[i], in); });
         return sum;
     }
 
-    /// Adds what the points receive of light that comes to y from `direction`, given its illuminance on a
-    /// surface across it, over the density of y.
+    /// Adds what the readings receive of light that comes to y from `direction`, given its illuminance on a surface across it, over the density of y.
     void reflect(const Vec3& direction, const Spectrum& normal_illuminance, ReadingSums& sums) const {
         const Vec3 in = frame_.to_local(direction);
-        for_each_point([&](std::size_t i) {
+        for_each_lane([&](std::size_t i) {
             const Spectrum brdf = evaluate_brdf_per_sr(material_, in, out_[i]);
             const double gathered = share_at(i)(relative_brdf(material_, brdf));
-            sums.add(tile_.reading[i], normal_illuminance * brdf * (in.z * double{g_per_m2_[i]} * gathered));
+            sums.add(tile_.receivers[i].reading(),
+                     normal_illuminance * brdf * response_[i] * (in.z * double{g_per_m2_[i]} * gathered));
         });
     }
 
   private:
     template <typename Action>
-    void for_each_point(const Action& action) const {
+    void for_each_lane(const Action& action) const {
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
             if (lanes_[i] != 0) action(i);
         }
     }
-    GatheredShare share_at(std::size_t point) const {
-        return {double{g_per_m2_[point]} * double{tile_.inverse_k[point]}};
+    GatheredShare share_at(std::size_t lane) const {
+        return {double{g_per_m2_[lane]} * double{tile_.inverse_k[lane]} * relative_response_[lane]};
+    }
+
+    void join(std::size_t i, const Hit& hit) {
+        const Vec3 segment =
+            normalized(Vec3{segments_.direction_x[i], segments_.direction_y[i], segments_.direction_z[i]});
+        out_[i] = frame_.to_local(segment);
+        const Receiver& receiver = tile_.receivers[i];
+        response_[i] = receiver.response(-segment);
+        if (receiver.constant_response()) {
+            relative_response_[i] = 1;
+            ray_density_per_m2_[i] = double{g_per_m2_[i]} / kPi;
+            return;
+        }
+        relative_response_[i] = receiver.relative_response(-segment);
+        const double squared_distance = squared_length(receiver.position() - hit.position);
+        ray_density_per_m2_[i] = receiver.pdf_per_sr(-segment) * out_[i].z / squared_distance;
     }
 
     const Material& material_;
@@ -93,7 +116,9 @@ class SharedPlace {
     RayPacket segments_;
     LaneMask lanes_;
     alignas(64) PointTile::Floats g_per_m2_;
-    std::array<Vec3, kPacketWidth> out_;  ///< to the points, in the frame of y
+    std::array<Vec3, kPacketWidth> out_;           ///< to the receivers, in the frame of y
+    std::array<Spectrum, kPacketWidth> response_;  ///< of the receivers to light from y
+    std::array<double, kPacketWidth> relative_response_, ray_density_per_m2_;
 };
 
 }  // namespace
@@ -103,36 +128,35 @@ void Gather::collect(const Batch& batch, ReadingSums& sums) const {
         const RandomKey key = batch.key.derived(tile);
         const std::uint64_t chains = plans_[tile * kPacketWidth].chains_per_ray;
         for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
-            trace_round(tile, key, i, static_cast<double>(chains), sums);
+            trace_round(tiles_[tile], key, i, static_cast<double>(chains), sums);
         }
     }
 }
 
-void Gather::trace_round(std::size_t tile, RandomKey key, std::uint64_t round, double weight,
+void Gather::trace_round(const PointTile& tile, RandomKey key, std::uint64_t round, double weight,
                          ReadingSums& sums) const {
-    const std::span<const PackedPoint> points =
-        points_.subspan(tile * kPacketWidth).first(static_cast<std::size_t>(tiles_[tile].count));
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         SampleStream stream(key.derived(i), round);
+        const Receiver& receiver = tile.receivers[i];
         const auto [u1, u2] = stream.next_two();
-        const Vec3 direction =
-            Frame::around(points[i].normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
-        const auto hit = caster_.closest(points[i].lifted, direction);
+        const auto sample = receiver.sample(u1, u2);
+        if (!sample) continue;
+        const auto hit = caster_.closest(receiver.lifted(), sample->direction);
         if (!hit) continue;
         if (is_specular(tracer_.material(*hit))) {
-            const Spectrum luminance =
-                tracer_.luminance_without_direct(*hit, direction, max_reflections_, stream);
-            sums.add(points[i].reading, weight * kPi * luminance);
+            const Spectrum luminance = tracer_.luminance_without_direct(
+                *hit, sample->direction, tile.reflections_left[i], stream);
+            sums.add(receiver.reading(), weight * sample->weight * luminance);
         } else {
-            share_out(*hit, tiles_[tile], i, stream, weight, sums);
+            share_out(*hit, tile, i, stream, weight, sums);
         }
     }
 }
 
 void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, SampleStream& stream,
                        double weight, ReadingSums& sums) const {
-    SharedPlace place(hit, tracer_.material(hit), tile, caster_.center());
-    if (max_reflections_ == 0 || !place.reaches(own)) return;
+    SharedPlace place(hit, tracer_.material(hit), tile, own, caster_.center());
+    if (!place.reaches(own)) return;
     const double survival = place.gathered_share();
     if (stream.next() >= survival) return;
     weight /= survival;
@@ -146,7 +170,8 @@ void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, S
                                  : light_density / (light_density + place.beam_density(light->direction));
         place.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
     }
-    if (const auto beam = tracer_.sample_beam(hit, place.direction_to(own), max_reflections_ - 1, stream)) {
+    const int reflections_left = tile.reflections_left[own] - 1;
+    if (const auto beam = tracer_.sample_beam(hit, place.direction_to(own), reflections_left, stream)) {
         const double density = place.beam_density(beam->direction);
         if (!(density > 0)) return;
         const double emission_density = density + beam->light_pdf_per_sr * ray_density;

@@ -1,8 +1,9 @@
 // The kernel split (theory T.1b): which part of the light from y to x comes by chains, which by rays from x.
 //
-// With G = cos+ cos+ / d^2 and s = pi f_r / albedo (1 on diffuse surfaces, large in glossy lobes), chains
-// have the share w = k / (k + s G): the kernel f_r G w that they are weighted with stays below k albedo / pi,
-// whatever the BRDF.
+// With G = cos+ cos+ / d^2 and s = pi f_r / albedo (1 on diffuse surfaces, large in glossy lobes) at y, and
+// likewise at the sub-point x where a luminance is measured (1 for illuminance), chains have the share
+// w = k / (k + s_y s_x G): the kernel f_y f_x G w that they are weighted with stays below k albedo_y
+// albedo_x / pi^2, whatever the BRDFs.
 #pragma once
 
 #include <cmath>

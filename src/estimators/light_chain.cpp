@@ -1,6 +1,7 @@
 #include "estimators/light_chain.h"
 
 #include "estimators/russian_roulette.h"
+#include "estimators/specular_way.h"
 
 namespace stilb {
 
@@ -16,15 +17,21 @@ void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSa
         const auto hit = caster.closest(origin, direction);
         if (!hit) return;
         const Material& material = scene.material(hit->material);
+        if (is_specular(material)) {
+            if (reflection == 0) only_by_light = particle.from_point;
+            const auto way = choose_specular_way(material, *hit, -direction, stream.next());
+            const double survival = way ? survival_probability(flux, way->share) : 0;
+            if (stream.next() >= survival) return;
+            flux *= way->share * (1 / survival);
+            origin = way->origin;
+            direction = way->direction;
+            continue;
+        }
         const double survival = survival_probability(flux, reflectance_bound(material));
         if (stream.next() >= survival) return;
         flux *= 1 / survival;
-        const bool specular = is_specular(material);
-        if (reflection == 0) only_by_light = particle.from_point && specular;
-        if (!specular) {
-            nodes.push_back(
-                {hit->position, hit->lifted, hit->normal, -direction, &material, flux, only_by_light});
-        }
+        nodes.push_back({hit->position, hit->lifted, hit->normal, -direction, &material, flux, reflection + 1,
+                         only_by_light});
         const Frame frame = Frame::of_surface(hit->normal);
         const auto [u1, u2] = stream.next_two();
         const auto scattered = sample_brdf(material, frame.to_local(-direction), u1, u2);

@@ -17,14 +17,15 @@ struct ChainNode {
     /// W_n of theory (T.1), divided by the probability that the particle was not absorbed here: what a
     /// connection from this node multiplies with f_r.
     Spectrum flux_lm;
-    /// The particle left a point-like source and met a mirror first: path tracing cannot make this light, at
+    int reflections = 0;  ///< that the particle has met so far, this one included
+    /// The particle left a point-like source and met a mirror or glass first: path tracing cannot make this light, at
     /// whatever node it comes along.
     bool only_by_light = false;
 };
 
 /// One chain. Absorption (Russian roulette with the surface's reflectance) comes before a node is recorded,
 /// so that all nodes of all chains carry about the same flux: an equal share of the estimate for each ray of
-/// the fan. Nodes on mirrors are not recorded. Unbiased; at most `max_nodes` reflections.
+/// the fan. Nodes on mirrors and glass are not recorded. Unbiased; at most `max_nodes` reflections.
 void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSampler& lights, int max_nodes,
                       SampleStream stream, std::vector<ChainNode>& nodes);
 

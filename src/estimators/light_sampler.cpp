@@ -240,11 +240,17 @@ double LightSampler::element_pdf_per_sr(const Emitter& emitter, std::size_t elem
         emitter.elements[element]);
 }
 
-double LightSampler::pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const {
+double LightSampler::pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) const {
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
     if (light == kNoLight) return 0;
     const Emitter& emitter = emitters_[light];
-    const double pdf = element_pdf_per_sr(emitter, emitter.elements.size() == 1 ? 0 : hit.triangle, from);
+    return element_pdf_per_sr(emitter, emitter.elements.size() == 1 ? 0 : hit.triangle, from);
+}
+
+double LightSampler::pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const {
+    const std::uint32_t light = light_of_object_[index_of(hit.object)];
+    if (light == kNoLight) return 0;
+    const double pdf = pdf_of_its_light_per_sr(hit, from);
     if (count() == 1) return pdf;
     double total = 0;
     for (std::size_t i = 0; i < count(); ++i) total += rough_illuminance(i, from, normal);

@@ -58,6 +58,8 @@ class LightSampler {
     /// About the density with which sample_one_light() draws the direction to `hit`, on an emitter: exact up
     /// to its variation over one of the emitter's shapes. 0 where it never does.
     double pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const;
+    /// The same of sample_incident() for the light that `hit` is on.
+    double pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) const;
 
     /// Luminance that leaves `hit` towards where the ray came from, of an emitter; zero elsewhere.
     Spectrum emitted_luminance(const Hit& hit) const;

@@ -9,10 +9,10 @@
 
 namespace stilb {
 
-bool has_mirrors(const Scene& scene);
+bool has_specular_surfaces(const Scene& scene);
 
-/// A warning that begins with `what` where the scene has mirrors and point or photometry lights; empty
+/// A warning that begins with `what` where the scene has mirrors or glass, and point or photometry lights; empty
 /// elsewhere.
-std::vector<std::string> mirror_warnings(const Scene& scene, std::string_view what);
+std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what);
 
 }  // namespace stilb

@@ -3,17 +3,14 @@
 //   E(x) = E_direct + integral over the hemisphere of L_r(y, y->x) cos(theta_x) dw        (theory 2, T.1b
 //   with k = 0)
 //
-// by one cosine-distributed ray and the path that it begins, for each sample and point by itself. Finite
-// variance for bounded BRDFs. Not made: light that leaves a point-like source and meets a mirror before
-// anything else.
+// by one cosine-distributed ray and the path that it begins, for each sample and point by itself; luminance by
+// paths that begin along the line of sight. Finite variance for bounded BRDFs. Not made: light that leaves a
+// point-like source and meets a mirror or glass before anything else.
 #include "estimators/path.h"
 
-#include <numbers>
-
-#include "base/sampling.h"
 #include "estimators/direct_light.h"
 #include "estimators/limits.h"
-#include "estimators/packed_points.h"
+#include "estimators/receiver.h"
 #include "estimators/path_tracer.h"
 
 namespace stilb {
@@ -24,50 +21,83 @@ class PathEstimator final : public Estimator {
     explicit PathEstimator(const EstimatorInput& input)
         : scene_(input.scene),
           caster_(input.caster),
-          points_(packed(input.measurands, caster_)),
           max_reflections_(input.max_reflections),
           lights_(scene_, caster_),
           tracer_(scene_, caster_, lights_),
-          known_part_lx_(direct_from_points_lx(points_, caster_, lights_)) {}
+          known_part_(input.measurands.size()) {
+        for (std::uint32_t reading = 0; reading < input.measurands.size(); ++reading) {
+            add_reading(reading, input.measurands[reading]);
+        }
+    }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
-        for (const PackedPoint& point : points_) {
-            const RandomKey key = batch.key.derived(point.reading);
-            for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
+        const std::uint64_t end = batch.first + batch.count;
+        for (const Receiver& point : points_) {
+            const RandomKey key = batch.key.derived(point.reading());
+            for (std::uint64_t i = batch.first; i < end; ++i) {
                 SampleStream stream(key, i);
-                const Spectrum direct = sample_direct_from_areas_lx(point, caster_, lights_, stream);
-                sums.add(point.reading, direct + sample_reflected_lx(point, stream));
+                sums.add(point.reading(), sample_illuminance_lx(point, stream));
+            }
+        }
+        for (const auto& [reading, hit, direction] : sights_) {
+            const RandomKey key = batch.key.derived(reading);
+            for (std::uint64_t i = batch.first; i < end; ++i) {
+                SampleStream stream(key, i);
+                sums.add(reading,
+                         tracer_.luminance_without_direct(hit, direction, max_reflections_, stream));
             }
         }
     }
 
-    std::span<const Spectrum> known_part_lx() const override { return known_part_lx_; }
+    std::span<const Spectrum> known_part() const override { return known_part_; }
     /// Enough for a first look at the error not to miss what few paths find.
     std::uint64_t batch_granularity() const override { return 64; }
-    double rays_per_sample() const override { return 10.0 * static_cast<double>(points_.size()); }
+    double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
     std::vector<std::string> warnings() const override {
-        return mirror_warnings(scene_,
-                               "path tracing cannot make light that leaves a point or photometry light and "
-                               "meets a mirror before anything else");
+        return specular_warnings(scene_,
+                                 "path tracing cannot make light that leaves a point or photometry light and "
+                                 "meets a mirror or glass before anything else");
     }
 
   private:
-    Spectrum sample_reflected_lx(const PackedPoint& point, SampleStream& stream) const {
+    /// The surface that a line of sight meets first, and the direction that it is seen along.
+    struct Sighting {
+        std::uint32_t reading = 0;
+        Hit hit;
+        Vec3 direction;
+    };
+
+    /// What is known of a reading without sampling: direct light of point-like sources at a point, emission
+    /// along a line of sight.
+    void add_reading(std::uint32_t reading, const Measurand& measurand) {
+        if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
+            points_.emplace_back(reading, *point, caster_);
+            known_part_[reading] = direct_from_points(points_.back(), caster_, lights_);
+        } else if (const auto hit = first_surface(measurand, caster_)) {
+            sights_.push_back({reading, *hit, looking_direction(measurand)});
+            known_part_[reading] = lights_.emitted_luminance(*hit);
+        }
+    }
+
+    Spectrum sample_illuminance_lx(const Receiver& point, SampleStream& stream) const {
+        const Spectrum direct = sample_direct_from_areas(point, caster_, lights_, stream);
         const auto [u1, u2] = stream.next_two();
-        const Vec3 direction =
-            Frame::around(point.normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
-        const auto hit = caster_.closest(point.lifted, direction);
-        if (!hit) return {};
-        return std::numbers::pi * tracer_.luminance_without_direct(*hit, direction, max_reflections_, stream);
+        const auto sample = point.sample(u1, u2);
+        if (!sample) return direct;
+        const auto hit = caster_.closest(point.lifted(), sample->direction);
+        if (!hit) return direct;
+        return direct + sample->weight * tracer_.luminance_without_direct(*hit, sample->direction,
+                                                                          max_reflections_, stream);
     }
 
     const Scene& scene_;
     const RayCaster& caster_;
-    PackedPoints points_;
     int max_reflections_;
     LightSampler lights_;
     PathTracer tracer_;
-    std::vector<Spectrum> known_part_lx_;
+    std::vector<Receiver> points_;
+    std::vector<Sighting> sights_;
+    std::vector<Spectrum> known_part_;
 };
 
 }  // namespace

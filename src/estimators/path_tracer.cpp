@@ -2,41 +2,30 @@
 
 #include <cmath>
 
+#include "estimators/balance.h"
 #include "estimators/russian_roulette.h"
+#include "estimators/specular_way.h"
 
 namespace stilb {
-namespace {
 
-/// The balance heuristic's weight of a sample that was drawn with the first density.
-double balance(double pdf, double other_pdf) { return std::isinf(pdf) ? 1 : pdf / (pdf + other_pdf); }
-
-}  // namespace
-
-PathTracer::View PathTracer::look_through_mirrors(const Hit& hit, const Vec3& direction, int max_reflections,
+PathTracer::View PathTracer::look_through(const Hit& hit, const Vec3& direction, int max_reflections,
                                                   SampleStream& stream) const {
     View view;
     view.surface = hit;
     view.outgoing = -direction;
-    while (is_specular(scene_.material(view.surface->material))) {
-        const Material& mirror = scene_.material(view.surface->material);
-        const double survival = survival_probability(view.transmission, reflectance_bound(mirror));
+    while (is_specular(material(*view.surface))) {
+        const auto way =
+            choose_specular_way(material(*view.surface), *view.surface, view.outgoing, stream.next());
+        const double survival = way ? survival_probability(view.transmission, way->share) : 0;
         if (view.reflections == max_reflections || stream.next() >= survival) {
             view.surface.reset();
             return view;
         }
-        const Frame frame = Frame::of_surface(view.surface->normal);
-        const auto [u1, u2] = stream.next_two();
-        const auto scattered = sample_brdf(mirror, frame.to_local(view.outgoing), u1, u2);
-        if (!scattered) {
-            view.surface.reset();
-            return view;
-        }
         ++view.reflections;
-        view.transmission *= scattered->weight * (1 / survival);
-        const Vec3 onwards = frame.to_world(scattered->direction);
-        view.surface = caster_.closest(view.surface->lifted, onwards);
+        view.transmission *= way->share * (way->luminance_factor / survival);
+        view.surface = caster_.closest(way->origin, way->direction);
         if (!view.surface) return view;
-        view.outgoing = -onwards;
+        view.outgoing = -way->direction;
         view.emission_cd_m2 += view.transmission * lights_.emitted_luminance(*view.surface);
     }
     return view;
@@ -106,7 +95,7 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
             const double light_pdf = lights_.pdf_per_sr(*next, hit.position, hit.normal);
             luminance += throughput * emission * balance(scattered->pdf_per_sr, light_pdf);
         }
-        const View view = look_through_mirrors(*next, direction, reflections_left, stream);
+        const View view = look_through(*next, direction, reflections_left, stream);
         luminance += throughput * view.emission_cd_m2;
         if (!view.surface) break;
         throughput *= view.transmission;
@@ -119,7 +108,7 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
 
 Spectrum PathTracer::luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
                                               SampleStream& stream) const {
-    const View view = look_through_mirrors(hit, direction, max_reflections, stream);
+    const View view = look_through(hit, direction, max_reflections, stream);
     if (!view.surface) return view.emission_cd_m2;
     return view.emission_cd_m2 + view.transmission * reflected_luminance(*view.surface, view.outgoing,
                                                                          max_reflections - view.reflections,

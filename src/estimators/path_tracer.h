@@ -24,7 +24,7 @@ class PathTracer {
     /// most `max_reflections` surfaces before.
     struct IncomingBeam {
         Vec3 direction;            ///< unit, towards where the light comes from
-        Spectrum luminance_cd_m2;  ///< reflected, and emission that is seen by mirrors
+        Spectrum luminance_cd_m2;  ///< reflected, and emission that is seen by mirrors or glass
         Spectrum emission_cd_m2;   ///< of an emitter that `direction` meets: sample_light() makes it as well
         double light_pdf_per_sr = 0;  ///< with this density
     };
@@ -36,19 +36,26 @@ class PathTracer {
     Spectrum luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
                                       SampleStream& stream) const;
 
+    /// The same with the emission of `hit`: all the light along a ray.
+    Spectrum luminance(const Hit& hit, const Vec3& direction, int max_reflections,
+                       SampleStream& stream) const {
+        return lights_.emitted_luminance(hit) +
+               luminance_without_direct(hit, direction, max_reflections, stream);
+    }
+
     const Material& material(const Hit& hit) const { return scene_.material(hit.material); }
 
   private:
-    /// Follows a ray that met `hit` through mirrors: the surface behind them and what they leave of the
+    /// Follows a ray that met `hit` through mirrors and glass: the surface behind them and what they leave of the
     /// light.
     struct View {
-        std::optional<Hit> surface;  ///< not specular; nothing where the ray left the scene or was absorbed
+        std::optional<Hit> surface;  ///< not specular; nothing where the ray left the scene or ended
         Vec3 outgoing;               ///< unit, from the surface towards where it is seen from
         Spectrum transmission = Spectrum::grey(1);
-        Spectrum emission_cd_m2;  ///< of emitters on the way that are seen by mirrors, transmission included
-        int reflections = 0;      ///< at mirrors
+        Spectrum emission_cd_m2;  ///< of emitters on the way, behind mirrors and glass, transmission included
+        int reflections = 0;      ///< at mirrors and glass
     };
-    View look_through_mirrors(const Hit& hit, const Vec3& direction, int max_reflections,
+    View look_through(const Hit& hit, const Vec3& direction, int max_reflections,
                               SampleStream& stream) const;
 
     /// One unbiased sample of the luminance [cd/m2] that `surface` (not specular) reflects towards

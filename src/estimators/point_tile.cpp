@@ -6,8 +6,8 @@ namespace stilb {
 namespace {
 
 /// Without the promise that nothing overlaps, the loop would stay scalar.
-STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, const PointTile& __restrict tile,
-                                    RayPacket& __restrict segments, LaneMask& __restrict lanes,
+STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std::int32_t reflections,
+                                    const PointTile& __restrict tile, RayPacket& __restrict segments, LaneMask& __restrict lanes,
                                     PointTile::Floats& __restrict g_per_m2) {
     std::int32_t any = 0;
     for (int i = 0; i < kPacketWidth; ++i) {
@@ -22,7 +22,8 @@ STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, cons
         const float cos_origin = origin.normal_x * dx + origin.normal_y * dy + origin.normal_z * dz;
         const float cos_point = -(tile.normal_x[i] * dx + tile.normal_y[i] * dy + tile.normal_z[i] * dz);
         // & rather than &&: without a branch the loop vectorises.
-        const std::int32_t active = -static_cast<std::int32_t>((cos_origin > 0) & (cos_point > 0));
+        const std::int32_t active = -static_cast<std::int32_t>(
+            (cos_origin > 0) & (cos_point > 0) & (reflections <= tile.reflections_left[i]));
         g_per_m2[i] = active ? cos_origin * cos_point / (squared * squared) : 0;
         lanes[i] = active;
         any |= active;
@@ -32,15 +33,16 @@ STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, cons
 
 }  // namespace
 
-std::vector<PointTile> tiles_of(std::span<const PackedPoint> points, std::span<const double> k_per_m2,
-                                const RayCaster& caster) {
-    std::vector<PointTile> tiles((points.size() + kPacketWidth - 1) / kPacketWidth);
-    for (std::size_t j = 0; j < points.size(); ++j) {
-        const Vec3 p = points[j].position - caster.center();
-        const Vec3 lifted = points[j].lifted - caster.center();
-        const Vec3& normal = points[j].normal;
+std::vector<PointTile> tiles_of(std::span<const Receiver> receivers, std::span<const double> k_per_m2,
+                                const RayCaster& caster, int max_reflections) {
+    std::vector<PointTile> tiles((receivers.size() + kPacketWidth - 1) / kPacketWidth);
+    for (std::size_t j = 0; j < receivers.size(); ++j) {
+        const Receiver& receiver = receivers[j];
+        const Vec3 p = receiver.position() - caster.center();
+        const Vec3 lifted = receiver.lifted() - caster.center();
+        const Vec3& normal = receiver.normal();
+        const std::size_t first = j / kPacketWidth * kPacketWidth, i = j - first;
         PointTile& tile = tiles[j / kPacketWidth];
-        const std::size_t i = j % kPacketWidth;
         tile.x[i] = static_cast<float>(p.x), tile.y[i] = static_cast<float>(p.y),
         tile.z[i] = static_cast<float>(p.z);
         tile.lifted_x[i] = static_cast<float>(lifted.x);
@@ -50,8 +52,9 @@ std::vector<PointTile> tiles_of(std::span<const PackedPoint> points, std::span<c
         tile.normal_y[i] = static_cast<float>(normal.y);
         tile.normal_z[i] = static_cast<float>(normal.z);
         tile.inverse_k[i] = static_cast<float>(1 / k_per_m2[j]);
-        tile.reading[i] = points[j].reading;
-        ++tile.count;
+        tile.reflections_left[i] = receiver.reflections_left(max_reflections);
+        tile.receivers = receivers.subspan(first, i + 1);
+        tile.directional = tile.directional || !receiver.constant_response();
     }
     return tiles;
 }
@@ -66,9 +69,9 @@ SegmentOrigin::SegmentOrigin(const Vec3& position, const Vec3& lifted_position, 
     normal_z = static_cast<float>(normal.z);
 }
 
-bool connect(const SegmentOrigin& origin, const PointTile& tile, RayPacket& segments, LaneMask& lanes,
-             PointTile::Floats& g_per_m2) {
-    return connect_lanes(origin, tile, segments, lanes, g_per_m2);
+bool connect(const SegmentOrigin& origin, int reflections, const PointTile& tile, RayPacket& segments,
+             LaneMask& lanes, PointTile::Floats& g_per_m2) {
+    return connect_lanes(origin, reflections, tile, segments, lanes, g_per_m2);
 }
 
 }  // namespace stilb

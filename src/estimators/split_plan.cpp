@@ -28,17 +28,17 @@ constexpr double kPathVariance = 0.5;  ///< what Sobol' points leave of that of 
 constexpr double kEvenVariance = 0.1;
 constexpr double kEvenNodes = 512;
 
-/// What a ray from a point meets.
+/// What a ray from a receiver meets.
 struct RaySample {
     double g_per_m2 = 0;   ///< infinite where it is a mirror: what that shows is gathered always
-    double luminance = 0;  ///< over the mean
+    double luminance = 0;  ///< over the mean; both weighted by the response
     double own_share = 1;  ///< of the rays of its packet that could have met the same place
 };
 
 /// What the model says of a point and a k.
 struct Outcome {
     double k_per_m2 = 0;
-    double fan_variance = 0;     ///< of one chain, relative to the whole illuminance squared
+    double fan_variance = 0;     ///< of one chain, relative to the indirect light squared
     double gather_variance = 0;  ///< of one gathering ray, likewise
     double gather_cost = 0;      ///< of one gathering ray
 };
@@ -60,7 +60,7 @@ constexpr double kLargestFactorPerRay = 16;
 /// `peak` is G times the area that one of the evenly lying nodes stands for.
 double remaining_variance(double peak) { return (kEvenVariance + peak) / (1 + peak); }
 
-PointModel model_of(std::span<const RaySample> rays, double density_per_m2, double indirect_share) {
+PointModel model_of(std::span<const RaySample> rays, double density_per_m2) {
     PointModel model;
     const double largest = kLargestFactorPerRay * static_cast<double>(rays.size());
     for (double factor = kLeastFactor; factor <= largest; factor *= 2) {
@@ -74,9 +74,8 @@ PointModel model_of(std::span<const RaySample> rays, double density_per_m2, doub
             gathered_moment += l * l * rest * own_share;
         }
         const double per_ray = 1 / static_cast<double>(rays.size());
-        const double squared_share = indirect_share * indirect_share;
-        model.push_back({k, squared_share * per_ray * fan_moment / (kPi * density_per_m2),
-                         squared_share * per_ray * kPathVariance * gathered_moment,
+        model.push_back({k, per_ray * fan_moment / (kPi * density_per_m2),
+                         per_ray * kPathVariance * gathered_moment,
                          kRayCost + kPathCost * per_ray * gathered});
     }
     return model;
@@ -138,35 +137,43 @@ double own_share(const RayCaster& caster, const Hit& hit, const PointTile& packe
     RayPacket segments;
     LaneMask lanes;
     PointTile::Floats g_per_m2;
-    connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, caster.center()), packet, segments, lanes,
+    connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, caster.center()), 1, packet, segments, lanes,
             g_per_m2);
     const double sum = std::accumulate(g_per_m2.begin(), g_per_m2.end(), 0.0);
     return sum > 0 ? double{g_per_m2[lane]} / sum : 1;
 }
 
-std::vector<RaySample> sample_rays(const RayCaster& caster, const PathTracer& tracer,
-                                   const PackedPoint& point, const PointTile& packet, std::size_t lane,
-                                   int max_reflections, unsigned count, RandomKey key) {
+struct RaySamples {
+    std::vector<RaySample> rays;
+    double indirect = 0;  ///< of the receiver, by these alone [lx or cd/m2]
+};
+
+RaySamples sample_rays(const RayCaster& caster, const PathTracer& tracer, const PointTile& packet,
+                       std::size_t lane, unsigned count, RandomKey key) {
     constexpr double floor = 0.2;  // of the mean: single bright paths are not to decide alone
-    const Frame frame = Frame::around(point.normal);
+    const Receiver& receiver = packet.receivers[lane];
     std::vector<RaySample> rays(count);
     double sum = 0;
     for (unsigned i = 0; i < count; ++i) {
         SampleStream stream(key, i);
-        const std::array<double, 2> u = stream.next_two();
-        const Vec3 local = sample_cosine_hemisphere(u[0], u[1]).direction;
-        const Vec3 direction = frame.to_world(local);
-        const auto hit = caster.closest(point.lifted, direction);
+        const auto [u1, u2] = stream.next_two();
+        const auto sample = receiver.sample(u1, u2);
+        if (!sample) continue;
+        const Vec3& direction = sample->direction;
+        const auto hit = caster.closest(receiver.lifted(), direction);
         if (!hit) continue;
         if (is_specular(tracer.material(*hit))) {
             rays[i].g_per_m2 = std::numeric_limits<double>::infinity();
         } else {
-            const double g = local.z * -dot(hit->normal, direction) / (hit->distance_m * hit->distance_m);
-            rays[i].g_per_m2 = g * mean_concentration(tracer.material(*hit));
+            const double cosines = dot(receiver.normal(), direction) * -dot(hit->normal, direction);
+            rays[i].g_per_m2 = cosines / (hit->distance_m * hit->distance_m) *
+                               mean_concentration(tracer.material(*hit)) *
+                               receiver.relative_response(direction);
             rays[i].own_share = own_share(caster, *hit, packet, lane);
         }
-        rays[i].luminance =
-            tracer.luminance_without_direct(*hit, direction, max_reflections, stream).luminance();
+        const Spectrum luminance =
+            tracer.luminance_without_direct(*hit, direction, packet.reflections_left[lane], stream);
+        rays[i].luminance = (sample->weight * luminance).luminance();
         sum += rays[i].luminance;
     }
     const double mean = sum / count;
@@ -174,7 +181,7 @@ std::vector<RaySample> sample_rays(const RayCaster& caster, const PathTracer& tr
         if (ray.g_per_m2 == 0) continue;
         ray.luminance = mean > 0 ? (ray.luminance / mean + floor) / (1 + floor) : 1;
     }
-    return rays;
+    return {std::move(rays), mean};
 }
 
 /// Nodes of unit flux on white surfaces: what they send to a point adds up to nu.
@@ -189,75 +196,115 @@ std::vector<ChainNode> unit_nodes(std::span<const ChainNode> nodes) {
     return result;
 }
 
-/// Models of the points of a packet.
-void model_packet(const RayCaster& caster, const PathTracer& tracer, std::span<const PackedPoint> points,
+/// A model in units of the indirect light, and how much that is.
+struct ReceiverModel {
+    PointModel model;
+    double indirect = 0;  ///< [lx or cd/m2]
+};
+
+/// What the pilot's nodes send to the receivers of a packet, and how densely they lie there [1/m2]: sums over
+/// its chains, weighted by w of the kernel split.
+struct PilotSums {
+    std::vector<double> indirect, density_per_m2;
+};
+
+PilotSums collect_pilot(const RayCaster& caster, std::span<const Receiver> receivers, double k_per_m2,
+                        const PilotLight& pilot, std::span<const ChainNode> units) {
+    const std::vector<double> k(receivers.size(), k_per_m2);
+    const auto collect = [&](std::vector<Receiver> packet, std::span<const ChainNode> nodes) {
+        for (std::size_t i = 0; i < packet.size(); ++i) packet[i].set_reading(static_cast<std::uint32_t>(i));
+        const std::vector<PointTile> tile = tiles_of(packet, k, caster, pilot.max_reflections);
+        ReadingSums sums(packet.size());
+        Fan(caster, tile).collect(nodes, sums);
+        std::vector<double> luminous;
+        for (const Spectrum& sum : sums.sum) luminous.push_back(sum.luminance());
+        return luminous;
+    };
+    std::vector<Receiver> of_illuminance;
+    for (const Receiver& receiver : receivers) of_illuminance.push_back(receiver.without_response());
+    return {collect({receivers.begin(), receivers.end()}, pilot.nodes), collect(of_illuminance, units)};
+}
+
+/// Models of the receivers of a packet.
+void model_packet(const RayCaster& caster, const PathTracer& tracer, std::span<const Receiver> receivers,
                   const PilotLight& pilot, std::span<const ChainNode> units, unsigned rays_per_point,
-                  RandomKey key, std::span<PointModel> models) {
+                  RandomKey key, std::span<ReceiverModel> models) {
     const double chains = static_cast<double>(pilot.chains);
     const double mean_density =
         (static_cast<double>(pilot.nodes.size()) + 1) / (chains * pilot.scene_area_m2);
-    std::vector<PackedPoint> packet(points.begin(), points.end());
-    for (std::size_t i = 0; i < packet.size(); ++i) packet[i].reading = static_cast<std::uint32_t>(i);
     // Few nodes are there, and in a corner one may be very near by chance. Kernels bounded so that they are
     // wider than the space between nodes keep such a node from deciding.
     constexpr double nodes_within = 16;
     const double k_per_m2 = kPi * chains * mean_density / nodes_within;
+    const PilotSums sums = collect_pilot(caster, receivers, k_per_m2, pilot, units);
     const std::vector<PointTile> tile =
-        tiles_of(packet, std::vector<double>(packet.size(), k_per_m2), caster);
-    const Fan fan(caster, tile);
-    ReadingSums indirect(packet.size()), density(packet.size());
-    fan.collect(pilot.nodes, indirect);
-    fan.collect(units, density);
-    for (std::size_t i = 0; i < packet.size(); ++i) {
-        const std::vector<RaySample> rays =
-            sample_rays(caster, tracer, packet[i], tile.front(), i, pilot.max_reflections, rays_per_point,
-                        key.derived(i));
-        const double seen = chains * std::max(mean_chain_share(rays, k_per_m2), 0.01);
-        const double indirect_lx = indirect.sum[i].luminance() / seen;
-        const double total_lx = indirect_lx + pilot.direct_lx[points[i].reading];
+        tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2), caster, pilot.max_reflections);
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        const RaySamples samples =
+            sample_rays(caster, tracer, tile.front(), i, rays_per_point, key.derived(i));
+        const double seen = chains * std::max(mean_chain_share(samples.rays, k_per_m2), 0.01);
+        // Few nodes, or none, lie where a glossy sub-point looks: there rays know more.
+        const double indirect =
+            receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
         // Where nothing is seen, in the dark, nothing is to be gained.
-        const bool lit = total_lx > 0;
         const double density_per_m2 =
-            lit ? std::max(density.sum[i][0] / seen, 1e-3 * mean_density) : mean_density;
-        models[i] = model_of(rays, density_per_m2, lit ? indirect_lx / total_lx : 0);
+            indirect > 0 ? std::max(sums.density_per_m2[i] / seen, 1e-3 * mean_density) : mean_density;
+        models[i] = {model_of(samples.rays, density_per_m2), indirect};
     }
 }
 
-std::vector<PointModel> model_points(const RayCaster& caster, const PathTracer& tracer,
-                                     std::span<const PackedPoint> points, const PilotLight& pilot,
-                                     RandomKey key) {
+std::vector<ReceiverModel> model_receivers(const RayCaster& caster, const PathTracer& tracer,
+                                           std::span<const Receiver> receivers, const PilotLight& pilot,
+                                           RandomKey key) {
     // As many for all points together, but for very few or very many points.
     constexpr std::size_t rays = 1u << 14;
     const auto rays_per_point =
-        static_cast<unsigned>(std::clamp<std::size_t>(rays / points.size(), 16, 1024));
+        static_cast<unsigned>(std::clamp<std::size_t>(rays / receivers.size(), 16, 1024));
     const std::vector<ChainNode> units = unit_nodes(pilot.nodes);
-    std::vector<PointModel> models(points.size());
-    tbb::parallel_for(std::size_t{0}, (points.size() + kPacketWidth - 1) / kPacketWidth, [&](std::size_t p) {
-        const std::size_t first = p * kPacketWidth;
-        const std::size_t count = std::min<std::size_t>(kPacketWidth, points.size() - first);
-        model_packet(caster, tracer, points.subspan(first, count), pilot, units, rays_per_point,
-                     key.derived(p), {models.data() + first, count});
-    });
+    std::vector<ReceiverModel> models(receivers.size());
+    tbb::parallel_for(std::size_t{0}, (receivers.size() + kPacketWidth - 1) / kPacketWidth,
+                      [&](std::size_t p) {
+                          const std::size_t first = p * kPacketWidth;
+                          const std::size_t count =
+                              std::min<std::size_t>(kPacketWidth, receivers.size() - first);
+                          model_packet(caster, tracer, receivers.subspan(first, count), pilot, units,
+                                       rays_per_point, key.derived(p), {models.data() + first, count});
+                      });
     return models;
+}
+
+/// The models with variances relative to the readings that the receivers are parts of, times their weights.
+std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
+                                        std::span<const Receiver> receivers,
+                                        std::span<const double> weights, std::span<const double> direct) {
+    std::vector<double> values(direct.begin(), direct.end());
+    for (std::size_t j = 0; j < receivers.size(); ++j) values[receivers[j].reading()] += models[j].indirect;
+    std::vector<PointModel> weighted;
+    for (std::size_t j = 0; j < receivers.size(); ++j) {
+        const std::uint32_t reading = receivers[j].reading();
+        const double share = values[reading] > 0 ? models[j].indirect / values[reading] : 0;
+        weighted.push_back(std::move(models[j].model));
+        for (Outcome& outcome : weighted.back()) {
+            outcome.fan_variance *= weights[reading] * share * share;
+            outcome.gather_variance *= weights[reading] * share * share;
+        }
+    }
+    return weighted;
 }
 
 }  // namespace
 
 std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
-                                   std::span<const PackedPoint> points, std::span<const double> weights,
+                                   std::span<const Receiver> receivers, std::span<const double> weights,
                                    const PilotLight& pilot, RandomKey key) {
-    std::vector<PointModel> models = model_points(caster, tracer, points, pilot, key);
-    for (std::size_t j = 0; j < points.size(); ++j) {
-        for (Outcome& outcome : models[j]) {
-            outcome.fan_variance *= weights[points[j].reading];
-            outcome.gather_variance *= weights[points[j].reading];
-        }
-    }
+    if (receivers.empty()) return {};
+    const std::vector<PointModel> models = weighted_models(
+        model_receivers(caster, tracer, receivers, pilot, key), receivers, weights, pilot.direct);
     // About half of the nodes face a point; the walk is shared by all points.
     const double nodes_per_chain =
         (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
     const double lanes =
-        static_cast<double>((points.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth);
+        static_cast<double>((receivers.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth);
     const double fan_cost =
         0.5 * nodes_per_chain * lanes +
         kSegmentCost * (nodes_per_chain + 1) * static_cast<double>(pilot.chains_per_selected);
@@ -265,7 +312,7 @@ std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tr
     // plan; after some rounds they change little.
     double price = 0;
     for (const PointModel& model : models) price += predict(model[model.size() / 2], 16).variance / fan_cost;
-    std::vector<SplitPlan> plans(points.size());
+    std::vector<SplitPlan> plans(receivers.size());
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
         price = std::max(price, std::numeric_limits<double>::min());  // cost decides where nothing varies

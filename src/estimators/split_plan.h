@@ -1,4 +1,4 @@
-// Choosing the kernel split's constant, and how often to gather, for every measuring point.
+// Choosing the kernel split's constant, and how often to gather, for every receiver.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "estimators/light_chain.h"
-#include "estimators/packed_points.h"
+#include "estimators/receiver.h"
 #include "estimators/path_tracer.h"
 
 namespace stilb {
@@ -22,26 +22,26 @@ inline constexpr std::uint64_t kMostChainsPerRay = 64;
 /// What is known of the light before planning, roughly, and how it was learnt.
 struct PilotLight {
     std::span<const ChainNode> nodes;
-    std::uint64_t chains = 1;           ///< that made the nodes
-    std::span<const double> direct_lx;  ///< direct illuminance of each reading
+    std::uint64_t chains = 1;        ///< that made the nodes
+    std::span<const double> direct;  ///< of each reading: light straight from sources [lx or cd/m2]
     double scene_area_m2 = 1;
     int max_reflections = 0;
     std::uint64_t chains_per_selected = 1;  ///< chains walked for each whose nodes go into the fan
 };
 
-/// Plans that make the sum over the points of weight variance / value^2, times the cost, about as small as
-/// can be; the rays of a packet's points are equally many. `weights`: of every reading. Variance and cost
-/// come from a model: surfaces that a point sees hold nu l [1/m2 per chain] nodes, l being their luminance
-/// over its mean, which gives, E[] being the mean over cosine-distributed rays and in units of the indirect
-/// light squared,
+/// Plans, one for each receiver, that make the sum over the readings of weight variance / value^2, times the
+/// cost, about as small as can be; the rays of a packet's receivers are equally many. `weights`: of every
+/// reading. Variance and cost come from a model: surfaces that a receiver sees hold nu l [1/m2 per chain]
+/// nodes, l being their luminance over its mean, which gives, E[] being the mean over rays in proportion to
+/// response x cosine and in units of the indirect light squared,
 ///
-///     variance of a chain's fan    E[l w^2 G] / (pi nu)        of a gathering ray    c E[l^2 (1 - w) r]
+///     variance of a chain's fan    E[l w^2 s G] / (pi nu)      of a gathering ray    c E[l^2 (1 - w) r]
 ///
-/// with r the ray's share of the density of all rays of its packet where it ends. The pilot gives nu and the
-/// share of indirect light, a few paths from each point G, l and r. Any plan is unbiased; a poor one costs
+/// with s of kernel_split.h and r the ray's share of the density of all rays of its packet where it ends. The pilot gives nu and the
+/// share of indirect light, a few paths from each receiver G, l and r. Any plan is unbiased; a poor one costs
 /// time only. The plans depend on `key`, which must be independent of what they are used for.
 std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
-                                   std::span<const PackedPoint> points, std::span<const double> weights,
+                                   std::span<const Receiver> receivers, std::span<const double> weights,
                                    const PilotLight& pilot, RandomKey key);
 
 }  // namespace stilb

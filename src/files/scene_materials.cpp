@@ -63,23 +63,34 @@ Material read_mirror(TomlTable& table) {
     return Mirror{table.at("reflectance").spectrum(kReflectance)};
 }
 
+Material read_glass(TomlTable& table) {
+    table.expect_keys({"type", "ior"}, "type \"glass\"");
+    return Glass{table.at("ior").number(kIor)};
+}
+
+Material read_pane(TomlTable& table) {
+    table.expect_keys({"type", "ior", "internal_transmittance"}, "type \"pane\"");
+    return Pane{table.at("ior").number(kIor), table.at("internal_transmittance").spectrum(kReflectance)};
+}
+
 Material read_black(TomlTable& table) {
     table.expect_keys({"type"}, "type \"black\"");
     return Black{};
 }
 
-constexpr std::array<std::string_view, 7> kTypes{"diffuse", "phong",  "rough", "ward",
-                                                 "plastic", "mirror", "black"};
-constexpr std::array<std::string_view, 2> kLaterTypes{"glass", "pane"};
+constexpr std::array<std::string_view, 9> kTypes{"diffuse", "phong", "rough", "ward", "plastic",
+                                                 "mirror",  "glass", "pane",  "black"};
 
 Material read_material(TomlTable& table) {
-    const std::string_view type = table.choose("type", kTypes, kLaterTypes);
+    const std::string_view type = table.choose("type", kTypes);
     if (type == "diffuse") return read_diffuse(table);
     if (type == "phong") return read_phong(table);
     if (type == "rough") return read_rough(table);
     if (type == "ward") return read_ward(table);
     if (type == "plastic") return read_plastic(table);
     if (type == "mirror") return read_mirror(table);
+    if (type == "glass") return read_glass(table);
+    if (type == "pane") return read_pane(table);
     return read_black(table);
 }
 

@@ -93,7 +93,7 @@ class Campaign {
     std::vector<double> replicate_means(std::size_t first, std::size_t count) const {
         std::vector<double> means;
         means.reserve(sums_.size() * count);
-        const auto known = estimator_.known_part_lx();
+        const auto known = estimator_.known_part();
         for (const ReadingSums& s : sums_) {
             for (std::size_t j = first; j < first + count; ++j) {
                 means.push_back(known[j].luminance() + s.sum[j].luminance() / static_cast<double>(samples_));
@@ -105,13 +105,13 @@ class Campaign {
     Spectrum rgb(std::size_t reading) const {
         Spectrum sum;
         for (const ReadingSums& s : sums_) sum += s.sum[reading];
-        return estimator_.known_part_lx()[reading] + sum * (1 / static_cast<double>(paths()));
+        return estimator_.known_part()[reading] + sum * (1 / static_cast<double>(paths()));
     }
 
     bool is_heavy_tailed(std::size_t reading) const {
         double largest = 0, sum = 0;
         for (const ReadingSums& s : sums_) {
-            largest = std::max(largest, s.largest_lx[reading]);
+            largest = std::max(largest, s.largest[reading]);
             sum += s.sum[reading].luminance();
         }
         return stilb::is_heavy_tailed(largest, sum, paths());

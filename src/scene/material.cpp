@@ -32,6 +32,8 @@ double pdf(const Own& material, const Vec3& in, const Vec3& out) {
     return material.pdf_per_sr(in, out);
 }
 double pdf(const Mirror&, const Vec3&, const Vec3&) { return 0; }
+double pdf(const Glass&, const Vec3&, const Vec3&) { return 0; }
+double pdf(const Pane&, const Vec3&, const Vec3&) { return 0; }
 double pdf(const Black&, const Vec3&, const Vec3&) { return 0; }
 
 std::optional<ScatterSample> sample(const Diffuse& material, const Vec3&, double u1, double u2) {
@@ -62,10 +64,9 @@ std::optional<ScatterSample> sample(const Own& material, const Vec3& in, double 
     return material.sample(in, u1, u2);
 }
 
-std::optional<ScatterSample> sample(const Mirror& material, const Vec3& in, double, double) {
-    return ScatterSample{{-in.x, -in.y, in.z}, material.reflectance, 0, true};
-}
-
+std::optional<ScatterSample> sample(const Mirror&, const Vec3&, double, double) { return std::nullopt; }
+std::optional<ScatterSample> sample(const Glass&, const Vec3&, double, double) { return std::nullopt; }
+std::optional<ScatterSample> sample(const Pane&, const Vec3&, double, double) { return std::nullopt; }
 std::optional<ScatterSample> sample(const Black&, const Vec3&, double, double) { return std::nullopt; }
 
 double concentration(const Diffuse& material) { return material.reflectance.max() > 0 ? 1 : 0; }
@@ -82,6 +83,8 @@ double concentration(const Own& material) {
     return material.concentration();
 }
 double concentration(const Mirror&) { return 0; }
+double concentration(const Glass&) { return 0; }
+double concentration(const Pane&) { return 0; }
 double concentration(const Black&) { return 0; }
 
 Spectrum bound(const Diffuse& material) { return material.reflectance; }
@@ -90,6 +93,8 @@ Spectrum bound(const Rough& material) { return material.reflectance(); }
 Spectrum bound(const Ward& material) { return material.diffuse() + material.specular(); }
 Spectrum bound(const Plastic& material) { return material.mean_reflectance(); }
 Spectrum bound(const Mirror& material) { return material.reflectance; }
+Spectrum bound(const Glass&) { return Spectrum::grey(1); }
+Spectrum bound(const Pane&) { return Spectrum::grey(1); }
 Spectrum bound(const Black&) { return {}; }
 
 }  // namespace
@@ -108,7 +113,18 @@ double mean_concentration(const Material& material) {
     return std::visit([](const auto& m) { return concentration(m); }, material);
 }
 
-bool is_specular(const Material& material) { return std::holds_alternative<Mirror>(material); }
+bool is_specular(const Material& material) {
+    return std::holds_alternative<Mirror>(material) || std::holds_alternative<Glass>(material) ||
+           std::holds_alternative<Pane>(material);
+}
+
+SpecularBranches specular_branches(const Material& material, LightSide side, const Vec3& in) {
+    if (in.z <= 0) return {};
+    if (const auto* mirror = std::get_if<Mirror>(&material)) return specular_branches(*mirror, side, in);
+    if (const auto* glass = std::get_if<Glass>(&material)) return specular_branches(*glass, side, in);
+    if (const auto* pane = std::get_if<Pane>(&material)) return specular_branches(*pane, side, in);
+    return {};
+}
 
 Spectrum reflectance_bound(const Material& material) {
     return std::visit([](const auto& m) { return bound(m); }, material);

@@ -15,6 +15,7 @@
 #include "scene/plastic.h"
 #include "scene/rough.h"
 #include "scene/scatter_sample.h"
+#include "scene/specular.h"
 #include "scene/ward.h"
 
 namespace stilb {
@@ -32,15 +33,10 @@ struct Phong {
     double exponent = 1;
 };
 
-/// Ideal mirror: a delta function, so its BRDF cannot be evaluated, only sampled.
-struct Mirror {
-    Spectrum reflectance;
-};
-
 /// Reflects nothing.
 struct Black {};
 
-using Material = std::variant<Diffuse, Phong, Rough, Ward, Plastic, Mirror, Black>;
+using Material = std::variant<Diffuse, Phong, Rough, Ward, Plastic, Mirror, Glass, Pane, Black>;
 
 /// cos+^n(alpha): the unnormalised lobe.
 inline double phong_lobe(const Phong& material, const Vec3& in, const Vec3& out) {
@@ -65,18 +61,22 @@ Spectrum evaluate_brdf_per_sr(const Own& material, const Vec3& in, const Vec3& o
     return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Spectrum{};
 }
 inline Spectrum evaluate_brdf_per_sr(const Mirror&, const Vec3&, const Vec3&) { return {}; }
+inline Spectrum evaluate_brdf_per_sr(const Glass&, const Vec3&, const Vec3&) { return {}; }
+inline Spectrum evaluate_brdf_per_sr(const Pane&, const Vec3&, const Vec3&) { return {}; }
 inline Spectrum evaluate_brdf_per_sr(const Black&, const Vec3&, const Vec3&) { return {}; }
 inline Spectrum evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
     return std::visit([&](const auto& m) { return evaluate_brdf_per_sr(m, in, out); }, material);
 }
 
 /// Direction drawn from the material's own density, by two numbers in [0, 1); nothing where light is
-/// absorbed.
+/// absorbed and for delta functions, which specular_branches() has the directions of.
 std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& in, double u1, double u2);
 /// The density that sample_brdf() draws from. Its integral falls short of 1 by the probability of absorption.
 double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out);
-/// True where the whole reflection is a delta function: no connection to such a surface is possible.
+/// Mirror, glass, pane: no connection to such a surface is possible.
 bool is_specular(const Material& material);
+/// Where light goes on from a specular surface; nowhere from others.
+SpecularBranches specular_branches(const Material& material, LightSide side, const Vec3& in);
 /// pi f / albedo, averaged over the reflected light, roughly: 1 on diffuse surfaces, large where a lobe
 /// dominates; 0 for delta functions and where nothing is reflected.
 double mean_concentration(const Material& material);

@@ -30,6 +30,9 @@ struct Hit {
     MaterialId material{};
     std::uint32_t triangle = 0;  ///< of the mesh, or of the triangulated() rectangle or box; else 0
     bool on_front = true;
+
+    /// As `lifted`, on the other side.
+    Vec3 lifted_behind() const { return 2.0 * position - lifted; }
 };
 
 inline constexpr int kPacketWidth = 16;

@@ -10,8 +10,7 @@ namespace stilb {
 struct ScatterSample {
     Vec3 direction;
     Spectrum weight;
-    double pdf_per_sr = 0;  ///< 0 where `specular`: a delta function has no density
-    bool specular = false;
+    double pdf_per_sr = 0;
 };
 
 }  // namespace stilb

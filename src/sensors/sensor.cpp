@@ -12,10 +12,14 @@ MeasuringPoint place_of(const Measurand& measurand) {
     return std::get<MeasuringPoint>(measurand);
 }
 
-Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster) {
+std::optional<Hit> surface_at(const MeasuringPoint& point, const RayCaster& caster) {
     const double most = caster.offset_m(point.position, caster.half_extent_m());
     const auto below = caster.closest(point.position + most * point.normal, -point.normal);
-    if (below && below->distance_m < 2 * most) return below->lifted;
+    return below && below->distance_m < 2 * most ? below : std::nullopt;
+}
+
+Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster) {
+    if (const auto surface = surface_at(point, caster)) return surface->lifted;
     return point.position + caster.offset_m(point.position, 0) * point.normal;
 }
 

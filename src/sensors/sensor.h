@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -47,6 +48,10 @@ struct Grid {
 };
 
 class RayCaster;
+struct Hit;
+
+/// The surface that a point lies on, on the side of its normal.
+std::optional<Hit> surface_at(const MeasuringPoint& point, const RayCaster& caster);
 
 /// Where rays from a measuring point start: lifted along its normal, off the surface that it lies on, if any.
 Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster);

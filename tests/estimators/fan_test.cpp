@@ -7,6 +7,7 @@
 #include <set>
 
 #include "estimators/kernel_split.h"
+#include "estimators/receivers.h"
 #include "support/random_pairs.h"
 #include "support/scene_builder.h"
 
@@ -33,28 +34,29 @@ std::vector<MeasuringPoint> random_points(std::size_t count, RandomPairs& random
     return points;
 }
 
-TEST(PackedPoints, ArePermutedSoThatNeighboursStandTogether) {
+TEST(Receivers, ArePermutedSoThatNeighboursStandTogether) {
     RandomPairs random(1);
     const std::vector<MeasuringPoint> points = random_points(1000, random);
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Black{});
     const RayCaster caster(scene);
-    const PackedPoints sorted = packed(measurands(points), caster);
+    const std::vector<Receiver> sorted = receivers_of(points, caster);
     double steps = 0, unsorted_steps = 0;
     std::set<std::uint32_t> readings;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        readings.insert(sorted[i].reading);
-        EXPECT_EQ(sorted[i].normal, points[sorted[i].reading].normal);
-        EXPECT_EQ(sorted[i].position, points[sorted[i].reading].position);
-        EXPECT_EQ(sorted[i].lifted, lifted_position(points[sorted[i].reading], caster));
+        const MeasuringPoint& point = points[sorted[i].reading()];
+        readings.insert(sorted[i].reading());
+        EXPECT_EQ(sorted[i].normal(), point.normal);
+        EXPECT_EQ(sorted[i].position(), point.position);
+        EXPECT_EQ(sorted[i].lifted(), lifted_position(point, caster));
         if (i == 0) continue;
-        steps += length(sorted[i].position - sorted[i - 1].position);
+        steps += length(sorted[i].position() - sorted[i - 1].position());
         unsorted_steps += length(points[i].position - points[i - 1].position);
     }
     EXPECT_LT(steps, unsorted_steps / 3);
     EXPECT_EQ(readings.size(), points.size());
     EXPECT_EQ(*readings.rbegin(), points.size() - 1);
-    EXPECT_EQ(packed(std::vector<Measurand>(3), caster).size(), 3u);  // all in one place
+    EXPECT_EQ(receivers_of(std::vector<MeasuringPoint>(3), caster).size(), 3u);  // all in one place
 }
 
 /// W f_r w G (theory T.1b), one node and point at a time, in double precision.
@@ -110,10 +112,10 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
         }
         ASSERT_GT(nodes.size(), 64u);
         ReadingSums sums(count);
-        const PackedPoints sorted = packed(measurands(points), caster);
+        const std::vector<Receiver> sorted = receivers_of(points, caster);
         std::vector<double> sorted_k;
-        for (const PackedPoint& point : sorted) sorted_k.push_back(k[point.reading]);
-        const std::vector<PointTile> tiles = tiles_of(sorted, sorted_k, caster);
+        for (const Receiver& receiver : sorted) sorted_k.push_back(k[receiver.reading()]);
+        const std::vector<PointTile> tiles = tiles_of(sorted, sorted_k, caster, kUnlimited);
         Fan(caster, tiles).collect(nodes, sums);
         std::uint64_t rays = 0;
         for (std::size_t j = 0; j < count; ++j) {
@@ -130,7 +132,7 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
                 EXPECT_NEAR(sums.sum[j][b], expected[b], kTolerance * expected[b] + 1e-9)
                     << j << " of " << count;
             }
-            EXPECT_NEAR(sums.largest_lx[j], largest, kTolerance * largest + 1e-9) << j << " of " << count;
+            EXPECT_NEAR(sums.largest[j], largest, kTolerance * largest + 1e-9) << j << " of " << count;
         }
         EXPECT_EQ(sums.rays, rays);
         EXPECT_EQ(sums.invalid, 0u);

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "estimators/receivers.h"
 #include "support/scene_builder.h"
 
 namespace stilb {
@@ -47,11 +47,11 @@ class Rounds {
 
     std::vector<MeanAndError> gather(const std::vector<MeasuringPoint>& points, double k_per_m2,
                                      RandomKey key) const {
-        const PackedPoints sorted = packed(measurands(points), caster_);
+        const std::vector<Receiver> receivers = receivers_of(points, caster_);
         const std::vector<double> k(points.size(), k_per_m2);
-        const std::vector<PointTile> tiles = tiles_of(sorted, k, caster_);
+        const std::vector<PointTile> tiles = tiles_of(receivers, k, caster_, kUnlimited);
         const std::vector<SplitPlan> plans(points.size(), SplitPlan{k_per_m2, 1});
-        const Gather gather(caster_, tracer_, sorted, tiles, plans, std::numeric_limits<int>::max());
+        const Gather gather(caster_, tracer_, tiles, plans);
         std::vector<double> sum(points.size()), squares(points.size());
         for (std::uint64_t r = 0; r < kReplicates; ++r) {
             ReadingSums sums(points.size());
@@ -124,11 +124,11 @@ TEST(Gather, WithoutReflectionsThereIsNothing) {
     const RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     const PathTracer tracer(scene, caster, lights);
-    const PackedPoints points = packed(measurands(points_beside_the_box(4)), caster);
-    const std::vector<PointTile> tiles = tiles_of(points, std::vector<double>(4, 1.0), caster);
+    const std::vector<Receiver> receivers = receivers_of(points_beside_the_box(4), caster);
+    const std::vector<PointTile> tiles = tiles_of(receivers, std::vector<double>(4, 1.0), caster, 0);
     const std::vector<SplitPlan> plans(4, SplitPlan{1, 1});
     ReadingSums sums(4);
-    Gather(caster, tracer, points, tiles, plans, 0).collect({RandomKey{1}, 0, 64}, sums);
+    Gather(caster, tracer, tiles, plans).collect({RandomKey{1}, 0, 64}, sums);
     for (const Spectrum& sum : sums.sum) EXPECT_EQ(sum, Spectrum{});
 }
 

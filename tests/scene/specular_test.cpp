@@ -1,11 +1,11 @@
-#include "scene/glass.h"
+#include "scene/specular.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "scene/dielectric.h"
-#include "support/random_pairs.h"
+#include "scene/material.h"
 
 namespace stilb {
 namespace {
@@ -44,32 +44,26 @@ TEST(Fresnel, IsTheSameInBothDirections) {
 }
 
 TEST(GlassMaterial, KeepsAllLightAndObeysSnell) {
-    RandomPairs random(3);
     for (const double degrees : kDegrees) {
-        for (const GlassSide side : {GlassSide::outside, GlassSide::inside}) {
+        for (const LightSide side : {LightSide::outside, LightSide::inside}) {
             const Vec3 in = incident(degrees);
-            const double ior = side == GlassSide::outside ? 1.5 : 1 / 1.5;
-            constexpr int kSamples = 20000;
-            int mirrored = 0;
-            for (int i = 0; i < kSamples; ++i) {
-                const auto sample = sample_glass({1.5}, side, in, random.next());
-                ASSERT_TRUE(sample);
-                const Vec3& out = sample->scattered.direction;
-                ASSERT_TRUE(sample->scattered.specular);
-                ASSERT_EQ(sample->scattered.weight, Spectrum::grey(1));
-                ASSERT_NEAR(length(out), 1, 1e-14);
-                if (out.z > 0) {
-                    ++mirrored;
-                    ASSERT_EQ(sample->luminance_factor, 1);
-                    continue;
-                }
-                ASSERT_NEAR(ior * std::hypot(out.x, out.y), std::hypot(in.x, in.y), 1e-12);
-                ASSERT_NEAR(out.x * in.y, out.y * in.x, 1e-14);
-                ASSERT_LT(out.x * in.x, 1e-300);
-                ASSERT_NEAR(sample->luminance_factor, 1 / (ior * ior), 1e-15);
-            }
+            const double ior = side == LightSide::outside ? 1.5 : 1 / 1.5;
             const double chance = fresnel_reflectance(in.z, ior).unpolarised();
-            EXPECT_NEAR(mirrored, chance * kSamples, 5 * std::sqrt(chance * (1 - chance) * kSamples) + 1e-6);
+            const SpecularBranches branches = specular_branches(Glass{1.5}, side, in);
+            ASSERT_EQ(branches.list().size(), chance < 1 ? 2u : 1u);
+            const SpecularBranch& back = branches.list()[0];
+            EXPECT_EQ(back.share, Spectrum::grey(chance));
+            EXPECT_EQ(back.luminance_factor, 1);
+            EXPECT_LT(length(back.direction - reflected(in, {0, 0, 1})), 1e-15);
+            if (chance == 1) continue;
+            const auto& [out, share, factor] = branches.list()[1];
+            EXPECT_NEAR(share[1], 1 - chance, 1e-15);
+            EXPECT_NEAR(length(out), 1, 1e-14);
+            EXPECT_LT(out.z, 0);
+            EXPECT_NEAR(ior * std::hypot(out.x, out.y), std::hypot(in.x, in.y), 1e-12);
+            EXPECT_NEAR(out.x * in.y, out.y * in.x, 1e-14);
+            EXPECT_LT(out.x * in.x, 1e-300);
+            EXPECT_NEAR(factor, 1 / (ior * ior), 1e-15);
         }
     }
 }
@@ -77,14 +71,13 @@ TEST(GlassMaterial, KeepsAllLightAndObeysSnell) {
 TEST(GlassMaterial, LuminanceComesBackFromWithin) {
     // Back along the same way, seen in the frame of the inside, whose z points the other way.
     const Vec3 in = incident(50);
-    const auto entered = sample_glass({1.7}, GlassSide::outside, in, 0.999);
-    ASSERT_TRUE(entered);
-    const Vec3& down = entered->scattered.direction;
-    ASSERT_LT(down.z, 0);
-    const auto left = sample_glass({1.7}, GlassSide::inside, {down.x, down.y, -down.z}, 0.999);
-    ASSERT_TRUE(left);
-    EXPECT_LT(length(left->scattered.direction - Vec3{in.x, in.y, -in.z}), 1e-14);
-    EXPECT_NEAR(entered->luminance_factor * left->luminance_factor, 1, 1e-14);
+    const SpecularBranches entered = specular_branches(Glass{1.7}, LightSide::outside, in);
+    const Vec3 down = entered.list()[1].direction;
+    const SpecularBranches left = specular_branches(Glass{1.7}, LightSide::inside, {down.x, down.y, -down.z});
+    ASSERT_EQ(left.list().size(), 2u);
+    EXPECT_LT(length(left.list()[1].direction - Vec3{in.x, in.y, -in.z}), 1e-14);
+    EXPECT_NEAR(entered.list()[1].luminance_factor * left.list()[1].luminance_factor, 1, 1e-14);
+    EXPECT_NEAR(entered.list()[1].share[0], left.list()[1].share[0], 1e-14);
 }
 
 TEST(PaneMaterial, HasTheTransmittancesOfWindowGlass) {
@@ -108,30 +101,39 @@ TEST(PaneMaterial, KeepsAllLightWhereNothingIsAbsorbedInside) {
     EXPECT_EQ(pane_shares({}, 0).reflectance, Spectrum::grey(1));
 }
 
-TEST(PaneMaterial, SamplesHaveItsSharesAsTheirMean) {
+TEST(PaneMaterial, ReflectsAndLetsPassStraightOn) {
     const Pane pane{1.52, {{0.9, 0.8, 0.3}}};
     for (const double degrees : kDegrees) {
         const Vec3 in = incident(degrees);
         const PaneShares shares = pane_shares(pane, in.z);
-        constexpr int kSteps = 100'000;
-        Spectrum mirrored, passed;
-        for (int i = 0; i < kSteps; ++i) {
-            const auto sample = sample_pane(pane, in, (i + 0.5) / kSteps);
-            ASSERT_TRUE(sample && sample->specular);
-            const bool back = sample->direction.z > 0;
-            ASSERT_LT(length(sample->direction - (back ? reflected(in, {0, 0, 1}) : -in)), 1e-15);
-            (back ? mirrored : passed) += sample->weight * (1.0 / kSteps);
-        }
-        for (std::size_t b = 0; b < kBands; ++b) {
-            EXPECT_NEAR(mirrored[b], shares.reflectance[b], 1e-4);
-            EXPECT_NEAR(passed[b], shares.transmittance[b], 1e-4);
+        for (const LightSide side : {LightSide::outside, LightSide::inside}) {
+            const SpecularBranches branches = specular_branches(pane, side, in);
+            ASSERT_EQ(branches.list().size(), 2u);
+            EXPECT_EQ(branches.list()[0].share, shares.reflectance);
+            EXPECT_LT(length(branches.list()[0].direction - reflected(in, {0, 0, 1})), 1e-15);
+            EXPECT_EQ(branches.list()[1].share, shares.transmittance);
+            EXPECT_EQ(branches.list()[1].direction, -in);
+            for (const SpecularBranch& branch : branches.list()) EXPECT_EQ(branch.luminance_factor, 1);
         }
     }
 }
 
-TEST(GlassMaterials, ReflectNothingFromBelow) {
-    EXPECT_FALSE(sample_glass({1.5}, GlassSide::outside, {0, 0, -1}, 0.5));
-    EXPECT_FALSE(sample_pane({}, {0, 0, -1}, 0.5));
+TEST(MirrorMaterial, ReflectsIntoTheMirroredDirection) {
+    const Vec3 in = incident(35);
+    const SpecularBranches branches = specular_branches(Mirror{Spectrum::grey(0.9)}, LightSide::inside, in);
+    ASSERT_EQ(branches.list().size(), 1u);
+    EXPECT_EQ(branches.list()[0].share, Spectrum::grey(0.9));
+    EXPECT_LT(length(branches.list()[0].direction - reflected(in, {0, 0, 1})), 1e-15);
+    EXPECT_TRUE(specular_branches(Mirror{}, LightSide::outside, in).list().empty());
+}
+
+TEST(SpecularMaterials, ReflectNothingFromBelow) {
+    for (const Material& material : {Material(Mirror{Spectrum::grey(1)}), Material(Glass{}), Material(Pane{})}) {
+        EXPECT_TRUE(is_specular(material));
+        EXPECT_TRUE(specular_branches(material, LightSide::outside, {0, 0, -1}).list().empty());
+        EXPECT_FALSE(sample_brdf(material, incident(20), 0.5, 0.5)) << "has no density to draw from";
+        EXPECT_EQ(evaluate_brdf_per_sr(material, incident(20), incident(20)), Spectrum{});
+    }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "scene/glass.h"
+#include "scene/specular.h"
 
 #include <cmath>
 
@@ -6,6 +6,8 @@
 
 namespace stilb {
 namespace {
+
+Vec3 mirrored(const Vec3& in) { return {-in.x, -in.y, in.z}; }
 
 struct OfOnePolarisation {
     double reflectance = 0, transmittance = 0;
@@ -21,14 +23,31 @@ OfOnePolarisation with_inter_reflections(double face, double inside) {
 
 }  // namespace
 
-std::optional<GlassSample> sample_glass(const Glass& material, GlassSide side, const Vec3& in, double u) {
-    if (in.z <= 0) return std::nullopt;
-    const double ior = side == GlassSide::outside ? material.ior : 1 / material.ior;
-    GlassSample sample{{{-in.x, -in.y, in.z}, Spectrum::grey(1), 0, true}};
-    if (u < fresnel_reflectance(in.z, ior).unpolarised()) return sample;
-    sample.scattered.direction = normalized(Vec3{-in.x / ior, -in.y / ior, -refracted_cosine(in.z, ior)});
-    sample.luminance_factor = 1 / (ior * ior);
-    return sample;
+SpecularBranches specular_branches(const Mirror& material, LightSide, const Vec3& in) {
+    SpecularBranches branches;
+    branches.add({mirrored(in), material.reflectance});
+    return branches;
+}
+
+SpecularBranches specular_branches(const Glass& material, LightSide side, const Vec3& in) {
+    const double ior = side == LightSide::outside ? material.ior : 1 / material.ior;
+    const double reflectance = fresnel_reflectance(in.z, ior).unpolarised();
+    SpecularBranches branches;
+    branches.add({mirrored(in), Spectrum::grey(reflectance)});
+    if (reflectance < 1) {
+        const Vec3 refracted =
+            normalized(Vec3{-in.x / ior, -in.y / ior, -refracted_cosine(in.z, ior)});
+        branches.add({refracted, Spectrum::grey(1 - reflectance), 1 / (ior * ior)});
+    }
+    return branches;
+}
+
+SpecularBranches specular_branches(const Pane& material, LightSide, const Vec3& in) {
+    const PaneShares shares = pane_shares(material, in.z);
+    SpecularBranches branches;
+    branches.add({mirrored(in), shares.reflectance});
+    branches.add({-in, shares.transmittance});
+    return branches;
 }
 
 PaneShares pane_shares(const Pane& material, double cosine) {
@@ -43,17 +62,6 @@ PaneShares pane_shares(const Pane& material, double cosine) {
         shares.transmittance[b] = (s.transmittance + p.transmittance) / 2;
     }
     return shares;
-}
-
-std::optional<ScatterSample> sample_pane(const Pane& material, const Vec3& in, double u) {
-    if (in.z <= 0) return std::nullopt;
-    const PaneShares shares = pane_shares(material, in.z);
-    const double mirrored = shares.reflectance.luminance();
-    const double total = mirrored + shares.transmittance.luminance();
-    if (u * total < mirrored) {
-        return ScatterSample{{-in.x, -in.y, in.z}, shares.reflectance * (total / mirrored), 0, true};
-    }
-    return ScatterSample{-in, shares.transmittance * (total / (total - mirrored)), 0, true};
 }
 
 }  // namespace stilb
