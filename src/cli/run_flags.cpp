@@ -21,7 +21,7 @@ constexpr std::int64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
 void RunFlags::add_to(CLI::App& command) {
     std::string methods = "How to compute (default: auto)";
     for (const EstimatorEntry& entry : estimator_list()) {
-        methods += fmt::format("\n  {:6} {}", entry.name, entry.summary);
+        methods += fmt::format("\n  {:12} {}", entry.name, entry.summary);
     }
     command.add_option("--method", method, methods)->type_name("NAME");
     command

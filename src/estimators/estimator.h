@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "base/spectrum.h"
 
 namespace stilb {
+
+/// Reflections without limit.
+inline constexpr int kUnlimited = std::numeric_limits<int>::max();
 
 /// The unit of work: samples first ... first + count - 1 of the replicate that `key` stands for. What a batch
 /// adds depends on these alone.

@@ -15,12 +15,16 @@ std::span<const EstimatorEntry> estimator_list() {
     static constexpr std::array list{
         EstimatorEntry{
             "auto", "local estimation and path tracing, balanced at every point: unbiased, finite variance",
-            false, make_auto_estimator},
+            false, true, make_auto_estimator},
         EstimatorEntry{"local", "local estimation as published: fast, but of infinite variance in corners",
-                       true, make_local_estimator},
+                       true, false, make_local_estimator},
+        EstimatorEntry{"double-local",
+                       "the same for luminance, of the surfaces that are seen; no light that leaves a point "
+                       "source, meets mirror or glass first and comes to them by mirror or glass",
+                       true, true, make_local_estimator},
         EstimatorEntry{"path",
                        "path tracing from every point with next-event estimation: the naive reference", false,
-                       make_path_estimator},
+                       true, make_path_estimator},
     };
     return list;
 }

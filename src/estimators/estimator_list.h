@@ -29,6 +29,7 @@ struct EstimatorEntry {
     std::string_view summary;
     /// Whether the variance is infinite in some scenes: then single contributions are watched.
     bool has_heavy_tails;
+    bool measures_luminance;  ///< illuminance they all do
     std::unique_ptr<Estimator> (*make)(const EstimatorInput& input);
 };
 

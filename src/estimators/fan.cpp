@@ -49,7 +49,7 @@ STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTil
 }
 
 /// As add_visible() where the BRDF of the node or the response of a receiver depends on direction: lane by
-/// lane, w and response included.
+/// lane, w included.
 void add_visible_directional(const FanNode& node, const PointTile& tile, const RayPacket& packet,
                              const LaneMask& lanes, const Floats& g_per_m2, TileSums& sums) {
     const ChainNode& chain_node = *node.node;
@@ -67,13 +67,14 @@ void add_visible_directional(const FanNode& node, const PointTile& tile, const R
         const double g = g_per_m2[i];
         const double chain_share =
             chain_node.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
-        const Spectrum added = chain_node.flux_lm * brdf * receiver.response(-to_point) * (g * chain_share);
+        Spectrum added = chain_node.flux_lm * brdf * (g * chain_share);
+        if (tile.directional) added = added * receiver.response(-to_point);
         for (std::size_t b = 0; b < kBands; ++b) sums.band[b][i] += static_cast<float>(added[b]);
         sums.largest[i] = std::max(sums.largest[i], static_cast<float>(added.luminance()));
     }
 }
 
-/// Constant responses are multiplied here: add_visible() leaves them out.
+/// Where the responses of a tile are all constant, they are left out before.
 void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const Receiver& receiver = tile.receivers[i];

@@ -2,19 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "estimators/estimator.h"
 #include "estimators/line_of_sight.h"
 #include "scene/ray_caster.h"
 #include "sensors/sensor.h"
 
 namespace stilb {
-
-/// Reflections without limit.
-inline constexpr int kUnlimited = std::numeric_limits<int>::max();
 
 /// A point with a normal where light arrives: to its reading it adds
 ///

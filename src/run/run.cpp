@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "estimators/estimator_list.h"
+#include "estimators/line_of_sight.h"
 #include "sensors/placement.h"
 #include "statistics/heavy_tail.h"
 #include "statistics/stopping.h"
@@ -138,6 +139,38 @@ void require_valid(const RunOptions& options, std::size_t readings) {
     if (options.bounces && *options.bounces < 0) throw InputError("bounces: 0 or more is needed");
     if (options.threads < 0) throw InputError("threads: 0 (all) or more is needed");
     if (options.replicates < 2) throw InputError("replicates: at least 2 are needed");
+}
+
+std::vector<std::string_view> luminance_methods() {
+    std::vector<std::string_view> names;
+    for (const EstimatorEntry& entry : estimator_list()) {
+        if (entry.measures_luminance) names.push_back(entry.name);
+    }
+    return names;
+}
+
+void require_measurable(std::span<const Sensor> sensors, const EstimatorEntry& method) {
+    for (const Sensor& sensor : sensors) {
+        if (sensor.measures_luminance() && !method.measures_luminance) {
+            throw InputError(fmt::format("sensor \"{}\": method {} measures illuminance only. Luminance: {}.",
+                                         sensor.name, method.name, fmt::join(luminance_methods(), ", ")));
+        }
+    }
+}
+
+/// A goniometer that stands on nothing has nothing to measure.
+void require_surfaces(std::span<const Sensor> sensors, const RayCaster& caster) {
+    for (const Sensor& sensor : sensors) {
+        for (const Measurand& measurand : sensor.measurands) {
+            const auto* ray = std::get_if<EmergentRay>(&measurand);
+            if (!ray || first_surface(measurand, caster)) continue;
+            const Vec3& p = ray->position;
+            throw InputError(fmt::format(
+                "sensor \"{}\": its point ({}, {}, {}) lies on no surface. A goniometer needs a point on a "
+                "surface, and a normal that points away from it.",
+                sensor.name, p.x, p.y, p.z));
+        }
+    }
 }
 
 /// Samples after which to look next: 4, 6, 8, 12, 16 ... times the granularity, where Sobol' points are at
@@ -290,16 +323,17 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     }
     require_valid(options, measurands.size());
     const EstimatorEntry& method = find_estimator(options.method);
+    require_measurable(sensors, method);
 
     const Clock clock;
     const RayCaster caster(scene);
-    const int unlimited = std::numeric_limits<int>::max();
+    require_surfaces(sensors, caster);
     const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
     const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     const auto estimator = arena.execute([&] {
-        return method.make({scene, caster, measurands, options.bounces.value_or(unlimited),
+        return method.make({scene, caster, measurands, options.bounces.value_or(kUnlimited),
                             RandomKey{options.seed}.derived(kPreparation), weights});
     });
     Campaign campaign(*estimator, measurands.size(), options.replicates, options.seed);

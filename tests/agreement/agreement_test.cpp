@@ -34,16 +34,19 @@ bool can_measure(const EstimatorEntry& method, Demand demand) {
 
 std::vector<std::string> methods_for(const AgreementScene& scene) {
     std::vector<std::string> methods;
+    // At points double-local is local.
+    const std::string_view left_out = scene.sights.empty() ? "double-local" : "local";
     for (const EstimatorEntry& method : estimator_list()) {
-        if (can_measure(method, scene.demand)) methods.emplace_back(method.name);
+        if (method.name != left_out && can_measure(method, scene.demand)) methods.emplace_back(method.name);
     }
     return methods;
 }
 
-/// Of all methods in a scene: each pair, and each against itself, at every point and for the mean.
+/// Of all methods in a scene: each pair, and each against itself, in every reading and for the means.
 std::size_t comparisons_in(const AgreementScene& scene) {
     const std::size_t methods = methods_for(scene).size();
-    return methods * (methods + 1) / 2 * (scene.points.size() + 1);
+    const std::size_t means = (scene.points.empty() ? 0 : 1) + (scene.sights.empty() ? 0 : 1);
+    return methods * (methods + 1) / 2 * (scene.points.size() + scene.sights.size() + means);
 }
 
 double threshold_z() {
@@ -74,13 +77,15 @@ Measured measure(const Scene& scene, const AgreementScene& of, const std::string
     options.paths = paths;
     options.bounces = of.bounces;
     options.replicates = kReplicates;
-    const std::vector<Sensor> sensors{point_sensor(of.points)};
+    std::vector<Sensor> sensors;
+    if (!of.points.empty()) sensors.push_back(point_sensor(of.points));
+    if (!of.sights.empty()) sensors.push_back({"sights", SensorType::luminance, of.sights});
     const RunResult result = run(scene, sensors, options);
     Measured measured{method + " with seed " + std::to_string(seed), {}};
-    for (const Reading& reading : result.sensors[0].readings) {
-        measured.estimates.push_back(reading.estimate);
+    for (const SensorResult& sensor : result.sensors) {
+        for (const Reading& reading : sensor.readings) measured.estimates.push_back(reading.estimate);
+        measured.estimates.push_back(sensor.summary.mean);
     }
-    measured.estimates.push_back(result.sensors[0].summary.mean);
     return measured;
 }
 

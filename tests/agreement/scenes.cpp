@@ -158,6 +158,37 @@ Scene many_lights() {
     return scene;
 }
 
+/// A bright ball, 5 cm above a glossy table.
+Scene sphere_over_gloss(const Material& gloss) {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.5));
+    add_object(scene, Box{{1, 1, 0.6}, {2.2, 1.8, 0.75}}, gloss);
+    add_area_light(scene, Sphere{{1.6, 1.4, 0.82}, 0.02}, 20000 * kWhite, diffuse(0.3));
+    return scene;
+}
+Scene sphere_over_phong() { return sphere_over_gloss(phong(0.3, 0.4, 100)); }
+Scene sphere_over_smooth_metal() { return sphere_over_gloss(Rough(rgb(0.9, 0.7, 0.5), 0.02)); }
+Scene sphere_over_plastic() { return sphere_over_gloss(Plastic(rgb(0.5, 0.3, 0.2), 1.5, 0.05)); }
+
+/// A pane divides the room, a glass ball lies on a table.
+Scene room_with_glass() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_object(scene, Rectangle{{2, 0, 0}, {0, 3, 0}, {0, 0, 2.8}}, Pane{1.52, {{0.96, 0.95, 0.9}}});
+    add_object(scene, Sphere{{1.2, 2, 0.9}, 0.3}, Glass{1.5});
+    add_area_light(scene, large_panel(), 500 * kWhite, diffuse(0.5));
+    return scene;
+}
+
+/// The same with a source that only light chains can bring through the glass.
+Scene room_with_glass_and_point_light() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_object(scene, Rectangle{{2, 0, 1.2}, {0, 3, 0}, {0, 0, 1.6}}, Pane{1.52, Spectrum::grey(0.96)});
+    add_point_light(scene, {1, 1.2, 2.2}, 100 * kWhite);
+    return scene;
+}
+
 /// Everything at once, for paths of few reflections.
 Scene mixed_room() {
     Scene scene;
@@ -195,30 +226,86 @@ std::span<const AgreementScene> agreement_scenes() {
                                                         {{2.8, 1.35, 1}, {-1, 0, 0}},
                                                         {{2.6, 1.9, 1}, normalized(Vec3{-1, -1, 0})},
                                                         {{1.4, 2, 1.2}, {1, 0, 0}}};
+    // Onto the floor and walls; the last two leave the floor.
+    static const std::vector<Measurand> around{
+        LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{1, 0.4, -1})},
+        LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{-1, 0.3, 0.1})},
+        LineOfSight{{1, 1, 1.6}, normalized(Vec3{0.3, 1, -0.2})},
+        EmergentRay{{2.5, 1.2, 0}, kUp, normalized(Vec3{0.5, 0.5, 0.6})},
+        EmergentRay{{2.5, 1.2, 0}, kUp, normalized(Vec3{-0.8, 0.2, 0.3})}};
+    static const std::vector<Measurand> into_corners{
+        LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{1.995, 1.495, -1.195})},
+        LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{1.99, 0, -1.2})},
+        EmergentRay{{3.9, 1.5, 0}, kUp, normalized(Vec3{-1, 0, 1})}};
+    static const std::vector<Measurand> at_the_table{
+        EmergentRay{{1.6, 1.4, 0.75}, kUp, normalized(Vec3{0.5, 0.2, 0.7})},
+        EmergentRay{{1.7, 1.4, 0.75}, kUp, normalized(Vec3{1, 0, 0.8})},
+        LineOfSight{{0.8, 1.4, 0.95}, normalized(Vec3{0.6, 0.02, -0.2})}};
+    static const std::vector<Measurand> into_mirrors{
+        LineOfSight{{3, 1.5, 1.4}, normalized(Vec3{-1, 0, 0})},
+        LineOfSight{{3, 1.8, 1.5}, normalized(Vec3{-1, -0.1, -0.08})},
+        LineOfSight{{1.5, 1.6, 1.4}, normalized(Vec3{1.4, 1.4, -0.1})},
+        LineOfSight{{2, 1, 1}, normalized(Vec3{0.2, -1, 0.1})}};
+    static const std::vector<Measurand> through_glass{
+        LineOfSight{{1, 1.2, 1.5}, normalized(Vec3{1, 0.2, -0.2})},
+        LineOfSight{{3.2, 1.2, 1.5}, normalized(Vec3{-1, 0.1, -0.5})},
+        LineOfSight{{0.3, 2, 1.2}, normalized(Vec3{0.9, 0.05, -0.2})},
+        LineOfSight{{1.5, 0.6, 1.5}, normalized(Vec3{0.2, -1, -0.1})}};
+    static const std::vector<Measurand> through_the_pane{
+        LineOfSight{{3.2, 1.2, 1.9}, normalized(Vec3{-1, 0.1, 0.1})},
+        LineOfSight{{3.2, 1.6, 0.4}, normalized(Vec3{0.3, 1, 0.1})},
+        LineOfSight{{1, 1.2, 1.5}, normalized(Vec3{-1, 0.2, -0.2})}};
+    static const std::vector<Measurand> both_sides_of_the_slit{
+        LineOfSight{{1, 1, 1.2}, normalized(Vec3{-1, 0.3, -0.2})},
+        LineOfSight{{1, 1.3, 1.2}, normalized(Vec3{1, 0.05, 0})},
+        LineOfSight{{2.6, 1.4, 1.2}, normalized(Vec3{-1, -0.05, 0})}};
     static const std::vector<AgreementScene> scenes{
-        {"ClosedBox", nothing, {}, closed_box, inside},
-        {"ColouredBox", nothing, {}, coloured_box, inside},
-        {"ParallelPlanes", nothing, {}, parallel_planes, between_planes},
-        {"Corners", finite_variance, {}, bright_box, corners},
-        {"BroadPhong", nothing, {}, broad_phong_box, inside},
-        {"NarrowPhong", nothing, {}, narrow_phong_box, inside},
-        {"MirrorAndPanel", nothing, {}, mirror_and_panel, inside},
-        {"MirrorAboveTheLight", nothing, {}, mirror_above_the_light, inside},
-        {"MirrorAndPointLight", light_from_mirrors, {}, mirror_and_point_light, near_walls},
-        {"RoomsWithSlit", nothing, {}, rooms_with_slit, both_rooms},
-        {"SphereLightAtWall", nothing, {}, sphere_light_at_wall, inside},
-        {"MeshLight", nothing, {}, mesh_light, inside},
-        {"FlatLights", nothing, {}, flat_lights, inside},
-        {"PhotometryLuminaires", nothing, {}, photometry_luminaires, inside},
-        {"BlackObjects", nothing, {}, black_objects, inside},
-        {"ManyLights", nothing, {}, many_lights, inside},
-        {"NoReflection", nothing, 0, mixed_room, inside},
-        {"OneReflection", nothing, 1, mixed_room, inside},
-        {"TwoReflections", nothing, 2, mixed_room, inside},
-        {"OnlyDiffuseTwice", nothing, 2, closed_box, inside},
-        {"RoughMetal", nothing, {}, rough_box, inside},
-        {"BrushedWard", nothing, {}, ward_box, inside},
-        {"Plastic", nothing, {}, plastic_box, inside},
+        {"ClosedBox", nothing, {}, closed_box, inside, {}},
+        {"ColouredBox", nothing, {}, coloured_box, inside, {}},
+        {"ParallelPlanes", nothing, {}, parallel_planes, between_planes, {}},
+        {"Corners", finite_variance, {}, bright_box, corners, {}},
+        {"BroadPhong", nothing, {}, broad_phong_box, inside, {}},
+        {"NarrowPhong", nothing, {}, narrow_phong_box, inside, {}},
+        {"MirrorAndPanel", nothing, {}, mirror_and_panel, inside, {}},
+        {"MirrorAboveTheLight", nothing, {}, mirror_above_the_light, inside, {}},
+        {"MirrorAndPointLight", light_from_mirrors, {}, mirror_and_point_light, near_walls, {}},
+        {"RoomsWithSlit", nothing, {}, rooms_with_slit, both_rooms, {}},
+        {"SphereLightAtWall", nothing, {}, sphere_light_at_wall, inside, {}},
+        {"MeshLight", nothing, {}, mesh_light, inside, {}},
+        {"FlatLights", nothing, {}, flat_lights, inside, {}},
+        {"PhotometryLuminaires", nothing, {}, photometry_luminaires, inside, {}},
+        {"BlackObjects", nothing, {}, black_objects, inside, {}},
+        {"ManyLights", nothing, {}, many_lights, inside, {}},
+        {"NoReflection", nothing, 0, mixed_room, inside, {}},
+        {"OneReflection", nothing, 1, mixed_room, inside, {}},
+        {"TwoReflections", nothing, 2, mixed_room, inside, {}},
+        {"OnlyDiffuseTwice", nothing, 2, closed_box, inside, {}},
+        {"RoughMetal", nothing, {}, rough_box, inside, {}},
+        {"BrushedWard", nothing, {}, ward_box, inside, {}},
+        {"Plastic", nothing, {}, plastic_box, inside, {}},
+        {"LuminanceInAClosedBox", nothing, {}, closed_box, inside, around},
+        {"LuminanceInColour", nothing, {}, coloured_box, {}, around},
+        {"LuminanceBetweenPlanes", nothing, {}, parallel_planes, {}, around},
+        {"LuminanceInCorners", finite_variance, {}, bright_box, {}, into_corners},
+        {"LuminanceOfBroadPhong", nothing, {}, broad_phong_box, {}, around},
+        {"LuminanceOfNarrowPhong", finite_variance, {}, narrow_phong_box, {}, around},
+        {"LuminanceOfRoughMetal", nothing, {}, rough_box, {}, around},
+        {"LuminanceOfWard", finite_variance, {}, ward_box, {}, around},
+        {"LuminanceOfPlastic", nothing, {}, plastic_box, {}, around},
+        {"SphereOverPhong", nothing, {}, sphere_over_phong, {}, at_the_table},
+        {"SphereOverSmoothMetal", finite_variance, {}, sphere_over_smooth_metal, {}, at_the_table},
+        {"SphereOverPlastic", finite_variance, {}, sphere_over_plastic, {}, at_the_table},
+        {"LuminanceInMirrors", nothing, {}, mirror_and_panel, {}, into_mirrors},
+        {"LuminanceAndPointLightInMirror", light_from_mirrors, {}, mirror_and_point_light, {}, around},
+        {"LuminanceThroughGlass", nothing, {}, room_with_glass, inside, through_glass},
+        {"LuminanceThroughAPane", light_from_mirrors, {}, room_with_glass_and_point_light, {},
+         through_the_pane},
+        {"LuminanceThroughASlit", nothing, {}, rooms_with_slit, {}, both_sides_of_the_slit},
+        {"LuminanceUnderLuminaires", nothing, {}, photometry_luminaires, {}, around},
+        {"LuminanceOfEmission", nothing, 0, mixed_room, {}, around},
+        {"LuminanceOfOneReflection", nothing, 1, mixed_room, inside, around},
+        {"LuminanceOfTwoReflections", nothing, 2, mixed_room, inside, around},
+        {"LuminanceOfThreeReflections", nothing, 3, mixed_room, inside, around},
     };
     return scenes;
 }

@@ -24,6 +24,7 @@ struct AgreementScene {
     std::optional<int> bounces;
     Scene (*make)();
     std::vector<MeasuringPoint> points;
+    std::vector<Measurand> sights;  ///< of luminance
 };
 
 std::span<const AgreementScene> agreement_scenes();
