@@ -72,21 +72,9 @@ std::vector<Sensor> chosen_sensors(const std::vector<Sensor>& all, const std::ve
     return chosen;
 }
 
-/// Estimators take lines of sight for measuring points still: better no number than one of another quantity.
-void require_illuminance(const std::vector<Sensor>& sensors, const std::string& file) {
-    for (const Sensor& sensor : sensors) {
-        if (!sensor.measures_luminance()) continue;
-        throw InputError(
-            fmt::format("sensor \"{}\": luminance is not measured yet. Choose others with --sensor.",
-                        sensor.name),
-            {file});
-    }
-}
-
 int run_measure(const MeasureRequest& request) {
     const SceneFile file = read_scene_file(request.scene);
     const std::vector<Sensor> sensors = chosen_sensors(file.sensors, request.sensors, request.scene);
-    require_illuminance(sensors, request.scene);
     const RunOptions options = request.flags.over(file.run);
     if (!request.picture.empty()) require_picture_path(request.picture);
     RunResult result;
