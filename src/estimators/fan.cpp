@@ -20,7 +20,7 @@ struct FanNode {
     SegmentOrigin origin;
     float split;  ///< 0: w = 1
     std::array<float, kBands>
-        coefficient;               ///< flux times BRDF; flux alone where the BRDF depends on direction
+        coefficient;  ///< flux times BRDF; flux alone where the BRDF depends on direction
     const ChainNode* node;
     bool directional;  ///< the BRDF depends on direction
 };
@@ -59,14 +59,12 @@ void add_visible_directional(const FanNode& node, const PointTile& tile, const R
         if (lanes[i] == 0 || packet.end[i] < 0) continue;
         const Vec3 to_point =
             normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
-        const Spectrum brdf =
-            evaluate_brdf_per_sr(*chain_node.material, in, frame.to_local(to_point));
+        const Spectrum brdf = evaluate_brdf_per_sr(*chain_node.material, in, frame.to_local(to_point));
         const Receiver& receiver = tile.receivers[i];
         const double relative =
             relative_brdf(*chain_node.material, brdf) * receiver.relative_response(-to_point);
         const double g = g_per_m2[i];
-        const double chain_share =
-            chain_node.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
+        const double chain_share = chain_node.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
         Spectrum added = chain_node.flux_lm * brdf * (g * chain_share);
         if (tile.directional) added = added * receiver.response(-to_point);
         for (std::size_t b = 0; b < kBands; ++b) sums.band[b][i] += static_cast<float>(added[b]);

@@ -1,8 +1,8 @@
 // The fan: light from the nodes of chains to all receivers, in packets of rays with a common origin.
 //
 // From node y receiver x gets W f_r(y; in, y->x) w G response(x->y), with G = cos+ cos+ V / d^2 and w of the
-// kernel split (theory T.1, T.1b and, with a BRDF at both ends, T.2). Geometry is in single precision; sums over more than a short block of nodes are in
-// double.
+// kernel split (theory T.1, T.1b and, with a BRDF at both ends, T.2). Geometry is in single precision; sums
+// over more than a short block of nodes are in double.
 #pragma once
 
 #include <span>

@@ -72,7 +72,8 @@ class SharedPlace {
         return sum;
     }
 
-    /// Adds what the readings receive of light that comes to y from `direction`, given its illuminance on a surface across it, over the density of y.
+    /// Adds what the readings receive of light that comes to y from `direction`, given its illuminance on a
+    /// surface across it, over the density of y.
     void reflect(const Vec3& direction, const Spectrum& normal_illuminance, ReadingSums& sums) const {
         const Vec3 in = frame_.to_local(direction);
         for_each_lane([&](std::size_t i) {
@@ -144,8 +145,8 @@ void Gather::trace_round(const PointTile& tile, RandomKey key, std::uint64_t rou
         const auto hit = caster_.closest(receiver.lifted(), sample->direction);
         if (!hit) continue;
         if (is_specular(tracer_.material(*hit))) {
-            const Spectrum luminance = tracer_.luminance_without_direct(
-                *hit, sample->direction, tile.reflections_left[i], stream);
+            const Spectrum luminance =
+                tracer_.luminance_without_direct(*hit, sample->direction, tile.reflections_left[i], stream);
             sums.add(receiver.reading(), weight * sample->weight * luminance);
         } else {
             share_out(*hit, tile, i, stream, weight, sums);

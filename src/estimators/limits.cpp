@@ -18,10 +18,10 @@ std::vector<std::string> specular_warnings(const Scene& scene, std::string_view 
         return !std::holds_alternative<AreaLight>(light.source);
     });
     if (!point_like || !has_specular_surfaces(scene)) return {};
-    return {fmt::format(
-        "{}: that light is missing from the readings. Area lights and spheres of a size that "
-        "can be seen have no such limit.",
-        what)};
+    return {
+        fmt::format("{}: that light is missing from the readings. Area lights and spheres of a size that "
+                    "can be seen have no such limit.",
+                    what)};
 }
 
 }  // namespace stilb

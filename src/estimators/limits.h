@@ -11,8 +11,8 @@ namespace stilb {
 
 bool has_specular_surfaces(const Scene& scene);
 
-/// A warning that begins with `what` where the scene has mirrors or glass, and point or photometry lights; empty
-/// elsewhere.
+/// A warning that begins with `what` where the scene has mirrors or glass, and point or photometry lights;
+/// empty elsewhere.
 std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what);
 
 }  // namespace stilb

@@ -133,8 +133,7 @@ class LocalEstimation final : public Estimator {
             for (const FaintWay& way : sight.faint) seen.faint.push_back({reading, way});
             for (const SubPoint& sub_point : sight.sub_points) {
                 if (sub_point.reflections == max_reflections_) continue;
-                seen.receivers.emplace_back(reading, sub_point,
-                                            scene_.material(sub_point.surface.material));
+                seen.receivers.emplace_back(reading, sub_point, scene_.material(sub_point.surface.material));
             }
         }
         seen.receivers = sorted_receivers(std::move(seen.receivers));

@@ -3,15 +3,15 @@
 //   E(x) = E_direct + integral over the hemisphere of L_r(y, y->x) cos(theta_x) dw        (theory 2, T.1b
 //   with k = 0)
 //
-// by one cosine-distributed ray and the path that it begins, for each sample and point by itself; luminance by
-// paths that begin along the line of sight. Finite variance for bounded BRDFs. Not made: light that leaves a
-// point-like source and meets a mirror or glass before anything else.
+// by one cosine-distributed ray and the path that it begins, for each sample and point by itself; luminance
+// by paths that begin along the line of sight. Finite variance for bounded BRDFs. Not made: light that leaves
+// a point-like source and meets a mirror or glass before anything else.
 #include "estimators/path.h"
 
 #include "estimators/direct_light.h"
 #include "estimators/limits.h"
-#include "estimators/receiver.h"
 #include "estimators/path_tracer.h"
+#include "estimators/receiver.h"
 
 namespace stilb {
 namespace {
@@ -43,8 +43,7 @@ class PathEstimator final : public Estimator {
             const RandomKey key = batch.key.derived(reading);
             for (std::uint64_t i = batch.first; i < end; ++i) {
                 SampleStream stream(key, i);
-                sums.add(reading,
-                         tracer_.luminance_without_direct(hit, direction, max_reflections_, stream));
+                sums.add(reading, tracer_.luminance_without_direct(hit, direction, max_reflections_, stream));
             }
         }
     }

@@ -9,7 +9,7 @@
 namespace stilb {
 
 PathTracer::View PathTracer::look_through(const Hit& hit, const Vec3& direction, int max_reflections,
-                                                  SampleStream& stream) const {
+                                          SampleStream& stream) const {
     View view;
     view.surface = hit;
     view.outgoing = -direction;

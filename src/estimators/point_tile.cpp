@@ -7,8 +7,8 @@ namespace {
 
 /// Without the promise that nothing overlaps, the loop would stay scalar.
 STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std::int32_t reflections,
-                                    const PointTile& __restrict tile, RayPacket& __restrict segments, LaneMask& __restrict lanes,
-                                    PointTile::Floats& __restrict g_per_m2) {
+                                    const PointTile& __restrict tile, RayPacket& __restrict segments,
+                                    LaneMask& __restrict lanes, PointTile::Floats& __restrict g_per_m2) {
     std::int32_t any = 0;
     for (int i = 0; i < kPacketWidth; ++i) {
         const float dx = tile.x[i] - origin.x, dy = tile.y[i] - origin.y, dz = tile.z[i] - origin.z;
@@ -22,8 +22,8 @@ STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std:
         const float cos_origin = origin.normal_x * dx + origin.normal_y * dy + origin.normal_z * dz;
         const float cos_point = -(tile.normal_x[i] * dx + tile.normal_y[i] * dy + tile.normal_z[i] * dz);
         // & rather than &&: without a branch the loop vectorises.
-        const std::int32_t active = -static_cast<std::int32_t>(
-            (cos_origin > 0) & (cos_point > 0) & (reflections <= tile.reflections_left[i]));
+        const std::int32_t active = -static_cast<std::int32_t>((cos_origin > 0) & (cos_point > 0) &
+                                                               (reflections <= tile.reflections_left[i]));
         g_per_m2[i] = active ? cos_origin * cos_point / (squared * squared) : 0;
         lanes[i] = active;
         any |= active;

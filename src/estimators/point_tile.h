@@ -37,8 +37,9 @@ struct SegmentOrigin {
     SegmentOrigin(const Vec3& position, const Vec3& lifted, const Vec3& normal, const Vec3& center);
 };
 
-/// Makes the segments from `origin`, for light that has met so many reflections, to a tile's points, and G = cos+ cos+ / d^2 [1/m2] without visibility;
-/// lanes are set where G is not 0 and so many reflections are allowed. False: no lane is.
+/// Makes the segments from `origin`, for light that has met so many reflections, to a tile's points, and G =
+/// cos+ cos+ / d^2 [1/m2] without visibility; lanes are set where G is not 0 and so many reflections are
+/// allowed. False: no lane is.
 bool connect(const SegmentOrigin& origin, int reflections, const PointTile& tile, RayPacket& segments,
              LaneMask& lanes, PointTile::Floats& g_per_m2);
 

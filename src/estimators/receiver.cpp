@@ -53,8 +53,7 @@ Spectrum Receiver::response(const Vec3& direction) const {
 
 double Receiver::relative_response(const Vec3& direction) const {
     if (constant_response_) return 1;
-    return relative_brdf(*material_,
-                         evaluate_brdf_per_sr(*material_, frame_.to_local(direction), outgoing_));
+    return relative_brdf(*material_, evaluate_brdf_per_sr(*material_, frame_.to_local(direction), outgoing_));
 }
 
 std::optional<Receiver::Sample> Receiver::sample(double u1, double u2) const {

@@ -38,7 +38,8 @@ std::optional<SpecularWay> choose_specular_way(const Material& material, const H
     if (branches.size() == 1) return meeting.way(branches[0], 1);
     const double first = branches[0].share.luminance(), second = branches[1].share.luminance();
     const double probability = first / (first + second);
-    return u < probability ? meeting.way(branches[0], probability) : meeting.way(branches[1], 1 - probability);
+    return u < probability ? meeting.way(branches[0], probability)
+                           : meeting.way(branches[1], 1 - probability);
 }
 
 }  // namespace stilb

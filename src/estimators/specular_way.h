@@ -11,7 +11,7 @@ namespace stilb {
 struct SpecularWay {
     Vec3 origin;  ///< off the surface, on the side that the way goes to
     Vec3 direction;
-    Spectrum share;                ///< of the flux; as SpecularBranch has it
+    Spectrum share;               ///< of the flux; as SpecularBranch has it
     double luminance_factor = 1;  ///< likewise
 };
 

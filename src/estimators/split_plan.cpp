@@ -244,8 +244,7 @@ void model_packet(const RayCaster& caster, const PathTracer& tracer, std::span<c
             sample_rays(caster, tracer, tile.front(), i, rays_per_point, key.derived(i));
         const double seen = chains * std::max(mean_chain_share(samples.rays, k_per_m2), 0.01);
         // Few nodes, or none, lie where a glossy sub-point looks: there rays know more.
-        const double indirect =
-            receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
+        const double indirect = receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
         // Where nothing is seen, in the dark, nothing is to be gained.
         const double density_per_m2 =
             indirect > 0 ? std::max(sums.density_per_m2[i] / seen, 1e-3 * mean_density) : mean_density;
@@ -262,21 +261,20 @@ std::vector<ReceiverModel> model_receivers(const RayCaster& caster, const PathTr
         static_cast<unsigned>(std::clamp<std::size_t>(rays / receivers.size(), 16, 1024));
     const std::vector<ChainNode> units = unit_nodes(pilot.nodes);
     std::vector<ReceiverModel> models(receivers.size());
-    tbb::parallel_for(std::size_t{0}, (receivers.size() + kPacketWidth - 1) / kPacketWidth,
-                      [&](std::size_t p) {
-                          const std::size_t first = p * kPacketWidth;
-                          const std::size_t count =
-                              std::min<std::size_t>(kPacketWidth, receivers.size() - first);
-                          model_packet(caster, tracer, receivers.subspan(first, count), pilot, units,
-                                       rays_per_point, key.derived(p), {models.data() + first, count});
-                      });
+    tbb::parallel_for(
+        std::size_t{0}, (receivers.size() + kPacketWidth - 1) / kPacketWidth, [&](std::size_t p) {
+            const std::size_t first = p * kPacketWidth;
+            const std::size_t count = std::min<std::size_t>(kPacketWidth, receivers.size() - first);
+            model_packet(caster, tracer, receivers.subspan(first, count), pilot, units, rays_per_point,
+                         key.derived(p), {models.data() + first, count});
+        });
     return models;
 }
 
 /// The models with variances relative to the readings that the receivers are parts of, times their weights.
 std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
-                                        std::span<const Receiver> receivers,
-                                        std::span<const double> weights, std::span<const double> direct) {
+                                        std::span<const Receiver> receivers, std::span<const double> weights,
+                                        std::span<const double> direct) {
     std::vector<double> values(direct.begin(), direct.end());
     for (std::size_t j = 0; j < receivers.size(); ++j) values[receivers[j].reading()] += models[j].indirect;
     std::vector<PointModel> weighted;

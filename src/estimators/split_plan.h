@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "estimators/light_chain.h"
-#include "estimators/receiver.h"
 #include "estimators/path_tracer.h"
+#include "estimators/receiver.h"
 
 namespace stilb {
 
@@ -37,9 +37,10 @@ struct PilotLight {
 ///
 ///     variance of a chain's fan    E[l w^2 s G] / (pi nu)      of a gathering ray    c E[l^2 (1 - w) r]
 ///
-/// with s of kernel_split.h and r the ray's share of the density of all rays of its packet where it ends. The pilot gives nu and the
-/// share of indirect light, a few paths from each receiver G, l and r. Any plan is unbiased; a poor one costs
-/// time only. The plans depend on `key`, which must be independent of what they are used for.
+/// with s of kernel_split.h and r the ray's share of the density of all rays of its packet where it ends. The
+/// pilot gives nu and the share of indirect light, a few paths from each receiver G, l and r. Any plan is
+/// unbiased; a poor one costs time only. The plans depend on `key`, which must be independent of what they
+/// are used for.
 std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
                                    std::span<const Receiver> receivers, std::span<const double> weights,
                                    const PilotLight& pilot, RandomKey key);

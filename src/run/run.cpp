@@ -290,6 +290,19 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
     return result;
 }
 
+std::vector<std::optional<Vec3>> sub_points(const Sensor& sensor, const Scene& scene,
+                                            const RayCaster& caster) {
+    std::vector<std::optional<Vec3>> points;
+    if (sensor.type != SensorType::luminance) return points;
+    const LightSampler lights(scene, caster);
+    for (const Measurand& measurand : sensor.measurands) {
+        const Sight sight = look(measurand, scene, caster, lights, kUnlimited);
+        points.push_back(sight.sub_points.empty() ? std::nullopt
+                                                  : std::optional{sight.sub_points.front().surface.position});
+    }
+    return points;
+}
+
 std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span<const Sensor> sensors) {
     std::vector<std::string> warnings;
     std::size_t first = 0;
@@ -356,6 +369,7 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
         result.sensors.push_back(sensor_result(campaign, sensor, first, confidence));
+        result.sensors.back().sub_points = sub_points(sensor, scene, caster);
         first += sensor.measurands.size();
     }
     result.warnings = estimator->warnings();

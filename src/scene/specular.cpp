@@ -35,8 +35,7 @@ SpecularBranches specular_branches(const Glass& material, LightSide side, const 
     SpecularBranches branches;
     branches.add({mirrored(in), Spectrum::grey(reflectance)});
     if (reflectance < 1) {
-        const Vec3 refracted =
-            normalized(Vec3{-in.x / ior, -in.y / ior, -refracted_cosine(in.z, ior)});
+        const Vec3 refracted = normalized(Vec3{-in.x / ior, -in.y / ior, -refracted_cosine(in.z, ior)});
         branches.add({refracted, Spectrum::grey(1 - reflectance), 1 / (ior * ior)});
     }
     return branches;

@@ -128,7 +128,8 @@ TEST(MirrorMaterial, ReflectsIntoTheMirroredDirection) {
 }
 
 TEST(SpecularMaterials, ReflectNothingFromBelow) {
-    for (const Material& material : {Material(Mirror{Spectrum::grey(1)}), Material(Glass{}), Material(Pane{})}) {
+    for (const Material& material :
+         {Material(Mirror{Spectrum::grey(1)}), Material(Glass{}), Material(Pane{})}) {
         EXPECT_TRUE(is_specular(material));
         EXPECT_TRUE(specular_branches(material, LightSide::outside, {0, 0, -1}).list().empty());
         EXPECT_FALSE(sample_brdf(material, incident(20), 0.5, 0.5)) << "has no density to draw from";
