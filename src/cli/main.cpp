@@ -24,16 +24,22 @@ stilb::InputError no_command(const CLI::App& app) {
     return stilb::InputError(fmt::format("there is no command \"{}\".{} {}", extras[0], question, all));
 }
 
+std::string command_line(int argument_count, char** arguments) {
+    const std::vector<std::string> words(arguments + 1, arguments + argument_count);
+    return fmt::format("stilb {}", fmt::join(words, " "));
+}
+
 }  // namespace
 
 int main(int argument_count, char** arguments) {
-    CLI::App app{"Stilb: illuminance with an error bar on every number"};
+    CLI::App app{"Stilb: illuminance and luminance with an error bar on every number"};
     app.name("stilb");
     app.set_version_flag("--version", STILB_VERSION);
     app.require_subcommand(0, 1);
     int exit_code = stilb::kExitDone;
     try {
         stilb::add_measure(app, exit_code);
+        stilb::add_render(app, command_line(argument_count, arguments), exit_code);
         stilb::add_info(app, exit_code);
         stilb::add_falsecolor(app, exit_code);
         stilb::add_verify(app, exit_code);

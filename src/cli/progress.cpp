@@ -19,19 +19,26 @@ void on_interrupt(int signal_number) {
 
 }  // namespace
 
-TerminalProgress::TerminalProgress() : is_terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressLine::ProgressLine() : is_terminal_(isatty(STDERR_FILENO) != 0) {}
 
-TerminalProgress::~TerminalProgress() {
+ProgressLine::~ProgressLine() {
     if (is_terminal_) fmt::print(stderr, "\r\033[K");
 }
 
-void TerminalProgress::report(const Progress& progress) {
+void ProgressLine::show(double elapsed_s, const std::string& done, double attained_error,
+                        double remaining_s) {
     if (!is_terminal_) return;
+    const std::string error =
+        std::isfinite(attained_error) ? fmt::format("  error {:.2g} %", 100 * attained_error) : "";
     const std::string left =
-        std::isfinite(progress.remaining_s) ? fmt::format(", about {:.0f} s left", progress.remaining_s) : "";
-    fmt::print(stderr, "\r\033[K{:.1f} s  {} paths  error {:.2g} %{}", progress.elapsed_s, progress.paths,
-               100 * progress.attained_error, left);
+        std::isfinite(remaining_s) ? fmt::format(", about {:.0f} s left", remaining_s) : "";
+    fmt::print(stderr, "\r\033[K{:.1f} s  {}{}{}", elapsed_s, done, error, left);
     std::fflush(stderr);
+}
+
+void TerminalProgress::report(const Progress& progress) {
+    line_.show(progress.elapsed_s, fmt::format("{} paths", progress.paths), progress.attained_error,
+               progress.remaining_s);
 }
 
 const std::atomic<bool>& watch_for_interrupt() {

@@ -2,22 +2,32 @@
 #pragma once
 
 #include <atomic>
+#include <string>
 
 #include "run/run.h"
 
 namespace stilb {
 
 /// Rewrites one line of stderr; shows nothing where stderr is no terminal, and clears the line at the end.
-class TerminalProgress final : public ProgressSink {
+class ProgressLine {
   public:
-    TerminalProgress();
-    ~TerminalProgress() override;
-    TerminalProgress(const TerminalProgress&) = delete;
-    TerminalProgress& operator=(const TerminalProgress&) = delete;
-    void report(const Progress& progress) override;
+    ProgressLine();
+    ~ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+    /// `done`: such as "4096 paths". What is infinite is left out.
+    void show(double elapsed_s, const std::string& done, double attained_error, double remaining_s);
 
   private:
     bool is_terminal_;
+};
+
+class TerminalProgress final : public ProgressSink {
+  public:
+    void report(const Progress& progress) override;
+
+  private:
+    ProgressLine line_;
 };
 
 /// Set by the first Ctrl-C after the call; a second one ends the program at once.

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "estimators/local_estimation.h"
 #include "estimators/path.h"
+#include "estimators/picture_local.h"
+#include "estimators/picture_path.h"
 
 namespace stilb {
 
@@ -15,18 +17,26 @@ std::span<const EstimatorEntry> estimator_list() {
     static constexpr std::array list{
         EstimatorEntry{
             "auto", "local estimation and path tracing, balanced at every point: unbiased, finite variance",
-            false, true, make_auto_estimator},
+            false, make_auto_estimator, make_auto_picture},
         EstimatorEntry{"local", "local estimation as published: fast, but of infinite variance in corners",
-                       true, false, make_local_estimator},
+                       true, make_local_estimator, nullptr},
         EstimatorEntry{"double-local",
                        "the same for luminance, of the surfaces that are seen; no light that leaves a point "
                        "source, meets mirror or glass first and comes to them by mirror or glass",
-                       true, true, make_local_estimator},
+                       true, make_local_estimator, make_local_picture},
         EstimatorEntry{"path",
                        "path tracing from every point with next-event estimation: the naive reference", false,
-                       true, make_path_estimator},
+                       make_path_estimator, make_path_picture},
     };
     return list;
+}
+
+std::vector<std::string_view> luminance_methods() {
+    std::vector<std::string_view> names;
+    for (const EstimatorEntry& entry : estimator_list()) {
+        if (entry.measures_luminance()) names.push_back(entry.name);
+    }
+    return names;
 }
 
 const EstimatorEntry& find_estimator(std::string_view name) {

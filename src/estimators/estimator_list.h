@@ -4,8 +4,10 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "estimators/estimator.h"
+#include "estimators/picture_estimator.h"
 #include "scene/ray_caster.h"
 #include "sensors/sensor.h"
 
@@ -29,11 +31,17 @@ struct EstimatorEntry {
     std::string_view summary;
     /// Whether the variance is infinite in some scenes: then single contributions are watched.
     bool has_heavy_tails;
-    bool measures_luminance;  ///< illuminance they all do
     std::unique_ptr<Estimator> (*make)(const EstimatorInput& input);
+    /// Null where the method does not measure luminance.
+    std::unique_ptr<PictureEstimator> (*make_picture)(const PictureInput& input);
+
+    bool measures_luminance() const { return make_picture != nullptr; }
 };
 
 std::span<const EstimatorEntry> estimator_list();
+
+/// For messages.
+std::vector<std::string_view> luminance_methods();
 
 /// Throws InputError, with the nearest name, where there is no such method.
 const EstimatorEntry& find_estimator(std::string_view name);

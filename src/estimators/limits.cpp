@@ -3,15 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace stilb {
-
-bool has_specular_surfaces(const Scene& scene) {
-    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-        return std::any_of(object.materials.begin(), object.materials.end(),
-                           [&](MaterialId id) { return is_specular(scene.material(id)); });
-    });
-}
+namespace {
 
 std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what) {
     const bool point_like = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
@@ -22,6 +17,28 @@ std::vector<std::string> specular_warnings(const Scene& scene, std::string_view 
         fmt::format("{}: that light is missing from the readings. Area lights and spheres of a size that "
                     "can be seen have no such limit.",
                     what)};
+}
+
+}  // namespace
+
+bool has_specular_surfaces(const Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        return std::any_of(object.materials.begin(), object.materials.end(),
+                           [&](MaterialId id) { return is_specular(scene.material(id)); });
+    });
+}
+
+std::vector<std::string> path_warnings(const Scene& scene) {
+    return specular_warnings(scene,
+                             "path tracing cannot make light that leaves a point or photometry light and "
+                             "meets a mirror or glass before anything else");
+}
+
+std::vector<std::string> local_warnings(const Scene& scene) {
+    return specular_warnings(
+        scene,
+        "local estimation cannot make light that leaves a point or photometry light, meets a mirror or glass "
+        "first and comes to the point (for luminance: the surface that is seen) by a mirror or glass last");
 }
 
 }  // namespace stilb

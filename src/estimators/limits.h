@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "scene/scene.h"
@@ -11,8 +10,9 @@ namespace stilb {
 
 bool has_specular_surfaces(const Scene& scene);
 
-/// A warning that begins with `what` where the scene has mirrors or glass, and point or photometry lights;
-/// empty elsewhere.
-std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what);
+/// Warnings of what path tracing and local estimation leave out, where the scene has mirrors or glass, and
+/// point or photometry lights; empty elsewhere.
+std::vector<std::string> path_warnings(const Scene& scene);
+std::vector<std::string> local_warnings(const Scene& scene);
 
 }  // namespace stilb

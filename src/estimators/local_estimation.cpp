@@ -85,13 +85,7 @@ class LocalEstimation final : public Estimator {
         return chain_cost +
                2.0 * static_cast<double>(seen_.receivers.size()) / static_cast<double>(chains_per_selected_);
     }
-    std::vector<std::string> warnings() const override {
-        return specular_warnings(
-            scene_,
-            "local estimation cannot make light that leaves a point or photometry light, meets a "
-            "mirror or glass first and comes to the point (for luminance: the surface that is seen) by a "
-            "mirror or glass last");
-    }
+    std::vector<std::string> warnings() const override { return local_warnings(scene_); }
 
   private:
     std::vector<ChainNode> walk_chains(RandomKey key, std::uint64_t first, std::uint64_t end) const {

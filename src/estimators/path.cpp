@@ -52,11 +52,7 @@ class PathEstimator final : public Estimator {
     /// Enough for a first look at the error not to miss what few paths find.
     std::uint64_t batch_granularity() const override { return 64; }
     double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
-    std::vector<std::string> warnings() const override {
-        return specular_warnings(scene_,
-                                 "path tracing cannot make light that leaves a point or photometry light and "
-                                 "meets a mirror or glass before anything else");
-    }
+    std::vector<std::string> warnings() const override { return path_warnings(scene_); }
 
   private:
     /// The surface that a line of sight meets first, and the direction that it is seen along.

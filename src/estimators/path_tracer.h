@@ -16,6 +16,17 @@ class PathTracer {
     PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights)
         : scene_(scene), caster_(caster), lights_(lights) {}
 
+    /// Follows a ray that met `hit` through mirrors and glass: the surface behind them and what they leave of
+    /// the light.
+    struct View {
+        std::optional<Hit> surface;  ///< not specular; nothing where the ray left the scene or ended
+        Vec3 outgoing;               ///< unit, from the surface towards where it is seen from
+        Spectrum transmission = Spectrum::grey(1);
+        Spectrum emission_cd_m2;  ///< of emitters on the way, behind mirrors and glass, transmission included
+        int reflections = 0;      ///< at mirrors and glass
+    };
+    View look_through(const Hit& hit, const Vec3& direction, int max_reflections, SampleStream& stream) const;
+
     /// Light from one source at `surface`, shadows included; nothing where none arrives.
     std::optional<IncidentLight> sample_light(const Hit& surface, SampleStream& stream) const;
 
@@ -46,17 +57,6 @@ class PathTracer {
     const Material& material(const Hit& hit) const { return scene_.material(hit.material); }
 
   private:
-    /// Follows a ray that met `hit` through mirrors and glass: the surface behind them and what they leave of
-    /// the light.
-    struct View {
-        std::optional<Hit> surface;  ///< not specular; nothing where the ray left the scene or ended
-        Vec3 outgoing;               ///< unit, from the surface towards where it is seen from
-        Spectrum transmission = Spectrum::grey(1);
-        Spectrum emission_cd_m2;  ///< of emitters on the way, behind mirrors and glass, transmission included
-        int reflections = 0;      ///< at mirrors and glass
-    };
-    View look_through(const Hit& hit, const Vec3& direction, int max_reflections, SampleStream& stream) const;
-
     /// One unbiased sample of the luminance [cd/m2] that `surface` (not specular) reflects towards
     /// `outgoing`, by at most `max_reflections` reflections, its own counted. Emission of the surface itself
     /// is left out.

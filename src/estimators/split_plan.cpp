@@ -196,10 +196,11 @@ std::vector<ChainNode> unit_nodes(std::span<const ChainNode> nodes) {
     return result;
 }
 
-/// A model in units of the indirect light, and how much that is.
-struct ReceiverModel {
-    PointModel model;
-    double indirect = 0;  ///< [lx or cd/m2]
+/// What is known of a receiver before planning.
+struct Survey {
+    std::vector<RaySample> rays;
+    double density_per_m2 = 0;  ///< of nodes, per chain, on the surfaces that it sees
+    double indirect = 0;        ///< [lx or cd/m2]
 };
 
 /// What the pilot's nodes send to the receivers of a packet, and how densely they lie there [1/m2]: sums over
@@ -225,10 +226,10 @@ PilotSums collect_pilot(const RayCaster& caster, std::span<const Receiver> recei
     return {collect({receivers.begin(), receivers.end()}, pilot.nodes), collect(of_illuminance, units)};
 }
 
-/// Models of the receivers of a packet.
-void model_packet(const RayCaster& caster, const PathTracer& tracer, std::span<const Receiver> receivers,
-                  const PilotLight& pilot, std::span<const ChainNode> units, unsigned rays_per_point,
-                  RandomKey key, std::span<ReceiverModel> models) {
+std::vector<Survey> survey_packet(const RayCaster& caster, const PathTracer& tracer,
+                                  std::span<const Receiver> receivers, const PilotLight& pilot,
+                                  std::span<const ChainNode> units, unsigned rays_per_receiver,
+                                  RandomKey key) {
     const double chains = static_cast<double>(pilot.chains);
     const double mean_density =
         (static_cast<double>(pilot.nodes.size()) + 1) / (chains * pilot.scene_area_m2);
@@ -239,18 +240,27 @@ void model_packet(const RayCaster& caster, const PathTracer& tracer, std::span<c
     const PilotSums sums = collect_pilot(caster, receivers, k_per_m2, pilot, units);
     const std::vector<PointTile> tile =
         tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2), caster, pilot.max_reflections);
+    std::vector<Survey> surveys;
     for (std::size_t i = 0; i < receivers.size(); ++i) {
-        const RaySamples samples =
-            sample_rays(caster, tracer, tile.front(), i, rays_per_point, key.derived(i));
+        RaySamples samples =
+            sample_rays(caster, tracer, tile.front(), i, rays_per_receiver, key.derived(i));
         const double seen = chains * std::max(mean_chain_share(samples.rays, k_per_m2), 0.01);
         // Few nodes, or none, lie where a glossy sub-point looks: there rays know more.
-        const double indirect = receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
+        const double indirect =
+            receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
         // Where nothing is seen, in the dark, nothing is to be gained.
         const double density_per_m2 =
             indirect > 0 ? std::max(sums.density_per_m2[i] / seen, 1e-3 * mean_density) : mean_density;
-        models[i] = {model_of(samples.rays, density_per_m2), indirect};
+        surveys.push_back({std::move(samples.rays), density_per_m2, indirect});
     }
+    return surveys;
 }
+
+/// A model in units of the indirect light, and how much that is.
+struct ReceiverModel {
+    PointModel model;
+    double indirect = 0;  ///< [lx or cd/m2]
+};
 
 std::vector<ReceiverModel> model_receivers(const RayCaster& caster, const PathTracer& tracer,
                                            std::span<const Receiver> receivers, const PilotLight& pilot,
@@ -261,13 +271,16 @@ std::vector<ReceiverModel> model_receivers(const RayCaster& caster, const PathTr
         static_cast<unsigned>(std::clamp<std::size_t>(rays / receivers.size(), 16, 1024));
     const std::vector<ChainNode> units = unit_nodes(pilot.nodes);
     std::vector<ReceiverModel> models(receivers.size());
-    tbb::parallel_for(
-        std::size_t{0}, (receivers.size() + kPacketWidth - 1) / kPacketWidth, [&](std::size_t p) {
-            const std::size_t first = p * kPacketWidth;
-            const std::size_t count = std::min<std::size_t>(kPacketWidth, receivers.size() - first);
-            model_packet(caster, tracer, receivers.subspan(first, count), pilot, units, rays_per_point,
-                         key.derived(p), {models.data() + first, count});
-        });
+    const std::size_t packets = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
+    tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+        const std::size_t first = p * kPacketWidth;
+        const std::size_t count = std::min<std::size_t>(kPacketWidth, receivers.size() - first);
+        const std::vector<Survey> surveys = survey_packet(caster, tracer, receivers.subspan(first, count),
+                                                          pilot, units, rays_per_point, key.derived(p));
+        for (std::size_t i = 0; i < count; ++i) {
+            models[first + i] = {model_of(surveys[i].rays, surveys[i].density_per_m2), surveys[i].indirect};
+        }
+    });
     return models;
 }
 
@@ -325,6 +338,43 @@ std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tr
         price = sum.variance / sum.cost;
     }
     return plans;
+}
+
+double plan_constant(const RayCaster& caster, const PathTracer& tracer, std::span<const Receiver> receivers,
+                     const PilotLight& pilot, std::uint64_t chains_per_ray, unsigned rays_per_receiver,
+                     RandomKey key) {
+    const std::vector<Survey> surveys = survey_packet(caster, tracer, receivers, pilot,
+                                                      unit_nodes(pilot.nodes), rays_per_receiver, key);
+    double density_per_m2 = 0;
+    for (const Survey& survey : surveys) {
+        density_per_m2 += survey.density_per_m2 / static_cast<double>(surveys.size());
+    }
+    std::vector<Outcome> sums;
+    for (const Survey& survey : surveys) {
+        const PointModel model = model_of(survey.rays, density_per_m2);
+        sums.resize(model.size());
+        for (std::size_t i = 0; i < model.size(); ++i) {
+            sums[i].k_per_m2 = model[i].k_per_m2;
+            sums[i].fan_variance += model[i].fan_variance;
+            sums[i].gather_variance += model[i].gather_variance;
+            sums[i].gather_cost += model[i].gather_cost;
+        }
+    }
+    const double chains = static_cast<double>(chains_per_ray);
+    const double nodes_per_chain =
+        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
+    const double fan_cost = chains * nodes_per_chain * static_cast<double>(surveys.size());
+    Outcome best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Outcome& outcome : sums) {
+        const double loss =
+            (outcome.fan_variance / chains + outcome.gather_variance) * (fan_cost + outcome.gather_cost);
+        if (loss < least) {
+            least = loss;
+            best = outcome;
+        }
+    }
+    return best.k_per_m2;
 }
 
 }  // namespace stilb

@@ -45,4 +45,10 @@ std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tr
                                    std::span<const Receiver> receivers, std::span<const double> weights,
                                    const PilotLight& pilot, RandomKey key);
 
+/// One k for a packet of receivers (one at least, kPacketWidth at most), each of which gathers by one ray for
+/// so many chains of which all nodes are sent to it: by the same model.
+double plan_constant(const RayCaster& caster, const PathTracer& tracer, std::span<const Receiver> receivers,
+                     const PilotLight& pilot, std::uint64_t chains_per_ray, unsigned rays_per_receiver,
+                     RandomKey key);
+
 }  // namespace stilb

@@ -151,7 +151,9 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
                                      other, other == ".obj" || other == ".ply" ? "an object" : "a light"),
                          {path.string()});
     }
-    return read_scene(read_whole_file(path), path.string(), path.parent_path());
+    SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path());
+    file.sources.insert(file.sources.begin(), path);
+    return file;
 }
 
 }  // namespace stilb

@@ -16,6 +16,8 @@ struct SceneFile {
     Scene scene;
     std::vector<Sensor> sensors;
     RunOptions run;
+    /// The scene file and all files that it refers to (none where it was read from memory).
+    std::vector<std::filesystem::path> sources;
     /// What is odd but not wrong (degenerate triangles dropped, normals made unit, ...), for `info` and
     /// stderr.
     std::vector<std::string> warnings;

@@ -105,6 +105,7 @@ SolidId read_solid(const TomlItem& item, const Context& context) {
                                     [&](const NamedSolid& solid) { return solid.file == path.string(); });
     const auto index = static_cast<std::uint32_t>(place - solids.begin());
     if (place == solids.end()) {
+        context.file.sources.push_back(path);
         const PhotometryFile file = read_photometry_file(path);
         const PhotometricSolid solid(file.grid);
         solids.push_back({path.string(), file.luminaire, solid, file.format,

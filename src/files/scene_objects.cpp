@@ -86,13 +86,14 @@ MaterialId read_material(const TomlItem& item, const Scene& scene) {
     return MaterialId{static_cast<std::uint32_t>(item.index_in(names_of(scene.materials), "material"))};
 }
 
-MeshFile read_mesh(const TomlTable& table, const std::filesystem::path& directory) {
+MeshFile read_mesh(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
     const TomlItem item = table.at("file");
     for (const std::string_view extension : {".gltf", ".glb"}) {
         if (!item.text().ends_with(extension)) continue;
         item.fail("meshes in glTF are not supported yet. Allowed: OBJ (.obj) and PLY (.ply).");
     }
-    return read_mesh_file(item.existing_file(directory));
+    file.sources.push_back(item.existing_file(directory));
+    return read_mesh_file(file.sources.back());
 }
 
 /// The materials that a scene gives to the parts of a mesh, by the mesh file's own names.
@@ -158,7 +159,7 @@ class PartMaterials {
 };
 
 Object read_mesh_object(TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
-    MeshFile mesh = read_mesh(table, directory);
+    MeshFile mesh = read_mesh(table, directory, file);
     warn_of_degenerate(table, mesh, file);
     std::vector<MaterialId> materials;
     if (table.has("materials")) {

@@ -23,4 +23,7 @@ struct RunOptions {
     int replicates = 32;
 };
 
+/// Throws InputError where one of them makes no sense.
+void require_valid(const RunOptions& options);
+
 }  // namespace stilb

@@ -7,7 +7,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "base/error.h"
 #include "estimators/estimator_list.h"
 #include "estimators/line_of_sight.h"
+#include "run/clock.h"
 #include "sensors/placement.h"
 #include "statistics/heavy_tail.h"
 #include "statistics/stopping.h"
@@ -34,16 +34,6 @@ constexpr std::uint64_t kLeastLook = 4;
 /// Contributions that may fail to be finite before the run does.
 constexpr double kInvalidRate = 1e-6;
 enum Purpose : std::uint64_t { kPreparation, kReplicates };
-
-class Clock {
-  public:
-    double elapsed_s() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// The replicates' sums, and how far they are.
 class Campaign {
@@ -126,32 +116,9 @@ class Campaign {
     std::uint64_t samples_ = 0;
 };
 
-void require_valid(const RunOptions& options, std::size_t readings) {
-    if (readings == 0) throw InputError("no sensor to measure: the scene needs one under [sensors]");
-    const auto positive = [](const char* name, double value) {
-        if (!(value > 0) || !std::isfinite(value)) {
-            throw InputError(fmt::format("{} = {}: a positive number is needed", name, value));
-        }
-    };
-    if (options.error) positive("error", *options.error);
-    if (options.time_s) positive("time", *options.time_s);
-    if (options.paths) positive("paths", static_cast<double>(*options.paths));
-    if (options.bounces && *options.bounces < 0) throw InputError("bounces: 0 or more is needed");
-    if (options.threads < 0) throw InputError("threads: 0 (all) or more is needed");
-    if (options.replicates < 2) throw InputError("replicates: at least 2 are needed");
-}
-
-std::vector<std::string_view> luminance_methods() {
-    std::vector<std::string_view> names;
-    for (const EstimatorEntry& entry : estimator_list()) {
-        if (entry.measures_luminance) names.push_back(entry.name);
-    }
-    return names;
-}
-
 void require_measurable(std::span<const Sensor> sensors, const EstimatorEntry& method) {
     for (const Sensor& sensor : sensors) {
-        if (sensor.measures_luminance() && !method.measures_luminance) {
+        if (sensor.measures_luminance() && !method.measures_luminance()) {
             throw InputError(fmt::format("sensor \"{}\": method {} measures illuminance only. Luminance: {}.",
                                          sensor.name, method.name, fmt::join(luminance_methods(), ", ")));
         }
@@ -334,7 +301,10 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
         weights.insert(weights.end(), sensor.measurands.size(),
                        1 / static_cast<double>(sensor.measurands.size()));
     }
-    require_valid(options, measurands.size());
+    if (measurands.empty()) {
+        throw InputError("no sensor to measure: the scene needs one under [sensors]");
+    }
+    require_valid(options);
     const EstimatorEntry& method = find_estimator(options.method);
     require_measurable(sensors, method);
 

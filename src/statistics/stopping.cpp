@@ -6,11 +6,15 @@
 namespace stilb {
 
 double attained_error(std::span<const Estimate> readings, double share) {
-    if (readings.empty()) return 0;
     std::vector<double> half_widths(readings.size());
     std::transform(readings.begin(), readings.end(), half_widths.begin(), relative_half_width);
+    return attained_error(std::move(half_widths), share);
+}
+
+double attained_error(std::vector<double> half_widths, double share) {
+    if (half_widths.empty()) return 0;
     // The small number keeps 0.95 * 20 from counting as more than 19.
-    const double needed = std::ceil(share * static_cast<double>(readings.size()) - 1e-9);
+    const double needed = std::ceil(share * static_cast<double>(half_widths.size()) - 1e-9);
     const auto last =
         half_widths.begin() + std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(needed) - 1, 0);
     std::nth_element(half_widths.begin(), last, half_widths.end());

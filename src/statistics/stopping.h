@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "statistics/interval.h"
 
@@ -18,5 +19,6 @@ inline constexpr double kStoppedConfidence = 0.96;
 
 /// The relative half-width that this share of the readings is within; 0 without readings.
 double attained_error(std::span<const Estimate> readings, double share = kReadingShare);
+double attained_error(std::vector<double> relative_half_widths, double share = kReadingShare);
 
 }  // namespace stilb

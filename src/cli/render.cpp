@@ -1,0 +1,186 @@
+// stilb render: a picture of one camera.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/run_flags.h"
+#include "files/content_hash.h"
+#include "files/picture_file.h"
+#include "files/scene_file.h"
+#include "run/render.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPreviewEvery_s = 3;
+
+struct RenderRequest {
+    std::string scene, sensor, output, preview, command;
+    ToneOptions tone;
+    RunFlags flags;
+};
+
+Sensor chosen_camera(const SceneFile& file, const RenderRequest& request) {
+    std::vector<Sensor> cameras;
+    std::vector<std::string_view> names;
+    for (const Sensor& sensor : file.sensors) {
+        if (sensor.type == SensorType::camera) cameras.push_back(sensor);
+    }
+    for (const Sensor& camera : cameras) names.push_back(camera.name);
+    if (cameras.empty()) {
+        throw InputError("no camera: the scene needs a sensor of type \"camera\" under [sensors]",
+                         {request.scene});
+    }
+    const std::string list = fmt::format("{}", fmt::join(names, ", "));
+    if (request.sensor.empty()) {
+        if (cameras.size() == 1) return cameras.front();
+        throw InputError(fmt::format("several cameras: {}. Choose one with --sensor.", list), {request.scene});
+    }
+    for (const Sensor& camera : cameras) {
+        if (camera.name == request.sensor) return camera;
+    }
+    const std::string nearest = nearest_name(request.sensor, names);
+    throw InputError(fmt::format("--sensor {}: there is no such camera.{} Cameras: {}.", request.sensor,
+                                 nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest), list),
+                     {request.scene});
+}
+
+Picture picture_of(const Pixels& pixels, const Camera& camera, const PictureOrigin& origin) {
+    Picture picture;
+    picture.width = camera.resolution[0];
+    picture.height = camera.resolution[1];
+    picture.rgb_cd_m2 = pixels.rgb_cd_m2;
+    picture.standard_error_cd_m2 = pixels.standard_error_cd_m2;
+    picture.camera = camera;
+    picture.origin = origin;
+    return picture;
+}
+
+/// Progress on the terminal, and the preview file.
+class RenderProgress final : public PictureSink {
+  public:
+    RenderProgress(const RenderRequest& request, const Camera& camera, const PictureOrigin& origin)
+        : request_(request), camera_(camera), origin_(origin) {}
+
+    void report(const Progress& progress) override {
+        elapsed_s_ = progress.elapsed_s;
+        if (request_.flags.quiet) return;
+        line_.show(progress.elapsed_s, fmt::format("{} passes", progress.passes), progress.attained_error,
+                   progress.remaining_s);
+    }
+    bool wants_picture() override {
+        return !request_.preview.empty() && (shown_s_ == 0 || elapsed_s_ - shown_s_ >= kPreviewEvery_s);
+    }
+    void show(const Pixels& pixels) override {
+        write_picture(picture_of(pixels, camera_, origin_), request_.preview, request_.tone);
+        shown_s_ = elapsed_s_;
+    }
+
+  private:
+    const RenderRequest& request_;
+    const Camera& camera_;
+    const PictureOrigin& origin_;
+    ProgressLine line_;
+    double elapsed_s_ = 0, shown_s_ = 0;
+};
+
+std::string ending(const RenderResult& result) {
+    switch (result.stop_reason) {
+        case StopReason::target_reached:
+            return "the error asked for is reached";
+        case StopReason::paths_done:
+            return "all passes done";
+        case StopReason::time_over:
+            return "the time is over";
+        case StopReason::interrupted:
+            return "interrupted";
+    }
+    return "";
+}
+
+void print_summary(const RenderResult& result, const Sensor& sensor) {
+    const auto& [width, height] = sensor.camera.resolution;
+    fmt::print("{}: {} x {} pixels, mean luminance {:.4g} cd/m²\n", sensor.name, width, height,
+               result.mean_luminance_cd_m2);
+    fmt::print("mean standard error of a pixel: {:.3g} cd/m², {:.2g} % of the mean luminance\n",
+               result.mean_standard_error_cd_m2,
+               100 * result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2);
+    fmt::print("95 % of the pixels have a 95 % interval within {:.2g} % of their value\n",
+               100 * result.attained_error);
+    fmt::print("{}, {} passes in {:.1f} s: {}\n", result.method, result.passes, result.elapsed_s,
+               ending(result));
+}
+
+int run_render(const RenderRequest& request) {
+    const SceneFile file = read_scene_file(request.scene);
+    const Sensor sensor = chosen_camera(file, request);
+    const RunOptions options = request.flags.over(file.run);
+    require_luminance_picture_path(request.output);
+    if (!request.preview.empty()) require_luminance_picture_path(request.preview);
+    PictureOrigin origin;
+    origin.scene = request.scene;
+    origin.scene_hash = content_hash(file.sources);
+    origin.sensor = sensor.name;
+    origin.method = options.method;
+    origin.command = request.command;
+    origin.version = STILB_VERSION;
+    origin.seed = options.seed;
+    RenderResult result;
+    {
+        RenderProgress progress(request, sensor.camera, origin);
+        result = render(file.scene, sensor, options, &progress, &watch_for_interrupt());
+    }
+    result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
+    if (!request.flags.quiet) {
+        for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    }
+    origin.paths = result.passes;
+    origin.replicates = result.replicates;
+    origin.elapsed_s = result.elapsed_s;
+    Picture picture = picture_of(result.pixels, sensor.camera, origin);
+    picture.normals = std::move(result.normals);
+    picture.depth_m = std::move(result.depth_m);
+    const auto curve = write_picture(picture, request.output, request.tone);
+    if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
+    print_summary(result, sensor);
+    if (curve) fmt::print("{}: exposure {:.3g} per cd/m²\n", request.output, curve->exposure());
+    return result.converged ? kExitDone : kExitStoppedEarly;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, const std::string& command_line, int& exit_code) {
+    CLI::App* command = app.add_subcommand("render", "A luminance picture of one camera, with standard errors");
+    set_examples(*command,
+                 "  stilb render office.toml -o office.exr\n"
+                 "  stilb render office.toml -o office.png --time 20 --sensor desk\n"
+                 "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n");
+    auto request = std::make_shared<RenderRequest>();
+    request->command = command_line;
+    command->add_option("SCENE", request->scene, "Scene file (TOML)")->required();
+    command->add_option("-o,--output", request->output, "Picture to write: .exr, .hdr or .png")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("--sensor", request->sensor, "Which camera, where there are several")
+        ->type_name("NAME");
+    command
+        ->add_option("--preview", request->preview,
+                     "Also the picture so far, every few seconds (.exr, .hdr or .png)")
+        ->type_name("FILE");
+    command
+        ->add_option("--exposure", request->tone.exposure,
+                     "For .png, per cd/m2: 0.18 over this becomes middle grey (default: by the picture)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("E");
+    request->flags.add_to(*command);
+    command->callback([request, &exit_code] { exit_code = run_render(*request); });
+}
+
+}  // namespace stilb

@@ -1,0 +1,55 @@
+// How pictures are estimated: pass by pass, each one sample of every pixel, in blocks of pixels.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "base/spectrum.h"
+#include "scene/ray_caster.h"
+#include "sensors/camera.h"
+
+namespace stilb {
+
+/// A part of the picture that is worked on at a time.
+struct PixelBlock {
+    std::size_t index = 0;  ///< among the picture's blocks
+    int left = 0, top = 0, width = 0, height = 0;
+};
+
+/// The blocks of a picture, row by row.
+std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution);
+
+/// The unit of work: sample `index` of the replicate that `key` stands for. What a pass makes of a block
+/// depends on these and the block alone.
+struct Pass {
+    RandomKey key;
+    std::uint64_t index = 0;
+};
+
+class PictureEstimator {
+  public:
+    virtual ~PictureEstimator() = default;
+
+    /// One unbiased sample of every pixel's luminance [cd/m2] of a block, row by row; returns the number of
+    /// samples that were not finite: these are 0. Blocks may run in parallel.
+    virtual std::uint64_t sample(const PixelBlock& block, const Pass& pass,
+                                 std::span<Spectrum> pixels) const = 0;
+    /// What the method cannot make in this scene, for the user; empty where nothing is missing.
+    virtual std::vector<std::string> warnings() const = 0;
+};
+
+/// The estimator keeps references to scene and caster.
+struct PictureInput {
+    const Scene& scene;
+    const RayCaster& caster;
+    Camera camera;
+    int max_reflections;
+    /// For decisions that are taken before sampling starts; independent of all passes' keys.
+    RandomKey preparation_key;
+};
+
+}  // namespace stilb

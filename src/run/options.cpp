@@ -1,0 +1,25 @@
+#include "run/options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace stilb {
+
+void require_valid(const RunOptions& options) {
+    const auto positive = [](const char* name, double value) {
+        if (!(value > 0) || !std::isfinite(value)) {
+            throw InputError(fmt::format("{} = {}: a positive number is needed", name, value));
+        }
+    };
+    if (options.error) positive("error", *options.error);
+    if (options.time_s) positive("time", *options.time_s);
+    if (options.paths) positive("paths", static_cast<double>(*options.paths));
+    if (options.bounces && *options.bounces < 0) throw InputError("bounces: 0 or more is needed");
+    if (options.threads < 0) throw InputError("threads: 0 (all) or more is needed");
+    if (options.replicates < 2) throw InputError("replicates: at least 2 are needed");
+}
+
+}  // namespace stilb

@@ -1,0 +1,309 @@
+#include "run/render.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "estimators/estimator_list.h"
+#include "run/clock.h"
+#include "sensors/placement.h"
+#include "statistics/stopping.h"
+
+namespace stilb {
+namespace {
+
+/// Fewer than for readings: a pixel's error matters less than memory for them all.
+constexpr std::uint64_t kReplicates = 16;
+constexpr double kDefaultTime_s = 60;
+/// Samples that may fail to be finite before the run does.
+constexpr double kInvalidRate = 1e-6;
+enum Purpose : std::uint64_t { kPreparation, kSamples };
+
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+
+/// Sums of passes. Pass p is of replicate p mod kReplicates, so that all replicates grow together.
+class PictureSums {
+  public:
+    explicit PictureSums(std::size_t pixels) : rgb_(pixels), luminance_(pixels * kReplicates) {}
+
+    std::uint64_t passes() const { return passes_; }
+
+    void add(const std::vector<std::array<float, 3>>& pass) {
+        const std::size_t replicate = passes_ % kReplicates;
+        for (std::size_t i = 0; i < rgb_.size(); ++i) {
+            for (std::size_t b = 0; b < kBands; ++b) rgb_[i][b] += pass[i][b];
+            luminance_[i * kReplicates + replicate] += static_cast<float>(
+                Spectrum{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
+        }
+        ++passes_;
+    }
+
+    double luminance_cd_m2(std::size_t pixel) const {
+        double sum = 0;
+        for (std::size_t r = 0; r < kReplicates; ++r) sum += double{luminance_[pixel * kReplicates + r]};
+        return sum / static_cast<double>(passes_);
+    }
+
+    /// From the replicates' means, each weighted by its passes (which differ by one at most); infinite after
+    /// a single pass.
+    double standard_error_cd_m2(std::size_t pixel) const {
+        const std::uint64_t used = std::min(passes_, kReplicates);
+        if (used < 2) return std::numeric_limits<double>::infinity();
+        const double all = static_cast<double>(passes_), mean = luminance_cd_m2(pixel);
+        double variance = 0;
+        for (std::uint64_t r = 0; r < used; ++r) {
+            const double own = static_cast<double>(passes_ / kReplicates + (r < passes_ % kReplicates));
+            const double deviation = (double{luminance_[pixel * kReplicates + r]} - own * mean) / all;
+            variance += deviation * deviation;
+        }
+        return std::sqrt(variance * static_cast<double>(used) / static_cast<double>(used - 1));
+    }
+
+    Pixels pixels() const {
+        Pixels pixels;
+        const float per_pass = 1 / static_cast<float>(passes_);
+        for (std::size_t i = 0; i < rgb_.size(); ++i) {
+            pixels.rgb_cd_m2.push_back({rgb_[i][0] * per_pass, rgb_[i][1] * per_pass, rgb_[i][2] * per_pass});
+            if (passes_ < 2) continue;
+            pixels.standard_error_cd_m2.push_back(static_cast<float>(standard_error_cd_m2(i)));
+        }
+        return pixels;
+    }
+
+  private:
+    std::vector<std::array<float, 3>> rgb_;
+    std::vector<float> luminance_;  ///< pixels x replicates
+    std::uint64_t passes_ = 0;
+};
+
+/// Pixels that the camera shows nothing in.
+std::vector<bool> blind_pixels(const Camera& camera) {
+    const CameraView view(camera);
+    std::vector<bool> blind;
+    for (int y = 0; y < camera.resolution[1]; ++y) {
+        for (int x = 0; x < camera.resolution[0]; ++x) blind.push_back(!view.direction_at(x + 0.5, y + 0.5));
+    }
+    return blind;
+}
+
+double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
+    const std::uint64_t used = std::min(sums.passes(), kReplicates);
+    if (used < 2) return std::numeric_limits<double>::infinity();
+    const double t = student_t_quantile((1 + kStoppedConfidence) / 2, static_cast<int>(used) - 1);
+    std::vector<double> half_widths;
+    for (std::size_t i = 0; i < blind.size(); ++i) {
+        if (blind[i]) continue;
+        const double error = t * sums.standard_error_cd_m2(i);
+        half_widths.push_back(error > 0 ? error / sums.luminance_cd_m2(i) : 0);
+    }
+    return stilb::attained_error(std::move(half_widths));
+}
+
+/// One pass over all blocks; false where it was interrupted.
+class Passes {
+  public:
+    Passes(const PictureEstimator& estimator, const Camera& camera, std::uint64_t seed,
+           const std::atomic<bool>* interrupt)
+        : estimator_(estimator),
+          blocks_(blocks_of(camera.resolution)),
+          width_(static_cast<std::size_t>(camera.resolution[0])),
+          key_(RandomKey{seed}.derived(kSamples)),
+          interrupt_(interrupt),
+          pixels_(width_ * static_cast<std::size_t>(camera.resolution[1])) {}
+
+    bool add_to(PictureSums& sums) {
+        const std::uint64_t p = sums.passes();
+        const Pass pass{key_.derived(p % kReplicates), p / kReplicates};
+        tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+            // The first two are always made: there is no picture without one, and no error without two.
+            if (p < 2 || !interrupt_ || !*interrupt_) sample(blocks_[b], pass);
+        });
+        if (p >= 2 && interrupt_ && *interrupt_) return false;
+        sums.add(pixels_);
+        const double all = static_cast<double>(sums.passes()) * static_cast<double>(pixels_.size());
+        if (static_cast<double>(invalid_) > kInvalidRate * all) {
+            throw std::runtime_error(fmt::format(
+                "{} of {} samples are not finite numbers: this is a defect of stilb, please report the scene",
+                invalid_, all));
+        }
+        return true;
+    }
+
+  private:
+    void sample(const PixelBlock& block, const Pass& pass) {
+        std::array<Spectrum, 256> samples;
+        const auto count = static_cast<std::size_t>(block.width * block.height);
+        invalid_ += estimator_.sample(block, pass, {samples.data(), count});
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t x = static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);
+            const std::size_t y = static_cast<std::size_t>(block.top) + i / static_cast<std::size_t>(block.width);
+            for (std::size_t b = 0; b < kBands; ++b) {
+                pixels_[y * width_ + x][b] = static_cast<float>(samples[i][b]);
+            }
+        }
+    }
+
+    const PictureEstimator& estimator_;
+    std::vector<PixelBlock> blocks_;
+    std::size_t width_;
+    RandomKey key_;
+    const std::atomic<bool>* interrupt_;
+    std::vector<std::array<float, 3>> pixels_;
+    std::atomic<std::uint64_t> invalid_ = 0;
+};
+
+/// Passes after which to look at the error: 1, 2, 3, 4, 6, 8, 12 ... of each replicate.
+bool is_checkpoint(std::uint64_t passes) {
+    if (passes == 0 || passes % kReplicates != 0) return false;
+    std::uint64_t each = passes / kReplicates;
+    while (each % 2 == 0) each /= 2;
+    return each == 1 || each == 3;
+}
+
+/// Passes until a stop rule says so.
+class PictureSchedule {
+  public:
+    PictureSchedule(const RunOptions& options, const Clock& clock, const std::vector<bool>& blind,
+                    PictureSink* sink)
+        : options_(options), clock_(clock), blind_(blind), sink_(sink) {}
+
+    StopReason proceed(Passes& passes, PictureSums& sums) {
+        for (;;) {
+            if (options_.paths && sums.passes() >= *options_.paths) return StopReason::paths_done;
+            if (is_time_over(sums.passes())) return StopReason::time_over;
+            if (!passes.add_to(sums)) return StopReason::interrupted;
+            if (is_checkpoint(sums.passes())) last_look_ = attained_error(sums, blind_);
+            report(sums);
+            if (options_.error && is_checkpoint(sums.passes()) && last_look_ <= *options_.error) {
+                return StopReason::target_reached;
+            }
+        }
+    }
+
+  private:
+    bool is_time_over(std::uint64_t passes) const {
+        if (!options_.time_s || passes < 2) return false;
+        return clock_.elapsed_s() * (1 + 1 / static_cast<double>(passes)) > *options_.time_s;
+    }
+
+    void report(const PictureSums& sums) {
+        if (!sink_) return;
+        const double elapsed_s = clock_.elapsed_s();
+        double remaining_s = std::numeric_limits<double>::infinity();
+        if (options_.time_s) remaining_s = std::max(0.0, *options_.time_s - elapsed_s);
+        if (options_.paths) {
+            const double left = static_cast<double>(*options_.paths) / static_cast<double>(sums.passes()) - 1;
+            remaining_s = std::min(remaining_s, elapsed_s * left);
+        }
+        if (options_.error) {
+            const double ratio = last_look_ / *options_.error;
+            remaining_s = std::min(remaining_s, elapsed_s * std::max(0.0, ratio * ratio - 1));
+        }
+        sink_->report({elapsed_s, remaining_s, last_look_, sums.passes()});
+        if (sink_->wants_picture()) sink_->show(sums.pixels());
+    }
+
+    const RunOptions& options_;
+    const Clock& clock_;
+    const std::vector<bool>& blind_;
+    PictureSink* sink_;
+    double last_look_ = std::numeric_limits<double>::infinity();
+};
+
+void add_geometry(const Camera& camera, const RayCaster& caster, RenderResult& result) {
+    const CameraView view(camera);
+    for (int y = 0; y < camera.resolution[1]; ++y) {
+        for (int x = 0; x < camera.resolution[0]; ++x) {
+            const auto direction = view.direction_at(x + 0.5, y + 0.5);
+            const auto hit = direction ? caster.closest(view.position(), *direction) : std::nullopt;
+            if (hit) {
+                const Vec3& n = hit->normal;
+                result.normals.push_back(
+                    {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)});
+            } else {
+                result.normals.push_back({kNoValue, kNoValue, kNoValue});
+            }
+            result.depth_m.push_back(hit ? static_cast<float>(hit->distance_m) : kNoValue);
+        }
+    }
+}
+
+void add_means(const PictureSums& sums, const std::vector<bool>& blind, RenderResult& result) {
+    double luminance = 0, error = 0, pixels = 0;
+    for (std::size_t i = 0; i < blind.size(); ++i) {
+        if (blind[i]) {
+            result.pixels.rgb_cd_m2[i] = {kNoValue, kNoValue, kNoValue};
+            result.pixels.standard_error_cd_m2[i] = kNoValue;
+            continue;
+        }
+        luminance += sums.luminance_cd_m2(i);
+        error += sums.standard_error_cd_m2(i);
+        ++pixels;
+    }
+    result.mean_luminance_cd_m2 = luminance / pixels;
+    result.mean_standard_error_cd_m2 = error / pixels;
+}
+
+RunOptions with_default_target(RunOptions options) {
+    if (!options.error && !options.time_s && !options.paths) options.time_s = kDefaultTime_s;
+    if (options.paths) options.paths = std::max<std::uint64_t>(*options.paths, 2);
+    return options;
+}
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& asked_options,
+                    PictureSink* sink, const std::atomic<bool>* interrupt) {
+    const RunOptions options = with_default_target(asked_options);
+    require_valid(options);
+    const EstimatorEntry& method = find_estimator(options.method);
+    if (!method.measures_luminance()) {
+        throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
+                                     fmt::join(luminance_methods(), ", ")));
+    }
+    const Camera& camera = sensor.camera;
+    const Clock clock;
+    const RayCaster caster(scene);
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    const std::vector<bool> blind = blind_pixels(camera);
+    PictureSums sums(blind.size());
+    RenderResult result;
+    arena.execute([&] {
+        const auto estimator = method.make_picture({scene, caster, camera,
+                                                    options.bounces.value_or(kUnlimited),
+                                                    RandomKey{options.seed}.derived(kPreparation)});
+        Passes passes(*estimator, camera, options.seed, interrupt);
+        result.stop_reason = PictureSchedule(options, clock, blind, sink).proceed(passes, sums);
+        result.warnings = estimator->warnings();
+    });
+    result.pixels = sums.pixels();
+    add_means(sums, blind, result);
+    add_geometry(camera, caster, result);
+    result.method = options.method;
+    result.seed = options.seed;
+    result.passes = sums.passes();
+    result.replicates = static_cast<int>(std::min(sums.passes(), kReplicates));
+    result.attained_error = attained_error(sums, blind);
+    result.converged = result.stop_reason != StopReason::interrupted &&
+                       (!options.error || result.stop_reason == StopReason::target_reached);
+    for (auto& warning : placement_warnings(scene, caster, {&sensor, 1})) {
+        result.warnings.push_back(std::move(warning));
+    }
+    result.elapsed_s = clock.elapsed_s();
+    return result;
+}
+
+}  // namespace stilb
