@@ -9,11 +9,14 @@
 
 namespace stilb {
 
+/// What of a pass's key the pixels' own numbers are derived by; other purposes take other numbers.
+inline constexpr std::uint64_t kPixels = 1;
+
 /// The numbers of one sample of one pixel.
 inline SampleStream pixel_stream(const Camera& camera, const Pass& pass, int x, int y) {
     const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(camera.resolution[0]) +
                        static_cast<std::uint64_t>(x);
-    return SampleStream(pass.key.derived(pixel), pass.index);
+    return SampleStream(pass.key.derived(kPixels).derived(pixel), pass.index);
 }
 
 /// The unit direction that a sample of pixel (x, y) looks along, drawn by the camera's filter; nothing beside

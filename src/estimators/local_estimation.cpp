@@ -100,7 +100,7 @@ class LocalEstimation final : public Estimator {
         std::vector<ChainNode> nodes = walk_chains(key.derived(kChains), first, end);
         if (chains_per_selected_ == 1) return nodes;
         const double u = SampleStream(key.derived(kSelection).derived(first), 0).next();
-        return select_nodes(nodes, nodes.size() / chains_per_selected_ + 1, u);
+        return NodePool(nodes).select(nodes.size() / chains_per_selected_ + 1, u);
     }
 
     /// What the readings are made from.

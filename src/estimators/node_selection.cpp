@@ -39,24 +39,30 @@ double reflected_flux_lm(const ChainNode& node) {
 
 }  // namespace
 
-std::vector<ChainNode> select_nodes(const std::vector<ChainNode>& nodes, std::size_t count, double u) {
-    if (count >= nodes.size()) return nodes;
-    const double total =
-        std::accumulate(nodes.begin(), nodes.end(), 0.0,
-                        [](double sum, const ChainNode& node) { return sum + reflected_flux_lm(node); });
-    const double step = total / static_cast<double>(count);
+NodePool::NodePool(const std::vector<ChainNode>& nodes) {
+    nodes_.reserve(nodes.size());
+    passed_lm_.reserve(nodes.size());
+    double passed_lm = 0;
+    for (const std::size_t n : order_over_surfaces(nodes)) {
+        nodes_.push_back(nodes[n]);
+        passed_lm_.push_back(passed_lm += reflected_flux_lm(nodes[n]));
+    }
+}
+
+std::vector<ChainNode> NodePool::select(std::size_t count, double u) const {
+    if (count >= nodes_.size()) return nodes_;
+    const double step = passed_lm_.back() / static_cast<double>(count);
     std::vector<ChainNode> selected;
     selected.reserve(count + 1);
-    double passed = 0;       // flux of the nodes passed
     double next = u * step;  // flux at which the next one is selected
-    for (const std::size_t n : order_over_surfaces(nodes)) {
-        const double flux = reflected_flux_lm(nodes[n]);
-        passed += flux;
-        if (passed <= next) continue;
-        const double times = std::ceil((passed - next) / step);
+    for (auto place = passed_lm_.begin(); place != passed_lm_.end(); ++place) {
+        place = std::upper_bound(place, passed_lm_.end(), next);
+        if (place == passed_lm_.end()) break;
+        const double times = std::ceil((*place - next) / step);
         next += times * step;
-        selected.push_back(nodes[n]);
-        selected.back().flux_lm *= times * step / flux;
+        const ChainNode& node = nodes_[static_cast<std::size_t>(place - passed_lm_.begin())];
+        selected.push_back(node);
+        selected.back().flux_lm *= times * step / reflected_flux_lm(node);
     }
     return selected;
 }

@@ -3,14 +3,27 @@
 #include <algorithm>
 
 namespace stilb {
+namespace {
 
-std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution) {
-    constexpr int size = 16;
+struct Range {
+    int first = 0, count = 0;
+};
+
+std::vector<Range> divided(int length, int first_count) {
+    std::vector<Range> ranges{{0, std::min(first_count, length)}};
+    for (int first = first_count; first < length; first += kBlockSize) {
+        ranges.push_back({first, std::min(kBlockSize, length - first)});
+    }
+    return ranges;
+}
+
+}  // namespace
+
+std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution, const std::array<int, 2>& offset) {
     std::vector<PixelBlock> blocks;
-    for (int top = 0; top < resolution[1]; top += size) {
-        for (int left = 0; left < resolution[0]; left += size) {
-            blocks.push_back(
-                {blocks.size(), left, top, std::min(size, resolution[0] - left), std::min(size, resolution[1] - top)});
+    for (const Range& rows : divided(resolution[1], offset[1])) {
+        for (const Range& columns : divided(resolution[0], offset[0])) {
+            blocks.push_back({columns.first, rows.first, columns.count, rows.count});
         }
     }
     return blocks;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,28 +17,39 @@ namespace stilb {
 
 /// A part of the picture that is worked on at a time.
 struct PixelBlock {
-    std::size_t index = 0;  ///< among the picture's blocks
     int left = 0, top = 0, width = 0, height = 0;
 };
 
-/// The blocks of a picture, row by row.
-std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution);
+/// Edge of the largest blocks.
+inline constexpr int kBlockSize = 16;
 
-/// The unit of work: sample `index` of the replicate that `key` stands for. What a pass makes of a block
-/// depends on these and the block alone.
+/// The blocks of a picture, row by row; the first reaches down to `offset` (each from 1 to kBlockSize).
+std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution,
+                                  const std::array<int, 2>& offset = {kBlockSize, kBlockSize});
+
+/// Sample `index` of the replicate that `key` stands for. What a pass makes of a block depends on these and
+/// the block alone.
 struct Pass {
     RandomKey key;
     std::uint64_t index = 0;
+};
+
+/// A pass with what its blocks have in common.
+class PicturePass {
+  public:
+    virtual ~PicturePass() = default;
+
+    /// One unbiased sample of every pixel's luminance [cd/m2] of a block, row by row; returns the number of
+    /// samples that were not finite: these are 0. Blocks may run in parallel.
+    virtual std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const = 0;
 };
 
 class PictureEstimator {
   public:
     virtual ~PictureEstimator() = default;
 
-    /// One unbiased sample of every pixel's luminance [cd/m2] of a block, row by row; returns the number of
-    /// samples that were not finite: these are 0. Blocks may run in parallel.
-    virtual std::uint64_t sample(const PixelBlock& block, const Pass& pass,
-                                 std::span<Spectrum> pixels) const = 0;
+    /// Keeps a reference to the estimator.
+    virtual std::unique_ptr<const PicturePass> start(const Pass& pass) const = 0;
     /// What the method cannot make in this scene, for the user; empty where nothing is missing.
     virtual std::vector<std::string> warnings() const = 0;
 };

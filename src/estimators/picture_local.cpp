@@ -1,11 +1,14 @@
 // Double local estimation of pictures (theory T.2), by the kernel split where it is `auto` (theory T.1b,
-// receiver.h): the sums of local_estimation.cpp for the sub-points of a block of pixels, which each pass draws
-// anew, and light chains of the block's own in each pass. Errors of different blocks and of different
-// replicates are independent, so that no structure of the chains shows in the picture.
+// receiver.h): the sums of local_estimation.cpp for sub-points that each pass draws anew.
+//
+// A pass walks chains of its own for the whole picture. Each packet of 4 x 4 pixels selects its own few of
+// their nodes, and packets lie elsewhere in every pass: errors of neighbouring packets are nearly independent,
+// and no structure of the chains shows in the picture.
 #include "estimators/picture_local.h"
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "estimators/camera_rays.h"
@@ -19,16 +22,19 @@
 namespace stilb {
 namespace {
 
-/// In each pass, for each block: chains whose nodes go to the block's sub-points, and how many are walked for
-/// each of these (node_selection.h). As many as cost about what the rest of the pass does.
-constexpr std::uint64_t kSelectedChains = 16;
-constexpr std::uint64_t kChainsPerSelected = 4;
-constexpr std::uint64_t kChains = kSelectedChains * kChainsPerSelected;
+/// Chains of a pass, and of so many of them a packet selects one chain's nodes. The more are walked, the more
+/// evenly the selected nodes lie; walking costs less than a hundredth of a large picture's pass.
+constexpr std::uint64_t kChains = 4096;
+constexpr std::uint64_t kChainsPerSelected = 256;
 /// For planning, which needs little: any plan is unbiased.
 constexpr std::uint64_t kPilotChains = 256;
 constexpr unsigned kPilotRays = 16;
 
-enum Purpose : std::uint64_t { kWalks, kSelection, kGather, kPilot, kPlan };
+enum Purpose : std::uint64_t { kWalks = kPixels + 1, kPackets, kSelection, kGather, kPilot, kPlan };
+
+/// Edge of a packet.
+constexpr int kSide = 4;
+static_assert(kSide * kSide == kPacketWidth);
 
 class LocalPicture final : public PictureEstimator {
   public:
@@ -43,44 +49,59 @@ class LocalPicture final : public PictureEstimator {
           lights_(scene_, caster_),
           tracer_(scene_, caster_, lights_),
           gathers_(split == Split::balanced || has_specular_surfaces(scene_)),
+          cells_per_row_((camera_.resolution[0] + kBlockSize - 1) / kBlockSize),
           k_per_m2_(plan(split, input.preparation_key)) {}
 
-    std::uint64_t sample(const PixelBlock& block, const Pass& pass,
-                         std::span<Spectrum> pixels) const override {
-        std::vector<Receiver> receivers;
-        for_each_pixel(block, [&](int x, int y, std::uint32_t reading) {
-            pixels[reading] = look_at(x, y, reading, pass, receivers);
-        });
-        ReadingSums sums(pixels.size());
-        receive(receivers, block.index, pass, sums);
-        std::uint64_t invalid = sums.invalid;
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            pixels[i] += sums.sum[i] * (1.0 / static_cast<double>(kChains));
-            if (pixels[i].is_finite()) continue;
-            pixels[i] = {};
-            ++invalid;
-        }
-        return invalid;
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return std::make_unique<Fans>(*this, pass);
     }
-
     std::vector<std::string> warnings() const override { return local_warnings(scene_); }
 
   private:
-    /// In squares of 4 x 4, which share packets.
-    template <typename Action>
-    static void for_each_pixel(const PixelBlock& block, const Action& action) {
-        constexpr int side = 4;
-        static_assert(side * side == kPacketWidth);
-        for (int top = 0; top < block.height; top += side) {
-            for (int left = 0; left < block.width; left += side) {
-                for (int y = top; y < std::min(top + side, block.height); ++y) {
-                    for (int x = left; x < std::min(left + side, block.width); ++x) {
-                        action(block.left + x, block.top + y,
-                               static_cast<std::uint32_t>(y * block.width + x));
-                    }
+    class Fans final : public PicturePass {
+      public:
+        Fans(const LocalPicture& picture, const Pass& pass)
+            : picture_(picture),
+              pass_(pass),
+              pool_(picture.walk_chains(pass.key.derived(kWalks), pass.index * kChains, kChains)) {}
+
+        std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
+            ReadingSums sums(pixels.size());
+            for (int top = 0; top < block.height; top += kSide) {
+                for (int left = 0; left < block.width; left += kSide) sample_packet(block, left, top, sums);
+            }
+            std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
+            return sums.invalid;
+        }
+
+      private:
+        void sample_packet(const PixelBlock& block, int left, int top, ReadingSums& sums) const {
+            std::vector<Receiver> receivers;
+            std::vector<double> k_per_m2;
+            receivers.reserve(kPacketWidth);
+            for (int y = top; y < std::min(top + kSide, block.height); ++y) {
+                for (int x = left; x < std::min(left + kSide, block.width); ++x) {
+                    const auto reading = static_cast<std::uint32_t>(y * block.width + x);
+                    const int column = block.left + x, row = block.top + y;
+                    sums.add(reading, picture_.look_at(column, row, reading, pass_, receivers));
+                    k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(column, row)]);
                 }
             }
+            if (receivers.empty()) return;
+            // The packet's random numbers: those of its first pixel's place.
+            const RandomKey key =
+                pass_.key.derived(kPackets).derived(static_cast<std::uint64_t>(block.left + left) << 32 |
+                                                    static_cast<std::uint64_t>(block.top + top));
+            picture_.receive(receivers, k_per_m2, pool_, {key, pass_.index}, sums);
         }
+
+        const LocalPicture& picture_;
+        Pass pass_;
+        NodePool pool_;
+    };
+
+    std::size_t cell_of(int x, int y) const {
+        return static_cast<std::size_t>(y / kBlockSize * cells_per_row_ + x / kBlockSize);
     }
 
     /// Appends the sub-point that a sample of a pixel sees; returns the emission that is seen and the direct
@@ -103,24 +124,17 @@ class LocalPicture final : public PictureEstimator {
                sample_direct_from_areas(receiver, caster_, lights_, stream);
     }
 
-    /// Adds kChains times a sample of the indirect light.
-    void receive(const std::vector<Receiver>& receivers, std::size_t block, const Pass& pass,
-                 ReadingSums& sums) const {
-        if (receivers.empty()) return;
-        const RandomKey key = pass.key.derived(block);
-        const std::vector<double> k(receivers.size(), k_per_m2_[block]);
-        const std::vector<PointTile> tiles = tiles_of(receivers, k, caster_, max_reflections_);
-        Fan(caster_, tiles).collect(fan_nodes(key, pass.index), sums);
+    /// Adds a sample of a packet's indirect light.
+    void receive(std::span<const Receiver> receivers, std::span<const double> k_per_m2, const NodePool& pool,
+                 const Pass& pass, ReadingSums& sums) const {
+        const std::vector<PointTile> tiles = tiles_of(receivers, k_per_m2, caster_, max_reflections_);
+        const double u = SampleStream(pass.key.derived(kSelection), pass.index).next();
+        std::vector<ChainNode> nodes = pool.select(pool.size() / kChainsPerSelected + 1, u);
+        for (ChainNode& node : nodes) node.flux_lm *= 1.0 / kChains;
+        Fan(caster_, tiles).collect(nodes, sums);
         if (!gathers_) return;
-        const std::vector<SplitPlan> plans(receivers.size(), {k_per_m2_[block], kChains});
-        Gather(caster_, tracer_, tiles, plans)
-            .collect({key.derived(kGather), pass.index * kChains, kChains}, sums);
-    }
-
-    std::vector<ChainNode> fan_nodes(RandomKey key, std::uint64_t pass) const {
-        const std::vector<ChainNode> nodes = walk_chains(key.derived(kWalks), pass * kChains, kChains);
-        const double u = SampleStream(key.derived(kSelection), pass).next();
-        return select_nodes(nodes, nodes.size() / kChainsPerSelected + 1, u);
+        const std::vector<SplitPlan> plans(receivers.size(), {0, 1});
+        Gather(caster_, tracer_, tiles, plans).collect({pass.key.derived(kGather), pass.index, 1}, sums);
     }
 
     std::vector<ChainNode> walk_chains(RandomKey key, std::uint64_t first, std::uint64_t count) const {
@@ -131,26 +145,26 @@ class LocalPicture final : public PictureEstimator {
         return nodes;
     }
 
-    /// A k for each block, from a packet of sub-points spread over it.
+    /// A k for each cell of kBlockSize pixels' edge, from a packet of sub-points spread over it.
     std::vector<double> plan(Split split, RandomKey key) const {
-        const std::vector<PixelBlock> blocks = blocks_of(camera_.resolution);
-        std::vector<double> k_per_m2(blocks.size(), std::numeric_limits<double>::infinity());
+        const std::vector<PixelBlock> cells = blocks_of(camera_.resolution);
+        std::vector<double> k_per_m2(cells.size(), std::numeric_limits<double>::infinity());
         if (split == Split::none) return k_per_m2;
         const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
         double area = std::numeric_limits<double>::min();
         for (const Object& object : scene_.objects) area += area_m2(object.shape);
         const PilotLight pilot{nodes, kPilotChains, {}, area, max_reflections_, kChainsPerSelected};
-        tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+        tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) {
             const Pass pass{key.derived(kPlan), 0};
             std::vector<Receiver> receivers;
-            const PixelBlock& block = blocks[b];
+            const PixelBlock& cell = cells[c];
             for (int i = 0; i < kPacketWidth; ++i) {
-                look_at(block.left + (4 * (i % 4) + 2) * block.width / 16,
-                        block.top + (4 * (i / 4) + 2) * block.height / 16, 0, pass, receivers);
+                look_at(cell.left + (4 * (i % 4) + 2) * cell.width / 16,
+                        cell.top + (4 * (i / 4) + 2) * cell.height / 16, 0, pass, receivers);
             }
             if (receivers.empty()) return;
-            k_per_m2[b] = plan_constant(caster_, tracer_, receivers, pilot, kSelectedChains, kPilotRays,
-                                        pass.key.derived(b));
+            k_per_m2[c] = plan_constant(caster_, tracer_, receivers, pilot, kChains / kChainsPerSelected,
+                                        kPilotRays, pass.key.derived(c));
         });
         return k_per_m2;
     }
@@ -163,7 +177,8 @@ class LocalPicture final : public PictureEstimator {
     LightSampler lights_;
     PathTracer tracer_;
     bool gathers_;
-    std::vector<double> k_per_m2_;  ///< of each block
+    int cells_per_row_;
+    std::vector<double> k_per_m2_;  ///< of each cell
 };
 
 }  // namespace

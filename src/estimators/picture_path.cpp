@@ -9,9 +9,9 @@
 namespace stilb {
 namespace {
 
-class PicturePath final : public PictureEstimator {
+class PathPicture final : public PictureEstimator {
   public:
-    explicit PicturePath(const PictureInput& input)
+    explicit PathPicture(const PictureInput& input)
         : scene_(input.scene),
           caster_(input.caster),
           camera_(input.camera),
@@ -20,23 +20,34 @@ class PicturePath final : public PictureEstimator {
           lights_(scene_, caster_),
           tracer_(scene_, caster_, lights_) {}
 
-    std::uint64_t sample(const PixelBlock& block, const Pass& pass,
-                         std::span<Spectrum> pixels) const override {
-        std::uint64_t invalid = 0;
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            const int x = block.left + static_cast<int>(i) % block.width;
-            const int y = block.top + static_cast<int>(i) / block.width;
-            pixels[i] = sample_luminance(x, y, pass);
-            if (pixels[i].is_finite()) continue;
-            pixels[i] = {};
-            ++invalid;
-        }
-        return invalid;
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return std::make_unique<Paths>(*this, pass);
     }
-
     std::vector<std::string> warnings() const override { return path_warnings(scene_); }
 
   private:
+    class Paths final : public PicturePass {
+      public:
+        Paths(const PathPicture& picture, const Pass& pass) : picture_(picture), pass_(pass) {}
+
+        std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
+            std::uint64_t invalid = 0;
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                const int x = block.left + static_cast<int>(i) % block.width;
+                const int y = block.top + static_cast<int>(i) / block.width;
+                pixels[i] = picture_.sample_luminance(x, y, pass_);
+                if (pixels[i].is_finite()) continue;
+                pixels[i] = {};
+                ++invalid;
+            }
+            return invalid;
+        }
+
+      private:
+        const PathPicture& picture_;
+        Pass pass_;
+    };
+
     Spectrum sample_luminance(int x, int y, const Pass& pass) const {
         SampleStream stream = pixel_stream(camera_, pass, x, y);
         const auto direction = sample_pixel(camera_, view_, x, y, stream);
@@ -57,7 +68,7 @@ class PicturePath final : public PictureEstimator {
 }  // namespace
 
 std::unique_ptr<PictureEstimator> make_path_picture(const PictureInput& input) {
-    return std::make_unique<PicturePath>(input);
+    return std::make_unique<PathPicture>(input);
 }
 
 }  // namespace stilb

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "base/sample_stream.h"
 #include "estimators/estimator_list.h"
 #include "run/clock.h"
 #include "sensors/placement.h"
@@ -27,7 +28,7 @@ constexpr std::uint64_t kReplicates = 16;
 constexpr double kDefaultTime_s = 60;
 /// Samples that may fail to be finite before the run does.
 constexpr double kInvalidRate = 1e-6;
-enum Purpose : std::uint64_t { kPreparation, kSamples };
+enum Purpose : std::uint64_t { kPreparation, kSamples, kOffset };
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
@@ -115,18 +116,21 @@ class Passes {
     Passes(const PictureEstimator& estimator, const Camera& camera, std::uint64_t seed,
            const std::atomic<bool>* interrupt)
         : estimator_(estimator),
-          blocks_(blocks_of(camera.resolution)),
+          resolution_(camera.resolution),
           width_(static_cast<std::size_t>(camera.resolution[0])),
           key_(RandomKey{seed}.derived(kSamples)),
+          offset_key_(RandomKey{seed}.derived(kOffset)),
           interrupt_(interrupt),
           pixels_(width_ * static_cast<std::size_t>(camera.resolution[1])) {}
 
     bool add_to(PictureSums& sums) {
         const std::uint64_t p = sums.passes();
         const Pass pass{key_.derived(p % kReplicates), p / kReplicates};
-        tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+        const std::vector<PixelBlock> blocks = blocks_of(resolution_, offset_of(p));
+        const auto started = estimator_.start(pass);
+        tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
             // The first two are always made: there is no picture without one, and no error without two.
-            if (p < 2 || !interrupt_ || !*interrupt_) sample(blocks_[b], pass);
+            if (p < 2 || !interrupt_ || !*interrupt_) sample(blocks[b], *started);
         });
         if (p >= 2 && interrupt_ && *interrupt_) return false;
         sums.add(pixels_);
@@ -140,10 +144,16 @@ class Passes {
     }
 
   private:
-    void sample(const PixelBlock& block, const Pass& pass) {
-        std::array<Spectrum, 256> samples;
+    /// Blocks lie elsewhere in every pass, for their edges not to show.
+    std::array<int, 2> offset_of(std::uint64_t pass) const {
+        const auto [u, v] = SampleStream(offset_key_, pass).next_two();
+        return {1 + static_cast<int>(u * kBlockSize), 1 + static_cast<int>(v * kBlockSize)};
+    }
+
+    void sample(const PixelBlock& block, const PicturePass& pass) {
+        std::array<Spectrum, kBlockSize * kBlockSize> samples;
         const auto count = static_cast<std::size_t>(block.width * block.height);
-        invalid_ += estimator_.sample(block, pass, {samples.data(), count});
+        invalid_ += pass.sample(block, {samples.data(), count});
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t x = static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);
             const std::size_t y = static_cast<std::size_t>(block.top) + i / static_cast<std::size_t>(block.width);
@@ -154,9 +164,9 @@ class Passes {
     }
 
     const PictureEstimator& estimator_;
-    std::vector<PixelBlock> blocks_;
+    std::array<int, 2> resolution_;
     std::size_t width_;
-    RandomKey key_;
+    RandomKey key_, offset_key_;
     const std::atomic<bool>* interrupt_;
     std::vector<std::array<float, 3>> pixels_;
     std::atomic<std::uint64_t> invalid_ = 0;
