@@ -1,4 +1,6 @@
 // stilb render: a picture of one camera.
+#include "run/render.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +16,6 @@
 #include "files/content_hash.h"
 #include "files/picture_file.h"
 #include "files/scene_file.h"
-#include "run/render.h"
 
 namespace stilb {
 namespace {
@@ -41,7 +42,8 @@ Sensor chosen_camera(const SceneFile& file, const RenderRequest& request) {
     const std::string list = fmt::format("{}", fmt::join(names, ", "));
     if (request.sensor.empty()) {
         if (cameras.size() == 1) return cameras.front();
-        throw InputError(fmt::format("several cameras: {}. Choose one with --sensor.", list), {request.scene});
+        throw InputError(fmt::format("several cameras: {}. Choose one with --sensor.", list),
+                         {request.scene});
     }
     for (const Sensor& camera : cameras) {
         if (camera.name == request.sensor) return camera;
@@ -157,7 +159,8 @@ int run_render(const RenderRequest& request) {
 }  // namespace
 
 void add_render(CLI::App& app, const std::string& command_line, int& exit_code) {
-    CLI::App* command = app.add_subcommand("render", "A luminance picture of one camera, with standard errors");
+    CLI::App* command =
+        app.add_subcommand("render", "A luminance picture of one camera, with standard errors");
     set_examples(*command,
                  "  stilb render office.toml -o office.exr\n"
                  "  stilb render office.toml -o office.png --time 20 --sensor desk\n"

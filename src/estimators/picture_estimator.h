@@ -1,8 +1,8 @@
 // How pictures are estimated: pass by pass, each one sample of every pixel, in blocks of pixels.
 #pragma once
 
-#include <cstdint>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>

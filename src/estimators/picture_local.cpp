@@ -2,8 +2,8 @@
 // receiver.h): the sums of local_estimation.cpp for sub-points that each pass draws anew.
 //
 // A pass walks chains of its own for the whole picture. Each packet of 4 x 4 pixels selects its own few of
-// their nodes, and packets lie elsewhere in every pass: errors of neighbouring packets are nearly independent,
-// and no structure of the chains shows in the picture.
+// their nodes, and packets lie elsewhere in every pass: errors of neighbouring packets are nearly
+// independent, and no structure of the chains shows in the picture.
 #include "estimators/picture_local.h"
 
 #include <tbb/parallel_for.h>
@@ -116,9 +116,9 @@ class LocalPicture final : public PictureEstimator {
         const auto view = tracer_.look_through(*hit, *direction, max_reflections_, stream);
         const Spectrum emission = lights_.emitted_luminance(*hit) + view.emission_cd_m2;
         if (!view.surface || view.reflections == max_reflections_) return emission;
-        receivers.emplace_back(
-            reading, SubPoint{*view.surface, view.outgoing, view.transmission, view.reflections},
-            scene_.material(view.surface->material));
+        receivers.emplace_back(reading,
+                               SubPoint{*view.surface, view.outgoing, view.transmission, view.reflections},
+                               scene_.material(view.surface->material));
         const Receiver& receiver = receivers.back();
         return emission + direct_from_points(receiver, caster_, lights_) +
                sample_direct_from_areas(receiver, caster_, lights_, stream);

@@ -242,12 +242,10 @@ std::vector<Survey> survey_packet(const RayCaster& caster, const PathTracer& tra
         tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2), caster, pilot.max_reflections);
     std::vector<Survey> surveys;
     for (std::size_t i = 0; i < receivers.size(); ++i) {
-        RaySamples samples =
-            sample_rays(caster, tracer, tile.front(), i, rays_per_receiver, key.derived(i));
+        RaySamples samples = sample_rays(caster, tracer, tile.front(), i, rays_per_receiver, key.derived(i));
         const double seen = chains * std::max(mean_chain_share(samples.rays, k_per_m2), 0.01);
         // Few nodes, or none, lie where a glossy sub-point looks: there rays know more.
-        const double indirect =
-            receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
+        const double indirect = receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
         // Where nothing is seen, in the dark, nothing is to be gained.
         const double density_per_m2 =
             indirect > 0 ? std::max(sums.density_per_m2[i] / seen, 1e-3 * mean_density) : mean_density;
@@ -314,10 +312,9 @@ std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tr
     // About half of the nodes face a point; the walk is shared by all points.
     const double nodes_per_chain =
         (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
-    const double lanes =
-        static_cast<double>((receivers.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth);
+    const std::size_t lanes = (receivers.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth;
     const double fan_cost =
-        0.5 * nodes_per_chain * lanes +
+        0.5 * nodes_per_chain * static_cast<double>(lanes) +
         kSegmentCost * (nodes_per_chain + 1) * static_cast<double>(pilot.chains_per_selected);
     // What a unit of cost is worth: at the best plan, the quotient of variance and cost. Both depend on the
     // plan; after some rounds they change little.
@@ -343,8 +340,8 @@ std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tr
 double plan_constant(const RayCaster& caster, const PathTracer& tracer, std::span<const Receiver> receivers,
                      const PilotLight& pilot, std::uint64_t chains_per_ray, unsigned rays_per_receiver,
                      RandomKey key) {
-    const std::vector<Survey> surveys = survey_packet(caster, tracer, receivers, pilot,
-                                                      unit_nodes(pilot.nodes), rays_per_receiver, key);
+    const std::vector<Survey> surveys =
+        survey_packet(caster, tracer, receivers, pilot, unit_nodes(pilot.nodes), rays_per_receiver, key);
     double density_per_m2 = 0;
     for (const Survey& survey : surveys) {
         density_per_m2 += survey.density_per_m2 / static_cast<double>(surveys.size());

@@ -48,7 +48,7 @@ std::string superscript(int number) {
 }
 
 std::string power_text(double mantissa, int decimals, int exponent) {
-    const std::string power = "10" + superscript(exponent);
+    std::string power = "10" + superscript(exponent);
     if (decimals == 0 && mantissa == 1) return power;
     return number_text(mantissa, decimals) + "×" + power;
 }

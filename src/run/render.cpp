@@ -43,8 +43,8 @@ class PictureSums {
         const std::size_t replicate = passes_ % kReplicates;
         for (std::size_t i = 0; i < rgb_.size(); ++i) {
             for (std::size_t b = 0; b < kBands; ++b) rgb_[i][b] += pass[i][b];
-            luminance_[i * kReplicates + replicate] += static_cast<float>(
-                Spectrum{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
+            luminance_[i * kReplicates + replicate] +=
+                static_cast<float>(Spectrum{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
         }
         ++passes_;
     }
@@ -107,7 +107,7 @@ double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
         const double error = t * sums.standard_error_cd_m2(i);
         half_widths.push_back(error > 0 ? error / sums.luminance_cd_m2(i) : 0);
     }
-    return stilb::attained_error(std::move(half_widths));
+    return attained_error_of(std::move(half_widths));
 }
 
 /// One pass over all blocks; false where it was interrupted.
@@ -155,8 +155,10 @@ class Passes {
         const auto count = static_cast<std::size_t>(block.width * block.height);
         invalid_ += pass.sample(block, {samples.data(), count});
         for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t x = static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);
-            const std::size_t y = static_cast<std::size_t>(block.top) + i / static_cast<std::size_t>(block.width);
+            const std::size_t x =
+                static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);
+            const std::size_t y =
+                static_cast<std::size_t>(block.top) + i / static_cast<std::size_t>(block.width);
             for (std::size_t b = 0; b < kBands; ++b) {
                 pixels_[y * width_ + x][b] = static_cast<float>(samples[i][b]);
             }
@@ -292,9 +294,9 @@ RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& 
     PictureSums sums(blind.size());
     RenderResult result;
     arena.execute([&] {
-        const auto estimator = method.make_picture({scene, caster, camera,
-                                                    options.bounces.value_or(kUnlimited),
-                                                    RandomKey{options.seed}.derived(kPreparation)});
+        const auto estimator =
+            method.make_picture({scene, caster, camera, options.bounces.value_or(kUnlimited),
+                                 RandomKey{options.seed}.derived(kPreparation)});
         Passes passes(*estimator, camera, options.seed, interrupt);
         result.stop_reason = PictureSchedule(options, clock, blind, sink).proceed(passes, sums);
         result.warnings = estimator->warnings();

@@ -30,8 +30,8 @@ struct RenderResult {
     int replicates = 0;
     double elapsed_s = 0;
     StopReason stop_reason = StopReason::paths_done;
-    bool converged = true;           ///< false where an error was asked for and is not met
-    double attained_error = 0;       ///< relative half-width that 95 % of the pixels keep
+    bool converged = true;      ///< false where an error was asked for and is not met
+    double attained_error = 0;  ///< relative half-width that 95 % of the pixels keep
     double mean_luminance_cd_m2 = 0;
     double mean_standard_error_cd_m2 = 0;  ///< of single pixels
     std::vector<std::string> warnings;
@@ -43,7 +43,7 @@ class PictureSink {
     virtual ~PictureSink() = default;
     struct Progress {
         double elapsed_s = 0;
-        double remaining_s = 0;  ///< estimated; infinite where nothing says when to stop
+        double remaining_s = 0;     ///< estimated; infinite where nothing says when to stop
         double attained_error = 0;  ///< at the last look; infinite before it
         std::uint64_t passes = 0;
     };

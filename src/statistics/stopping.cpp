@@ -8,10 +8,10 @@ namespace stilb {
 double attained_error(std::span<const Estimate> readings, double share) {
     std::vector<double> half_widths(readings.size());
     std::transform(readings.begin(), readings.end(), half_widths.begin(), relative_half_width);
-    return attained_error(std::move(half_widths), share);
+    return attained_error_of(std::move(half_widths), share);
 }
 
-double attained_error(std::vector<double> half_widths, double share) {
+double attained_error_of(std::vector<double> half_widths, double share) {
     if (half_widths.empty()) return 0;
     // The small number keeps 0.95 * 20 from counting as more than 19.
     const double needed = std::ceil(share * static_cast<double>(half_widths.size()) - 1e-9);

@@ -19,6 +19,6 @@ inline constexpr double kStoppedConfidence = 0.96;
 
 /// The relative half-width that this share of the readings is within; 0 without readings.
 double attained_error(std::span<const Estimate> readings, double share = kReadingShare);
-double attained_error(std::vector<double> relative_half_widths, double share = kReadingShare);
+double attained_error_of(std::vector<double> relative_half_widths, double share = kReadingShare);
 
 }  // namespace stilb
