@@ -7,26 +7,9 @@
 #include <vector>
 
 #include "files/axis.h"
-#include "files/colour.h"
+#include "files/series.h"
 
 namespace stilb {
-
-enum class LineStyle { none, solid, dashed };
-enum class MarkerStyle { none, circle, square };
-enum class IntervalStyle { band, bars };
-
-/// y over x. A NaN (or, on a logarithmic axis, what is not above 0) interrupts the line.
-struct Series {
-    std::string name;  ///< in the legend; empty: not in it
-    std::vector<double> x, y;
-    /// The interval of each y; both empty where there is none.
-    std::vector<double> y_low{}, y_high{};
-    LineStyle line = LineStyle::solid;
-    MarkerStyle marker = MarkerStyle::none;
-    IntervalStyle interval = IntervalStyle::band;
-    /// Otherwise the palette's next, by position in the panel.
-    std::optional<Colour> colour{};
-};
 
 struct PlotAxis {
     std::string label;
@@ -47,9 +30,6 @@ struct Plot {
     PlotAxis x;
     std::vector<PlotPanel> panels;
 };
-
-/// The palette's colours, told apart by colour-blind readers too [Okabe and Ito 2008]; repeats after seven.
-Colour palette_colour(std::size_t index);
 
 /// Writes a .png or .svg. Throws InputError for an axis that is empty or does not fit, or a file that cannot
 /// be written; std::invalid_argument where a series' lists differ in length or there is no panel.
