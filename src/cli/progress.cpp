@@ -41,6 +41,11 @@ void TerminalProgress::report(const Progress& progress) {
                progress.remaining_s);
 }
 
+void TerminalPictureProgress::report(const Progress& progress) {
+    line_.show(progress.elapsed_s, fmt::format("{} passes", progress.passes), progress.attained_error,
+               progress.remaining_s);
+}
+
 const std::atomic<bool>& watch_for_interrupt() {
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <string>
 
+#include "run/render.h"
 #include "run/run.h"
 
 namespace stilb {
@@ -25,6 +26,17 @@ class ProgressLine {
 class TerminalProgress final : public ProgressSink {
   public:
     void report(const Progress& progress) override;
+
+  private:
+    ProgressLine line_;
+};
+
+/// The same of a picture, which it does not ask for.
+class TerminalPictureProgress : public PictureSink {
+  public:
+    void report(const Progress& progress) override;
+    bool wants_picture() override { return false; }
+    void show(const Pixels&) override {}
 
   private:
     ProgressLine line_;

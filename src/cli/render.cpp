@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/rendered_picture.h"
 #include "cli/run_flags.h"
 #include "files/content_hash.h"
 #include "files/picture_file.h"
@@ -54,28 +55,15 @@ Sensor chosen_camera(const SceneFile& file, const RenderRequest& request) {
                      {request.scene});
 }
 
-Picture picture_of(const Pixels& pixels, const Camera& camera, const PictureOrigin& origin) {
-    Picture picture;
-    picture.width = camera.resolution[0];
-    picture.height = camera.resolution[1];
-    picture.rgb_cd_m2 = pixels.rgb_cd_m2;
-    picture.standard_error_cd_m2 = pixels.standard_error_cd_m2;
-    picture.camera = camera;
-    picture.origin = origin;
-    return picture;
-}
-
 /// Progress on the terminal, and the preview file.
-class RenderProgress final : public PictureSink {
+class RenderProgress final : public TerminalPictureProgress {
   public:
     RenderProgress(const RenderRequest& request, const Camera& camera, const PictureOrigin& origin)
         : request_(request), camera_(camera), origin_(origin) {}
 
     void report(const Progress& progress) override {
         elapsed_s_ = progress.elapsed_s;
-        if (request_.flags.quiet) return;
-        line_.show(progress.elapsed_s, fmt::format("{} passes", progress.passes), progress.attained_error,
-                   progress.remaining_s);
+        if (!request_.flags.quiet) TerminalPictureProgress::report(progress);
     }
     bool wants_picture() override {
         return !request_.preview.empty() && (shown_s_ == 0 || elapsed_s_ - shown_s_ >= kPreviewEvery_s);
@@ -89,7 +77,6 @@ class RenderProgress final : public PictureSink {
     const RenderRequest& request_;
     const Camera& camera_;
     const PictureOrigin& origin_;
-    ProgressLine line_;
     double elapsed_s_ = 0, shown_s_ = 0;
 };
 
@@ -143,12 +130,7 @@ int run_render(const RenderRequest& request) {
     if (!request.flags.quiet) {
         for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
     }
-    origin.paths = result.passes;
-    origin.replicates = result.replicates;
-    origin.elapsed_s = result.elapsed_s;
-    Picture picture = picture_of(result.pixels, sensor.camera, origin);
-    picture.normals = std::move(result.normals);
-    picture.depth_m = std::move(result.depth_m);
+    const Picture picture = picture_of(result, sensor.camera, origin);
     const auto curve = write_picture(picture, request.output, request.tone);
     if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
     print_summary(result, sensor);

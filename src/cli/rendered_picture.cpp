@@ -1,0 +1,26 @@
+#include "cli/rendered_picture.h"
+
+namespace stilb {
+
+Picture picture_of(const Pixels& pixels, const Camera& camera, const PictureOrigin& origin) {
+    Picture picture;
+    picture.width = camera.resolution[0];
+    picture.height = camera.resolution[1];
+    picture.rgb_cd_m2 = pixels.rgb_cd_m2;
+    picture.standard_error_cd_m2 = pixels.standard_error_cd_m2;
+    picture.camera = camera;
+    picture.origin = origin;
+    return picture;
+}
+
+Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrigin origin) {
+    origin.paths = result.passes;
+    origin.replicates = result.replicates;
+    origin.elapsed_s = result.elapsed_s;
+    Picture picture = picture_of(result.pixels, camera, origin);
+    picture.normals = result.normals;
+    picture.depth_m = result.depth_m;
+    return picture;
+}
+
+}  // namespace stilb
