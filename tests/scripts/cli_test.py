@@ -166,9 +166,31 @@ class FalsecolorTest(CommandLineTest):
         self.expect_wrong_input(["falsecolor", picture, "-o", drawing], "view.hdr", "row 1 of 1")
 
 
+class ReproduceTest(CommandLineTest):
+    def test_unknown_figure(self):
+        self.expect_wrong_input(["reproduce", "sobolew", "-o", self.folder], 'Did you mean "sobolev"?', "room", "polar")
+
+    def test_sobolevs_problem(self):
+        result = run("reproduce", "sobolev", "-o", self.folder / "figures")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual({file.name for file in (self.folder / "figures").iterdir()},
+                         {"sobolev.csv", "sobolev.png", "sobolev.svg"})
+        with open(self.folder / "figures/sobolev.csv", newline="") as file:
+            rows = [{name: float(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
+        # Independent errors: of 101 intervals of 95 %, more than 12 fail twice in a thousand times.
+        name = "double_local_each_2000"
+        missed = [row for row in rows if not row[f"{name}_lower_lx"] <= row["exact_lx"] <= row[f"{name}_upper_lx"]]
+        self.assertEqual(len(rows), 101)
+        self.assertLessEqual(len(missed), 12)
+
+    def test_the_room_is_read_without_warnings(self):
+        result = run("info", ROOT / "scenes/paper/room.toml", "--json")
+        self.assertEqual(json.loads(result.stdout)["warnings"], [])
+
+
 class HelpTest(CommandLineTest):
     def test_examples_come_first(self):
-        for command in ("measure", "info", "falsecolor"):
+        for command in ("measure", "info", "falsecolor", "reproduce"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             examples, rest = result.stdout.split("\n\n", 1)

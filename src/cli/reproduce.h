@@ -1,0 +1,16 @@
+// The figures of the papers. Each function computes one anew and writes its files into the folder, which
+// exists. docs/reproduce.md says what they show and what was chosen.
+#pragma once
+
+#include <filesystem>
+
+namespace stilb {
+
+/// [LocalEstimation], figure 4.
+void reproduce_sobolev(const std::filesystem::path& directory);
+/// [LocalEstimation], figure 5.
+void reproduce_room(const std::filesystem::path& directory);
+/// [LocalEstimation], figure 6.
+void reproduce_polar(const std::filesystem::path& directory);
+
+}  // namespace stilb
