@@ -14,7 +14,7 @@ std::vector<Estimate> measure(const Scene& scene, const Sensor& sensor, const Ru
 
 std::vector<Estimate> multiply_reflected_cd_m2(const Scene& scene, const Sensor& sensor,
                                                const RunOptions& options, int runs, ProgressSink* progress) {
-    // The first reflection may be a hundred times as bright as all others, and it is sampled. It is sampled
+    // The first reflection may be many times as bright as all others, and it is sampled. It is sampled
     // alike in two runs of one seed, and so leaves no noise in their difference. If it were not, intervals
     // would be wide but right: they come from the differences.
     std::vector<double> differences;

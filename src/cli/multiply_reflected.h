@@ -7,7 +7,7 @@
 
 namespace stilb {
 
-/// The luminance [cd/m2] of at least two reflections at each of the readings of an emergent sensor. Of
+/// The luminance [cd/m2] of at least two reflections at each of the readings of a luminance sensor. Of
 /// `options`, paths are those of each of `runs` pairs of runs, whose seeds follow on the given one; bounces
 /// does not count.
 std::vector<Estimate> multiply_reflected_cd_m2(const Scene& scene, const Sensor& sensor,

@@ -41,7 +41,7 @@ TEST(MultiplyReflected, IsSobolevsSolutionLessTheFirstReflection) {
         const double reflected_lx = problem.illuminance_lx(exact::Plane::first, r) - direct_lx;
         const double exact_cd_m2 = kPlanes.reflectance_1 * reflected_lx / std::numbers::pi;
         EXPECT_NEAR(measured[j].value, exact_cd_m2, 4 * measured[j].standard_error) << r;
-        // The first reflection leaves no noise, though at r = 0.25 it is five times as bright.
+        // The first reflection leaves no noise, though at r = 0.25 it is more than five times as bright.
         EXPECT_LT(measured[j].standard_error, 0.01 * exact_cd_m2) << r;
     }
 }
