@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/place_text.h"
+
 namespace stilb {
 namespace {
 
@@ -27,9 +29,6 @@ std::string unit_of(const Sensor& sensor) {
     return sensor.measures_luminance() ? "cd/m²" : std::string(sensor.quantity().unit);
 }
 
-std::string place_text(const Vec3& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z); }
-std::string direction_text(const Vec3& d) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x, d.y, d.z); }
-
 /// What a line of sight ends at: nothing where the run did not tell.
 std::string end_text(const SensorResult& result, std::size_t j) {
     if (result.sub_points.empty()) return "";
@@ -39,10 +38,8 @@ std::string end_text(const SensorResult& result, std::size_t j) {
 
 /// Where a reading is made and which way it looks.
 std::string reading_place(const SensorResult& result, const Sensor& sensor, std::size_t j) {
-    const auto [position, way] = place_of(sensor.measurands[j]);
-    if (sensor.type != SensorType::luminance)
-        return fmt::format("at {} facing {}", place_text(position), direction_text(way));
-    return fmt::format("from {} along {}{}", place_text(position), direction_text(way), end_text(result, j));
+    const std::string place = place_text(sensor.measurands[j]);
+    return sensor.type == SensorType::luminance ? place + end_text(result, j) : place;
 }
 
 std::string reading_text(const SensorResult& result, const Sensor& sensor, std::size_t j) {

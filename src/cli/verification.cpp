@@ -15,29 +15,37 @@ const CheckedReading& Verification::worst() const {
 double Verification::widest_interval() const {
     double widest = 0;
     for (const CheckedReading& reading : readings) {
-        widest = std::max(widest, relative_half_width(reading.measured_lx));
+        widest = std::max(widest, relative_half_width(reading.measured));
     }
     return widest;
 }
 
 bool Verification::contradicts() const { return !(std::abs(worst().z) < kContradictionZ); }
 
-CheckedReading check(const ExactReading& exact, const Estimate& measured_lx, int replicates) {
-    Estimate estimate = measured_lx;
-    estimate.standard_error = std::hypot(measured_lx.standard_error, kRounding * exact.illuminance_lx);
-    const double t = z_score(estimate, exact.illuminance_lx);
-    return {exact, measured_lx, equivalent_z(t, replicates - 1)};
+CheckedReading check(const ExactReading& exact, const Estimate& measured, int replicates) {
+    Estimate estimate = measured;
+    estimate.standard_error = std::hypot(measured.standard_error, kRounding * exact.value);
+    const double off = exact.tolerance * exact.value;
+    const double nearest = std::clamp(measured.value, exact.value - off, exact.value + off);
+    return {exact, measured, equivalent_z(z_score(estimate, nearest), replicates - 1)};
 }
 
 Verification verify(const VerificationCase& verification_case, const RunOptions& options,
                     ProgressSink* progress, const std::atomic<bool>* interrupt) {
+    const SensorType type =
+        verification_case.measures_luminance() ? SensorType::luminance : SensorType::illuminance;
     std::vector<Sensor> sensors;  // one for each reading: a run's target is met by 95 % of each sensor's
     for (const ExactReading& reading : verification_case.readings) {
-        sensors.push_back({"", SensorType::illuminance, {reading.point}});
+        sensors.push_back({"", type, {reading.measurand}});
     }
     const RunResult measured = run(verification_case.scene, sensors, options, progress, interrupt);
-    Verification result{verification_case.name, verification_case.variant, options.method, {},
-                        measured.stop_reason,   measured.elapsed_s};
+    Verification result{verification_case.name,
+                        verification_case.variant,
+                        options.method,
+                        verification_case.quantity().unit,
+                        {},
+                        measured.stop_reason,
+                        measured.elapsed_s};
     for (std::size_t j = 0; j < sensors.size(); ++j) {
         result.readings.push_back(check(verification_case.readings[j],
                                         measured.sensors[j].readings[0].estimate, measured.replicates));

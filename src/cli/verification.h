@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/verification_cases.h"
@@ -20,13 +21,14 @@ inline constexpr double kRounding = 1e-9;
 
 struct CheckedReading {
     ExactReading exact;
-    Estimate measured_lx;
+    Estimate measured;
     double z = 0;  ///< of a normal deviate, whatever the number of replicates
 };
 
 /// What one method makes of one case.
 struct Verification {
     std::string name, variant, method;  ///< of the case, of the estimator
+    std::string_view unit;
     std::vector<CheckedReading> readings;
     StopReason stop_reason = StopReason::target_reached;
     double elapsed_s = 0;
@@ -37,7 +39,7 @@ struct Verification {
     bool contradicts() const;
 };
 
-CheckedReading check(const ExactReading& exact, const Estimate& measured_lx, int replicates);
+CheckedReading check(const ExactReading& exact, const Estimate& measured, int replicates);
 
 /// Measures with `options`; the error asked for is met by every reading, not only by 95 % of them.
 Verification verify(const VerificationCase& verification_case, const RunOptions& options,

@@ -1,9 +1,10 @@
-// Scenes whose illuminance is known exactly, for `stilb verify`.
+// Scenes whose illuminance or luminance is known exactly, for `stilb verify`.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "estimators/estimator_list.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
@@ -11,19 +12,25 @@ namespace stilb {
 
 /// One reading and what it must be.
 struct ExactReading {
-    MeasuringPoint point;
-    double illuminance_lx = 0;
+    Measurand measurand;
+    double value = 0;  ///< [lx] or [cd/m2]
+    /// The share of it by which the tables of the scene's materials may be off, as docs/materials.md has it.
+    double tolerance = 0;
 };
 
 struct VerificationCase {
     std::string name;     ///< of the exact solution; variants share it
     std::string variant;  ///< which one
     Scene scene;
-    std::vector<ExactReading> readings;
-    /// The one method to run; empty: all.
+    std::vector<ExactReading> readings;  ///< all of one quantity
+    /// The one method to run; empty: all that measure the quantity.
     std::string only_method{};
     /// What the reader of the results has to know; variants share it.
     std::string note{};
+
+    bool measures_luminance() const { return is_luminance(readings.front().measurand); }
+    Quantity quantity() const { return measures_luminance() ? kLuminance : kIlluminance; }
+    bool is_for(const EstimatorEntry& method) const;
 };
 
 std::vector<VerificationCase> verification_cases();

@@ -5,16 +5,17 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/place_text.h"
 #include "cli/progress.h"
 #include "cli/verification.h"
 #include "estimators/estimator_list.h"
+#include "files/place_json.h"
 #include "run/relative_error.h"
 
 namespace stilb {
@@ -30,26 +31,23 @@ struct VerifyRequest {
 };
 
 constexpr const char* kTableHeader =
-    "case                variant                            method   exact lx  measured lx    ± %      z  "
-    "time s\n";
+    "case                variant                            method          exact   measured  unit      ± %"
+    "      z   time s\n";
 
 /// A row that shows the reading farthest from its exact value, and the widest interval of all.
 std::string row(const Verification& v) {
     const CheckedReading& worst = v.worst();
-    return fmt::format("{:19} {:34} {:6} {:10.5g} {:12.5g} {:6.2g} {:6.2f} {:7.2f}\n", v.name, v.variant,
-                       v.method, worst.exact.illuminance_lx, worst.measured_lx.value,
+    return fmt::format("{:19} {:34} {:12} {:8.5g} {:10.5g}  {:5} {:7.2g} {:6.2f} {:8.2f}\n", v.name,
+                       v.variant, v.method, worst.exact.value, worst.measured.value, v.unit,
                        100 * v.widest_interval(), worst.z, v.elapsed_s);
 }
 
 std::string reading_rows(const Verification& v) {
     std::string text;
     for (const CheckedReading& reading : v.readings) {
-        const auto& [p, n] = reading.exact.point;
-        text += fmt::format("    {:58} {:10.5g} {:12.5g} {:6.2g} {:6.2f}\n",
-                            fmt::format("at ({:.4g}, {:.4g}, {:.4g}) facing ({:.3g}, {:.3g}, {:.3g})", p.x,
-                                        p.y, p.z, n.x, n.y, n.z),
-                            reading.exact.illuminance_lx, reading.measured_lx.value,
-                            100 * relative_half_width(reading.measured_lx), reading.z);
+        text += fmt::format("    {:63} {:8.5g} {:10.5g}  {:5} {:7.2g} {:6.2f}\n",
+                            place_text(reading.exact.measurand), reading.exact.value, reading.measured.value,
+                            v.unit, 100 * relative_half_width(reading.measured), reading.z);
     }
     return text;
 }
@@ -57,23 +55,26 @@ std::string reading_rows(const Verification& v) {
 nlohmann::ordered_json to_json(const Verification& v) {
     nlohmann::ordered_json readings = nlohmann::ordered_json::array();
     for (const CheckedReading& reading : v.readings) {
-        const auto& [p, n] = reading.exact.point;
-        const Estimate& measured = reading.measured_lx;
-        readings.push_back({{"position", {p.x, p.y, p.z}},
-                            {"normal", {n.x, n.y, n.z}},
-                            {"exact", reading.exact.illuminance_lx},
-                            {"value", measured.value},
-                            {"standard_error", measured.standard_error},
-                            {"interval", {measured.lower, measured.upper}},
-                            {"z", reading.z}});
+        const Estimate& measured = reading.measured;
+        nlohmann::ordered_json json = place_json(reading.exact.measurand);
+        json["exact"] = reading.exact.value;
+        json["tolerance"] = reading.exact.tolerance;
+        json["value"] = measured.value;
+        json["standard_error"] = measured.standard_error;
+        json["interval"] = {measured.lower, measured.upper};
+        json["z"] = reading.z;
+        readings.push_back(std::move(json));
     }
-    return {{"case", v.name},        {"variant", v.variant},   {"method", v.method},
-            {"time_s", v.elapsed_s}, {"worst_z", v.worst().z}, {"readings", std::move(readings)}};
+    return {{"case", v.name},
+            {"variant", v.variant},
+            {"method", v.method},
+            {"time_s", v.elapsed_s},
+            {"unit", v.unit},
+            {"worst_z", v.worst().z},
+            {"readings", std::move(readings)}};
 }
 
-std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names) {
-    std::vector<VerificationCase> cases = verification_cases();
-    if (names.empty()) return cases;
+void require_known(const std::vector<std::string>& names, const std::vector<VerificationCase>& cases) {
     std::vector<std::string_view> known;
     for (const VerificationCase& c : cases) {
         if (known.empty() || known.back() != c.name) known.push_back(c.name);
@@ -85,18 +86,31 @@ std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names
                                      nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
                                      fmt::join(known, ", ")));
     }
+}
+
+/// Those of these names (empty: of all) that one of the methods is for.
+std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names,
+                                           const std::vector<EstimatorEntry>& methods) {
+    std::vector<VerificationCase> cases = verification_cases();
+    require_known(names, cases);
     std::erase_if(cases, [&](const VerificationCase& c) {
-        return std::find(names.begin(), names.end(), c.name) == names.end();
+        const bool is_named = names.empty() || std::find(names.begin(), names.end(), c.name) != names.end();
+        return !is_named || std::none_of(methods.begin(), methods.end(),
+                                         [&](const EstimatorEntry& method) { return c.is_for(method); });
     });
+    if (cases.empty()) {
+        throw InputError(
+            "--method: nothing to do: local is held against illuminances, double-local against luminances");
+    }
     return cases;
 }
 
-std::vector<std::string> chosen_methods(const std::vector<std::string>& names) {
-    for (const std::string& name : names) find_estimator(name);
-    if (!names.empty()) return names;
-    std::vector<std::string> all;
-    for (const EstimatorEntry& entry : estimator_list()) all.emplace_back(entry.name);
-    return all;
+std::vector<EstimatorEntry> chosen_methods(const std::vector<std::string>& names) {
+    const auto all = estimator_list();
+    if (names.empty()) return {all.begin(), all.end()};
+    std::vector<EstimatorEntry> methods;
+    for (const std::string& name : names) methods.push_back(find_estimator(name));
+    return methods;
 }
 
 RunOptions run_options(const VerifyRequest& request) {
@@ -153,15 +167,14 @@ std::string closing_words(const std::vector<Verification>& results,
 
 /// Shows every row as soon as it is known.
 std::vector<Verification> verify_all(const VerifyRequest& request, const std::vector<VerificationCase>& cases,
-                                     RunOptions options) {
-    const std::vector<std::string> methods = chosen_methods(request.methods);
+                                     const std::vector<EstimatorEntry>& methods, RunOptions options) {
     const std::atomic<bool>& interrupt = watch_for_interrupt();
     std::vector<Verification> results;
     if (!request.json) fmt::print("{}", kTableHeader);
     for (const VerificationCase& c : cases) {
-        for (const std::string& method : methods) {
-            if (interrupt || (!c.only_method.empty() && c.only_method != method)) continue;
-            options.method = method;
+        for (const EstimatorEntry& method : methods) {
+            if (interrupt || !c.is_for(method)) continue;
+            options.method = method.name;
             {
                 TerminalProgress progress;
                 results.push_back(verify(c, options, &progress, &interrupt));
@@ -176,8 +189,9 @@ std::vector<Verification> verify_all(const VerifyRequest& request, const std::ve
 
 int run_verify(const VerifyRequest& request) {
     const RunOptions options = run_options(request);
-    const std::vector<VerificationCase> cases = chosen_cases(request.cases);
-    const std::vector<Verification> results = verify_all(request, cases, options);
+    const std::vector<EstimatorEntry> methods = chosen_methods(request.methods);
+    const std::vector<VerificationCase> cases = chosen_cases(request.cases, methods);
+    const std::vector<Verification> results = verify_all(request, cases, methods, options);
     if (request.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
         for (const Verification& v : results) all.push_back(to_json(v));

@@ -1,7 +1,6 @@
 #include "files/results_json.h"
 
-#include <nlohmann/json.hpp>
-
+#include "files/place_json.h"
 #include "files/sub_point.h"
 
 namespace stilb {
@@ -9,26 +8,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 Json interval_json(const Estimate& e) { return {e.lower, e.upper}; }
 
-/// Where a reading is made and which way it looks.
-struct PlaceJson {
-    Json operator()(const MeasuringPoint& point) const {
-        return {{"position", vector_json(point.position)}, {"normal", vector_json(point.normal)}};
-    }
-    Json operator()(const LineOfSight& sight) const {
-        return {{"position", vector_json(sight.position)}, {"direction", vector_json(sight.direction)}};
-    }
-    Json operator()(const EmergentRay& ray) const {
-        return {{"position", vector_json(ray.position)},
-                {"normal", vector_json(ray.normal)},
-                {"direction", vector_json(ray.direction)}};
-    }
-};
-
 Json reading_json(const SensorResult& result, const Sensor& sensor, std::size_t j) {
-    Json json = std::visit(PlaceJson{}, sensor.measurands[j]);
+    Json json = place_json(sensor.measurands[j]);
     if (sensor.measures_luminance()) {
         const auto hit = sub_point(result, sensor, j);
         json["hit"] = hit ? vector_json(*hit) : Json();

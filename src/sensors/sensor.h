@@ -41,6 +41,12 @@ inline bool is_luminance(const Measurand& measurand) {
     return !std::holds_alternative<MeasuringPoint>(measurand);
 }
 
+/// What a number says, as in "illuminance [lx]".
+struct Quantity {
+    std::string_view name, unit;
+};
+inline constexpr Quantity kIlluminance{"illuminance", "lx"}, kLuminance{"luminance", "cd/m2"};
+
 /// A rectangle of cells that are measured at their centres.
 struct Grid {
     Vec3 corner, edge_u, edge_v;
@@ -63,11 +69,6 @@ constexpr std::string_view name_of(SensorType type) {
     return kSensorTypeNames[static_cast<std::size_t>(type)];
 }
 
-/// What a number says, as in "illuminance [lx]".
-struct Quantity {
-    std::string_view name, unit;
-};
-
 /// A direction in the frame of a surface: `theta_deg` from its normal, `phi_deg` about it. In a polar plane
 /// theta has a sign and phi is the plane's azimuth; otherwise theta is at least 0.
 struct PolarAngles {
@@ -87,9 +88,7 @@ struct Sensor {
     std::vector<PolarAngles> angles{};
 
     bool measures_luminance() const { return type >= SensorType::luminance; }
-    Quantity quantity() const {
-        return measures_luminance() ? Quantity{"luminance", "cd/m2"} : Quantity{"illuminance", "lx"};
-    }
+    Quantity quantity() const { return measures_luminance() ? kLuminance : kIlluminance; }
 };
 
 /// A grid sensor with a point at every cell's centre, all with the unit vector `normal`.

@@ -53,6 +53,13 @@ TEST(Check, TakesRoundingForNoContradictionAndMoreThanThatForOne) {
     EXPECT_GT(check({{}, 0}, estimate(1e-12, 0), kReplicates).z, kContradictionZ);
 }
 
+TEST(Check, TakesNothingWithinTheToleranceForAContradiction) {
+    const ExactReading white{{}, 100, 0.01};
+    EXPECT_EQ(check(white, estimate(100.9, 0.1), kReplicates).z, 0);
+    const CheckedReading too_bright = check(white, estimate(101.3, 0.1), kReplicates);
+    EXPECT_NEAR(too_bright.z, check({{}, 101}, estimate(101.3, 0.1), kReplicates).z, 1e-9);
+}
+
 TEST(Verification, JudgesByTheFarthestReadingAndTheWidestInterval) {
     const Verification fine =
         verification_of({{{}, estimate(1, 0.001), 1.5}, {{}, estimate(2, 0.004), -3.9}});
@@ -73,7 +80,7 @@ TEST(Verify, AgreesWithATrueValueAndContradictsAWrongOne) {
     const Verification right = verify(sphere, quick_options());
     EXPECT_FALSE(right.contradicts()) << right.worst().z;
     EXPECT_LE(right.widest_interval(), 0.01);
-    sphere.readings[3].illuminance_lx *= 1.03;
+    sphere.readings[3].value *= 1.03;
     const Verification wrong = verify(sphere, quick_options());
     EXPECT_TRUE(wrong.contradicts());
     EXPECT_EQ(&wrong.worst(), &wrong.readings[3]);
@@ -86,15 +93,43 @@ TEST(Verify, EveryReadingKeepsTheErrorThatWasAskedFor) {
     EXPECT_LE(verify(sobolev, options).widest_interval(), 0.05);
 }
 
+TEST(Verify, LuminanceAgreesByEveryMethod) {
+    RunOptions options;
+    options.error = 0.02;
+    for (const VerificationCase& c : verification_cases()) {
+        if (!c.measures_luminance()) continue;
+        for (const EstimatorEntry& method : estimator_list()) {
+            if (!c.is_for(method)) continue;
+            options.method = method.name;
+            const Verification result = verify(c, options);
+            EXPECT_FALSE(result.contradicts())
+                << c.name << ", " << c.variant << ", " << method.name << ": z = " << result.worst().z;
+            EXPECT_LE(result.widest_interval(), 0.02) << c.name << ", " << c.variant << ", " << method.name;
+        }
+    }
+}
+
+TEST(VerificationCases, AreOfOneQuantityAndForMethodsThatMeasureIt) {
+    for (const VerificationCase& c : verification_cases()) {
+        for (const ExactReading& reading : c.readings) {
+            EXPECT_EQ(is_luminance(reading.measurand), c.measures_luminance()) << c.name << ", " << c.variant;
+        }
+        const bool is_luminance = c.measures_luminance();
+        EXPECT_EQ(c.is_for(find_estimator("local")), !is_luminance);
+        EXPECT_EQ(c.is_for(find_estimator("double-local")), is_luminance);
+        EXPECT_EQ(c.is_for(find_estimator("path")), c.only_method.empty());
+    }
+}
+
 TEST(VerificationCases, SobolevHasTwentyRadiiUpToFiveOnBothPlanesForFourSetsOfValues) {
     std::set<std::string> variants;
     for (const double height : {0.0, 1.0}) {
         std::vector<double> radii;
         for (const VerificationCase& c : verification_cases()) {
-            if (c.name != "sobolev") continue;
+            if (c.name != "sobolev" || c.measures_luminance()) continue;
             variants.insert(c.variant.substr(0, c.variant.rfind(',')));
             for (const ExactReading& reading : c.readings) {
-                const Vec3& p = reading.point.position;
+                const Vec3& p = position_of(reading.measurand);
                 if (p.z == height) radii.push_back(std::hypot(p.x, p.y));
             }
         }
@@ -109,10 +144,10 @@ TEST(VerificationCases, SourcesAreSeenWholePartlyAndNotAtAll) {
     for (const char* name : {"point source", "rectangle", "disk", "luminous sphere"}) {
         const VerificationCase c = case_named(name);
         EXPECT_TRUE(std::any_of(c.readings.begin(), c.readings.end(), [](const ExactReading& reading) {
-            return reading.illuminance_lx == 0;
+            return reading.value == 0;
         })) << name;
         EXPECT_GE(std::count_if(c.readings.begin(), c.readings.end(),
-                                [](const ExactReading& reading) { return reading.illuminance_lx > 0; }),
+                                [](const ExactReading& reading) { return reading.value > 0; }),
                   6)
             << name;
     }
