@@ -1,81 +1,137 @@
-// Efficiency 1 / (variance x time) of the methods on a 64 x 64 grid in a furnished room, one thread, over
-// `path`.
-//
-// Variance is that of the value of a run (16 replicates), relative to the value squared: its mean over the
-// readings, its median, and the square of the error that 95 % of the readings keep, which is what a run stops
-// by.
+// Efficiency of `auto` and `double-local` over `path` for every kind of sensor in a furnished room, one
+// thread. At points double-local is local. Preparation is not counted.
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
-#include <ctime>
+#include <array>
+#include <cstdio>
+#include <string_view>
 #include <vector>
 
+#include "efficiency.h"
 #include "estimators/estimator_list.h"
 #include "rooms.h"
+#include "sensors/goniometer.h"
 
 namespace stilb {
 namespace {
 
-constexpr std::uint64_t kReplicates = 16;
-
-double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-struct Efficiency {
-    double by_mean = 0, by_median = 0, by_95_percent = 0;
-    double cpu_s = 0;
-};
-
-Efficiency measure(const Estimator& estimator, std::size_t readings, std::uint64_t samples) {
-    std::vector<double> sum(readings), sum_of_squares(readings);
-    const double start = cpu_s();
-    for (std::uint64_t r = 0; r < kReplicates; ++r) {
-        ReadingSums sums(readings);
-        estimator.run_batch({RandomKey{3}.derived(r), 0, samples}, sums);
-        for (std::size_t j = 0; j < readings; ++j) {
-            const double value = estimator.known_part()[j].luminance() +
-                                 sums.sum[j].luminance() / static_cast<double>(samples);
-            sum[j] += value;
-            sum_of_squares[j] += value * value;
+Measure measure_with(const Estimator& estimator) {
+    return [&](std::uint64_t round, std::uint64_t samples) {
+        ReadingSums sums(estimator.known_part().size());
+        estimator.run_batch({RandomKey{3}.derived(round), 0, samples}, sums);
+        std::vector<double> values;
+        for (std::size_t j = 0; j < sums.sum.size(); ++j) {
+            values.push_back(estimator.known_part()[j].luminance() +
+                             sums.sum[j].luminance() / static_cast<double>(samples));
         }
-    }
-    const double elapsed_s = cpu_s() - start;
-    std::vector<double> variances;
-    double mean_variance = 0;
-    for (std::size_t j = 0; j < readings; ++j) {
-        const double mean = sum[j] / kReplicates;
-        if (mean <= 0) continue;
-        const double variance = (sum_of_squares[j] / kReplicates - mean * mean) / (kReplicates - 1);
-        variances.push_back(variance / (mean * mean));
-        mean_variance += variances.back();
-    }
-    mean_variance /= static_cast<double>(variances.size());
-    std::sort(variances.begin(), variances.end());
-    const auto efficiency = [&](double variance) { return 1 / (variance * elapsed_s); };
-    return {efficiency(mean_variance), efficiency(variances[variances.size() / 2]),
-            efficiency(variances[variances.size() * 95 / 100]), elapsed_s};
+        return values;
+    };
 }
 
-void compare(const Scene& scene) {
+Efficiency of_readings(const EstimatorEntry& method, const Scene& scene,
+                       const std::vector<Measurand>& measurands) {
     const RayCaster caster(scene);
-    const std::vector<Measurand> points = make_grid(64);
-    const auto make = [&](std::string_view name) {
-        return find_estimator(name).make({scene, caster, points, 1 << 20, RandomKey{5}});
+    const auto estimator = method.make({scene, caster, measurands, kUnlimited, RandomKey{5}});
+    return efficiency_of(measure_with(*estimator), estimator->batch_granularity());
+}
+
+Measure measure_with(const PictureEstimator& estimator, const std::array<int, 2>& resolution) {
+    return [&, resolution](std::uint64_t round, std::uint64_t passes) {
+        std::vector<double> pixels;
+        for (std::uint64_t index = 0; index < passes; ++index) {
+            const auto pass = estimator.start({RandomKey{3}.derived(round), index});
+            std::size_t first = 0;
+            for (const PixelBlock& block : blocks_of(resolution)) {
+                std::vector<Spectrum> samples(static_cast<std::size_t>(block.width * block.height));
+                pass->sample(block, samples);
+                pixels.resize(std::max(pixels.size(), first + samples.size()));
+                for (const Spectrum& sample : samples) {
+                    pixels[first++] += sample.luminance() / static_cast<double>(passes);
+                }
+            }
+        }
+        return pixels;
     };
-    const Efficiency path = measure(*make("path"), points.size(), 32);
-    fmt::print("path: {:.1f} s\n{:8} {:>10} {:>10} {:>10} {:>8}\n", path.cpu_s, "", "mean", "median", "95 %",
-               "s");
-    for (const std::string_view name : {"auto", "local"}) {
-        const Efficiency e = measure(*make(name), points.size(), name == "auto" ? 8192 : 512);
-        fmt::print("{:8} {:10.1f} {:10.1f} {:10.1f} {:8.1f}\n", name, e.by_mean / path.by_mean,
-                   e.by_median / path.by_median, e.by_95_percent / path.by_95_percent, e.cpu_s);
+}
+
+Efficiency of_picture(const EstimatorEntry& method, const Scene& scene, const Camera& camera) {
+    const RayCaster caster(scene);
+    const auto estimator = method.make_picture({scene, caster, camera, kUnlimited, RandomKey{5}});
+    return efficiency_of(measure_with(*estimator, camera.resolution), 1);
+}
+
+/// `efficiency`: of a method.
+template <typename EfficiencyOf>
+void compare(std::string_view what, const EfficiencyOf& efficiency) {
+    const Efficiency path = efficiency(find_estimator("path"));
+    for (const std::string_view name : {"auto", "double-local"}) {
+        const Efficiency e = efficiency(find_estimator(name));
+        fmt::print("{:32} {:12} {:8.1f} {:8.1f} {:8.1f}   {:4.1f} {:4.1f}\n", what, name,
+                   e.by_mean / path.by_mean, e.by_median / path.by_median,
+                   e.by_95_percent / path.by_95_percent, e.cpu_s, path.cpu_s);
+        std::fflush(stdout);
     }
+}
+
+void compare_readings(std::string_view what, const Scene& scene, const std::vector<Measurand>& measurands) {
+    compare(what, [&](const EstimatorEntry& method) { return of_readings(method, scene, measurands); });
+}
+
+/// Rows of 32 x 32 lines of sight from eye level onto the lower half of the room.
+std::vector<Measurand> lines_of_sight() {
+    constexpr int count = 32;
+    const Vec3 eye{0.5, 0.4, 1.6};
+    std::vector<Measurand> lines;
+    for (int i = 0; i < count; ++i) {
+        for (int j = 0; j < count; ++j) {
+            const Vec3 target{0.1 + 3.8 * (i + 0.5) / count, 3.9, 1.6 * (j + 0.5) / count};
+            lines.push_back(LineOfSight{eye, normalized(target - eye)});
+        }
+    }
+    return lines;
+}
+
+std::vector<Measurand> goniometer() {
+    Goniometer place;
+    place.point = {1.1, 2.3, 0};
+    place.step_deg = 10;
+    return make_goniometer_sensor("goniometer", place).measurands;
+}
+
+Camera camera() {
+    Camera result;
+    result.position = {0.5, 0.4, 1.6};
+    result.target = {2.6, 3, 0.8};
+    result.fov_deg = 70;
+    result.resolution = {96, 64};
+    return result;
+}
+
+void compare_all() {
+    const Scene matt = make_room(30);
+    const Scene glossy = make_glossy_room(30);
+    compare_readings("illuminance, 64 x 64 points", matt, make_grid(64));
+    compare_readings("luminance, 1024 lines of sight", matt, lines_of_sight());
+    compare_readings("  the same, glossy surfaces", glossy, lines_of_sight());
+    compare_readings("goniometer, 289 directions", matt, goniometer());
+    compare_readings("  the same, glossy surfaces", glossy, goniometer());
+    const auto of_camera = [](const Scene& scene) {
+        return [&](const EstimatorEntry& method) { return of_picture(method, scene, camera()); };
+    };
+    compare("camera, 96 x 64 pixels", of_camera(matt));
+    compare("  the same, glossy surfaces", of_camera(glossy));
 }
 
 }  // namespace
 }  // namespace stilb
 
 int main() {
-    const stilb::Scene room = stilb::make_room(30);
-    fmt::print("Efficiency 1 / (variance x time) over path tracing, 64 x 64 points, {}\n", room.name);
-    stilb::compare(room);
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    fmt::print(
+        "Efficiency 1 / (variance x time) over path tracing, room with clutter\n"
+        "{:32} {:12} {:>8} {:>8} {:>8}   {:>9}\n",
+        "", "", "mean", "median", "95 %", "s, of path");
+    stilb::compare_all();
 }

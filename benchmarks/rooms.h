@@ -50,6 +50,14 @@ inline Scene make_room(unsigned balls) {
     return scene;
 }
 
+/// The same with gloss on everything: Phong lobes of exponent 50 over diffuse 0.4.
+inline Scene make_glossy_room(unsigned balls) {
+    Scene scene = make_room(balls);
+    scene.name = "glossy " + scene.name;
+    scene.materials.front().material = Phong{Spectrum::grey(0.4), Spectrum::grey(0.2), 50};
+    return scene;
+}
+
 /// Points on a horizontal plane at desk height.
 inline std::vector<Measurand> make_grid(int cells) {
     return make_grid_sensor("grid", {{0.05, 0.05, 0.8}, {3.9, 0, 0}, {0, 3.9, 0}, {cells, cells}}, {0, 0, 1})

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 
@@ -21,6 +22,26 @@ auto integrate(double low, double high, int parts, Function&& f) {
         for (std::size_t i = 0; i < nodes.size(); ++i) sum += weights[i] * f(middle + nodes[i] * half);
     }
     return sum * half;
+}
+
+/// The same of a number, with parts halved until halving changes the integral over each by less than its
+/// share of `tolerance`. Features much narrower than 1/16 of [low, high] might be missed.
+template <typename Function>
+double integrate_adaptively(double low, double high, double tolerance, const Function& f) {
+    const auto refine = [&](const auto& self, double a, double b, double whole, double allowed) -> double {
+        const double middle = (a + b) / 2;
+        const double left = integrate(a, middle, 1, f), right = integrate(middle, b, 1, f);
+        if (!(std::abs(left + right - whole) > allowed) || middle == a || middle == b) return left + right;
+        return self(self, a, middle, left, allowed / 2) + self(self, middle, b, right, allowed / 2);
+    };
+    constexpr int parts = 8;
+    const double step = (high - low) / parts;
+    double sum = 0;
+    for (int part = 0; part < parts; ++part) {
+        const double a = low + part * step, b = a + step;
+        sum += refine(refine, a, b, integrate(a, b, 1, f), tolerance / parts);
+    }
+    return sum;
 }
 
 }  // namespace stilb

@@ -1,0 +1,50 @@
+#include "efficiency.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include "statistics/interval.h"
+
+namespace stilb {
+namespace {
+
+constexpr std::uint64_t kRounds = 16;
+constexpr double kRound_s = 1.0 / 3;
+
+double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+std::uint64_t samples_of_a_round(const Measure& measure, std::uint64_t granularity) {
+    for (std::uint64_t samples = granularity;; samples *= 2) {
+        const double start = cpu_s();
+        measure(kRounds, samples);  // a round that is not used again
+        if (cpu_s() - start > kRound_s / 2) return samples * 2;
+    }
+}
+
+}  // namespace
+
+Efficiency efficiency_of(const Measure& measure, std::uint64_t granularity) {
+    const std::uint64_t samples = samples_of_a_round(measure, granularity);
+    std::vector<double> means;
+    const double start = cpu_s();
+    for (std::uint64_t round = 0; round < kRounds; ++round) {
+        const std::vector<double> readings = measure(round, samples);
+        means.insert(means.end(), readings.begin(), readings.end());
+    }
+    const double elapsed_s = cpu_s() - start;
+    std::vector<double> variances;
+    double sum = 0;
+    for (const Estimate& e : estimate_readings({means, means.size() / kRounds})) {
+        if (!(e.value > 0)) continue;
+        const double relative_error = e.standard_error / e.value;
+        variances.push_back(relative_error * relative_error);
+        sum += variances.back();
+    }
+    std::sort(variances.begin(), variances.end());
+    const std::size_t count = variances.size();
+    const auto efficiency = [&](double variance) { return 1 / (variance * elapsed_s); };
+    return {efficiency(sum / static_cast<double>(count)), efficiency(variances[count / 2]),
+            efficiency(variances[count * 95 / 100]), elapsed_s};
+}
+
+}  // namespace stilb
