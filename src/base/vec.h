@@ -56,7 +56,7 @@ struct Frame {
     /// 1e-5), u is the x axis.
     static Frame of_surface(const Vec3& unit_normal) {
         const Vec3& n = unit_normal;
-        const double horizontal = std::hypot(n.x, n.y);
+        const double horizontal = std::sqrt(n.x * n.x + n.y * n.y);
         const Vec3 u = horizontal > 1e-5 ? Vec3{-n.y / horizontal, n.x / horizontal, 0}
                                          : normalized(Vec3{1, 0, 0} - n.x * n);
         return {u, cross(n, u), n};

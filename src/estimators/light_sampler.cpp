@@ -50,6 +50,39 @@ Vec3 point_by_area(const Disk& d, double u1, double u2) {
     return d.center + d.radius * (p.x * frame.u + p.y * frame.v);
 }
 
+EmitterFacing facing(const Rectangle& r) {
+    return {r.corner + 0.5 * (r.edge_u + r.edge_v), front_normal(r, {}), area(r)};
+}
+EmitterFacing facing(const std::array<Vec3, 3>& t) {
+    return {(t[0] + t[1] + t[2]) / 3, front_normal(t, {}), area(t)};
+}
+/// A quarter of its surface is what is seen of it from anywhere.
+EmitterFacing facing(const Sphere& s) { return {s.center, std::nullopt, area(s) / 4}; }
+EmitterFacing facing(const Disk& d) { return {d.center, d.normal, area(d)}; }
+
+/// From so far away points by area are as good as by solid angle (the density varies by some per cent), and
+/// made in a fraction of the time.
+template <typename Flat>
+bool is_far(const Flat& element, const EmitterFacing& facing, const Vec3& from) {
+    const double far_m = 3 * size(element);
+    return squared_length(facing.middle - from) > far_m * far_m;
+}
+bool is_far(const Sphere&, const EmitterFacing&, const Vec3&) { return false; }
+
+template <typename Flat>
+std::optional<SolidAngleSample> sample_by_area(const Flat& element, const EmitterFacing& facing,
+                                               const Vec3& from, double u1, double u2) {
+    const Vec3 point = point_by_area(element, u1, u2), way = point - from;
+    const double squared_distance = squared_length(way), height = -dot(way, *facing.normal);
+    if (!(height > 0)) return std::nullopt;
+    return SolidAngleSample{point,
+                            squared_distance * std::sqrt(squared_distance) / (height * facing.area_m2)};
+}
+std::optional<SolidAngleSample> sample_by_area(const Sphere&, const EmitterFacing&, const Vec3&, double,
+                                               double) {
+    return std::nullopt;
+}
+
 /// In the order of the mesh's triangles: hits tell which one they met.
 template <typename Element>
 void add_mesh(const Mesh& mesh, std::vector<Element>& elements) {
@@ -92,6 +125,9 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster)
                 }
             }
             emitter.by_area = DiscreteDistribution(areas);
+            for (const Element& element : emitter.elements) {
+                emitter.facings.push_back(std::visit([](const auto& e) { return facing(e); }, element));
+            }
             emitter.middle = 0.5 * (bounds.min + bounds.max);
             emitter.radius_m = length(bounds.max - bounds.min) / 2;
             luminance_of_object_[index_of(area_light->object)] = area_light->luminance_cd_m2;
@@ -169,7 +205,10 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
     const auto choice = emitters_[light].by_area.choose(u[0]);
     return std::visit(
         [&](const auto& element) -> std::optional<IncidentLight> {
-            const auto sample = sample_by_solid_angle(element, from, choice.remainder, u[1]);
+            const EmitterFacing& facing = emitters_[light].facings[choice.index];
+            const auto sample = is_far(element, facing, from)
+                                    ? sample_by_area(element, facing, from, choice.remainder, u[1])
+                                    : sample_by_solid_angle(element, from, choice.remainder, u[1]);
             if (!sample) return std::nullopt;
             const Vec3 normal = front_normal(element, sample->point);
             const Vec3 direction = normalized(sample->point - from);
@@ -230,14 +269,18 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
 }
 
 double LightSampler::element_pdf_per_sr(const Emitter& emitter, std::size_t element, const Vec3& from) const {
-    const double probability = emitter.by_area.probability(element);
-    return std::visit(
-        [&](const auto& e) {
-            // In the middle: the density is the same everywhere but on very small shapes.
-            const auto middle = sample_by_solid_angle(e, from, 0.5, 0.5);
-            return middle ? middle->pdf_per_sr * probability : 0;
-        },
-        emitter.elements[element]);
+    const EmitterFacing& facing = emitter.facings[element];
+    const Vec3 towards = facing.middle - from;
+    const double squared_distance = squared_length(towards);
+    double cosine = 1;
+    if (facing.normal) {
+        // Edge-on this is far from the truth, as it is from close by; it must only be the same for all.
+        constexpr double least = 0.05;
+        cosine = std::max(std::abs(dot(towards, *facing.normal)) / std::sqrt(squared_distance), least);
+    }
+    const double projected_m2 = facing.area_m2 * cosine;
+    const double solid_angle_sr = projected_m2 / (squared_distance + projected_m2 / (2 * kPi));
+    return emitter.by_area.probability(element) / solid_angle_sr;
 }
 
 double LightSampler::pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) const {

@@ -34,6 +34,13 @@ struct IncidentLight {
     double pdf_per_sr = 0;
 };
 
+/// How a part of an emitter is seen from afar.
+struct EmitterFacing {
+    Vec3 middle;
+    std::optional<Vec3> normal;  ///< nothing: from everywhere alike
+    double area_m2 = 0;          ///< that is seen along the normal
+};
+
 /// All lights of a scene. Keeps references to both arguments. Immutable.
 class LightSampler {
   public:
@@ -55,8 +62,8 @@ class LightSampler {
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
                                                   SampleStream& stream) const;
 
-    /// About the density with which sample_one_light() draws the direction to `hit`, on an emitter: exact up
-    /// to its variation over one of the emitter's shapes. 0 where it never does.
+    /// About the density with which sample_one_light() draws the direction to `hit`, on an emitter; 0 where
+    /// it never does.
     double pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const;
     /// The same of sample_incident() for the light that `hit` is on.
     double pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) const;
@@ -70,6 +77,7 @@ class LightSampler {
 
     struct Emitter {
         std::vector<Element> elements;  ///< of an area light; empty for point-like ones
+        std::vector<EmitterFacing> facings;  ///< of the elements
         DiscreteDistribution by_area;
         /// Of a point-like light: where its rays start. Luminaires are lifted along their nadir, so that one
         /// may be placed in the very plane of a ceiling.
@@ -79,7 +87,8 @@ class LightSampler {
 
     static constexpr std::uint32_t kNoLight = ~0u;
 
-    /// About the density of directions to an element by sample_incident().
+    /// About the density of directions to an element by sample_incident(): for weighing, so that what it
+    /// says of one direction is all that counts, and how near it is to the truth matters little.
     double element_pdf_per_sr(const Emitter& emitter, std::size_t element, const Vec3& from) const;
     double rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const;
     EmittedParticle emit(std::size_t light, SampleStream& stream) const;
