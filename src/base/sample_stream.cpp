@@ -65,27 +65,25 @@ std::uint32_t sobol(std::uint32_t index, unsigned dimension) {
     return result;
 }
 
-double scrambled_sobol(std::uint32_t index, unsigned dimension, std::uint32_t scramble) {
-    return unit_interval(reversed_bits(permuted_upwards(reversed_bits(sobol(index, dimension)), scramble)));
+std::uint32_t scrambled_sobol(std::uint32_t index, unsigned dimension, std::uint32_t scramble) {
+    return reversed_bits(permuted_upwards(reversed_bits(sobol(index, dimension)), scramble));
 }
 
 SampleStream SampleStream::continued(RandomKey key) const {
-    SampleStream stream(key, index_);
+    SampleStream stream(key, index_, sobol_dimensions_);
     stream.dimension_ = (dimension_ + 3) / 4 * 4;  // words are drawn four at a time
     return stream;
 }
 
-double SampleStream::next() {
-    const unsigned dimension = dimension_++;
-    const unsigned lane = dimension % 4;
-    if (dimension < kSobolDimensions) {
-        // Four dimensions' scrambles come from one block, which belongs to the key alone, not to the index.
-        constexpr std::uint64_t scrambles = ~std::uint64_t{0} - 1;
-        if (lane == 0) words_ = random_block(key_, scrambles, dimension / 4);
-        return scrambled_sobol(static_cast<std::uint32_t>(index_), dimension, words_[lane]);
+std::array<std::uint32_t, 4> SampleStream::words_from(unsigned dimension) const {
+    if (dimension >= sobol_dimensions_) return random_block(key_, index_, dimension / 4);
+    // Four dimensions' scrambles come from one block, which belongs to the key alone, not to the index.
+    constexpr std::uint64_t scrambles = ~std::uint64_t{0} - 1;
+    std::array<std::uint32_t, 4> words = random_block(key_, scrambles, dimension / 4);
+    for (unsigned lane = 0; lane < 4; ++lane) {
+        words[lane] = scrambled_sobol(static_cast<std::uint32_t>(index_), dimension + lane, words[lane]);
     }
-    if (lane == 0) words_ = random_block(key_, index_, dimension / 4);
-    return unit_interval(words_[lane]);
+    return words;
 }
 
 }  // namespace stilb

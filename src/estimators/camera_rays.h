@@ -12,12 +12,26 @@ namespace stilb {
 /// What of a pass's key the pixels' own numbers are derived by; other purposes take other numbers.
 inline constexpr std::uint64_t kPixels = 1;
 
-/// The numbers of one sample of one pixel.
-inline SampleStream pixel_stream(const Camera& camera, const Pass& pass, int x, int y) {
-    const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(camera.resolution[0]) +
-                       static_cast<std::uint64_t>(x);
-    return SampleStream(pass.key.derived(kPixels).derived(pixel), pass.index);
-}
+/// The numbers of the samples that a pass makes of single pixels. Sobol' points for the place in the pixel
+/// and the first light and direction.
+class PixelStreams {
+  public:
+    PixelStreams(const Camera& camera, const Pass& pass)
+        : width_(static_cast<std::uint64_t>(camera.resolution[0])),
+          key_(pass.key.derived(kPixels)),
+          index_(pass.index) {}
+
+    SampleStream at(int x, int y) const {
+        constexpr unsigned sobol_dimensions = 8;
+        const std::uint64_t pixel = static_cast<std::uint64_t>(y) * width_ + static_cast<std::uint64_t>(x);
+        return SampleStream(key_.derived(pixel), index_, sobol_dimensions);
+    }
+
+  private:
+    std::uint64_t width_;
+    RandomKey key_;
+    std::uint64_t index_;
+};
 
 /// The unit direction that a sample of pixel (x, y) looks along, drawn by the camera's filter; nothing beside
 /// what the camera shows.

@@ -80,7 +80,7 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
             luminance += throughput * evaluate_brdf_per_sr(material, local_in, local_out) *
                          (local_in.z * weight) * light->normal_illuminance_lx;
         }
-        const double survival = survival_probability(throughput, reflectance_bound(material));
+        const double survival = patient_survival_probability(throughput, reflectance_bound(material));
         if (stream.next() >= survival) break;
         const auto [u1, u2] = stream.next_two();
         const auto scattered = sample_brdf(material, local_out, u1, u2);
@@ -94,6 +94,11 @@ Spectrum PathTracer::reflected_luminance(const Hit& surface, const Vec3& outgoin
         if (emission.max() > 0) {
             const double light_pdf = lights_.pdf_per_sr(*next, hit.position, hit.normal);
             luminance += throughput * emission * balance(scattered->pdf_per_sr, light_pdf);
+        }
+        if (!is_specular(this->material(*next))) {
+            hit = *next;
+            out = -direction;
+            continue;
         }
         const View view = look_through(*next, direction, reflections_left, stream);
         luminance += throughput * view.emission_cd_m2;

@@ -63,6 +63,7 @@ class LocalPicture final : public PictureEstimator {
         Fans(const LocalPicture& picture, const Pass& pass)
             : picture_(picture),
               pass_(pass),
+              streams_(picture.camera_, pass),
               pool_(picture.walk_chains(pass.key.derived(kWalks), pass.index * kChains, kChains)) {}
 
         std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
@@ -83,7 +84,7 @@ class LocalPicture final : public PictureEstimator {
                 for (int x = left; x < std::min(left + kSide, block.width); ++x) {
                     const auto reading = static_cast<std::uint32_t>(y * block.width + x);
                     const int column = block.left + x, row = block.top + y;
-                    sums.add(reading, picture_.look_at(column, row, reading, pass_, receivers));
+                    sums.add(reading, picture_.look_at(column, row, reading, streams_.at(column, row), receivers));
                     k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(column, row)]);
                 }
             }
@@ -97,6 +98,7 @@ class LocalPicture final : public PictureEstimator {
 
         const LocalPicture& picture_;
         Pass pass_;
+        PixelStreams streams_;
         NodePool pool_;
     };
 
@@ -106,9 +108,8 @@ class LocalPicture final : public PictureEstimator {
 
     /// Appends the sub-point that a sample of a pixel sees; returns the emission that is seen and the direct
     /// light there.
-    Spectrum look_at(int x, int y, std::uint32_t reading, const Pass& pass,
+    Spectrum look_at(int x, int y, std::uint32_t reading, SampleStream stream,
                      std::vector<Receiver>& receivers) const {
-        SampleStream stream = pixel_stream(camera_, pass, x, y);
         const auto direction = sample_pixel(camera_, view_, x, y, stream);
         if (!direction) return {};
         const auto hit = caster_.closest(view_.position(), *direction);
@@ -154,13 +155,15 @@ class LocalPicture final : public PictureEstimator {
         double area = std::numeric_limits<double>::min();
         for (const Object& object : scene_.objects) area += area_m2(object.shape);
         const PilotLight pilot{nodes, kPilotChains, {}, area, max_reflections_, kChainsPerSelected};
+        const Pass pass{key.derived(kPlan), 0};
+        const PixelStreams streams(camera_, pass);
         tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) {
-            const Pass pass{key.derived(kPlan), 0};
             std::vector<Receiver> receivers;
             const PixelBlock& cell = cells[c];
             for (int i = 0; i < kPacketWidth; ++i) {
-                look_at(cell.left + (4 * (i % 4) + 2) * cell.width / 16,
-                        cell.top + (4 * (i / 4) + 2) * cell.height / 16, 0, pass, receivers);
+                const int x = cell.left + (4 * (i % 4) + 2) * cell.width / 16;
+                const int y = cell.top + (4 * (i / 4) + 2) * cell.height / 16;
+                look_at(x, y, 0, streams.at(x, y), receivers);
             }
             if (receivers.empty()) return;
             k_per_m2[c] = plan_constant(caster_, tracer_, receivers, pilot, kChains / kChainsPerSelected,

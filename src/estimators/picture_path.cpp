@@ -28,14 +28,15 @@ class PathPicture final : public PictureEstimator {
   private:
     class Paths final : public PicturePass {
       public:
-        Paths(const PathPicture& picture, const Pass& pass) : picture_(picture), pass_(pass) {}
+        Paths(const PathPicture& picture, const Pass& pass)
+            : picture_(picture), streams_(picture.camera_, pass) {}
 
         std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
             std::uint64_t invalid = 0;
             for (std::size_t i = 0; i < pixels.size(); ++i) {
                 const int x = block.left + static_cast<int>(i) % block.width;
                 const int y = block.top + static_cast<int>(i) / block.width;
-                pixels[i] = picture_.sample_luminance(x, y, pass_);
+                pixels[i] = picture_.sample_luminance(x, y, streams_.at(x, y));
                 if (pixels[i].is_finite()) continue;
                 pixels[i] = {};
                 ++invalid;
@@ -45,11 +46,10 @@ class PathPicture final : public PictureEstimator {
 
       private:
         const PathPicture& picture_;
-        Pass pass_;
+        PixelStreams streams_;
     };
 
-    Spectrum sample_luminance(int x, int y, const Pass& pass) const {
-        SampleStream stream = pixel_stream(camera_, pass, x, y);
+    Spectrum sample_luminance(int x, int y, SampleStream stream) const {
         const auto direction = sample_pixel(camera_, view_, x, y, stream);
         if (!direction) return {};
         const auto hit = caster_.closest(view_.position(), *direction);

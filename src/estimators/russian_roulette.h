@@ -15,4 +15,11 @@ constexpr double survival_probability(const Spectrum& throughput, const Spectrum
     return before > 0 ? std::min((throughput * factor).max() / before, most) : 0;
 }
 
+/// The same for paths that gather light at every step, whose noise is less where they go on for sure as long
+/// as they matter: roulette begins where the largest band would fall below a quarter.
+constexpr double patient_survival_probability(const Spectrum& throughput, const Spectrum& factor) {
+    constexpr double light_path = 0.25, most = 0.995;
+    return std::min((throughput * factor).max() / light_path, most);
+}
+
 }  // namespace stilb

@@ -125,7 +125,9 @@ struct InnerPoint {
     bool was_at_edge = false;
 };
 InnerPoint away_from_edges(const std::array<double, 3>& b, const std::array<Vec3, 3>& v, double margin,
-                           double doubled_area) {
+                           double size, double doubled_area) {
+    // Most points are: no edge is longer than 2 sqrt(3) times the longest coordinate difference.
+    if (std::min({b[0], b[1], b[2]}) * doubled_area >= margin * 4 * size) return {b};
     constexpr double most = 0.75;
     std::array<double, 3> least{};
     double least_sum = 0;
@@ -281,7 +283,7 @@ struct RayCaster::Implementation {
             hit.normal = doubled / doubled_area;
             const Vec3 near_by = p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]);
             const double margin = kEdgeMargin * offset(near_by, size);
-            const auto inner = away_from_edges({1 - u - v, u, v}, p, margin, doubled_area);
+            const auto inner = away_from_edges({1 - u - v, u, v}, p, margin, size, doubled_area);
             hit.position = inner.b[0] * p[0] + inner.b[1] * p[1] + inner.b[2] * p[2];
             at_edge = inner.was_at_edge;
         } else {

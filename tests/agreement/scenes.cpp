@@ -168,7 +168,7 @@ Scene sphere_over_gloss(const Material& gloss) {
 }
 Scene sphere_over_phong() { return sphere_over_gloss(phong(0.3, 0.4, 100)); }
 Scene sphere_over_smooth_metal() { return sphere_over_gloss(Rough(rgb(0.9, 0.7, 0.5), 0.1)); }
-Scene sphere_over_plastic() { return sphere_over_gloss(Plastic(rgb(0.5, 0.3, 0.2), 1.5, 0.05)); }
+Scene sphere_over_plastic() { return sphere_over_gloss(Plastic(rgb(0.5, 0.3, 0.2), 1.5, 0.15)); }
 
 /// A pane divides the room, a glass ball lies on a table.
 Scene room_with_glass() {
