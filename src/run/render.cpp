@@ -301,6 +301,12 @@ RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& 
         result.stop_reason = PictureSchedule(options, clock, blind, sink).proceed(passes, sums);
         result.warnings = estimator->warnings();
     });
+    if (method.has_heavy_tails) {
+        result.warnings.push_back(fmt::format(
+            "method {} has infinite variance in corners: errors of pixels there do not hold. Use --method "
+            "auto.",
+            method.name));
+    }
     result.pixels = sums.pixels();
     add_means(sums, blind, result);
     add_geometry(camera, caster, result);
