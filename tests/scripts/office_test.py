@@ -197,7 +197,7 @@ class OfficeScene(unittest.TestCase):
         points = [light["position"] for light in self.scene["lights"].values()]
         for sensor in self.scene["sensors"].values():
             points += [sensor["position"]] if "position" in sensor else list(grid_points(sensor))
-        self.assertEqual(len(points), 4 + 2 * 128 + 2)
+        self.assertEqual(len(points), 4 + 2 * 128 + 4)
         for point in points:
             inside = [group for group, triangles, box in solids
                       if boxes_meet(box, (point, point)) and contains(triangles, point)]
