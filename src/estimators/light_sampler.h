@@ -76,7 +76,7 @@ class LightSampler {
     using Element = std::variant<Rectangle, std::array<Vec3, 3>, Sphere, Disk>;
 
     struct Emitter {
-        std::vector<Element> elements;  ///< of an area light; empty for point-like ones
+        std::vector<Element> elements;       ///< of an area light; empty for point-like ones
         std::vector<EmitterFacing> facings;  ///< of the elements
         DiscreteDistribution by_area;
         /// Of a point-like light: where its rays start. Luminaires are lifted along their nadir, so that one

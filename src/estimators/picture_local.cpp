@@ -84,7 +84,8 @@ class LocalPicture final : public PictureEstimator {
                 for (int x = left; x < std::min(left + kSide, block.width); ++x) {
                     const auto reading = static_cast<std::uint32_t>(y * block.width + x);
                     const int column = block.left + x, row = block.top + y;
-                    sums.add(reading, picture_.look_at(column, row, reading, streams_.at(column, row), receivers));
+                    sums.add(reading,
+                             picture_.look_at(column, row, reading, streams_.at(column, row), receivers));
                     k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(column, row)]);
                 }
             }

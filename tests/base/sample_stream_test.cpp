@@ -57,7 +57,8 @@ TEST(Sobol, ItsFirstTwoDimensionsAreANet) {
 TEST(ScrambledSobol, KeepsTheNet) {
     for (std::uint32_t scramble = 1; scramble < 20; ++scramble) {
         const std::uint32_t seeds[]{scramble * 0x9e3779b9u, scramble * 0x85ebca6bu};
-        expect_net(10, [&](std::uint32_t i, unsigned d) { return unit_interval(scrambled_sobol(i, d, seeds[d])); });
+        expect_net(
+            10, [&](std::uint32_t i, unsigned d) { return unit_interval(scrambled_sobol(i, d, seeds[d])); });
     }
 }
 
