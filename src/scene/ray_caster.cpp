@@ -269,6 +269,7 @@ struct RayCaster::Implementation {
         Hit hit;
         double size = 0;
         bool at_edge = false;
+        Vec3 inner_position;  // away from edges: where lifted points stand
         if (geometry.vertices != nullptr) {
             const Triangle& t = geometry.triangles[met.primID];
             std::array<Vec3, 3> p;
@@ -284,25 +285,27 @@ struct RayCaster::Implementation {
             const Vec3 near_by = p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]);
             const double margin = kEdgeMargin * offset(near_by, size);
             const auto inner = away_from_edges({1 - u - v, u, v}, p, margin, size, doubled_area);
-            hit.position = inner.b[0] * p[0] + inner.b[1] * p[1] + inner.b[2] * p[2];
+            hit.position = near_by;
+            inner_position = inner.b[0] * p[0] + inner.b[1] * p[1] + inner.b[2] * p[2];
             at_edge = inner.was_at_edge;
         } else {
             const Vec3 near_by = origin + ray.tfar * direction;
             const SurfacePoint point = nearest_surface_point(geometry.analytic, near_by);
-            hit.position = point.position;
+            hit.position = inner_position = point.position;
             hit.normal = point.normal;
             size = point.size_m;
         }
         hit.on_front = dot(hit.normal, direction) < 0;
         if (!hit.on_front) hit.normal = -hit.normal;
-        const Vec3 lift = offset(hit.position, size) * hit.normal;
-        hit.lifted = hit.position + lift;
+        hit.lift_m = offset(inner_position, size);
+        const Vec3 lift = hit.lift_m * hit.normal;
+        hit.lifted = inner_position + lift;
         // At an edge where the mesh folds towards the ray, rounding may have picked the face behind the fold,
         // whose side towards the ray is outside. Then the ray's origin sees the other side instead or, where
         // the fold is sharp, neither: what it does see is the ray's own last stretch.
         if (at_edge && occluded(origin, hit.lifted)) {
-            if (!occluded(origin, hit.position - lift)) {
-                hit.lifted = hit.position - lift;
+            if (!occluded(origin, inner_position - lift)) {
+                hit.lifted = inner_position - lift;
                 hit.normal = -hit.normal;
                 hit.on_front = !hit.on_front;
             } else {

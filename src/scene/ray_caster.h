@@ -3,10 +3,11 @@
 // Offsets. Embree works in single precision on coordinates relative to the scene's centre. Rays start from,
 // and connections end at, points that are lifted off their surface along its geometric normal by offset_m() =
 // 2^-19 of the largest number involved (distance from the centre, size of the triangle): some 30 times the
-// rounding error, 8 micrometres in a room of 8 m, and the same in proportion at any size. Hit points are
-// first moved away from the edges of their triangle by eight times that, so that lifting never carries them
-// through a neighbouring wall. With Embree's robust (watertight) mode nothing else is needed: rays have no
-// minimal length. Distances and angles are those of the points themselves, not of the lifted ones.
+// rounding error, 8 micrometres in a room of 8 m, and the same in proportion at any size. Before they are
+// lifted, points are moved away from the edges of their triangle by eight times that, so that lifting never
+// carries them through a neighbouring wall. With Embree's robust (watertight) mode nothing else is needed:
+// rays have no minimal length. Distances and angles are those of the points themselves, not of the lifted
+// ones.
 #pragma once
 
 #include <array>
@@ -23,8 +24,9 @@ namespace stilb {
 /// Where a ray met a surface.
 struct Hit {
     Vec3 position;
-    Vec3 normal;  ///< geometric, unit, on the side that the ray came from
-    Vec3 lifted;  ///< the position, lifted off the surface on that side: rays start and end here
+    Vec3 normal;        ///< geometric, unit, on the side that the ray came from
+    Vec3 lifted;        ///< the position, lifted off the surface on that side: rays start and end here
+    double lift_m = 0;  ///< how far
     double distance_m = 0;
     ObjectId object{};
     MaterialId material{};
@@ -32,7 +34,7 @@ struct Hit {
     bool on_front = true;
 
     /// As `lifted`, on the other side.
-    Vec3 lifted_behind() const { return 2.0 * position - lifted; }
+    Vec3 lifted_behind() const { return lifted - 2 * lift_m * normal; }
 };
 
 inline constexpr int kPacketWidth = 16;

@@ -49,11 +49,11 @@ double exact_luminance_cd_m2(const Vec3& position, const Vec3& out, double expon
     });
 }
 
-/// The rectangle's diagonals keep away from the points: from edges, and so from diagonals, the ray caster
-/// moves hits by eight offsets, here 30 micrometres, which at 5 cm from the light is 0.1 % of the luminance.
+/// A point lies on the rectangle's diagonal, an edge of its triangles: rays start beside it, but distances
+/// and angles are its own.
 Scene sphere_over_phong(double exponent) {
     Scene scene;
-    add_object(scene, Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2.4, 0}},
+    add_object(scene, Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
                Phong{Spectrum::grey(kDiffuse), Spectrum::grey(kSpecular), exponent});
     add_area_light(scene, kLight, Spectrum::grey(kLuminance));
     return scene;
