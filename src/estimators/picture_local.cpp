@@ -28,7 +28,7 @@ constexpr std::uint64_t kChains = 4096;
 constexpr std::uint64_t kChainsPerSelected = 256;
 /// For planning, which needs little: any plan is unbiased.
 constexpr std::uint64_t kPilotChains = 256;
-constexpr unsigned kPilotRays = 16;
+constexpr unsigned kPilotRays = 4;
 
 enum Purpose : std::uint64_t { kWalks = kPixels + 1, kPackets, kSelection, kGather, kPilot, kPlan };
 
