@@ -63,7 +63,8 @@ class PictureSums {
         const double all = static_cast<double>(passes_), mean = luminance_cd_m2(pixel);
         double variance = 0;
         for (std::uint64_t r = 0; r < used; ++r) {
-            const double own = static_cast<double>(passes_ / kReplicates + (r < passes_ % kReplicates));
+            const std::uint64_t passes = passes_ / kReplicates + (r < passes_ % kReplicates ? 1 : 0);
+            const double own = static_cast<double>(passes);
             const double deviation = (double{luminance_[pixel * kReplicates + r]} - own * mean) / all;
             variance += deviation * deviation;
         }
@@ -151,8 +152,9 @@ class Passes {
     }
 
     void sample(const PixelBlock& block, const PicturePass& pass) {
-        std::array<Spectrum, kBlockSize * kBlockSize> samples;
-        const auto count = static_cast<std::size_t>(block.width * block.height);
+        std::array<Spectrum, std::size_t{kBlockSize} * kBlockSize> samples;
+        const std::size_t count =
+            static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height);
         invalid_ += pass.sample(block, {samples.data(), count});
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t x =
