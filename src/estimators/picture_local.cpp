@@ -104,7 +104,8 @@ class LocalPicture final : public PictureEstimator {
     };
 
     std::size_t cell_of(int x, int y) const {
-        return static_cast<std::size_t>(y / kBlockSize * cells_per_row_ + x / kBlockSize);
+        const int cell = y / kBlockSize * cells_per_row_ + x / kBlockSize;
+        return static_cast<std::size_t>(cell);
     }
 
     /// Appends the sub-point that a sample of a pixel sees; returns the emission that is seen and the direct
