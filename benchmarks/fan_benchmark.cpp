@@ -83,10 +83,7 @@ PreparedRays prepare_rays(const std::vector<Receiver>& points, const std::vector
 void compare(const Scene& scene) {
     const RayCaster caster(scene);
     const LightSampler lights(scene, caster);
-    std::vector<ChainNode> nodes;
-    for (std::uint64_t chain = 0; chain < 256; ++chain) {
-        walk_light_chain(scene, caster, lights, 100, SampleStream(RandomKey{1}, chain), nodes);
-    }
+    std::vector<ChainNode> nodes = walk_light_chains(scene, caster, lights, 100, RandomKey{1}, 0, 256);
     nodes.resize(std::min<std::size_t>(nodes.size(), 256));
     std::vector<Receiver> points;
     for (const Measurand& measurand : make_grid(32)) {

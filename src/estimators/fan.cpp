@@ -49,7 +49,7 @@ STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTil
 }
 
 /// As add_visible() where the BRDF of the node or the response of a receiver depends on direction: lane by
-/// lane, w included.
+/// lane, w included, and the response where one of the tile's depends on direction.
 void add_visible_directional(const FanNode& node, const PointTile& tile, const RayPacket& packet,
                              const LaneMask& lanes, const Floats& g_per_m2, TileSums& sums) {
     const ChainNode& chain_node = *node.node;
@@ -72,7 +72,7 @@ void add_visible_directional(const FanNode& node, const PointTile& tile, const R
     }
 }
 
-/// Where the responses of a tile are all constant, they are left out before.
+/// Constant responses are multiplied here, once for a block of nodes; others are in the sums.
 void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const Receiver& receiver = tile.receivers[i];

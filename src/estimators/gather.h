@@ -19,9 +19,9 @@ namespace stilb {
 /// response x cosine, and what goes on from the place y that it meets serves all receivers of the packet that
 /// see y: path reuse [Bekaert et al. 2002], by the balance heuristic over the rays that could have met y.
 ///
-/// What is seen by mirrors has w = 0 always, because no node on a mirror can be joined to x, and serves the
-/// own receiver only; emission counts behind mirrors only: the rest is direct light. Keeps what its
-/// arguments refer to.
+/// What is seen by mirrors and glass has w = 0 always, because no node on them can be joined to x, and serves
+/// only the receiver whose ray it is; emission counts behind them only: the rest is direct light. Keeps what
+/// its arguments refer to.
 class Gather {
   public:
     Gather(const RayCaster& caster, const PathTracer& tracer, std::span<const PointTile> tiles,

@@ -42,4 +42,14 @@ void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSa
     }
 }
 
+std::vector<ChainNode> walk_light_chains(const Scene& scene, const RayCaster& caster,
+                                         const LightSampler& lights, int max_nodes, RandomKey key,
+                                         std::uint64_t first, std::uint64_t end) {
+    std::vector<ChainNode> nodes;
+    for (std::uint64_t chain = first; chain < end; ++chain) {
+        walk_light_chain(scene, caster, lights, max_nodes, SampleStream(key, chain), nodes);
+    }
+    return nodes;
+}
+
 }  // namespace stilb

@@ -29,4 +29,9 @@ struct ChainNode {
 void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSampler& lights, int max_nodes,
                       SampleStream stream, std::vector<ChainNode>& nodes);
 
+/// The nodes of chains number `first` ... `end` - 1 of the streams of a key.
+std::vector<ChainNode> walk_light_chains(const Scene& scene, const RayCaster& caster,
+                                         const LightSampler& lights, int max_nodes, RandomKey key,
+                                         std::uint64_t first, std::uint64_t end);
+
 }  // namespace stilb

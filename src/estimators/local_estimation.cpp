@@ -9,7 +9,7 @@
 //                 in only what mirrors and glass show. Infinite variance where chains come arbitrarily near
 //                 to a point: in corners.
 //   double-local  the same for luminance [LocalEstimation (8) to (10)]; local at illuminance readings.
-//   auto          k and the number of gathering rays by plan_splits(), nodes by select_nodes(). Unbiased and
+//   auto          k and the number of gathering rays by plan_splits(), nodes from a NodePool. Unbiased and
 //                 of finite variance, but for light that only chains can make (it met a mirror or glass
 //                 first): w = 1.
 //
@@ -89,11 +89,7 @@ class LocalEstimation final : public Estimator {
 
   private:
     std::vector<ChainNode> walk_chains(RandomKey key, std::uint64_t first, std::uint64_t end) const {
-        std::vector<ChainNode> nodes;
-        for (std::uint64_t chain = first; chain < end; ++chain) {
-            walk_light_chain(scene_, caster_, lights_, max_reflections_, SampleStream(key, chain), nodes);
-        }
-        return nodes;
+        return walk_light_chains(scene_, caster_, lights_, max_reflections_, key, first, end);
     }
 
     std::vector<ChainNode> fan_nodes(RandomKey key, std::uint64_t first, std::uint64_t end) const {
@@ -174,12 +170,11 @@ class LocalEstimation final : public Estimator {
             return std::vector<SplitPlan>(seen_.receivers.size(),
                                           {std::numeric_limits<double>::infinity(), kChainsPerSpecularRay});
         }
-        double area = std::numeric_limits<double>::min();
-        for (const Object& object : scene_.objects) area += area_m2(object.shape);
         const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
         const std::vector<double> direct = pilot_direct(key.derived(kDirect));
         const std::vector<double> alike(weights.empty() ? direct.size() : 0, 1.0);
-        const PilotLight pilot{nodes, kPilotChains, direct, area, max_reflections_, chains_per_selected_};
+        const PilotLight pilot{
+            nodes, kPilotChains, direct, surface_area_m2(scene_), max_reflections_, chains_per_selected_};
         std::vector<SplitPlan> plans = plan_splits(
             caster_, tracer_, seen_.receivers, weights.empty() ? alike : weights, pilot, key.derived(kPlan));
         for (SplitPlan& plan : plans) plan.chains_per_ray *= chains_per_selected_;

@@ -2,8 +2,8 @@
 //
 // Every reflection adds the light of one source, chosen and sampled by next-event estimation, and that of
 // emitters that the path runs into, weighted against each other by the balance heuristic [Veach and Guibas
-// 1995]. Behind mirrors, which next-event estimation cannot see through, emitters count in full. Not made:
-// light that leaves a point-like source and meets a mirror first.
+// 1995]. Behind mirrors and glass, which next-event estimation cannot see through, emitters count in full.
+// Not made: light that leaves a point-like source and meets a mirror or glass first.
 #pragma once
 
 #include "estimators/light_sampler.h"
@@ -43,7 +43,7 @@ class PathTracer {
                                             SampleStream& stream) const;
 
     /// One sample of the luminance [cd/m2] that arrives along a ray that met `hit`: reflected light, and
-    /// emission that is seen by mirrors. Emission of `hit` itself is left out: that is direct light.
+    /// emission that is seen by mirrors or glass. Emission of `hit` itself is left out: that is direct light.
     Spectrum luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
                                       SampleStream& stream) const;
 

@@ -64,7 +64,8 @@ class LocalPicture final : public PictureEstimator {
             : picture_(picture),
               pass_(pass),
               streams_(picture.camera_, pass),
-              pool_(picture.walk_chains(pass.key.derived(kWalks), pass.index * kChains, kChains)) {}
+              pool_(picture.walk_chains(pass.key.derived(kWalks), pass.index * kChains,
+                                        (pass.index + 1) * kChains)) {}
 
         std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
             ReadingSums sums(pixels.size());
@@ -140,12 +141,8 @@ class LocalPicture final : public PictureEstimator {
         Gather(caster_, tracer_, tiles, plans).collect({pass.key.derived(kGather), pass.index, 1}, sums);
     }
 
-    std::vector<ChainNode> walk_chains(RandomKey key, std::uint64_t first, std::uint64_t count) const {
-        std::vector<ChainNode> nodes;
-        for (std::uint64_t chain = first; chain < first + count; ++chain) {
-            walk_light_chain(scene_, caster_, lights_, max_reflections_, SampleStream(key, chain), nodes);
-        }
-        return nodes;
+    std::vector<ChainNode> walk_chains(RandomKey key, std::uint64_t first, std::uint64_t end) const {
+        return walk_light_chains(scene_, caster_, lights_, max_reflections_, key, first, end);
     }
 
     /// A k for each cell of kBlockSize pixels' edge, from a packet of sub-points spread over it.
@@ -154,9 +151,8 @@ class LocalPicture final : public PictureEstimator {
         std::vector<double> k_per_m2(cells.size(), std::numeric_limits<double>::infinity());
         if (split == Split::none) return k_per_m2;
         const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
-        double area = std::numeric_limits<double>::min();
-        for (const Object& object : scene_.objects) area += area_m2(object.shape);
-        const PilotLight pilot{nodes, kPilotChains, {}, area, max_reflections_, kChainsPerSelected};
+        const PilotLight pilot{
+            nodes, kPilotChains, {}, surface_area_m2(scene_), max_reflections_, kChainsPerSelected};
         const Pass pass{key.derived(kPlan), 0};
         const PixelStreams streams(camera_, pass);
         tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) {

@@ -231,8 +231,8 @@ std::vector<Survey> survey_packet(const RayCaster& caster, const PathTracer& tra
                                   std::span<const ChainNode> units, unsigned rays_per_receiver,
                                   RandomKey key) {
     const double chains = static_cast<double>(pilot.chains);
-    const double mean_density =
-        (static_cast<double>(pilot.nodes.size()) + 1) / (chains * pilot.scene_area_m2);
+    const double area_m2 = std::max(pilot.scene_area_m2, std::numeric_limits<double>::min());
+    const double mean_density = (static_cast<double>(pilot.nodes.size()) + 1) / (chains * area_m2);
     // Few nodes are there, and in a corner one may be very near by chance. Kernels bounded so that they are
     // wider than the space between nodes keep such a node from deciding.
     constexpr double nodes_within = 16;

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -111,7 +110,7 @@ double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
     return attained_error_of(std::move(half_widths));
 }
 
-/// One pass over all blocks; false where it was interrupted.
+/// One pass after another over all blocks.
 class Passes {
   public:
     Passes(const PictureEstimator& estimator, const Camera& camera, std::uint64_t seed,
@@ -124,6 +123,7 @@ class Passes {
           interrupt_(interrupt),
           pixels_(width_ * static_cast<std::size_t>(camera.resolution[1])) {}
 
+    /// The next pass; false where it was interrupted: then nothing is added.
     bool add_to(PictureSums& sums) {
         const std::uint64_t p = sums.passes();
         const Pass pass{key_.derived(p % kReplicates), p / kReplicates};

@@ -19,4 +19,10 @@ Spectrum flux_lm(const Scene& scene, const Light& light) {
     return std::visit(Flux{scene}, light.source);
 }
 
+double surface_area_m2(const Scene& scene) {
+    double area = 0;
+    for (const Object& object : scene.objects) area += area_m2(object.shape);
+    return area;
+}
+
 }  // namespace stilb

@@ -48,5 +48,7 @@ struct Scene {
 
 /// Flux of a light per band; luminance() of it is lumen.
 Spectrum flux_lm(const Scene& scene, const Light& light);
+/// Of all objects; each surface once, though both its sides reflect.
+double surface_area_m2(const Scene& scene);
 
 }  // namespace stilb
