@@ -11,6 +11,7 @@ DiscreteDistribution::DiscreteDistribution(std::span<const double> weights) : cu
 }
 
 DiscreteDistribution::Choice DiscreteDistribution::choose(double u) const {
+    if (cumulative_.size() == 1) return {0, 1, u};
     const double target = u * total();
     // upper_bound passes over entries of weight zero: it finds the first sum that is greater.
     auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);

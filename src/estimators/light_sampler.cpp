@@ -50,45 +50,61 @@ Vec3 point_by_area(const Disk& d, double u1, double u2) {
     return d.center + d.radius * (p.x * frame.u + p.y * frame.v);
 }
 
-EmitterFacing facing(const Rectangle& r) {
-    return {r.corner + 0.5 * (r.edge_u + r.edge_v), front_normal(r, {}), area(r)};
-}
-EmitterFacing facing(const std::array<Vec3, 3>& t) {
-    return {(t[0] + t[1] + t[2]) / 3, front_normal(t, {}), area(t)};
-}
-/// A quarter of its surface is what is seen of it from anywhere.
-EmitterFacing facing(const Sphere& s) { return {s.center, std::nullopt, area(s) / 4}; }
-EmitterFacing facing(const Disk& d) { return {d.center, d.normal, area(d)}; }
-
-/// From so far away points by area are as good as by solid angle (the density varies by some per cent), and
-/// made in a fraction of the time.
-template <typename Flat>
-bool is_far(const Flat& element, const EmitterFacing& facing, const Vec3& from) {
-    const double far_m = 3 * size(element);
-    return squared_length(facing.middle - from) > far_m * far_m;
-}
-bool is_far(const Sphere&, const EmitterFacing&, const Vec3&) { return false; }
+Vec3 middle(const Rectangle& r) { return r.corner + 0.5 * (r.edge_u + r.edge_v); }
+Vec3 middle(const std::array<Vec3, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }
+Vec3 middle(const Disk& d) { return d.center; }
 
 template <typename Flat>
-std::optional<SolidAngleSample> sample_by_area(const Flat& element, const EmitterFacing& facing,
-                                               const Vec3& from, double u1, double u2) {
-    const Vec3 point = point_by_area(element, u1, u2), way = point - from;
-    const double squared_distance = squared_length(way), height = -dot(way, *facing.normal);
-    if (!(height > 0)) return std::nullopt;
-    return SolidAngleSample{point,
-                            squared_distance * std::sqrt(squared_distance) / (height * facing.area_m2)};
+EmitterElement element_of(const Flat& shape) {
+    const double size_m = size(shape);
+    return {shape, middle(shape), front_normal(shape, {}), size_m, area(shape), 9 * size_m * size_m};
 }
-std::optional<SolidAngleSample> sample_by_area(const Sphere&, const EmitterFacing&, const Vec3&, double,
-                                               double) {
-    return std::nullopt;
+/// Seen from anywhere, a quarter of its surface counts.
+EmitterElement element_of(const Sphere& sphere) {
+    return {sphere,       sphere.center,    std::nullopt,
+            size(sphere), area(sphere) / 4, std::numeric_limits<double>::infinity()};
+}
+
+/// The density of the direction `way` to a point of a flat element that is drawn by area.
+double area_pdf_per_sr(const EmitterElement& element, const Vec3& way) {
+    const double squared_distance = squared_length(way);
+    return squared_distance * std::sqrt(squared_distance) /
+           (std::abs(dot(way, *element.normal)) * element.area_m2);
+}
+
+/// A point of a flat element by area, or of any by solid angle.
+std::optional<SolidAngleSample> sample_element(const EmitterElement& element, const Vec3& from, double u1,
+                                               double u2) {
+    if (squared_length(element.middle - from) <= element.squared_far_m2) {
+        return std::visit([&](const auto& shape) { return sample_by_solid_angle(shape, from, u1, u2); },
+                          element.shape);
+    }
+    const Vec3 point =
+        std::visit([&](const auto& shape) { return point_by_area(shape, u1, u2); }, element.shape);
+    return SolidAngleSample{point, area_pdf_per_sr(element, point - from)};
+}
+
+/// About the density of the direction to a point of an element by sample_element(): for weighing, so that
+/// what it says of one direction is all that counts, and how near it is to the truth matters little.
+double rough_pdf_per_sr(const EmitterElement& element, const Vec3& point, const Vec3& from) {
+    const Vec3 towards = element.middle - from;
+    const double squared_distance = squared_length(towards);
+    if (squared_distance > element.squared_far_m2) return area_pdf_per_sr(element, point - from);
+    double cosine = 1;
+    if (element.normal) {
+        // Edge-on this is far from the truth, as it is from close by; it must only be the same for all.
+        constexpr double least = 0.05;
+        cosine = std::max(std::abs(dot(towards, *element.normal)) / std::sqrt(squared_distance), least);
+    }
+    const double projected_m2 = element.area_m2 * cosine;
+    return (squared_distance + projected_m2 / (2 * kPi)) / projected_m2;
 }
 
 /// In the order of the mesh's triangles: hits tell which one they met.
-template <typename Element>
-void add_mesh(const Mesh& mesh, std::vector<Element>& elements) {
+void add_mesh(const Mesh& mesh, std::vector<EmitterElement>& elements) {
     for (const Triangle& t : mesh.triangles) {
         elements.push_back(
-            std::array<Vec3, 3>{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+            element_of(std::array<Vec3, 3>{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}));
     }
 }
 
@@ -110,24 +126,22 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster)
             if (const auto* mesh = std::get_if<Mesh>(&shape)) add_mesh(*mesh, emitter.elements);
             if (const auto* box = std::get_if<Box>(&shape)) add_mesh(triangulated(*box), emitter.elements);
             if (const auto* rectangle = std::get_if<Rectangle>(&shape))
-                emitter.elements.emplace_back(*rectangle);
-            if (const auto* sphere = std::get_if<Sphere>(&shape)) emitter.elements.emplace_back(*sphere);
-            if (const auto* disk = std::get_if<Disk>(&shape)) emitter.elements.emplace_back(*disk);
+                emitter.elements.push_back(element_of(*rectangle));
+            if (const auto* sphere = std::get_if<Sphere>(&shape))
+                emitter.elements.push_back(element_of(*sphere));
+            if (const auto* disk = std::get_if<Disk>(&shape)) emitter.elements.push_back(element_of(*disk));
             std::vector<double> areas;
             Bounds bounds;
-            for (const Element& element : emitter.elements) {
-                areas.push_back(std::visit([](const auto& e) { return area(e); }, element));
+            for (const EmitterElement& element : emitter.elements) {
+                areas.push_back(element.area_m2);
                 // The points of these four parameters span every kind of element well enough for a rough
                 // size.
                 for (const auto& u : {std::pair{0.01, 0.01}, {0.99, 0.01}, {0.01, 0.99}, {0.99, 0.99}}) {
                     bounds.include(std::visit(
-                        [&](const auto& e) { return point_by_area(e, u.first, u.second); }, element));
+                        [&](const auto& e) { return point_by_area(e, u.first, u.second); }, element.shape));
                 }
             }
             emitter.by_area = DiscreteDistribution(areas);
-            for (const Element& element : emitter.elements) {
-                emitter.facings.push_back(std::visit([](const auto& e) { return facing(e); }, element));
-            }
             emitter.middle = 0.5 * (bounds.min + bounds.max);
             emitter.radius_m = length(bounds.max - bounds.min) / 2;
             luminance_of_object_[index_of(area_light->object)] = area_light->luminance_cd_m2;
@@ -177,7 +191,7 @@ EmittedParticle LightSampler::emit(std::size_t light, SampleStream& stream) cons
                 Frame::around(normal).to_world(sample_cosine_hemisphere(v[0], v[1]).direction);
             return {position + caster_.offset_m(position, size(element)) * normal, direction, {}};
         },
-        emitters_[light].elements[choice.index]);
+        emitters_[light].elements[choice.index].shape);
 }
 
 std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const Vec3& from,
@@ -202,24 +216,24 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
                    luminaire->factor;
         });
     }
+    return sample_area_light(light, from, u);
+}
+
+std::optional<IncidentLight> LightSampler::sample_area_light(std::size_t light, const Vec3& from,
+                                                             const std::array<double, 2>& u) const {
     const auto choice = emitters_[light].by_area.choose(u[0]);
-    return std::visit(
-        [&](const auto& element) -> std::optional<IncidentLight> {
-            const EmitterFacing& facing = emitters_[light].facings[choice.index];
-            const auto sample = is_far(element, facing, from)
-                                    ? sample_by_area(element, facing, from, choice.remainder, u[1])
-                                    : sample_by_solid_angle(element, from, choice.remainder, u[1]);
-            if (!sample) return std::nullopt;
-            const Vec3 normal = front_normal(element, sample->point);
-            const Vec3 direction = normalized(sample->point - from);
-            // Not >=: where `from` is the sampled point itself, there is no direction to compare.
-            if (!(dot(normal, direction) < 0)) return std::nullopt;
-            const Spectrum& luminance = std::get<AreaLight>(source).luminance_cd_m2;
-            return IncidentLight{sample->point + caster_.offset_m(sample->point, size(element)) * normal,
-                                 direction, luminance * (1 / (sample->pdf_per_sr * choice.probability)),
-                                 element_pdf_per_sr(emitters_[light], choice.index, from)};
-        },
-        emitters_[light].elements[choice.index]);
+    const EmitterElement& element = emitters_[light].elements[choice.index];
+    const auto sample = sample_element(element, from, choice.remainder, u[1]);
+    if (!sample) return std::nullopt;
+    const Vec3 normal =
+        element.normal ? *element.normal : front_normal(std::get<Sphere>(element.shape), sample->point);
+    const Vec3 direction = normalized(sample->point - from);
+    // Not >=: where `from` is the sampled point itself, there is no direction to compare.
+    if (!(dot(normal, direction) < 0)) return std::nullopt;
+    const Spectrum& luminance = std::get<AreaLight>(lights_[light]->source).luminance_cd_m2;
+    return IncidentLight{sample->point + caster_.offset_m(sample->point, element.size_m) * normal, direction,
+                         luminance * (1 / (sample->pdf_per_sr * choice.probability)),
+                         choice.probability * rough_pdf_per_sr(element, sample->point, from)};
 }
 
 double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const {
@@ -250,9 +264,9 @@ double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, cons
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
                                                             SampleStream& stream) const {
+    if (count() == 1) return sample_incident(0, from, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
-    if (count() == 1) return sample_incident(0, from, point);
     std::vector<double> weights(count());
     double total = 0;
     for (std::size_t light = 0; light < count(); ++light) {
@@ -268,26 +282,13 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
     return incident;
 }
 
-double LightSampler::element_pdf_per_sr(const Emitter& emitter, std::size_t element, const Vec3& from) const {
-    const EmitterFacing& facing = emitter.facings[element];
-    const Vec3 towards = facing.middle - from;
-    const double squared_distance = squared_length(towards);
-    double cosine = 1;
-    if (facing.normal) {
-        // Edge-on this is far from the truth, as it is from close by; it must only be the same for all.
-        constexpr double least = 0.05;
-        cosine = std::max(std::abs(dot(towards, *facing.normal)) / std::sqrt(squared_distance), least);
-    }
-    const double projected_m2 = facing.area_m2 * cosine;
-    const double solid_angle_sr = projected_m2 / (squared_distance + projected_m2 / (2 * kPi));
-    return emitter.by_area.probability(element) / solid_angle_sr;
-}
-
 double LightSampler::pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) const {
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
     if (light == kNoLight) return 0;
     const Emitter& emitter = emitters_[light];
-    return element_pdf_per_sr(emitter, emitter.elements.size() == 1 ? 0 : hit.triangle, from);
+    const std::size_t element = emitter.elements.size() == 1 ? 0 : hit.triangle;
+    return emitter.by_area.probability(element) *
+           rough_pdf_per_sr(emitter.elements[element], hit.position, from);
 }
 
 double LightSampler::pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const {

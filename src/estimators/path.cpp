@@ -8,6 +8,8 @@
 // a point-like source and meets a mirror or glass before anything else.
 #include "estimators/path.h"
 
+#include <algorithm>
+
 #include "estimators/direct_light.h"
 #include "estimators/limits.h"
 #include "estimators/path_tracer.h"
@@ -15,6 +17,9 @@
 
 namespace stilb {
 namespace {
+
+/// Paths that are traced together: enough to fill packets until most of them have ended.
+constexpr std::uint64_t kSideBySide = 256;
 
 class PathEstimator final : public Estimator {
   public:
@@ -32,19 +37,10 @@ class PathEstimator final : public Estimator {
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         const std::uint64_t end = batch.first + batch.count;
-        for (const Receiver& point : points_) {
-            const RandomKey key = batch.key.derived(point.reading());
-            for (std::uint64_t i = batch.first; i < end; ++i) {
-                SampleStream stream(key, i);
-                sums.add(point.reading(), sample_illuminance_lx(point, stream));
-            }
-        }
-        for (const auto& [reading, hit, direction] : sights_) {
-            const RandomKey key = batch.key.derived(reading);
-            for (std::uint64_t i = batch.first; i < end; ++i) {
-                SampleStream stream(key, i);
-                sums.add(reading, tracer_.luminance_without_direct(hit, direction, max_reflections_, stream));
-            }
+        for (std::uint64_t first = batch.first; first < end; first += kSideBySide) {
+            const Batch part{batch.key, first, std::min(kSideBySide, end - first)};
+            for (const Receiver& point : points_) sample_illuminance(point, part, sums);
+            for (const Sighting& sighting : sights_) sample_luminance(sighting, part, sums);
         }
     }
 
@@ -74,15 +70,44 @@ class PathEstimator final : public Estimator {
         }
     }
 
-    Spectrum sample_illuminance_lx(const Receiver& point, SampleStream& stream) const {
-        const Spectrum direct = sample_direct_from_areas(point, caster_, lights_, stream);
-        const auto [u1, u2] = stream.next_two();
-        const auto sample = point.sample(u1, u2);
-        if (!sample) return direct;
-        const auto hit = caster_.closest(point.lifted(), sample->direction);
-        if (!hit) return direct;
-        return direct + sample->weight * tracer_.luminance_without_direct(*hit, sample->direction,
-                                                                          max_reflections_, stream);
+    void sample_illuminance(const Receiver& point, const Batch& batch, ReadingSums& sums) const {
+        const RandomKey key = batch.key.derived(point.reading());
+        std::vector<Ray> rays;
+        std::vector<SampleStream> streams;
+        std::vector<Spectrum> weights;
+        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
+            SampleStream stream(key, i);
+            sums.add(point.reading(), sample_direct_from_areas(point, caster_, lights_, stream));
+            const auto [u1, u2] = stream.next_two();
+            const auto sample = point.sample(u1, u2);
+            if (!sample) continue;
+            rays.push_back({point.lifted(), sample->direction});
+            streams.push_back(stream);
+            weights.push_back(sample->weight);
+        }
+        std::vector<std::optional<Hit>> hits(rays.size());
+        caster_.closest(rays, Coherence::scattered, hits);
+        std::vector<Path> paths;
+        std::vector<Spectrum> weight_of_path;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (!hits[i]) continue;
+            paths.push_back({*hits[i], -rays[i].direction, streams[i], max_reflections_});
+            weight_of_path.push_back(weights[i]);
+        }
+        tracer_.trace(paths, Coherence::scattered);
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            sums.add(point.reading(), weight_of_path[i] * paths[i].luminance_cd_m2);
+        }
+    }
+
+    void sample_luminance(const Sighting& sighting, const Batch& batch, ReadingSums& sums) const {
+        const RandomKey key = batch.key.derived(sighting.reading);
+        std::vector<Path> paths;
+        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
+            paths.push_back({sighting.hit, -sighting.direction, SampleStream(key, i), max_reflections_});
+        }
+        tracer_.trace(paths, Coherence::coherent);
+        for (const Path& path : paths) sums.add(sighting.reading, path.luminance_cd_m2);
     }
 
     const Scene& scene_;

@@ -11,12 +11,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "estimators/camera_rays.h"
 #include "estimators/direct_light.h"
 #include "estimators/fan.h"
 #include "estimators/gather.h"
 #include "estimators/limits.h"
 #include "estimators/node_selection.h"
+#include "estimators/picture_tracing.h"
 #include "estimators/split_plan.h"
 
 namespace stilb {
@@ -41,21 +41,15 @@ class LocalPicture final : public PictureEstimator {
     enum class Split { none, balanced };
 
     LocalPicture(const PictureInput& input, Split split)
-        : scene_(input.scene),
-          caster_(input.caster),
-          camera_(input.camera),
-          view_(camera_),
-          max_reflections_(input.max_reflections),
-          lights_(scene_, caster_),
-          tracer_(scene_, caster_, lights_),
-          gathers_(split == Split::balanced || has_specular_surfaces(scene_)),
-          cells_per_row_((camera_.resolution[0] + kBlockSize - 1) / kBlockSize),
+        : tracing_(input),
+          gathers_(split == Split::balanced || has_specular_surfaces(tracing_.scene)),
+          cells_per_row_((tracing_.camera.resolution[0] + kBlockSize - 1) / kBlockSize),
           k_per_m2_(plan(split, input.preparation_key)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<Fans>(*this, pass);
     }
-    std::vector<std::string> warnings() const override { return local_warnings(scene_); }
+    std::vector<std::string> warnings() const override { return local_warnings(tracing_.scene); }
 
   private:
     class Fans final : public PicturePass {
@@ -63,7 +57,6 @@ class LocalPicture final : public PictureEstimator {
         Fans(const LocalPicture& picture, const Pass& pass)
             : picture_(picture),
               pass_(pass),
-              streams_(picture.camera_, pass),
               pool_(picture.walk_chains(pass.key.derived(kWalks), pass.index * kChains,
                                         (pass.index + 1) * kChains)) {}
 
@@ -78,105 +71,106 @@ class LocalPicture final : public PictureEstimator {
 
       private:
         void sample_packet(const PixelBlock& block, int left, int top, ReadingSums& sums) const {
+            const PixelBlock packet{block.left + left, block.top + top, std::min(kSide, block.width - left),
+                                    std::min(kSide, block.height - top)};
+            std::vector<std::uint32_t> readings;
+            for (int y = 0; y < packet.height; ++y) {
+                for (int x = 0; x < packet.width; ++x) {
+                    readings.push_back(static_cast<std::uint32_t>((top + y) * block.width + left + x));
+                }
+            }
+            const std::vector<Pixel> pixels = pixels_of(packet);
             std::vector<Receiver> receivers;
             std::vector<double> k_per_m2;
             receivers.reserve(kPacketWidth);
-            for (int y = top; y < std::min(top + kSide, block.height); ++y) {
-                for (int x = left; x < std::min(left + kSide, block.width); ++x) {
-                    const auto reading = static_cast<std::uint32_t>(y * block.width + x);
-                    const int column = block.left + x, row = block.top + y;
-                    sums.add(reading,
-                             picture_.look_at(column, row, reading, streams_.at(column, row), receivers));
-                    k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(column, row)]);
-                }
+            CameraPaths started = picture_.tracing_.start_paths(pixels, pass_);
+            for (std::size_t i = 0; i < started.paths.size(); ++i) {
+                const std::size_t pixel = started.pixels[i];
+                sums.add(readings[pixel], picture_.look(started.paths[i], readings[pixel], receivers));
+                k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(pixels[pixel])]);
             }
             if (receivers.empty()) return;
             // The packet's random numbers: those of its first pixel's place.
-            const RandomKey key =
-                pass_.key.derived(kPackets).derived(static_cast<std::uint64_t>(block.left + left) << 32 |
-                                                    static_cast<std::uint64_t>(block.top + top));
+            const RandomKey key = pass_.key.derived(kPackets).derived(
+                static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
             picture_.receive(receivers, k_per_m2, pool_, {key, pass_.index}, sums);
         }
 
         const LocalPicture& picture_;
         Pass pass_;
-        PixelStreams streams_;
         NodePool pool_;
     };
 
-    std::size_t cell_of(int x, int y) const {
-        const int cell = y / kBlockSize * cells_per_row_ + x / kBlockSize;
+    std::size_t cell_of(const Pixel& pixel) const {
+        const int cell = pixel.y / kBlockSize * cells_per_row_ + pixel.x / kBlockSize;
         return static_cast<std::size_t>(cell);
     }
 
-    /// Appends the sub-point that a sample of a pixel sees; returns the emission that is seen and the direct
-    /// light there.
-    Spectrum look_at(int x, int y, std::uint32_t reading, SampleStream stream,
-                     std::vector<Receiver>& receivers) const {
-        const auto direction = sample_pixel(camera_, view_, x, y, stream);
-        if (!direction) return {};
-        const auto hit = caster_.closest(view_.position(), *direction);
-        if (!hit) return {};
-        const auto view = tracer_.look_through(*hit, *direction, max_reflections_, stream);
-        const Spectrum emission = lights_.emitted_luminance(*hit) + view.emission_cd_m2;
-        if (!view.surface || view.reflections == max_reflections_) return emission;
+    /// Appends the sub-point that a path from the camera comes to; returns the emission that it sees and the
+    /// direct light at the sub-point.
+    Spectrum look(Path& path, std::uint32_t reading, std::vector<Receiver>& receivers) const {
+        const bool meets_surface = tracing_.tracer.look_through(path);
+        const Spectrum emission = path.luminance_cd_m2;
+        if (!meets_surface || path.reflections_left == 0) return emission;
         receivers.emplace_back(reading,
-                               SubPoint{*view.surface, view.outgoing, view.transmission, view.reflections},
-                               scene_.material(view.surface->material));
+                               SubPoint{path.hit, path.outgoing, path.throughput,
+                                        tracing_.max_reflections - path.reflections_left},
+                               tracing_.scene.material(path.hit.material));
         const Receiver& receiver = receivers.back();
-        return emission + direct_from_points(receiver, caster_, lights_) +
-               sample_direct_from_areas(receiver, caster_, lights_, stream);
+        return emission + direct_from_points(receiver, tracing_.caster, tracing_.lights) +
+               sample_direct_from_areas(receiver, tracing_.caster, tracing_.lights, path.stream);
     }
 
     /// Adds a sample of a packet's indirect light.
     void receive(std::span<const Receiver> receivers, std::span<const double> k_per_m2, const NodePool& pool,
                  const Pass& pass, ReadingSums& sums) const {
-        const std::vector<PointTile> tiles = tiles_of(receivers, k_per_m2, caster_, max_reflections_);
+        const std::vector<PointTile> tiles =
+            tiles_of(receivers, k_per_m2, tracing_.caster, tracing_.max_reflections);
         const double u = SampleStream(pass.key.derived(kSelection), pass.index).next();
         std::vector<ChainNode> nodes = pool.select(pool.size() / kChainsPerSelected + 1, u);
         for (ChainNode& node : nodes) node.flux_lm *= 1.0 / kChains;
-        Fan(caster_, tiles).collect(nodes, sums);
+        Fan(tracing_.caster, tiles).collect(nodes, sums);
         if (!gathers_) return;
         const std::vector<SplitPlan> plans(receivers.size(), {0, 1});
-        Gather(caster_, tracer_, tiles, plans).collect({pass.key.derived(kGather), pass.index, 1}, sums);
+        Gather(tracing_.caster, tracing_.tracer, tiles, plans)
+            .collect({pass.key.derived(kGather), pass.index, 1}, sums);
     }
 
     std::vector<ChainNode> walk_chains(RandomKey key, std::uint64_t first, std::uint64_t end) const {
-        return walk_light_chains(scene_, caster_, lights_, max_reflections_, key, first, end);
+        return walk_light_chains(tracing_.scene, tracing_.caster, tracing_.lights, tracing_.max_reflections,
+                                 key, first, end);
     }
 
     /// A k for each cell of kBlockSize pixels' edge, from a packet of sub-points spread over it.
     std::vector<double> plan(Split split, RandomKey key) const {
-        const std::vector<PixelBlock> cells = blocks_of(camera_.resolution);
+        const std::vector<PixelBlock> cells = blocks_of(tracing_.camera.resolution);
         std::vector<double> k_per_m2(cells.size(), std::numeric_limits<double>::infinity());
         if (split == Split::none) return k_per_m2;
         const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
-        const PilotLight pilot{
-            nodes, kPilotChains, {}, surface_area_m2(scene_), max_reflections_, kChainsPerSelected};
+        const PilotLight pilot{nodes,
+                               kPilotChains,
+                               {},
+                               surface_area_m2(tracing_.scene),
+                               tracing_.max_reflections,
+                               kChainsPerSelected};
         const Pass pass{key.derived(kPlan), 0};
-        const PixelStreams streams(camera_, pass);
         tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) {
-            std::vector<Receiver> receivers;
+            std::vector<Pixel> pixels;
             const PixelBlock& cell = cells[c];
             for (int i = 0; i < kPacketWidth; ++i) {
-                const int x = cell.left + (4 * (i % 4) + 2) * cell.width / 16;
-                const int y = cell.top + (4 * (i / 4) + 2) * cell.height / 16;
-                look_at(x, y, 0, streams.at(x, y), receivers);
+                pixels.push_back({cell.left + (4 * (i % 4) + 2) * cell.width / 16,
+                                  cell.top + (4 * (i / 4) + 2) * cell.height / 16});
             }
+            std::vector<Receiver> receivers;
+            for (Path& path : tracing_.start_paths(pixels, pass).paths) look(path, 0, receivers);
             if (receivers.empty()) return;
-            k_per_m2[c] = plan_constant(caster_, tracer_, receivers, pilot, kChains / kChainsPerSelected,
-                                        kPilotRays, pass.key.derived(c));
+            k_per_m2[c] = plan_constant(tracing_.caster, tracing_.tracer, receivers, pilot,
+                                        kChains / kChainsPerSelected, kPilotRays, pass.key.derived(c));
         });
         return k_per_m2;
     }
 
-    const Scene& scene_;
-    const RayCaster& caster_;
-    Camera camera_;
-    CameraView view_;
-    int max_reflections_;
-    LightSampler lights_;
-    PathTracer tracer_;
+    PictureTracing tracing_;
     bool gathers_;
     int cells_per_row_;
     std::vector<double> k_per_m2_;  ///< of each cell

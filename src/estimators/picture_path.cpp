@@ -2,67 +2,50 @@
 // (path_tracer.h). The naive twin of the other methods.
 #include "estimators/picture_path.h"
 
-#include "estimators/camera_rays.h"
+#include <algorithm>
+
 #include "estimators/limits.h"
-#include "estimators/path_tracer.h"
+#include "estimators/picture_tracing.h"
 
 namespace stilb {
 namespace {
 
-class PathPicture final : public PictureEstimator {
+class Paths final : public PicturePass {
   public:
-    explicit PathPicture(const PictureInput& input)
-        : scene_(input.scene),
-          caster_(input.caster),
-          camera_(input.camera),
-          view_(camera_),
-          max_reflections_(input.max_reflections),
-          lights_(scene_, caster_),
-          tracer_(scene_, caster_, lights_) {}
+    Paths(const PictureTracing& tracing, const Pass& pass) : tracing_(tracing), pass_(pass) {}
 
-    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
-        return std::make_unique<Paths>(*this, pass);
-    }
-    std::vector<std::string> warnings() const override { return path_warnings(scene_); }
-
-  private:
-    class Paths final : public PicturePass {
-      public:
-        Paths(const PathPicture& picture, const Pass& pass)
-            : picture_(picture), streams_(picture.camera_, pass) {}
-
-        std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
-            std::uint64_t invalid = 0;
-            for (std::size_t i = 0; i < pixels.size(); ++i) {
-                const int x = block.left + static_cast<int>(i) % block.width;
-                const int y = block.top + static_cast<int>(i) / block.width;
-                pixels[i] = picture_.sample_luminance(x, y, streams_.at(x, y));
-                if (pixels[i].is_finite()) continue;
-                pixels[i] = {};
+    std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
+        std::ranges::fill(pixels, Spectrum{});
+        auto [paths, numbers] = tracing_.start_paths(pixels_of(block), pass_);
+        tracing_.tracer.trace(paths, Coherence::coherent);
+        std::uint64_t invalid = 0;
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            const Spectrum& luminance = paths[i].luminance_cd_m2;
+            if (luminance.is_finite()) {
+                pixels[numbers[i]] = luminance;
+            } else {
                 ++invalid;
             }
-            return invalid;
         }
-
-      private:
-        const PathPicture& picture_;
-        PixelStreams streams_;
-    };
-
-    Spectrum sample_luminance(int x, int y, SampleStream stream) const {
-        const auto direction = sample_pixel(camera_, view_, x, y, stream);
-        if (!direction) return {};
-        const auto hit = caster_.closest(view_.position(), *direction);
-        return hit ? tracer_.luminance(*hit, *direction, max_reflections_, stream) : Spectrum{};
+        return invalid;
     }
 
-    const Scene& scene_;
-    const RayCaster& caster_;
-    Camera camera_;
-    CameraView view_;
-    int max_reflections_;
-    LightSampler lights_;
-    PathTracer tracer_;
+  private:
+    const PictureTracing& tracing_;
+    Pass pass_;
+};
+
+class PathPicture final : public PictureEstimator {
+  public:
+    explicit PathPicture(const PictureInput& input) : tracing_(input) {}
+
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return std::make_unique<Paths>(tracing_, pass);
+    }
+    std::vector<std::string> warnings() const override { return path_warnings(tracing_.scene); }
+
+  private:
+    PictureTracing tracing_;
 };
 
 }  // namespace

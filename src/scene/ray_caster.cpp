@@ -176,6 +176,14 @@ void occlude_in_parts(RayPacket& packet, const LaneMask& lanes, Occlude occlude)
     }
 }
 
+RTCIntersectContext context_for(Coherence coherence) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                                     : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return context;
+}
+
 }  // namespace
 
 struct RayCaster::Implementation {
@@ -279,15 +287,17 @@ struct RayCaster::Implementation {
                 size = std::max(
                     {size, std::abs(p[i].x - p[0].x), std::abs(p[i].y - p[0].y), std::abs(p[i].z - p[0].z)});
             }
-            const Vec3 doubled = cross(p[1] - p[0], p[2] - p[0]);
+            const Vec3 edge_1 = p[1] - p[0], edge_2 = p[2] - p[0];
+            const Vec3 doubled = cross(edge_1, edge_2);
             const double doubled_area = length(doubled);
-            hit.normal = doubled / doubled_area;
-            const Vec3 near_by = p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]);
-            const double margin = kEdgeMargin * offset(near_by, size);
+            hit.normal = (1 / doubled_area) * doubled;
+            hit.position = inner_position = p[0] + u * edge_1 + v * edge_2;
+            const double margin = kEdgeMargin * offset(hit.position, size);
             const auto inner = away_from_edges({1 - u - v, u, v}, p, margin, size, doubled_area);
-            hit.position = near_by;
-            inner_position = inner.b[0] * p[0] + inner.b[1] * p[1] + inner.b[2] * p[2];
-            at_edge = inner.was_at_edge;
+            if (inner.was_at_edge) {
+                at_edge = true;
+                inner_position = inner.b[0] * p[0] + inner.b[1] * p[1] + inner.b[2] * p[2];
+            }
         } else {
             const Vec3 near_by = origin + ray.tfar * direction;
             const SurfacePoint point = nearest_surface_point(geometry.analytic, near_by);
@@ -345,6 +355,36 @@ struct RayCaster::Implementation {
         return ray;
     }
 
+    /// Up to `width` rays as one packet of Embree's; EmbreeRayHits: RTCRayHit16 or its smaller kin.
+    template <int width, typename EmbreeRayHits, typename Intersect>
+    void closest_of_packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits,
+                           Intersect intersect) const {
+        alignas(64) std::array<int, width> valid{};
+        EmbreeRayHits packet;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Vec3 origin = rays[i].origin - center;
+            const Vec3& direction = rays[i].direction;
+            packet.ray.org_x[i] = static_cast<float>(origin.x);
+            packet.ray.org_y[i] = static_cast<float>(origin.y);
+            packet.ray.org_z[i] = static_cast<float>(origin.z);
+            packet.ray.dir_x[i] = static_cast<float>(direction.x);
+            packet.ray.dir_y[i] = static_cast<float>(direction.y);
+            packet.ray.dir_z[i] = static_cast<float>(direction.z);
+            packet.ray.tnear[i] = packet.ray.time[i] = 0;
+            packet.ray.tfar[i] = kInfinity;
+            packet.ray.mask[i] = ~0u;
+            packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            valid[i] = -1;
+        }
+        intersect(valid.data(), &packet);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            hits[i].reset();
+            if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+            hits[i] = hit_of(rtcGetRayHitFromRayHitN(reinterpret_cast<RTCRayHitN*>(&packet), width,
+                                                     static_cast<unsigned>(i)));
+        }
+    }
+
     /// Between positions relative to the centre.
     bool occluded(const Vec3& from, const Vec3& to) const {
         RTCRay ray = ray_from(from, to - from, 1);
@@ -374,14 +414,63 @@ std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction)
     return implementation_->hit_of(ray_hit);
 }
 
+void RayCaster::closest(std::span<const Ray> rays, Coherence coherence,
+                        std::span<std::optional<Hit>> hits) const {
+    RTCIntersectContext context = context_for(coherence);
+    const Implementation& own = *implementation_;
+    const auto width = static_cast<std::size_t>(own.packet_width);
+    for (std::size_t first = 0; first < rays.size(); first += width) {
+        const auto part = rays.subspan(first, std::min(width, rays.size() - first));
+        const auto found = hits.subspan(first, part.size());
+        switch (own.packet_width) {
+            case 16:
+                own.closest_of_packet<16, RTCRayHit16>(
+                    part, found, [&](const int* valid, RTCRayHit16* packet) {
+                        rtcIntersect16(valid, own.embree_scene, &context, packet);
+                    });
+                break;
+            case 8:
+                own.closest_of_packet<8, RTCRayHit8>(part, found, [&](const int* valid, RTCRayHit8* packet) {
+                    rtcIntersect8(valid, own.embree_scene, &context, packet);
+                });
+                break;
+            default:
+                own.closest_of_packet<4, RTCRayHit4>(part, found, [&](const int* valid, RTCRayHit4* packet) {
+                    rtcIntersect4(valid, own.embree_scene, &context, packet);
+                });
+        }
+    }
+}
+
 bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
     return implementation_->occluded(from - center(), to - center());
 }
 
-void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+void RayCaster::occluded(std::span<const Segment> segments, Coherence coherence,
+                         std::span<std::uint8_t> blocked) const {
+    for (std::size_t first = 0; first < segments.size(); first += kPacketWidth) {
+        const std::size_t count = std::min<std::size_t>(kPacketWidth, segments.size() - first);
+        RayPacket packet;
+        LaneMask lanes{};
+        for (std::size_t i = 0; i < count; ++i) {
+            const Segment& segment = segments[first + i];
+            const Vec3 origin = segment.from - center(), direction = segment.to - segment.from;
+            packet.origin_x[i] = static_cast<float>(origin.x);
+            packet.origin_y[i] = static_cast<float>(origin.y);
+            packet.origin_z[i] = static_cast<float>(origin.z);
+            packet.direction_x[i] = static_cast<float>(direction.x);
+            packet.direction_y[i] = static_cast<float>(direction.y);
+            packet.direction_z[i] = static_cast<float>(direction.z);
+            packet.end[i] = 1;
+            lanes[i] = -1;
+        }
+        occlude(packet, lanes, coherence);
+        for (std::size_t i = 0; i < count; ++i) blocked[first + i] = packet.end[i] < 0 ? 1 : 0;
+    }
+}
+
+void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
+    RTCIntersectContext context = context_for(coherence);
     const RTCScene embree_scene = implementation_->embree_scene;
     switch (implementation_->packet_width) {
         case 16:

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "base/ids.h"
 #include "base/vec.h"
@@ -36,6 +37,20 @@ struct Hit {
     /// As `lifted`, on the other side.
     Vec3 lifted_behind() const { return lifted - 2 * lift_m * normal; }
 };
+
+struct Ray {
+    Vec3 origin;
+    Vec3 direction;  ///< unit
+};
+
+/// Between two (lifted) points.
+struct Segment {
+    Vec3 from, to;
+};
+
+/// Whether neighbouring rays of many go nearly the same way: then they are fastest together, else by
+/// themselves.
+enum class Coherence { coherent, scattered };
 
 inline constexpr int kPacketWidth = 16;
 
@@ -66,11 +81,17 @@ class RayCaster {
 
     /// The first surface that a ray from `origin` along the unit vector `direction` meets.
     std::optional<Hit> closest(const Vec3& origin, const Vec3& direction) const;
+    /// The same of many rays, into as many hits.
+    void closest(std::span<const Ray> rays, Coherence coherence, std::span<std::optional<Hit>> hits) const;
+
     /// True where something lies between two (lifted) points.
     bool occluded(const Vec3& from, const Vec3& to) const;
+    /// The same of many segments: 1 where something lies in between, else 0.
+    void occluded(std::span<const Segment> segments, Coherence coherence,
+                  std::span<std::uint8_t> blocked) const;
 
     /// For lanes that are set: `end` becomes negative where something is met between `start` and `end`.
-    void occlude(RayPacket& packet, const LaneMask& lanes) const;
+    void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;
 
     /// The origin of packet coordinates: the middle of the scene's bounding box.
     const Vec3& center() const;
