@@ -9,8 +9,9 @@ namespace {
 /// lifted.
 Spectrum illuminance_lx(const IncidentLight& light, const Receiver& receiver, const RayCaster& caster) {
     const double cosine = dot(light.direction, receiver.normal());
-    if (cosine <= 0 || caster.occluded(receiver.lifted(), light.source_point)) return {};
-    return cosine * light.normal_illuminance_lx;
+    if (cosine <= 0) return {};
+    return cosine * light.normal_illuminance_lx *
+           caster.transmittance({receiver.lifted(), light.source_point});
 }
 
 /// The emitters' light along a ray in proportion to the response; beside samples of each light.
@@ -19,11 +20,11 @@ Spectrum sample_by_response(const Receiver& receiver, const RayCaster& caster, c
     const auto [u1, u2] = stream.next_two();
     const auto sample = receiver.sample(u1, u2);
     if (!sample) return {};
-    const auto hit = caster.closest(receiver.lifted(), sample->direction);
-    if (!hit) return {};
-    const Spectrum emission = lights.emitted_luminance(*hit);
+    const auto seen = caster.seen({receiver.lifted(), sample->direction});
+    if (!seen) return {};
+    const Spectrum emission = seen->transmittance * lights.emitted_luminance(seen->hit);
     if (!(emission.max() > 0)) return {};
-    const double light_pdf = lights.pdf_of_its_light_per_sr(*hit, receiver.position());
+    const double light_pdf = lights.pdf_of_its_light_per_sr(seen->hit, receiver.position());
     return sample->weight * emission * balance(sample->pdf_per_sr, light_pdf);
 }
 

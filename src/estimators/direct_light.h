@@ -1,4 +1,5 @@
-// Light that reaches receivers straight from the sources, integrated on its own [LocalEstimation 3].
+// Light that reaches receivers straight from the sources, through panes too, integrated on its own
+// [LocalEstimation 3].
 #pragma once
 
 #include <span>

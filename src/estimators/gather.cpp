@@ -7,6 +7,7 @@
 
 #include "base/sampling.h"
 #include "estimators/kernel_split.h"
+#include "estimators/russian_roulette.h"
 
 namespace stilb {
 namespace {
@@ -53,8 +54,23 @@ class SharedPlace {
         });
     }
 
-    /// Unit, from y to a receiver.
-    Vec3 direction_to(std::size_t lane) const { return frame_.to_world(out_[lane]); }
+    /// A direction that light may come to y from, drawn by the BRDF as a receiver sees y.
+    struct Beam {
+        Vec3 direction;
+        double density = 0;  ///< of y and the direction together, by all receivers' rays [1/(m2 sr)]
+        double weight = 0;   ///< 1 / probability of having gone on
+    };
+    std::optional<Beam> sample_beam(std::size_t lane, SampleStream& stream) const {
+        const double survival = survival_probability(Spectrum::grey(1), reflectance_bound(material_));
+        if (stream.next() >= survival) return std::nullopt;
+        const auto [u1, u2] = stream.next_two();
+        const auto scattered = sample_brdf(material_, out_[lane], u1, u2);
+        if (!scattered) return std::nullopt;
+        const Vec3 direction = frame_.to_world(scattered->direction);
+        const double density = beam_density(direction);
+        if (!(density > 0)) return std::nullopt;
+        return Beam{direction, density, 1 / survival};
+    }
 
     /// How densely the packet's rays meet y [1/m2].
     double ray_density() const {
@@ -171,16 +187,11 @@ void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, S
                                  : light_density / (light_density + place.beam_density(light->direction));
         place.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
     }
-    const int reflections_left = tile.reflections_left[own] - 1;
-    if (const auto beam = tracer_.sample_beam(hit, place.direction_to(own), reflections_left, stream)) {
-        const double density = place.beam_density(beam->direction);
-        if (!(density > 0)) return;
-        const double emission_density = density + beam->light_pdf_per_sr * ray_density;
-        place.reflect(
-            beam->direction,
-            beam->luminance_cd_m2 * (weight / density) + beam->emission_cd_m2 * (weight / emission_density),
-            sums);
+    if (const auto beam = place.sample_beam(own, stream)) {
+        const Lookout lookout{beam->density / ray_density, hit.position, hit.normal};
+        const Spectrum luminance = tracer_.incoming_luminance({hit.lifted, beam->direction}, lookout,
+                                                              tile.reflections_left[own] - 1, stream);
+        place.reflect(beam->direction, luminance * (weight * beam->weight / beam->density), sums);
     }
 }
-
 }  // namespace stilb

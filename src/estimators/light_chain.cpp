@@ -13,13 +13,17 @@ void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSa
     Vec3 direction = particle.direction;
     Spectrum flux = particle.flux_lm;
     bool only_by_light = false;
-    for (int reflection = 0; reflection < max_nodes; ++reflection) {
+    int reflections = 0;
+    while (reflections < max_nodes) {
         const auto hit = caster.closest(origin, direction);
         if (!hit) return;
         const Material& material = scene.material(hit->material);
         if (is_specular(material)) {
-            if (reflection == 0) only_by_light = particle.from_point;
             const auto way = choose_specular_way(material, *hit, -direction, stream.next());
+            if (way && !way->straight) {
+                if (reflections == 0) only_by_light = particle.from_point;
+                ++reflections;
+            }
             const double survival = way ? survival_probability(flux, way->share) : 0;
             if (stream.next() >= survival) return;
             flux *= way->share * (1 / survival);
@@ -30,7 +34,7 @@ void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSa
         const double survival = survival_probability(flux, reflectance_bound(material));
         if (stream.next() >= survival) return;
         flux *= 1 / survival;
-        nodes.push_back({hit->position, hit->lifted, hit->normal, -direction, &material, flux, reflection + 1,
+        nodes.push_back({hit->position, hit->lifted, hit->normal, -direction, &material, flux, ++reflections,
                          only_by_light});
         const Frame frame = Frame::of_surface(hit->normal);
         const auto [u1, u2] = stream.next_two();

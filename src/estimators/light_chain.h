@@ -18,8 +18,8 @@ struct ChainNode {
     /// connection from this node multiplies with f_r.
     Spectrum flux_lm;
     int reflections = 0;  ///< that the particle has met so far, this one included
-    /// The particle left a point-like source and met a mirror or glass first: path tracing cannot make this
-    /// light, at whatever node it comes along.
+    /// The particle left a point-like source and met a mirror or glass first (and did not go straight on
+    /// through a pane): path tracing cannot make this light, at whatever node it comes along.
     bool only_by_light = false;
 };
 

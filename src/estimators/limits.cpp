@@ -30,15 +30,17 @@ bool has_specular_surfaces(const Scene& scene) {
 
 std::vector<std::string> path_warnings(const Scene& scene) {
     return specular_warnings(scene,
-                             "path tracing cannot make light that leaves a point or photometry light and "
-                             "meets a mirror or glass before anything else");
+                             "path tracing cannot make light that leaves a point or photometry light and is "
+                             "reflected by a mirror or pane or meets solid glass before anything else");
 }
 
 std::vector<std::string> local_warnings(const Scene& scene) {
-    return specular_warnings(
-        scene,
-        "local estimation cannot make light that leaves a point or photometry light, meets a mirror or glass "
-        "first and comes to the point (for luminance: the surface that is seen) by a mirror or glass last");
+    return specular_warnings(scene,
+                             "local estimation cannot make light that leaves a point or photometry light, is "
+                             "reflected by a mirror "
+                             "or pane or meets solid glass first, and comes to the point (for luminance: the "
+                             "surface that is seen) "
+                             "by a mirror or glass last");
 }
 
 }  // namespace stilb

@@ -25,13 +25,14 @@ class Looker {
             sight.sub_points.push_back({hit, -direction, transmission, reflections});
             return;
         }
-        if (reflections == max_reflections_) return;
         for (const SpecularWay& way : specular_ways(material, hit, -direction)) {
+            const int met = reflections + (way.straight ? 0 : 1);
+            if (met > max_reflections_) continue;
             const Spectrum left = transmission * way.share * way.luminance_factor;
-            if (left.max() < kLeastTransmission || reflections == kMostFollowed) {
-                sight.faint.push_back({way.origin, way.direction, left, reflections + 1});
+            if (left.max() < kLeastTransmission || met > kMostFollowed) {
+                sight.faint.push_back({way.origin, way.direction, left, met});
             } else if (const auto next = caster_.closest(way.origin, way.direction)) {
-                follow(*next, way.direction, left, reflections + 1);
+                follow(*next, way.direction, left, met);
             }
         }
     }

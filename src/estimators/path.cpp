@@ -5,7 +5,7 @@
 //
 // by one cosine-distributed ray and the path that it begins, for each sample and point by itself; luminance
 // by paths that begin along the line of sight. Finite variance for bounded BRDFs. Not made: light that leaves
-// a point-like source and meets a mirror or glass before anything else.
+// a point-like source and meets a mirror or glass before anything else, but panes straight on.
 #include "estimators/path.h"
 
 #include <algorithm>
@@ -92,6 +92,7 @@ class PathEstimator final : public Estimator {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             if (!hits[i]) continue;
             paths.push_back({*hits[i], -rays[i].direction, streams[i], max_reflections_});
+            paths.back().lookout = kDirectIsKnown;
             weight_of_path.push_back(weights[i]);
         }
         tracer_.trace(paths, Coherence::scattered);

@@ -18,7 +18,7 @@ void PathTracer::trace(std::span<Path> paths, Coherence first) const {
     std::vector<Lit> lit;
     std::vector<Segment> segments;
     std::vector<Ray> rays;
-    std::vector<std::uint8_t> blocked(paths.size());
+    std::vector<Spectrum> transmittances(paths.size());
     std::vector<std::optional<Hit>> hits(paths.size());
     for (Coherence coherence = first; !going.empty(); coherence = Coherence::scattered) {
         lit.clear(), segments.clear(), rays.clear();
@@ -34,9 +34,9 @@ void PathTracer::trace(std::span<Path> paths, Coherence first) const {
                 going[count++] = path;
             }
         }
-        caster_.occluded(segments, coherence, blocked);
+        caster_.transmittances(segments, coherence, transmittances);
         for (std::size_t i = 0; i < lit.size(); ++i) {
-            if (blocked[i] == 0) lit[i].path->luminance_cd_m2 += lit[i].luminance_cd_m2;
+            lit[i].path->luminance_cd_m2 += lit[i].luminance_cd_m2 * transmittances[i];
         }
         caster_.closest(rays, Coherence::scattered, hits);
         count = 0;
@@ -52,9 +52,9 @@ void PathTracer::trace(std::span<Path> paths, Coherence first) const {
 void PathTracer::follow(Path& path) const {
     for (;;) {
         const Step step = take_step(path);
-        if (step.connection &&
-            !caster_.occluded(step.connection->segment.from, step.connection->segment.to)) {
-            path.luminance_cd_m2 += step.connection->luminance_cd_m2;
+        if (step.connection) {
+            path.luminance_cd_m2 +=
+                step.connection->luminance_cd_m2 * caster_.transmittance(step.connection->segment);
         }
         if (!step.ray) return;
         const auto next = caster_.closest(step.ray->origin, step.ray->direction);
@@ -75,10 +75,10 @@ bool PathTracer::look_through(Path& path) const {
 }
 
 PathTracer::Step PathTracer::take_step(Path& path) const {
-    if (path.reflections_left == 0) return {};
-    --path.reflections_left;
     const Material& material = this->material(path.hit);
     if (is_specular(material)) return {std::nullopt, pass_specular(path, material)};
+    if (path.reflections_left == 0) return {};
+    --path.reflections_left;
     return reflect(path, material);
 }
 
@@ -87,7 +87,11 @@ std::optional<Ray> PathTracer::pass_specular(Path& path, const Material& materia
     const double survival = way ? survival_probability(path.throughput, way->share) : 0;
     if (path.stream.next() >= survival) return std::nullopt;
     path.throughput *= way->share * (way->luminance_factor / survival);
-    path.pdf_per_sr = std::numeric_limits<double>::infinity();
+    if (!way->straight) {
+        if (path.reflections_left == 0) return std::nullopt;
+        --path.reflections_left;
+        path.lookout = {};
+    }
     return Ray{way->origin, way->direction};
 }
 
@@ -110,60 +114,47 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
     const auto scattered = sample_brdf(material, out, u1, u2);
     if (!scattered) return step;
     path.throughput *= scattered->weight * (1 / survival);
-    path.pdf_per_sr = scattered->pdf_per_sr;
+    path.lookout = {scattered->pdf_per_sr, hit.position, hit.normal};
     step.ray = {hit.lifted, frame.to_world(scattered->direction)};
     return step;
 }
 
+double PathTracer::share_of(const Lookout& lookout, const Hit& emitter) const {
+    if (lookout.pdf_per_sr == 0 || std::isinf(lookout.pdf_per_sr)) return lookout.pdf_per_sr == 0 ? 0 : 1;
+    return balance(lookout.pdf_per_sr, lights_.pdf_per_sr(emitter, lookout.position, lookout.normal));
+}
+
 void PathTracer::arrive(Path& path, const Vec3& direction, const Hit& next) const {
     const Spectrum emission = lights_.emitted_luminance(next);
-    if (emission.max() > 0) {
-        const double light_pdf =
-            std::isinf(path.pdf_per_sr) ? 0 : lights_.pdf_per_sr(next, path.hit.position, path.hit.normal);
-        path.luminance_cd_m2 += path.throughput * emission * balance(path.pdf_per_sr, light_pdf);
-    }
+    if (emission.max() > 0) path.luminance_cd_m2 += path.throughput * emission * share_of(path.lookout, next);
     path.hit = next;
     path.outgoing = -direction;
 }
 
 std::optional<IncidentLight> PathTracer::sample_light(const Hit& surface, SampleStream& stream) const {
     auto light = lights_.sample_one_light(surface.position, surface.normal, stream);
-    if (!light || dot(light->direction, surface.normal) <= 0 ||
-        caster_.occluded(surface.lifted, light->source_point)) {
-        return std::nullopt;
-    }
+    if (!light || dot(light->direction, surface.normal) <= 0) return std::nullopt;
+    light->normal_illuminance_lx *= caster_.transmittance({surface.lifted, light->source_point});
+    if (!(light->normal_illuminance_lx.max() > 0)) return std::nullopt;
     return light;
 }
 
-std::optional<PathTracer::IncomingBeam> PathTracer::sample_beam(const Hit& surface, const Vec3& outgoing,
-                                                                int max_reflections,
-                                                                SampleStream& stream) const {
-    const Material& material = scene_.material(surface.material);
-    const double survival = survival_probability(Spectrum::grey(1), reflectance_bound(material));
-    if (stream.next() >= survival) return std::nullopt;
-    const Frame frame = Frame::of_surface(surface.normal);
-    const auto [u1, u2] = stream.next_two();
-    const auto scattered = sample_brdf(material, frame.to_local(outgoing), u1, u2);
-    if (!scattered) return std::nullopt;
-    const Vec3 direction = frame.to_world(scattered->direction);
-    const auto next = caster_.closest(surface.lifted, direction);
-    if (!next) return std::nullopt;
-    IncomingBeam beam;
-    beam.direction = direction;
-    beam.luminance_cd_m2 =
-        luminance_without_direct(*next, direction, max_reflections, stream) * (1 / survival);
-    beam.emission_cd_m2 = lights_.emitted_luminance(*next) * (1 / survival);
-    if (beam.emission_cd_m2.max() > 0) {
-        beam.light_pdf_per_sr = lights_.pdf_per_sr(*next, surface.position, surface.normal);
-    }
-    return beam;
-}
-
-Spectrum PathTracer::luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
-                                              const SampleStream& stream) const {
+Spectrum PathTracer::luminance_behind(const Hit& hit, const Vec3& direction, const Lookout& lookout,
+                                      int max_reflections, const SampleStream& stream) const {
     Path path{hit, -direction, stream, max_reflections};
+    path.lookout = lookout;
     follow(path);
     return path.luminance_cd_m2;
+}
+
+Spectrum PathTracer::incoming_luminance(const Ray& ray, const Lookout& lookout, int max_reflections,
+                                        const SampleStream& stream) const {
+    const auto hit = caster_.closest(ray.origin, ray.direction);
+    if (!hit) return {};
+    Spectrum luminance = luminance_behind(*hit, ray.direction, lookout, max_reflections, stream);
+    const Spectrum emission = lights_.emitted_luminance(*hit);
+    if (emission.max() > 0) luminance += emission * share_of(lookout, *hit);
+    return luminance;
 }
 
 }  // namespace stilb

@@ -2,8 +2,9 @@
 //
 // Every reflection adds the light of one source, chosen and sampled by next-event estimation, and that of
 // emitters that the path runs into, weighted against each other by the balance heuristic [Veach and Guibas
-// 1995]. Behind mirrors and glass, which next-event estimation cannot see through, emitters count in full.
-// Not made: light that leaves a point-like source and meets a mirror or glass first.
+// 1995]. Both see straight through panes. Behind mirrors and glass, which next-event estimation cannot see
+// through, emitters count in full. Not made: light that leaves a point-like source and meets a mirror or
+// glass first.
 #pragma once
 
 #include <limits>
@@ -11,6 +12,17 @@
 #include "estimators/light_sampler.h"
 
 namespace stilb {
+
+/// From where a path looks for emitters, beside next-event estimation there.
+struct Lookout {
+    /// Density of the path's direction; infinite where next-event estimation cannot find what the path does,
+    /// 0 where it finds everything.
+    double pdf_per_sr = std::numeric_limits<double>::infinity();
+    Vec3 position{}, normal{};  ///< of the surface, where the density is finite
+};
+
+/// Of paths that leave out what is seen straight.
+inline constexpr Lookout kDirectIsKnown{0};
 
 /// A path that is traced against the light: where it has come to and what it has gathered on its way.
 struct Path {
@@ -20,9 +32,7 @@ struct Path {
     int reflections_left = 0;  ///< at `hit` and behind
     Spectrum throughput = Spectrum::grey(1);
     Spectrum luminance_cd_m2{};  ///< so far; emission of the first hit is left out
-    /// With what density `hit` was looked for from the surface before; infinite where next-event estimation
-    /// could not have found it.
-    double pdf_per_sr = std::numeric_limits<double>::infinity();
+    Lookout lookout{};
 };
 
 /// Keeps references to its arguments. Immutable.
@@ -41,29 +51,24 @@ class PathTracer {
     /// Light from one source at `surface`, shadows included; nothing where none arrives.
     std::optional<IncidentLight> sample_light(const Hit& surface, SampleStream& stream) const;
 
-    /// What arrives at `surface` (not specular) along one direction, drawn by the BRDF as seen from
-    /// `outgoing`: one unbiased sample, divided by the probability of going on. Reflected light has met at
-    /// most `max_reflections` surfaces before.
-    struct IncomingBeam {
-        Vec3 direction;            ///< unit, towards where the light comes from
-        Spectrum luminance_cd_m2;  ///< reflected, and emission that is seen by mirrors or glass
-        Spectrum emission_cd_m2;   ///< of an emitter that `direction` meets: sample_light() makes it as well
-        double light_pdf_per_sr = 0;  ///< with this density
-    };
-    std::optional<IncomingBeam> sample_beam(const Hit& surface, const Vec3& outgoing, int max_reflections,
-                                            SampleStream& stream) const;
-
-    /// One sample of the luminance [cd/m2] that arrives along a ray that met `hit`: reflected light, and
-    /// emission that is seen by mirrors or glass. Emission of `hit` itself is left out: that is direct light.
+    /// One sample of the luminance [cd/m2] that arrives along a ray that met `hit`, emission of `hit` itself
+    /// left out.
+    Spectrum luminance_behind(const Hit& hit, const Vec3& direction, const Lookout& lookout,
+                              int max_reflections, const SampleStream& stream) const;
+    /// The same without all emission that is seen straight: that is direct light.
     Spectrum luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
-                                      const SampleStream& stream) const;
-
-    /// The same with the emission of `hit`: all the light along a ray.
+                                      const SampleStream& stream) const {
+        return luminance_behind(hit, direction, kDirectIsKnown, max_reflections, stream);
+    }
+    /// All the light along a ray.
     Spectrum luminance(const Hit& hit, const Vec3& direction, int max_reflections,
                        const SampleStream& stream) const {
-        return lights_.emitted_luminance(hit) +
-               luminance_without_direct(hit, direction, max_reflections, stream);
+        return lights_.emitted_luminance(hit) + luminance_behind(hit, direction, {}, max_reflections, stream);
     }
+    /// The same, where emission that is seen straight from `lookout` is weighted against next-event
+    /// estimation there.
+    Spectrum incoming_luminance(const Ray& ray, const Lookout& lookout, int max_reflections,
+                                const SampleStream& stream) const;
 
     const Material& material(const Hit& hit) const { return scene_.material(hit.material); }
 
@@ -83,6 +88,8 @@ class PathTracer {
     Step reflect(Path& path, const Material& material) const;
     /// Where the step's ray has met something.
     void arrive(Path& path, const Vec3& direction, const Hit& next) const;
+    /// How much emission counts that a path finds.
+    double share_of(const Lookout& lookout, const Hit& emitter) const;
     /// One path by itself.
     void follow(Path& path) const;
 

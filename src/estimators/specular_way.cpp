@@ -6,18 +6,21 @@ namespace {
 /// Everything that the two functions need of a surface and the way that a path came to it.
 struct Meeting {
     const Hit& hit;
+    bool is_pane;
     Frame frame;
     SpecularBranches branches;
 
     Meeting(const Material& material, const Hit& met, const Vec3& from)
         : hit(met),
+          is_pane(std::holds_alternative<Pane>(material)),
           frame(Frame::of_surface(met.normal)),
           branches(specular_branches(material, met.on_front ? LightSide::outside : LightSide::inside,
                                      frame.to_local(from))) {}
 
     SpecularWay way(const SpecularBranch& branch, double probability) const {
-        return {branch.direction.z > 0 ? hit.lifted : hit.lifted_behind(), frame.to_world(branch.direction),
-                branch.share * (1 / probability), branch.luminance_factor};
+        const bool reflected = branch.direction.z > 0;
+        return {reflected ? hit.lifted : hit.lifted_behind(), frame.to_world(branch.direction),
+                branch.share * (1 / probability), branch.luminance_factor, is_pane && !reflected};
     }
 };
 

@@ -13,6 +13,8 @@ struct SpecularWay {
     Vec3 direction;
     Spectrum share;               ///< of the flux; as SpecularBranch has it
     double luminance_factor = 1;  ///< likewise
+    /// Through a pane: straight on, so that such light counts as not reflected, and shadow rays make it too.
+    bool straight = false;
 };
 
 /// All ways on from `hit` on a specular surface; `from`: unit, towards where the path came from.

@@ -191,6 +191,7 @@ struct RayCaster::Implementation {
     Bounds bounds;
     Vec3 center;
     double half_extent = 0;
+    bool has_panes = false;
     RTCDevice device = nullptr;
     RTCScene embree_scene = nullptr;
     int packet_width = 4;                               ///< widest that the processor takes natively
@@ -200,6 +201,10 @@ struct RayCaster::Implementation {
         center = 0.5 * (bounds.min + bounds.max);
         const Vec3 half = 0.5 * (bounds.max - bounds.min);
         half_extent = std::max({half.x, half.y, half.z});
+        has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
+            return std::ranges::any_of(object.materials,
+                                       [&](MaterialId id) { return pane_of(id) != nullptr; });
+        });
         device = rtcNewDevice(nullptr);
         if (device == nullptr) throw std::runtime_error("Embree: no device could be made");
         rtcSetDeviceErrorFunction(device, throw_error, nullptr);
@@ -337,6 +342,9 @@ struct RayCaster::Implementation {
         return materials.size() == 1 ? materials[0] : materials[primitive];
     }
 
+    const Pane* pane_of(MaterialId id) const { return std::get_if<Pane>(&scene.material(id)); }
+    const Pane* pane_at(const Hit& hit) const { return pane_of(hit.material); }
+
     /// As RayCaster::offset_m, for a position relative to the centre.
     double offset(const Vec3& relative, double size_m) const {
         return kRelativeOffset *
@@ -446,8 +454,13 @@ bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
     return implementation_->occluded(from - center(), to - center());
 }
 
-void RayCaster::occluded(std::span<const Segment> segments, Coherence coherence,
-                         std::span<std::uint8_t> blocked) const {
+Spectrum RayCaster::transmittance(const Segment& segment) const {
+    if (!occluded(segment.from, segment.to)) return Spectrum::grey(1);
+    return implementation_->has_panes ? transmittance_of_panes(segment) : Spectrum{};
+}
+
+void RayCaster::transmittances(std::span<const Segment> segments, Coherence coherence,
+                               std::span<Spectrum> transmittances) const {
     for (std::size_t first = 0; first < segments.size(); first += kPacketWidth) {
         const std::size_t count = std::min<std::size_t>(kPacketWidth, segments.size() - first);
         RayPacket packet;
@@ -465,7 +478,42 @@ void RayCaster::occluded(std::span<const Segment> segments, Coherence coherence,
             lanes[i] = -1;
         }
         occlude(packet, lanes, coherence);
-        for (std::size_t i = 0; i < count; ++i) blocked[first + i] = packet.end[i] < 0 ? 1 : 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            Spectrum& left = transmittances[first + i] = Spectrum::grey(packet.end[i] < 0 ? 0 : 1);
+            if (packet.end[i] < 0 && implementation_->has_panes) {
+                left = transmittance_of_panes(segments[first + i]);
+            }
+        }
+    }
+}
+
+Spectrum RayCaster::transmittance_of_panes(const Segment& segment) const {
+    Spectrum left = Spectrum::grey(1);
+    const Vec3 direction = normalized(segment.to - segment.from);
+    Vec3 from = segment.from;
+    while (occluded(from, segment.to)) {
+        const auto hit = closest(from, direction);
+        const Pane* pane = hit ? implementation_->pane_at(*hit) : nullptr;
+        if (pane == nullptr) return {};
+        left *= pane_shares(*pane, -dot(direction, hit->normal)).transmittance;
+        from = hit->lifted_behind();
+    }
+    return left;
+}
+
+std::optional<RayCaster::Seen> RayCaster::seen(const Ray& ray) const {
+    Seen seen;
+    Vec3 origin = ray.origin;
+    for (;;) {
+        const auto hit = closest(origin, ray.direction);
+        if (!hit) return std::nullopt;
+        const Pane* pane = implementation_->pane_at(*hit);
+        if (pane == nullptr) {
+            seen.hit = *hit;
+            return seen;
+        }
+        seen.transmittance *= pane_shares(*pane, -dot(ray.direction, hit->normal)).transmittance;
+        origin = hit->lifted_behind();
     }
 }
 

@@ -86,9 +86,19 @@ class RayCaster {
 
     /// True where something lies between two (lifted) points.
     bool occluded(const Vec3& from, const Vec3& to) const;
-    /// The same of many segments: 1 where something lies in between, else 0.
-    void occluded(std::span<const Segment> segments, Coherence coherence,
-                  std::span<std::uint8_t> blocked) const;
+    /// What is left of light that goes straight: 0 where something lies in between, the panes' transmittance
+    /// where it is nothing but panes.
+    Spectrum transmittance(const Segment& segment) const;
+    /// The same of many segments.
+    void transmittances(std::span<const Segment> segments, Coherence coherence,
+                        std::span<Spectrum> transmittances) const;
+
+    /// The first surface but panes that light along a ray comes straight from, and what panes leave of it.
+    struct Seen {
+        Hit hit;
+        Spectrum transmittance = Spectrum::grey(1);
+    };
+    std::optional<Seen> seen(const Ray& ray) const;
 
     /// For lanes that are set: `end` becomes negative where something is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;
@@ -101,6 +111,9 @@ class RayCaster {
     double offset_m(const Vec3& position, double size_m) const;
 
   private:
+    /// Of a segment that meets something.
+    Spectrum transmittance_of_panes(const Segment& segment) const;
+
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
 };

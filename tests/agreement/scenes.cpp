@@ -180,7 +180,19 @@ Scene room_with_glass() {
     return scene;
 }
 
-/// The same with a source that only light chains can bring through the glass.
+/// A ball of light on the other side of two panes, one close behind the other, that stand askew.
+Scene lamp_behind_panes() {
+    Scene scene;
+    const Material gloss = phong(0.3, 0.4, 20), matt = diffuse(0.6);
+    add_walls(scene, kRoom, {matt, matt, gloss, matt, matt, matt});
+    const Pane pane{1.52, {{0.96, 0.9, 0.8}}};
+    add_object(scene, Rectangle{{2, 0, 0}, {0.3, 3, 0}, {0, 0, 2.8}}, pane);
+    add_object(scene, Rectangle{{2.02, 0, 0}, {0.3, 3, 0}, {0, 0, 2.8}}, pane);
+    add_area_light(scene, Sphere{{1, 1.2, 2.2}, 0.25}, 500 * kWhite, diffuse(0.3));
+    return scene;
+}
+
+/// A pane that reflects light of a point source: only light chains can bring that.
 Scene room_with_glass_and_point_light() {
     Scene scene;
     add_object(scene, kRoom, diffuse(0.6));
@@ -304,6 +316,8 @@ std::span<const AgreementScene> agreement_scenes() {
          room_with_glass_and_point_light,
          {},
          through_the_pane},
+        {"LampBehindPanes", nothing, {}, lamp_behind_panes, inside, around},
+        {"LampBehindPanesOneReflection", nothing, 1, lamp_behind_panes, inside, around},
         {"LuminanceThroughASlit", nothing, {}, rooms_with_slit, {}, both_sides_of_the_slit},
         {"LuminanceUnderLuminaires", nothing, {}, photometry_luminaires, {}, around},
         {"LuminanceOfEmission", nothing, 0, mixed_room, {}, around},
