@@ -1,4 +1,4 @@
-"""Scene files of Stilb, as far as the comparison needs them: rectangles, triangles, spheres and lights.
+"""Scene files of Stilb, as far as the comparison needs them: rectangles, triangles, spheres, lights and cameras.
 
 Quantities stay photometric (lm, cd, cd/m2, lx) and are RGB triples of linear Rec. 709.
 """
@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+MATERIALS = ("diffuse", "phong", "rough", "plastic", "mirror", "glass", "pane", "black")
 LUMINANCE_WEIGHTS = np.array([0.2126, 0.7152, 0.0722])
 
 
@@ -64,10 +65,23 @@ class Luminaire:
 
 
 @dataclass
+class Camera:
+    position: np.ndarray
+    target: np.ndarray
+    projection: str
+    fov_deg: float
+    resolution: tuple[int, int]  # width, height [pixels]
+
+
+@dataclass
 class Scene:
     surfaces: list[Surface] = field(default_factory=list)
     points: list[PointLight] = field(default_factory=list)
     luminaires: list[Luminaire] = field(default_factory=list)
+    cameras: dict[str, Camera] = field(default_factory=dict)
+
+    def has(self, *materials: str) -> bool:
+        return any(surface.material["type"] in materials for surface in self.surfaces)
 
 
 def read_scene(path: Path) -> Scene:
@@ -86,7 +100,18 @@ def read_scene(path: Path) -> Scene:
             emitter.luminance = _luminance(emitters[name], emitter.shape)
     for light in table["lights"].values():
         _read_light(light, path.parent, scene)
+    cameras = {name: s for name, s in table.get("sensors", {}).items() if s["type"] == "camera"}
+    scene.cameras = {name: _read_camera(sensor) for name, sensor in cameras.items()}
     return scene
+
+
+def _read_camera(table: dict) -> Camera:
+    if "up" in table or "filter" in table:
+        raise ValueError("cameras are compared that stand upright and have the box filter")
+    projection = table.get("projection", "perspective")
+    fov = table.get("fov", {"perspective": 60, "fisheye": 180, "panorama": 360}[projection])
+    ends = _vector(table["position"]), _vector(table["target"])
+    return Camera(*ends, projection, fov, tuple(table["resolution"]))
 
 
 def _rgb(value) -> np.ndarray:
@@ -94,7 +119,7 @@ def _rgb(value) -> np.ndarray:
 
 
 def _read_material(table: dict) -> dict:
-    if table["type"] not in ("diffuse", "phong", "mirror", "black"):
+    if table["type"] not in MATERIALS:
         raise ValueError(f"material type {table['type']} is not compared")
     keys = ("reflectance", "diffuse", "specular")
     return {key: _rgb(value) if key in keys else value for key, value in table.items()}

@@ -1,4 +1,4 @@
-"""Illuminances by Mitsuba 3 (package `mitsuba`).
+"""Illuminances and luminances by Mitsuba 3 (package `mitsuba`).
 
 Mitsuba has no units: whatever goes in as radiance comes out as irradiance. Luminances [cd/m2] in, lux out.
 Emitters are given as "rgb" in an RGB variant; a spectral variant would multiply them by the illuminant D65.
@@ -11,31 +11,64 @@ mi.set_variant("llvm_ad_rgb")
 
 import drjit as dr  # noqa: E402
 
+from ggx_for_mitsuba import Ggx  # noqa: E402
 from phong_for_mitsuba import Phong  # noqa: E402
+from rays import BATCHES, Rays, until  # noqa: E402
 from scene import LUMINANCE_WEIGHTS, Rectangle, Scene, Sphere, Surface  # noqa: E402
 
 mi.register_bsdf("stilb_phong", lambda properties: Phong(properties))
+mi.register_bsdf("stilb_ggx", lambda properties: Ggx(properties))
 
 RAYS_AT_ONCE = 1 << 18
+POLISHED = 0.01  # roughness up to which Mitsuba's own metal and (smooth) plastic will do
+PATH_TRACER = {"type": "path", "max_depth": -1, "rr_depth": 8}
 
 
-def illuminance(scene: Scene, positions: np.ndarray, normals: np.ndarray, error: float, batches: int = 16):
+def illuminance(scene: Scene, positions: np.ndarray, normals: np.ndarray, error: float):
     """Values and standard errors [lx] at n x 3 points; stops when all relative errors are below `error`."""
-    if scene.luminaires:
+    if _is_beyond_mitsuba(scene):
         return None
-    world, integrator = _build(scene), mi.load_dict({"type": "path", "max_depth": -1, "rr_depth": 8})
+    world, integrator = _build(scene), mi.load_dict(PATH_TRACER)
     size = max(1, RAYS_AT_ONCE // len(positions))
-    means: list[np.ndarray] = []
-    while True:
-        seeds = range(len(means), len(means) + batches)
-        means += [_batch(world, integrator, positions, normals, size, seed) for seed in seeds]
-        value = np.mean(means, axis=0)
-        standard_error = np.std(means, axis=0, ddof=1) / np.sqrt(len(means))
-        if np.all(standard_error <= error * value):
-            return value, standard_error
+
+    def batch(seed: int) -> np.ndarray:
+        return _illuminance_batch(world, integrator, positions, normals, size, seed)
+
+    return until(error, _each(batch), np.max)
 
 
-def _batch(world, integrator, positions, normals, size: int, seed: int) -> np.ndarray:
+def luminance(scene: Scene, rays: Rays, error: float):
+    """The same for luminances [cd/m2], stopped by the mean relative error."""
+    if _is_beyond_mitsuba(scene):
+        return None
+    world, integrator = _build(scene), mi.load_dict(PATH_TRACER)
+
+    def batch(seed: int) -> np.ndarray:
+        origins, directions = rays.draw(seed, max(1, RAYS_AT_ONCE // rays.count))
+        size = origins.shape[1]
+        sampler = mi.load_dict({"type": "independent"})
+        sampler.seed(seed, rays.count * size)
+        ray = mi.RayDifferential3f(mi.Point3f(_columns(origins)), mi.Vector3f(_columns(directions)))
+        radiance = integrator.sample(world, sampler, ray)[0]
+        return LUMINANCE_WEIGHTS @ np.array(radiance).reshape(3, rays.count, size).mean(axis=2)
+
+    return until(error, _each(batch))
+
+
+def _each(batch):
+    return lambda first: [batch(seed) for seed in range(first, first + BATCHES)]
+
+
+def _columns(vectors: np.ndarray) -> np.ndarray:
+    return vectors.reshape(-1, 3).T.astype(np.float32)
+
+
+def _is_beyond_mitsuba(scene: Scene) -> bool:
+    """It has no luminaire files and no panes that absorb."""
+    return bool(scene.luminaires) or any(s.material.get("internal_transmittance", 1) < 1 for s in scene.surfaces)
+
+
+def _illuminance_batch(world, integrator, positions, normals, size: int, seed: int) -> np.ndarray:
     """Mean illuminance of `size` samples a point."""
     sampler = mi.load_dict({"type": "independent"})
     sampler.seed(seed, size * len(positions))
@@ -104,6 +137,19 @@ def _bsdf(material: dict) -> dict:
     elif material["type"] == "phong":
         inner = {"type": "stilb_phong", "diffuse": rgb("diffuse"), "specular": rgb("specular")}
         inner["exponent"] = float(material["exponent"])
+    elif material["type"] == "rough" and material["roughness"] <= POLISHED:
+        inner = {"type": "roughconductor", "material": "none", "specular_reflectance": rgb("reflectance")}
+        inner |= {"distribution": "ggx", "alpha": material["roughness"]}
+    elif material["type"] == "plastic" and material["roughness"] <= POLISHED:
+        inner = {"type": "plastic", "diffuse_reflectance": rgb("diffuse"), "nonlinear": True}
+        inner |= {"int_ior": material["ior"], "ext_ior": 1.0}
+    elif material["type"] in ("rough", "plastic"):
+        color = rgb("reflectance" if material["type"] == "rough" else "diffuse")
+        inner = {"type": "stilb_ggx", "color": color, "roughness": material["roughness"]}
+        inner["ior"] = float(material.get("ior", 0))
+    elif material["type"] in ("glass", "pane"):
+        kind = "dielectric" if material["type"] == "glass" else "thindielectric"
+        return {"type": kind, "int_ior": material["ior"], "ext_ior": 1.0}
     else:
         inner = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.0}}
     return {"type": "twosided", "bsdf": inner}

@@ -1,0 +1,96 @@
+"""Stilb's `rough` and `plastic` for Mitsuba, whose own lose the light that facets reflect more than once.
+
+Written for this comparison from docs/materials.md: facets (normals and their sampling are Mitsuba's own), and
+base (1 - E(in)) (1 - E(out)) / pi, where E is the albedo of the facets.
+"""
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+KNOTS = 1024  # of the table of E
+
+
+class Ggx(mi.BSDF):
+    def __init__(self, properties):
+        super().__init__(properties)
+        self.alpha, self.ior = properties["roughness"], properties["ior"]  # an ior of 0: no Fresnel effect
+        self.facets = mi.MicrofacetDistribution(mi.MicrofacetType.GGX, self.alpha, True)
+        color = mi.Color3f(properties["color"])
+        # Knots are uniform in the root of the cosine: E changes fastest along the surface.
+        cosine = np.linspace(0.002, 1, KNOTS) ** 2
+        albedo = np.array([_albedo(self.alpha, self.ior, c) for c in cosine])
+        self.table = mi.Float(albedo.astype(np.float32))
+        mean = np.trapezoid(2 * cosine * albedo, cosine)
+        if self.ior:
+            inside = 1 - (1 - mean) / self.ior**2
+            self.coat, self.base = mi.Color3f(1), color / (self.ior**2 * (1 - color * inside))
+        else:
+            self.coat, self.base = color, color**2 * mean / ((1 - color * (1 - mean)) * (1 - mean))
+        self.m_components = [mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide]
+        self.m_flags = self.m_components[0]
+
+    def _reflected(self, cosine):
+        """E."""
+        place = dr.clip((dr.sqrt(dr.maximum(cosine, 0)) - 0.002) / 0.998, 0, 1) * (KNOTS - 1)
+        knot = dr.minimum(mi.UInt32(place), KNOTS - 2)
+        low, high = dr.gather(mi.Float, self.table, knot), dr.gather(mi.Float, self.table, knot + 1)
+        return dr.lerp(low, high, place - mi.Float(knot))
+
+    def eval(self, context, si, wo, active=True):
+        half = dr.normalize(si.wi + wo)
+        masking = 1 / (1 + _lambda(self.alpha, si.wi.z) + _lambda(self.alpha, wo.z))
+        fresnel = mi.fresnel(dr.dot(si.wi, half), self.ior)[0] if self.ior else 1
+        coat = self.coat * (fresnel * self.facets.eval(half) * masking / (4 * si.wi.z))
+        base = self.base * ((1 - self._reflected(si.wi.z)) * (1 - self._reflected(wo.z)) * wo.z / dr.pi)
+        return (coat + base) & (active & (si.wi.z > 0) & (wo.z > 0))
+
+    def pdf(self, context, si, wo, active=True):
+        half = dr.normalize(si.wi + wo)
+        facets = self.facets.pdf(si.wi, half) / (4 * dr.dot(wo, half))
+        value = dr.lerp(dr.maximum(wo.z, 0) / dr.pi, facets, self._facet_share(si))
+        return dr.select(active & (si.wi.z > 0) & (wo.z > 0), value, 0)
+
+    def _facet_share(self, si):
+        facets = mi.luminance(self.coat) * self._reflected(si.wi.z)
+        return facets / (facets + mi.luminance(self.base) * (1 - self._reflected(si.wi.z)))
+
+    def eval_pdf(self, context, si, wo, active=True):
+        return self.eval(context, si, wo, active), self.pdf(context, si, wo, active)
+
+    def sample(self, context, si, sample1, sample2, active=True):
+        facet = mi.reflect(si.wi, self.facets.sample(si.wi, sample2)[0])
+        wo = dr.select(sample1 < self._facet_share(si), facet, mi.warp.square_to_cosine_hemisphere(sample2))
+        pdf = self.pdf(context, si, wo, active)
+        found = active & (pdf > 0)
+        sample = dr.zeros(mi.BSDFSample3f)
+        sample.wo, sample.pdf, sample.eta = wo, pdf, 1.0
+        sample.sampled_type = mi.UInt32(+self.m_components[0])
+        sample.sampled_component = mi.UInt32(0)
+        return sample, dr.select(found, self.eval(context, si, wo, found) / pdf, 0)
+
+    def traverse(self, callback):
+        pass
+
+    def to_string(self):
+        return "Ggx"
+
+
+def _lambda(alpha, cosine):
+    return (dr.sqrt(1 + alpha**2 * (1 / dr.square(cosine) - 1)) - 1) / 2
+
+
+def _albedo(alpha: float, ior: float, cosine: float) -> float:
+    """Of the facets alone, over facet normals in proportion to D(h) cos(h)."""
+    u, v = (np.arange(400) + 0.5) / 400, (np.arange(90) + 0.5) / 90
+    up = np.sqrt((1 - u) / (1 + (alpha**2 - 1) * u))[:, None]
+    dot = np.sqrt(1 - up**2) * np.cos(2 * np.pi * v) * np.sqrt(1 - cosine**2) + up * cosine
+    out = 2 * dot * up - cosine
+    seen = (dot > 0) & (out > 0)
+    dot, out = np.where(seen, dot, 1), np.where(seen, out, 1)
+    inside = np.sqrt(ior**2 - 1 + dot**2) if ior else 1
+    parallel, across = (ior**2 * dot - inside) / (ior**2 * dot + inside), (dot - inside) / (dot + inside)
+    fresnel = (parallel**2 + across**2) / 2 if ior else 1
+    slopes = (np.sqrt(1 + alpha**2 * (1 / c**2 - 1)) for c in (cosine, out))
+    masking = 2 / sum(slopes)
+    return float(np.mean(np.where(seen, fresnel * masking * dot / (cosine * up), 0)))
