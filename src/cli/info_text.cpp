@@ -43,6 +43,11 @@ std::string material_text(const Json& material) {
                             number(material, "diffuse"), number(material, "specular"),
                             material["roughness"][0].get<double>(), material["roughness"][1].get<double>(),
                             number(material, "rotation"));
+    } else if (material.contains("transmittance")) {
+        line += fmt::format(" (transmittance {:.3g}, ior {:.4g})", number(material, "transmittance"),
+                            number(material, "ior"));
+    } else if (material.contains("ior") && !material.contains("roughness")) {
+        line += fmt::format(" (ior {:.4g})", number(material, "ior"));
     } else if (material.contains("ior")) {
         line += fmt::format(" (diffuse {:.3g}, ior {:.4g}, roughness {:.3g})", number(material, "diffuse"),
                             number(material, "ior"), number(material, "roughness"));

@@ -373,6 +373,19 @@ step = 5
                      "Memory:", "No warnings"):
             self.assertIn(part, result.stdout)
 
+    def test_text_shows_every_material(self):
+        parameters = {"diffuse": "reflectance = 0.5", "phong": "diffuse = 0.2\nspecular = 0.3\nexponent = 20",
+                      "rough": "reflectance = 0.8\nroughness = 0.2", "mirror": "reflectance = 0.9",
+                      "ward": "diffuse = 0.2\nspecular = 0.3\nroughness = [0.1, 0.2]",
+                      "plastic": "diffuse = 0.3\nior = 1.5\nroughness = 0.1", "glass": "ior = 1.5",
+                      "pane": "ior = 1.52\ninternal_transmittance = 0.96", "black": ""}
+        scene = self.write("materials.toml", "\n".join(
+            f'[materials.my_{name}]\ntype = "{name}"\n{lines}' for name, lines in parameters.items()))
+        text = run("info", scene).stdout
+        for name in parameters:
+            self.assertRegex(text, rf"my_{name} +{name} +reflectance")
+        self.assertIn("(transmittance 0.882, ior 1.52)", text)
+
     def test_warnings(self):
         scene = self.write("odd.toml", ROOM.replace("corner = [1.5, 1, 0.75]", "corner = [0.2, 0, 0.75]") + """
 [materials.rug]
