@@ -384,7 +384,7 @@ step = 5
         text = run("info", scene).stdout
         for name in parameters:
             self.assertRegex(text, rf"my_{name} +{name} +reflectance")
-        self.assertIn("(transmittance 0.882, ior 1.52)", text)
+        self.assertIn("(transmittance 0.881, ior 1.52)", text)
 
     def test_warnings(self):
         scene = self.write("odd.toml", ROOM.replace("corner = [1.5, 1, 0.75]", "corner = [0.2, 0, 0.75]") + """
