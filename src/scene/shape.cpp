@@ -52,4 +52,28 @@ Mesh triangulated(const Box& box) {
     return mesh;
 }
 
+Mesh inscribed_icosahedron(const Sphere& sphere) {
+    constexpr double g = std::numbers::phi;
+    constexpr std::array<Vec3, 12> corners{{{-1, g, 0},
+                                            {1, g, 0},
+                                            {-1, -g, 0},
+                                            {1, -g, 0},
+                                            {0, -1, g},
+                                            {0, 1, g},
+                                            {0, -1, -g},
+                                            {0, 1, -g},
+                                            {g, 0, -1},
+                                            {g, 0, 1},
+                                            {-g, 0, -1},
+                                            {-g, 0, 1}}};
+    Mesh mesh;
+    for (const Vec3& corner : corners) {
+        mesh.vertices.push_back(sphere.center + sphere.radius * normalized(corner));
+    }
+    mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    return mesh;
+}
+
 }  // namespace stilb

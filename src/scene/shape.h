@@ -48,5 +48,7 @@ double area_m2(const Shape& shape);
 Mesh triangulated(const Rectangle& rectangle);
 /// Twelve triangles with the box's front.
 Mesh triangulated(const Box& box);
+/// The inscribed icosahedron with the sphere's front: twenty triangles, all vertices on the sphere.
+Mesh inscribed_icosahedron(const Sphere& sphere);
 
 }  // namespace stilb

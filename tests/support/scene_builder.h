@@ -75,22 +75,7 @@ inline void add_walls(Scene& scene, const Box& room, const std::array<Material, 
 
 /// Twenty triangles, fronts outside; each divided into four `subdivisions` times, vertices on the sphere.
 inline Mesh icosphere(const Sphere& sphere, int subdivisions) {
-    const double golden = std::numbers::phi;
-    Mesh mesh{{{-1, golden, 0},
-               {1, golden, 0},
-               {-1, -golden, 0},
-               {1, -golden, 0},
-               {0, -1, golden},
-               {0, 1, golden},
-               {0, -1, -golden},
-               {0, 1, -golden},
-               {golden, 0, -1},
-               {golden, 0, 1},
-               {-golden, 0, -1},
-               {-golden, 0, 1}},
-              {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-               {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-               {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+    Mesh mesh = inscribed_icosahedron({{}, 1});
     for (int level = 0; level < subdivisions; ++level) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_of;
         const auto middle = [&](std::uint32_t a, std::uint32_t b) {
