@@ -44,6 +44,11 @@ class CheckIncludes(unittest.TestCase):
                              "src/scene/scene.h:3: includes sensors/sensor.h: scene must not see sensors")
         self.assert_rejected("estimators/path.cpp", '#include "run/options.h"\n', "estimators must not see run")
 
+    def test_sensors_and_patches_do_not_see_each_other(self):
+        self.assert_accepted("estimators/path.cpp", '#include "patches/patches.h"\n#include "sensors/sensor.h"\n')
+        self.assert_rejected("sensors/sensor.h", '#include "patches/patches.h"\n', "sensors must not see patches")
+        self.assert_rejected("patches/patches.h", '#include "sensors/sensor.h"\n', "patches must not see sensors")
+
     def test_the_side_folders_see_only_base(self):
         self.assert_rejected("exact/sphere.cpp", '#include "scene/scene.h"\n', "exact must not see scene")
         self.assert_rejected("statistics/moments.h", '  # include "exact/sphere.h"\n', "statistics must not see exact")

@@ -1,0 +1,70 @@
+// The surfaces of a scene as small triangles, for everything that keeps a value for each part of a surface.
+//
+// All shapes become triangles: spheres an inscribed polyhedron, disks a polygon, both with every vertex on
+// the true shape, so that their areas fall short by a share in proportion to (edge / radius)^2 (2 % at the
+// coarsest, see kLongestCurvedEdge). Edges are halved until none is longer than the patch size
+// (refinement.h). Patches on lights, mirrors and glass are like others.
+//
+// A patch has two sides, as materials reflect on both. Sides are numbered: the front of patch p is p, its
+// back p + count(), so that the fronts' values come first in arrays of 2 count() values, and those of the
+// backs after them. The front is the side from which the vertices run counterclockwise; only fronts of area
+// lights shine.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/sampling.h"
+#include "base/vec.h"
+#include "scene/scene.h"
+
+namespace stilb {
+
+/// Single precision, for what there is much of.
+struct Float3 {
+    float x = 0, y = 0, z = 0;
+
+    explicit operator Vec3() const { return {x, y, z}; }
+};
+
+/// In the order of the scene's objects and, in a mesh, of its triangles; so neighbours in number are
+/// neighbours in space. About 40 bytes for each.
+struct Patches {
+    Vec3 center;                    ///< what `vertices` are relative to: the middle of the bounding box
+    std::vector<Float3> vertices;   ///< [m], divided at creases (smooth_vertices.h): places occur repeatedly
+    std::vector<Triangle> corners;  ///< per patch, of `vertices`
+    std::vector<Float3> normals;    ///< per patch: geometric, unit, on the front
+    std::vector<float> areas_m2;    ///< per patch, one side
+    std::vector<MaterialId> materials;              ///< per patch
+    std::vector<std::uint32_t> first_of_object{0};  ///< per object, and the number of patches at the end
+
+    std::size_t count() const { return corners.size(); }
+    ObjectId object_of(std::uint32_t patch) const;
+    /// In world coordinates [m], rounded to 2^-24 of the scene's size.
+    Vec3 position(std::uint32_t patch, const Barycentric& place) const;
+    Vec3 middle(std::uint32_t patch) const;
+
+    std::uint32_t patch_of(std::uint32_t side) const { return is_front(side) ? side : other_side(side); }
+    bool is_front(std::uint32_t side) const { return side < count(); }
+    std::uint32_t other_side(std::uint32_t side) const {
+        const auto fronts = static_cast<std::uint32_t>(count());
+        return side < fronts ? side + fronts : side - fronts;
+    }
+    /// Unit, away from that side.
+    Vec3 normal_of(std::uint32_t side) const;
+};
+
+/// No edge of a sphere or of a disk's rim is longer than this times the radius, however large the patch size.
+inline constexpr double kLongestCurvedEdge = 0.4;
+inline constexpr std::size_t kMostPatches = 100'000'000;
+
+/// Patches whose edges are no longer than `longest_edge_m`; triangles without area are left out. Throws
+/// InputError where the size is not above 0, and where there would be more than about kMostPatches.
+Patches make_patches(const Scene& scene, double longest_edge_m);
+/// The longest edge with which the scene has about `count` patches (within a factor of two where its surfaces
+/// are large against that).
+double patch_size_m(const Scene& scene, double count = 10'000);
+
+}  // namespace stilb

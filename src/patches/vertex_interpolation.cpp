@@ -1,0 +1,86 @@
+#include "patches/vertex_interpolation.h"
+
+#include <algorithm>
+
+namespace stilb {
+namespace {
+
+/// Sums over the patches around a vertex; d is the way from the vertex to a patch's middle.
+struct Surroundings {
+    double count = 0;
+    Vec3 normal;                 ///< sum of the unit normals
+    Vec3 d;                      ///< sum of d
+    std::array<Vec3, 3> d_by_d;  ///< sums of d.x d, d.y d, d.z d
+
+    void add(const Vec3& patch_normal, const Vec3& way) {
+        count += 1;
+        normal += patch_normal;
+        d += way;
+        for (std::size_t axis = 0; axis < 3; ++axis) d_by_d[axis] += way[axis] * way;
+    }
+    double sum_of_products(const Vec3& u, const Vec3& v) const {
+        return u.x * dot(d_by_d[0], v) + u.y * dot(d_by_d[1], v) + u.z * dot(d_by_d[2], v);
+    }
+};
+
+/// A patch's weight: constant + slope . d.
+struct Weighting {
+    double constant = 0;
+    Vec3 slope;
+};
+
+Weighting plain_mean(double count) { return {1 / count, {}}; }
+
+/// Of the fitted plane's value at the vertex: the weights with sum w = 1 and sum w d = 0 (along the surface)
+/// whose squares have the smallest sum.
+Weighting fitted_plane(const Surroundings& around) {
+    const Frame frame = Frame::around(normalized(around.normal));
+    const double n = around.count, u = dot(frame.u, around.d), v = dot(frame.v, around.d);
+    const double uu = around.sum_of_products(frame.u, frame.u), vv = around.sum_of_products(frame.v, frame.v);
+    const double uv = around.sum_of_products(frame.u, frame.v);
+    const double minor = uu * vv - uv * uv, by_u = v * uv - u * vv, by_v = u * uv - v * uu;
+    const double determinant = n * minor + u * by_u + v * by_v;
+    constexpr double kSingular = 1e-6;  // patches in a row: no plane
+    if (!(determinant > kSingular * n * uu * vv)) return plain_mean(n);
+    return {minor / determinant, (by_u / determinant) * frame.u + (by_v / determinant) * frame.v};
+}
+
+/// Calls `visit(patch, corner, vertex, way)` for all corners of all patches; the way leads from the corner to
+/// the patch's middle.
+template <typename Visitor>
+void for_each_corner(const Patches& patches, const Visitor& visit) {
+    for (std::uint32_t p = 0; p < patches.count(); ++p) {
+        const Vec3 middle = patches.middle(p) - patches.center;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t vertex = patches.corners[p][i];
+            visit(p, i, vertex, middle - Vec3(patches.vertices[vertex]));
+        }
+    }
+}
+
+}  // namespace
+
+VertexInterpolation::VertexInterpolation(const Patches& patches)
+    : patches_(patches), weights_(patches.count()) {
+    std::vector<Surroundings> around(patches.vertices.size());
+    for_each_corner(patches, [&](std::uint32_t patch, std::size_t, std::uint32_t vertex, const Vec3& way) {
+        around[vertex].add(Vec3(patches.normals[patch]), way);
+    });
+    std::vector<Weighting> weightings(around.size());
+    std::ranges::transform(around, weightings.begin(), fitted_plane);
+    const auto weight_of = [&](std::uint32_t vertex, const Vec3& way) {
+        return weightings[vertex].constant + dot(weightings[vertex].slope, way);
+    };
+    std::vector<bool> extrapolates(around.size());
+    for_each_corner(patches, [&](std::uint32_t, std::size_t, std::uint32_t vertex, const Vec3& way) {
+        if (weight_of(vertex, way) < 0) extrapolates[vertex] = true;
+    });
+    for (std::size_t v = 0; v < around.size(); ++v) {
+        if (extrapolates[v]) weightings[v] = plain_mean(around[v].count);
+    }
+    for_each_corner(patches, [&](std::uint32_t patch, std::size_t i, std::uint32_t vertex, const Vec3& way) {
+        weights_[patch][i] = static_cast<float>(weight_of(vertex, way));
+    });
+}
+
+}  // namespace stilb

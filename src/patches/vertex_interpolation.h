@@ -1,0 +1,53 @@
+// From values of patches to a value that varies continuously over smooth surfaces.
+//
+// A vertex gets a mean of the patches around it, and a point the barycentric mean of its patch's vertices.
+// Vertices are divided at creases (smooth_vertices.h), so nothing leaks across edges, between materials or
+// between objects. The weights are those of the plane fitted to the values by least squares in the tangent
+// plane: values that are linear over a plane are reproduced. Where that would extrapolate, with weights below
+// 0, at the rims of surfaces above all, all weights are alike. So no value ever lies outside of those of the
+// patches around, and the error is of second order in the patch size, of first order along rims.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "patches/patches.h"
+
+namespace stilb {
+
+/// Keeps the weights, 12 bytes for each patch, and a reference to the patches.
+class VertexInterpolation {
+  public:
+    explicit VertexInterpolation(const Patches& patches);
+
+    /// Values of the vertices by those of one side of the patches (fronts or backs, one for each patch).
+    /// `Value` is anything that can be added up and multiplied by a float, and is zero when made: float,
+    /// Vec3, Spectrum.
+    template <typename Value>
+    std::vector<Value> at_vertices(std::span<const Value> of_patches) const {
+        std::vector<Value> values(patches_.vertices.size());
+        for (std::size_t p = 0; p < patches_.count(); ++p) {
+            for (std::size_t i = 0; i < 3; ++i)
+                values[patches_.corners[p][i]] += weights_[p][i] * of_patches[p];
+        }
+        return values;
+    }
+
+    /// The value at a point of a patch, by what at_vertices() made.
+    template <typename Value>
+    Value at(std::span<const Value> of_vertices, std::uint32_t patch, const Barycentric& place) const {
+        const auto& [a, b, c] = patches_.corners[patch];
+        Value value = static_cast<float>(place.b0) * of_vertices[a];
+        value += static_cast<float>(place.b1) * of_vertices[b];
+        value += static_cast<float>(place.b2) * of_vertices[c];
+        return value;
+    }
+
+  private:
+    const Patches& patches_;
+    std::vector<std::array<float, 3>> weights_;  ///< per patch and corner: the patch's share of that vertex
+};
+
+}  // namespace stilb
