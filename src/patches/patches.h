@@ -29,6 +29,9 @@ struct Float3 {
     explicit operator Vec3() const { return {x, y, z}; }
 };
 
+/// Where a side is looked for and there is none.
+inline constexpr std::uint32_t kNoSide = ~0u;
+
 /// In the order of the scene's objects and, in a mesh, of its triangles; so neighbours in number are
 /// neighbours in space. About 40 bytes for each.
 struct Patches {
@@ -46,6 +49,7 @@ struct Patches {
     Vec3 position(std::uint32_t patch, const Barycentric& place) const;
     Vec3 middle(std::uint32_t patch) const;
 
+    /// Of sides that are some, not kNoSide.
     std::uint32_t patch_of(std::uint32_t side) const { return is_front(side) ? side : other_side(side); }
     bool is_front(std::uint32_t side) const { return side < count(); }
     std::uint32_t other_side(std::uint32_t side) const {

@@ -59,6 +59,7 @@ class CheckIncludes(unittest.TestCase):
         homes = {
             "embree3/rtcore.h": ("scene/ray_caster_fan.cpp", "scene/scene.cpp"),
             "toml++/toml.h": ("files/scene_file.cpp", "scene/scene.cpp"),
+            "epoxy/gl.h": ("patches/opengl_item_buffers.cpp", "patches/patches.cpp"),
             "cairo-svg.h": ("files/canvas.cpp", "files/image.cpp"),
             "CLI/CLI.hpp": ("cli/main.cpp", "run/run.cpp"),
             "nlohmann/json.hpp": ("run/results.cpp", "estimators/path.cpp"),

@@ -1,0 +1,102 @@
+// Patches and item buffers: how long a scene takes to become 10,000, 100,000 and 1,000,000 patches, what they
+// weigh, and how long both ways need to fill a cube around a place in it. Rays on one thread; OpenGL with
+// whatever its driver takes (software on all processors where there is no graphics card).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "patches/opengl_item_buffers.h"
+#include "patches/patch_caster.h"
+#include "patches/ray_item_buffers.h"
+#include "patches/vertex_interpolation.h"
+#include "rooms.h"
+
+namespace stilb {
+namespace {
+
+/// The best of some runs [s].
+template <typename Work>
+double best_time_s(int repetitions, const Work& work) {
+    double best = 1e30;
+    for (int i = 0; i < repetitions; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        best =
+            std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return best;
+}
+
+double bytes_per_patch(const Patches& patches) {
+    const auto bytes_of = [](const auto& values) { return values.size() * sizeof values[0]; };
+    const std::size_t bytes = bytes_of(patches.vertices) + bytes_of(patches.corners) +
+                              bytes_of(patches.normals) + bytes_of(patches.areas_m2) +
+                              bytes_of(patches.materials);
+    return static_cast<double>(bytes) / static_cast<double>(patches.count());
+}
+
+void report_making(const Scene& scene, double size_m) {
+    const Patches patches = make_patches(scene, size_m);
+    const auto count = static_cast<double>(patches.count());
+    const double making_s = best_time_s(3, [&] { make_patches(scene, size_m); });
+    const double interpolation_s = best_time_s(3, [&] { VertexInterpolation{patches}; });
+    const double caster_s = best_time_s(3, [&] { PatchCaster{patches}; });
+    fmt::print("{:10} {:9.3f} {:9.3f} {:9.3f} {:9.1f} {:9.1f}\n", patches.count(), making_s, interpolation_s,
+               caster_s, bytes_per_patch(patches), static_cast<double>(PatchCaster(patches).bytes()) / count);
+}
+
+double filling_ms(ItemBuffers& buffers, int resolution) {
+    const ItemBufferLayout layout(BufferShape::cube, resolution);
+    std::vector<std::uint32_t> sides(layout.pixel_count());
+    const Viewpoint bulb{{2.1, 1.9, 2.4}, Frame::around(normalized(Vec3{1, 2, 3}))};
+    return 1e3 * best_time_s(5, [&] { buffers.fill(layout, bulb, sides); });
+}
+
+/// Who draws, or why nobody does.
+std::string renderer() {
+    try {
+        return OpenGlItemBuffers(Patches{}).renderer();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+std::unique_ptr<ItemBuffers> opengl_if_any(const Patches& patches) {
+    try {
+        return std::make_unique<OpenGlItemBuffers>(patches);
+    } catch (const InputError&) {
+        return nullptr;
+    }
+}
+
+void report_filling(const Scene& scene, double size_m) {
+    const Patches patches = make_patches(scene, size_m);
+    const PatchCaster caster(patches);
+    RayItemBuffers rays(caster);
+    const auto opengl = opengl_if_any(patches);
+    for (const int resolution : {512, 1024}) {
+        fmt::print("{:10} {:10} {:9.1f} {:>9}\n", patches.count(), resolution, filling_ms(rays, resolution),
+                   opengl ? fmt::format("{:.1f}", filling_ms(*opengl, resolution)) : "-");
+    }
+}
+
+}  // namespace
+}  // namespace stilb
+
+int main() {
+    const stilb::Scene scene = stilb::make_room(8);
+    const std::vector<double> sizes_m{stilb::patch_size_m(scene, 1e4), stilb::patch_size_m(scene, 1e5),
+                                      stilb::patch_size_m(scene, 1e6)};
+    fmt::print("Making, one thread (Embree: all), best of 3   [s, bytes per patch]\n");
+    fmt::print("{:>10} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "patches", "patches", "interpol.", "Embree",
+               "patches", "Embree");
+    for (const double size_m : sizes_m) stilb::report_making(scene, size_m);
+    fmt::print("\nFilling a cube, best of 5   [ms]; OpenGL by {}\n", stilb::renderer());
+    fmt::print("{:>10} {:>10} {:>9} {:>9}\n", "patches", "resolution", "rays", "OpenGL");
+    for (const double size_m : sizes_m) stilb::report_filling(scene, size_m);
+}

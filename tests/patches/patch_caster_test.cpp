@@ -1,0 +1,61 @@
+// Rays against patches.
+#include "patches/patch_caster.h"
+
+#include <gtest/gtest.h>
+
+#include "base/sampling.h"
+#include "patches/backends.h"
+#include "patches/rooms.h"
+#include "support/random_pairs.h"
+
+namespace stilb {
+namespace {
+
+/// Rays in all directions from a place in the room, relative to the patches' centre.
+RayPacket random_rays(const Vec3& origin, RandomPairs& random) {
+    RayPacket rays;
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+        const auto [u1, u2] = random.next_pair();
+        set_ray(rays, i, origin, sample_sphere(u1, u2).direction);
+    }
+    return rays;
+}
+
+/// What a hit says of itself is one place: along the ray, on the patch; and the scene's shapes are there, up
+/// to the sagitta of round ones.
+TEST(PatchCaster, HitsAreWhereTheSceneIs) {
+    const Scene scene = furnished_room();
+    const Patches patches = make_patches(scene, 0.2);
+    const PatchCaster caster(patches);
+    const RayCaster exact(scene);
+    const Vec3 place = point_in_room().position;
+    RandomPairs random(11);
+    std::size_t same_object = 0;
+    constexpr int packets = 100;
+    for (int i = 0; i < packets; ++i) {
+        RayPacket rays = random_rays(place - patches.center, random);
+        LaneMask lanes{};
+        for (std::size_t lane = 0; lane < kPacketWidth; lane += 2) lanes[lane] = -1;
+        const PatchHits hits = caster.closest(rays, lanes);
+        for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
+            if (lanes[lane] == 0) {
+                EXPECT_EQ(hits.sides[lane], kNoSide);
+                continue;
+            }
+            const Vec3 direction{rays.direction_x[lane], rays.direction_y[lane], rays.direction_z[lane]};
+            const std::uint32_t patch = patches.patch_of(hits.sides[lane]);
+            const Vec3 on_patch = patches.position(patch, hits.place(lane));
+            EXPECT_LT(length(place + rays.end[lane] * direction - on_patch), 1e-5);
+            EXPECT_LT(dot(direction, patches.normal_of(hits.sides[lane])), 0);
+            const auto hit = exact.closest(place, direction);
+            ASSERT_TRUE(hit);
+            if (hit->object != patches.object_of(patch)) continue;
+            ++same_object;
+            EXPECT_LT(length(hit->position - on_patch), 0.05);
+        }
+    }
+    EXPECT_GT(same_object, packets * kPacketWidth / 2 * 99 / 100);
+}
+
+}  // namespace
+}  // namespace stilb
