@@ -4,8 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/error.h"
 
@@ -13,8 +15,9 @@ namespace stilb {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-/// The mean over a bin is that of so many by so many directions.
-constexpr int kDirections = 2;
+/// The mean over a bin is that of these directions.
+constexpr std::array<std::pair<double, double>, 4> kPlaces{
+    {{0.25, 0.25}, {0.25, 0.75}, {0.75, 0.25}, {0.75, 0.75}}};
 
 }  // namespace
 
@@ -38,8 +41,9 @@ std::uint32_t HemisphereBins::bin_of(const Vec3& local) const {
 }
 
 Vec3 HemisphereBins::direction(std::uint32_t bin, double u1, double u2) const {
-    const double squared_sine = (bin / sectors_ + u1) / rings_;
-    const double angle = kTurn * (bin % sectors_ + u2) / sectors_;
+    const std::uint32_t ring = bin / sectors_, sector = bin % sectors_;
+    const double squared_sine = (ring + u1) / rings_;
+    const double angle = kTurn * (sector + u2) / sectors_;
     const double sine = std::sqrt(squared_sine);
     return {sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1 - squared_sine)};
 }
@@ -51,8 +55,7 @@ ClassicalFirstShot::ClassicalFirstShot(const Scene& scene, const Patches& patche
     first_.reserve(sides + 1);
     for (std::uint32_t side = 0; side < sides; ++side) {
         const Material& material = material_of(scene, patches, side);
-        const bool is_dark = incoming.factors().of(side).empty() ||
-                             !(reflectance_bound(material).max() > 0) || is_specular(material);
+        const bool is_dark = incoming.factors().of(side).empty() || reflects_nothing(material);
         first_.push_back(first_.back() + (is_dark ? 0 : reflects_alike(material) ? 1 : bins_.count()));
     }
     radiance_cd_m2_.resize(first_.back());
@@ -66,11 +69,7 @@ void ClassicalFirstShot::store(std::uint32_t side, const IncomingFirstShot& inco
     std::vector<Vec3> outs;
     if (count == 1) outs.push_back(frame.w);
     for (std::uint32_t bin = 0; count > 1 && bin < count; ++bin) {
-        for (int i = 0; i < kDirections * kDirections; ++i) {
-            const double u1 = (i / kDirections + 0.5) / kDirections,
-                         u2 = (i % kDirections + 0.5) / kDirections;
-            outs.push_back(frame.to_world(bins_.direction(bin, u1, u2)));
-        }
+        for (const auto& [u1, u2] : kPlaces) outs.push_back(frame.to_world(bins_.direction(bin, u1, u2)));
     }
     std::vector<Spectrum> sums(outs.size());
     incoming.add_reflected(side, {}, outs, sums);
@@ -91,7 +90,7 @@ void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, std::spa
         const Vec3 out = frame.to_local(outs[i]);
         if (out.z <= 0) continue;
         const std::size_t bin = count == 1 ? 0 : bins_.bin_of(out);
-        sums[i] += spectrum(radiance_cd_m2_[first_[side] + bin]);
+        sums[i] += to_spectrum(radiance_cd_m2_[first_[side] + bin]);
     }
 }
 

@@ -29,9 +29,9 @@ DiffuseFirstShot::DiffuseFirstShot(const Scene& scene, const Patches& patches,
     : scene_(scene), patches_(patches), rays_(rays), radiance_cd_m2_(2 * patches.count()) {
     std::vector<Spectrum> diffuse;
     for (const NamedMaterial& named : scene.materials) {
-        SplitMaterial parts = std::visit([](const auto& m) { return split(m); }, named.material);
+        const SplitMaterial parts = std::visit([](const auto& m) { return split(m); }, named.material);
         diffuse.push_back(parts.diffuse * std::numbers::inv_pi);
-        rest_.push_back(std::move(parts.rest));
+        rest_.push_back(parts.rest);
     }
     for (std::uint32_t side = 0; side < radiance_cd_m2_.size(); ++side) {
         const auto material = index_of(patches.materials[patches.patch_of(side)]);
@@ -43,10 +43,10 @@ void DiffuseFirstShot::add_reflected(std::uint32_t side, const Vec3& position, s
                                      std::span<Spectrum> sums) const {
     const Vec3 normal = patches_.normal_of(side);
     for (std::size_t i = 0; i < outs.size(); ++i) {
-        if (dot(outs[i], normal) > 0) sums[i] += spectrum(radiance_cd_m2_[side]);
+        if (dot(outs[i], normal) > 0) sums[i] += to_spectrum(radiance_cd_m2_[side]);
     }
     const Material& rest = rest_[index_of(patches_.materials[patches_.patch_of(side)])];
-    if (!reflects_alike(rest)) rays_.add_reflected_by(rest, side, position, outs, sums);
+    rays_.add_reflected_by(rest, side, position, outs, sums);
 }
 
 }  // namespace stilb

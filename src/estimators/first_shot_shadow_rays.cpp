@@ -30,6 +30,7 @@ Vec3 lifted_off(const Scene& scene, const Patches& patches, const RayCaster& cas
 
 void ShadowRays::add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position,
                                   std::span<const Vec3> outs, std::span<Spectrum> sums) const {
+    if (reflects_nothing(material)) return;
     const Frame frame = frame_of(patches_, side);
     const Vec3 lifted = lifted_off(scene_, patches_, caster_, side, position);
     const RandomKey key = key_of(side, position);
@@ -39,7 +40,7 @@ void ShadowRays::add_reflected_by(const Material& material, std::uint32_t side, 
             for (std::size_t k = 0; k < points; ++k) {
                 const auto light =
                     sampler_.sample_incident(i, position, SampleStream(key.derived(i), k).next_two());
-                if (!light) continue;
+                if (!light || !(light->normal_illuminance_lx.max() > 0)) continue;
                 const double cosine = dot(light->direction, frame.w);
                 if (cosine <= 0) continue;
                 visit(light->direction, light->normal_illuminance_lx *

@@ -33,8 +33,10 @@ class ShadowRays {
     /// As if the side were of another material.
     void add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position,
                           std::span<const Vec3> outs, std::span<Spectrum> sums) const;
-    /// Light differs from position to position.
-    bool is_constant(std::uint32_t) const { return false; }
+    /// Where nothing is reflected: light differs from position to position.
+    bool is_constant(std::uint32_t side) const {
+        return reflects_nothing(material_of(scene_, patches_, side));
+    }
     std::size_t bytes() const { return 0; }
 
   private:

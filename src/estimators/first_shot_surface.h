@@ -23,13 +23,15 @@ inline Frame frame_of(const Patches& patches, std::uint32_t side) {
 inline Float3 in_floats(const Spectrum& s) {
     return {static_cast<float>(s[0]), static_cast<float>(s[1]), static_cast<float>(s[2])};
 }
-inline Spectrum spectrum(const Float3& bands) { return {{bands.x, bands.y, bands.z}}; }
+inline Spectrum to_spectrum(const Float3& bands) { return {{bands.x, bands.y, bands.z}}; }
 
-/// Whether what is reflected is the same in all directions; nothing is, of mirrors, glass and panes, which
-/// have no BRDF.
+/// Mirrors, glass and panes too: they have no BRDF.
+inline bool reflects_nothing(const Material& material) {
+    return std::holds_alternative<Black>(material) || is_specular(material);
+}
+/// Whether what is reflected, if anything, is the same in all directions.
 inline bool reflects_alike(const Material& material) {
-    return std::holds_alternative<Diffuse>(material) || std::holds_alternative<Black>(material) ||
-           is_specular(material);
+    return std::holds_alternative<Diffuse>(material) || reflects_nothing(material);
 }
 
 /// Adds to each of `sums` what the material reflects towards the unit world direction in `outs` at the same

@@ -146,9 +146,9 @@ double error_below(const Shape& light, const ExactLx& exact_lx) {
     Scene scene;
     add_object(scene, Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, diffuse(0.5));
     add_area_light(scene, light, Spectrum::grey(1000));
-    const PreparedScene floor(std::move(scene), 0.12);
+    const PreparedScene floor(std::move(scene), 0.25);
     EXPECT_TRUE(floor.lights().lights[0].is_replaced) << floor.lights().lights[0].why;
-    const Illuminances illuminances(floor, 1024);
+    const Illuminances illuminances(floor, 512);
     RelativeErrors errors;
     for (std::uint32_t p = 0; p < floor.patches.first_of_object[1]; ++p) {
         errors.add(illuminances.lx(p), exact_lx(exact::Receiver{floor.middle(p), {0, 0, 1}}));

@@ -95,7 +95,7 @@ void expect_same(const Spectrum& found, const Spectrum& expected, double relativ
 /// What is stored in three ways is the same where nothing depends on direction, and shadow rays differ by the
 /// boundary pixels of patches and by what vertices are not the whole light.
 TEST(FirstShot, VariantsAgreeOnDiffuseReflection) {
-    const PreparedScene room(room_of(diffuse(0.5)), 0.4);
+    const PreparedScene room(room_of(diffuse(0.5)), 0.5);
     const FirstShot incoming = room.first_shot(options(FirstShotVariant::incoming, 256));
     const FirstShot classical = room.first_shot(options(FirstShotVariant::classical, 256));
     const FirstShot diffuse_only = room.first_shot(options(FirstShotVariant::diffuse, 256));
@@ -109,7 +109,7 @@ TEST(FirstShot, VariantsAgreeOnDiffuseReflection) {
     const FirstShot on_the_fly = room.first_shot(options(FirstShotVariant::on_the_fly, 0));
     EXPECT_LT(difference(
                   room, [&](std::uint32_t side) { return reflected_from_middle(room, incoming, side); },
-                  [&](std::uint32_t side) { return mean_reflected(room, on_the_fly, side, 8); }),
+                  [&](std::uint32_t side) { return mean_reflected(room, on_the_fly, side, 5); }),
               0.015);
 }
 
