@@ -26,7 +26,7 @@ class HemisphereBins {
     std::uint32_t rings_, sectors_;
 };
 
-/// Keeps references to scene and patches.
+/// Keeps a reference to the patches.
 class ClassicalFirstShot {
   public:
     ClassicalFirstShot(const Scene& scene, const Patches& patches, const IncomingFirstShot& incoming,

@@ -10,7 +10,7 @@
 
 namespace stilb {
 
-/// Keeps references to scene and patches.
+/// Keeps references to scene and patches, and those of the shadow rays.
 class DiffuseFirstShot {
   public:
     DiffuseFirstShot(const Scene& scene, const Patches& patches, const IncomingFirstShot& incoming,
