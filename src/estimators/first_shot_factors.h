@@ -21,7 +21,7 @@
 namespace stilb {
 
 /// An even number of pixels along a face that leaves 100 pixels or more of a cube for each patch in the mean,
-/// 2048 at most: from 68,000 patches on they are fewer.
+/// 2048 at most: from 250,000 patches on they are fewer.
 int first_shot_resolution(std::size_t patches);
 
 struct ShootingOptions {
@@ -38,7 +38,6 @@ class FirstShotFactors {
         float illuminance_lx = 0;  ///< e_ij, luminance-weighted, mean over the patch
     };
 
-    FirstShotFactors() = default;
     /// Fills a buffer around every sample, by rays with all threads. Throws InputError where the resolution
     /// is none (ItemBufferLayout) and where OpenGL is missing.
     FirstShotFactors(const PatchCaster& caster, std::span<const LightSample> samples,

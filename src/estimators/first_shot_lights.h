@@ -35,7 +35,7 @@ struct LightSample {
     bool is_point = false;    ///< shines all around, else to the hemisphere about the viewpoint's w
     Viewpoint viewpoint;      ///< lifted off the light
     /// Its share of the light's luminous intensity [cd] towards a pixel of an item buffer there, the cosine
-    /// of area lights included; not negative.
+    /// of area lights included; nothing comes where it is below 0.
     std::function<double(const BufferPixel&)> intensity_cd;
 };
 
@@ -43,7 +43,7 @@ struct LightSample {
 struct FirstShotLight {
     std::string name;
     bool is_replaced = false;
-    std::string why;          ///< in words: "a point", "5 vertices", "more than 32 vertices, ..."
+    std::string why;          ///< in words: "a point", "large: it would take more than 32 vertices ..."
     std::size_t samples = 0;  ///< 0 where it is not replaced
     Spectrum colour{};        ///< of its light: luminance 1; nothing where it is dark
 };
