@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <functional>
+#include <numeric>
 #include <stdexcept>
 
 namespace stilb {
@@ -23,6 +25,45 @@ bool count_bytes(void* sum, ssize_t bytes, bool) {
     return true;
 }
 
+std::uint32_t side_met(const Patches& patches, std::uint32_t front, float direction_along_normal) {
+    return direction_along_normal < 0 ? front : patches.other_side(front);
+}
+
+RTCRayHit16 unanswered(const RayPacket& packet) {
+    RTCRayHit16 rays;
+    std::memcpy(&rays.ray, &packet, sizeof packet);
+    std::ranges::fill(rays.hit.geomID, RTC_INVALID_GEOMETRY_ID);
+    return rays;
+}
+
+RTCIntersectContext coherent_context() {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
+}
+
+struct CollectingContext : RTCIntersectContext {
+    const Patches& patches;
+    PacketCrossings& crossings;
+};
+
+/// Keeps what is met and lets the rays go on.
+void collect(const RTCFilterFunctionNArguments* args) {
+    const auto& context = *static_cast<const CollectingContext*>(args->context);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        args->valid[i] = 0;
+        const float along_normal =
+            RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
+            RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
+            RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
+        const std::uint32_t front = RTCHitN_primID(args->hit, args->N, i);
+        context.crossings[RTCRayN_id(args->ray, args->N, i)].push_back(
+            {RTCRayN_tfar(args->ray, args->N, i), side_met(context.patches, front, along_normal)});
+    }
+}
+
 }  // namespace
 
 struct PatchCaster::Implementation {
@@ -37,7 +78,7 @@ struct PatchCaster::Implementation {
         rtcSetDeviceErrorFunction(device, throw_error, nullptr);
         rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
         scene = rtcNewScene(device);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
         if (patches.count() > 0) add_patches();
         rtcCommitScene(scene);
     }
@@ -73,12 +114,8 @@ const Patches& PatchCaster::patches() const { return implementation_->patches; }
 std::size_t PatchCaster::bytes() const { return static_cast<std::size_t>(implementation_->bytes.load()); }
 
 PatchHits PatchCaster::closest(RayPacket& packet, const LaneMask& lanes) const {
-    RTCRayHit16 found;
-    std::memcpy(&found.ray, &packet, sizeof packet);
-    std::ranges::fill(found.hit.geomID, RTC_INVALID_GEOMETRY_ID);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    RTCRayHit16 found = unanswered(packet);
+    RTCIntersectContext context = coherent_context();
     rtcIntersect16(lanes.data(), implementation_->scene, &context, &found);
     std::memcpy(packet.end.data(), found.ray.tfar, sizeof packet.end);
     PatchHits hits;
@@ -88,13 +125,21 @@ PatchHits PatchCaster::closest(RayPacket& packet, const LaneMask& lanes) const {
         const float along_normal = packet.direction_x[i] * found.hit.Ng_x[i] +
                                    packet.direction_y[i] * found.hit.Ng_y[i] +
                                    packet.direction_z[i] * found.hit.Ng_z[i];
-        const std::uint32_t front = found.hit.primID[i];
         const bool is_met = lanes[i] != 0 && found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-        hits.sides[i] = !is_met            ? kNoSide
-                        : along_normal < 0 ? front
-                                           : implementation_->patches.other_side(front);
+        hits.sides[i] =
+            is_met ? side_met(implementation_->patches, found.hit.primID[i], along_normal) : kNoSide;
     }
     return hits;
+}
+
+void PatchCaster::all(const RayPacket& packet, const LaneMask& lanes, PacketCrossings& crossings) const {
+    for (auto& of_lane : crossings) of_lane.clear();
+    RTCRayHit16 rays = unanswered(packet);
+    std::iota(std::begin(rays.ray.id), std::end(rays.ray.id), 0u);
+    CollectingContext context{coherent_context(), implementation_->patches, crossings};
+    context.filter = collect;
+    rtcIntersect16(lanes.data(), implementation_->scene, &context, &rays);
+    for (auto& of_lane : crossings) std::ranges::sort(of_lane, std::less<>{});
 }
 
 }  // namespace stilb

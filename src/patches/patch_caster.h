@@ -1,10 +1,11 @@
-// Rays against patches: which side of which patch does a ray meet first.
+// Rays against patches: which side of which patch does a ray meet first, and which ones are on its whole way.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "base/sampling.h"
 #include "patches/patches.h"
@@ -23,6 +24,17 @@ struct PatchHits {
     }
 };
 
+/// A patch on the way of a ray.
+struct Crossing {
+    float distance = 0;            ///< in units of the ray's direction
+    std::uint32_t side = kNoSide;  ///< the one that faces the ray's origin
+
+    auto operator<=>(const Crossing&) const = default;
+};
+
+/// For each ray of a packet.
+using PacketCrossings = std::array<std::vector<Crossing>, kPacketWidth>;
+
 /// Immutable after construction; all queries may run in parallel. Keeps a reference to the patches. Rays that
 /// meet the edge between two patches meet one of them (Embree's robust mode).
 class PatchCaster {
@@ -37,6 +49,11 @@ class PatchCaster {
     /// Coordinates are relative to Patches::center. Made for rays that are close together; Embree divides
     /// packets where the processor has narrower vectors.
     PatchHits closest(RayPacket& packet, const LaneMask& lanes) const;
+
+    /// For lanes that are set: all that is met between `start` and `end`, by distance; other lanes have
+    /// nothing. Takes the place of what was in `crossings`, whose memory can so be used again. A ray on the
+    /// edge between patches meets one or more of them.
+    void all(const RayPacket& packet, const LaneMask& lanes, PacketCrossings& crossings) const;
 
     const Patches& patches() const;
     /// Memory of the acceleration structure.

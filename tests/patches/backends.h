@@ -1,6 +1,8 @@
 // Rays, and both ways of filling item buffers, for tests that hold for either.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -13,6 +15,12 @@
 #include "patches/ray_item_buffers.h"
 
 namespace stilb {
+
+enum class Backend { rays, opengl };
+
+inline std::string name_of_backend(const testing::TestParamInfo<Backend>& test) {
+    return test.param == Backend::rays ? "rays" : "opengl";
+}
 
 /// Why this machine has no OpenGL, where it has none.
 inline std::optional<std::string> missing_opengl() {

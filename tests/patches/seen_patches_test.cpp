@@ -38,8 +38,6 @@ Accumulated accumulated(const Patches& patches, const ItemBufferLayout& layout,
     return sums;
 }
 
-enum class Backend { rays, opengl };
-
 class SeenPatches : public testing::TestWithParam<Backend> {
   protected:
     void SetUp() override {
@@ -184,8 +182,7 @@ TEST_P(SeenPatches, AreNoneInAnEmptyScene) {
     EXPECT_EQ(seen({BufferShape::cube, 16}, point_in_room()).lost_pixels, 6u * 16 * 16);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, SeenPatches, testing::Values(Backend::rays, Backend::opengl),
-                         [](const auto& test) { return test.param == Backend::rays ? "rays" : "opengl"; });
+INSTANTIATE_TEST_SUITE_P(Both, SeenPatches, testing::Values(Backend::rays, Backend::opengl), name_of_backend);
 
 }  // namespace
 }  // namespace stilb
