@@ -3,13 +3,12 @@
 // whatever its driver takes (software on all processors where there is no graphics card).
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "best_time.h"
 #include "patches/opengl_item_buffers.h"
 #include "patches/patch_caster.h"
 #include "patches/ray_item_buffers.h"
@@ -18,19 +17,6 @@
 
 namespace stilb {
 namespace {
-
-/// The best of some runs [s].
-template <typename Work>
-double best_time_s(int repetitions, const Work& work) {
-    double best = 1e30;
-    for (int i = 0; i < repetitions; ++i) {
-        const auto start = std::chrono::steady_clock::now();
-        work();
-        best =
-            std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    }
-    return best;
-}
 
 double bytes_per_patch(const Patches& patches) {
     const auto bytes_of = [](const auto& values) { return values.size() * sizeof values[0]; };
