@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "best_time.h"
+#include "patches/opengl_bundles.h"
 #include "patches/ray_bundles.h"
 #include "rooms.h"
 
@@ -154,6 +155,24 @@ Measured by(const Bundles& bundles, const Bundle& bundle) {
     });
 }
 
+/// Who draws, or why nobody does.
+std::string renderer() {
+    try {
+        return OpenGlBundles(Patches{}).renderer();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+/// [ms], or nothing where there is no OpenGL.
+std::string opengl_ms(const Patches& patches, const Bundle& bundle) {
+    try {
+        return fmt::format("{:.1f}", 1e3 * by(OpenGlBundles(patches), bundle).time_s);
+    } catch (const InputError&) {
+        return "-";
+    }
+}
+
 void report(const Scene& scene, double count) {
     const Patches patches = make_patches(scene, patch_size_m(scene, count));
     const PatchCaster caster(patches);
@@ -162,20 +181,22 @@ void report(const Scene& scene, double count) {
     const auto packets = packets_of(LineGrid(bounds_of(patches), bundle), bundle.frame.w);
     const Measured first = bare_first_hits(bare, packets), all = bare_all_hits(bare, packets);
     const Measured rays = by(RayBundles(caster), bundle);
-    fmt::print("{:10} {:8.1f} {:11.1f} {:11.1f} {:11.1f} {:9.2f} {:9.2f} {:9.1f}\n", patches.count(),
+    fmt::print("{:10} {:8.1f} {:11.1f} {:11.1f} {:11.1f} {:9.2f} {:9.2f} {:9.1f} {:>9}\n", patches.count(),
                static_cast<double>(all.crossings) / static_cast<double>(first.crossings),
                1e-6 * first.per_second(), 1e-6 * all.per_second(), 1e-6 * rays.per_second(),
                rays.per_second() / first.per_second(), rays.per_second() / all.per_second(),
-               1e3 * rays.time_s);
+               1e3 * rays.time_s, opengl_ms(patches, bundle));
 }
 
 }  // namespace
 }  // namespace stilb
 
 int main() {
-    fmt::print("A bundle of about 800 x 800 rays, best of 5   [million crossings per second; ms]\n");
-    fmt::print("{:>10} {:>8} {:>11} {:>11} {:>11} {:>9} {:>9} {:>9}\n", "patches", "layers", "bare first",
-               "bare all", "bundle", "/first", "/all", "rays");
+    fmt::print(
+        "A bundle of 800 x 800 rays or so, best of {}   [million crossings per second; ms]; OpenGL by {}\n",
+        stilb::kRepetitions, stilb::renderer());
+    fmt::print("{:>10} {:>8} {:>11} {:>11} {:>11} {:>9} {:>9} {:>9} {:>9}\n", "patches", "layers",
+               "bare first", "bare all", "bundle", "/first", "/all", "rays", "OpenGL");
     for (const double count : {1e4, 1e5, 1e6}) stilb::report(stilb::make_room(8), count);
     for (const double count : {1e5, 1e6}) stilb::report(stilb::make_room(200), count);
 }

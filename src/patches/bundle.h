@@ -85,9 +85,6 @@ class Bundles {
 
 inline constexpr int kMostLines = 65'536;
 
-/// Relative to Patches::center.
-Bounds bounds_of(const Patches& patches);
-
 /// The lines of a bundle: as many as it takes to cover the projection of the patches' bounding box. Line
 /// (x, y) begins at `first` + x `step_x` + y `step_y`.
 struct LineGrid {
@@ -98,24 +95,6 @@ struct LineGrid {
     /// Throws as Bundles::cast.
     LineGrid(const Bounds& bounds, const Bundle& bundle);
     Vec3 origin(int x, int y) const { return first + x * step_x + y * step_y; }
-};
-
-/// Drops crossings that are one and the same, where a ray meets the edge between two patches and so both: the
-/// next one has the same orientation (both fronts or both backs) and lies no farther behind the last than
-/// 2^-19 of the bounding box's half, as measured across the patch. What is thicker keeps its two sides, and
-/// so does everything closed, as thin as it is, for its sides are of different orientation.
-class CoincidentCrossings {
-  public:
-    CoincidentCrossings(const Patches& patches, const Bounds& bounds, const Vec3& direction);
-    /// `crossings` must be in the order of distances.
-    void remove_from(std::vector<Crossing>& crossings) const;
-
-  private:
-    bool is_same(const Crossing& before, const Crossing& after) const;
-
-    const Patches& patches_;
-    Vec3 direction_;
-    double tolerance_m_;
 };
 
 }  // namespace stilb

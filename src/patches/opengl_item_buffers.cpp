@@ -14,12 +14,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "base/error.h"
-#include "patches/opengl_context.h"
+#include "patches/opengl_patches.h"
 
 namespace stilb {
 namespace {
@@ -47,107 +45,31 @@ void main() { side = uint(gl_PrimitiveID) + (gl_FrontFacing ? 0u : count); }
 
 constexpr GLint kEye = 0, kAxes = 1, kScale = 4, kShift = 5, kNearPlane = 6, kCount = 7;
 
-using Floats = std::array<float, 3>;
-Floats in_floats(const Vec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-GLuint compiled(GLenum kind, const char* source) {
-    const GLuint shader = glCreateShader(kind);
-    glShaderSource(shader, 1, &source, nullptr);
-    glCompileShader(shader);
-    GLint ok = GL_FALSE;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (ok == GL_TRUE) return shader;
-    std::array<char, 1024> log{};
-    glGetShaderInfoLog(shader, log.size(), nullptr, log.data());
-    throw std::runtime_error(fmt::format("OpenGL refuses a shader: {}", log.data()));
-}
-
-GLuint linked_program() {
-    const GLuint program = glCreateProgram();
-    for (const GLuint shader :
-         {compiled(GL_VERTEX_SHADER, kVertexShader), compiled(GL_FRAGMENT_SHADER, kFragmentShader)}) {
-        glAttachShader(program, shader);
-        glDeleteShader(shader);  // lives as long as the program
-    }
-    glLinkProgram(program);
-    GLint ok = GL_FALSE;
-    glGetProgramiv(program, GL_LINK_STATUS, &ok);
-    if (ok != GL_TRUE) throw std::runtime_error("OpenGL cannot link its shaders");
-    return program;
-}
-
-void check_errors() {
-    const GLenum error = glGetError();
-    if (error != GL_NO_ERROR) {
-        throw std::runtime_error(fmt::format("OpenGL: error {:#x} in drawing item buffers{}", error,
-                                             error == GL_OUT_OF_MEMORY ? ": out of memory" : ""));
-    }
-}
-
-double half_extent_m(const Patches& patches) {
-    float largest = 0;
-    for (const Float3& v : patches.vertices) {
-        largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    }
-    return largest;
-}
-
 }  // namespace
 
-/// Objects of OpenGL live and die with the context.
 struct OpenGlItemBuffers::Implementation {
-    const Patches& patches;
-    OpenGlContext context;
-    float near_plane_m;
-    std::string renderer;
-    GLint largest_picture = 0;
+    OpenGlPatches drawing;
     GLuint frame_buffer = 0, colour = 0, depth = 0;
     int picture_size = 0;  ///< of both, square
 
-    explicit Implementation(const Patches& all)
-        : patches(all), near_plane_m(static_cast<float>(0x1p-23 * half_extent_m(all))) {
-        const OpenGlContext::Current current(context);
-        renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-        glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest_picture);
-        glUseProgram(linked_program());
-        glUniform1f(kNearPlane, near_plane_m);
+    explicit Implementation(const Patches& patches) : drawing(patches, {kVertexShader, kFragmentShader}) {
+        const OpenGlContext::Current current(drawing.context());
+        glUniform1f(kNearPlane, static_cast<float>(0x1p-23 * bounds_of(patches).half_extent()));
         glUniform1ui(kCount, static_cast<GLuint>(patches.count()));
-        upload_patches();
         glGenFramebuffers(1, &frame_buffer);
         glBindFramebuffer(GL_FRAMEBUFFER, frame_buffer);
-        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-        glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_GREATER);
         glClearDepth(0);
-        check_errors();
-    }
-
-    void upload_patches() const {
-        GLuint vertex_array = 0;
-        std::array<GLuint, 2> buffers{};
-        glGenVertexArrays(1, &vertex_array);
-        glBindVertexArray(vertex_array);
-        glGenBuffers(2, buffers.data());
-        const auto upload = [](GLenum target, GLuint buffer, const auto& values) {
-            glBindBuffer(target, buffer);
-            glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof values[0]), values.data(),
-                         GL_STATIC_DRAW);
-        };
-        upload(GL_ARRAY_BUFFER, buffers[0], patches.vertices);
-        upload(GL_ELEMENT_ARRAY_BUFFER, buffers[1], patches.corners);
-        glEnableVertexAttribArray(0);
-        glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Float3), nullptr);
+        check_opengl();
     }
 
     void resize_pictures(int size) {
         if (size == picture_size) return;
-        if (size > largest_picture) {
+        if (size > drawing.largest_picture()) {
             throw InputError(
                 fmt::format("item buffers of {} pixels are more than the {} that {} can draw. Take "
                             "that many or fewer, or have them filled by rays.",
-                            size, largest_picture, renderer));
+                            size, drawing.largest_picture(), drawing.renderer()));
         }
         const auto replace = [&](GLuint& picture, GLenum attachment, GLenum format) {
             glDeleteRenderbuffers(1, &picture);
@@ -158,18 +80,15 @@ struct OpenGlItemBuffers::Implementation {
         };
         replace(colour, GL_COLOR_ATTACHMENT0, GL_R32UI);
         replace(depth, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F);
-        check_errors();
+        check_opengl();
         picture_size = size;
     }
 
     void draw(const BufferFace& face, double pixel_size, const Viewpoint& viewpoint) const {
-        const Floats eye = in_floats(viewpoint.position - patches.center);
-        const std::array<Floats, 3> axes{in_floats(viewpoint.frame.to_world(face.right)),
-                                         in_floats(viewpoint.frame.to_world(face.up)),
-                                         in_floats(viewpoint.frame.to_world(face.forward))};
+        const auto world = [&](const Vec3& axis) { return viewpoint.frame.to_world(axis); };
+        set_uniform(kEye, {viewpoint.position - drawing.patches().center});
+        set_uniform(kAxes, {world(face.right), world(face.up), world(face.forward)});
         const double width = face.width * pixel_size, height = face.height * pixel_size;
-        glUniform3fv(kEye, 1, eye.data());
-        glUniform3fv(kAxes, 3, axes[0].data());
         glUniform2f(kScale, static_cast<float>(2 / width), static_cast<float>(2 / height));
         glUniform2f(kShift, static_cast<float>(-2 * face.left / width - 1),
                     static_cast<float>(-2 * face.bottom / height - 1));
@@ -177,7 +96,7 @@ struct OpenGlItemBuffers::Implementation {
         constexpr std::array<GLuint, 4> nothing{kNoSide, kNoSide, kNoSide, kNoSide};
         glClearBufferuiv(GL_COLOR, 0, nothing.data());
         glClear(GL_DEPTH_BUFFER_BIT);
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * patches.count()), GL_UNSIGNED_INT, nullptr);
+        drawing.draw();
     }
 };
 
@@ -185,11 +104,11 @@ OpenGlItemBuffers::OpenGlItemBuffers(const Patches& patches)
     : implementation_(std::make_unique<Implementation>(patches)) {}
 OpenGlItemBuffers::~OpenGlItemBuffers() = default;
 
-const std::string& OpenGlItemBuffers::renderer() const { return implementation_->renderer; }
+const std::string& OpenGlItemBuffers::renderer() const { return implementation_->drawing.renderer(); }
 
 void OpenGlItemBuffers::fill(const ItemBufferLayout& layout, const Viewpoint& viewpoint,
                              std::span<std::uint32_t> sides) {
-    const OpenGlContext::Current current(implementation_->context);
+    const OpenGlContext::Current current(implementation_->drawing.context());
     implementation_->resize_pictures(layout.resolution());
     for (const BufferFace& face : layout.faces()) {
         implementation_->draw(face, layout.pixel_size(), viewpoint);
@@ -199,7 +118,7 @@ void OpenGlItemBuffers::fill(const ItemBufferLayout& layout, const Viewpoint& vi
             std::fill_n(sides.begin() + face.pixel_at(0, y), layout.first_column(face, y), kNoSide);
         }
     }
-    check_errors();
+    check_opengl();
 }
 
 }  // namespace stilb

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "patches/refinement.h"
 #include "patches/smooth_vertices.h"
-#include "scene/bounds.h"
 #include "scene/mesh_edges.h"
 
 namespace stilb {
@@ -163,6 +162,12 @@ Patches make_patches(const Scene& scene, double longest_edge_m) {
     Collector collector(patches);
     for (std::size_t i = 0; i < divisions.size(); ++i) collector.add(scene.objects[i], divisions[i]);
     return patches;
+}
+
+Bounds bounds_of(const Patches& patches) {
+    Bounds bounds;
+    for (const Float3& vertex : patches.vertices) bounds.include(Vec3(vertex));
+    return bounds;
 }
 
 double patch_size_m(const Scene& scene, double count) {

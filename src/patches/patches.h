@@ -18,6 +18,7 @@
 #include "base/ids.h"
 #include "base/sampling.h"
 #include "base/vec.h"
+#include "scene/bounds.h"
 #include "scene/scene.h"
 
 namespace stilb {
@@ -67,6 +68,8 @@ inline constexpr std::size_t kMostPatches = 100'000'000;
 /// Patches whose edges are no longer than `longest_edge_m`; triangles without area are left out. Throws
 /// InputError where the size is not above 0, and where there would be more than about kMostPatches.
 Patches make_patches(const Scene& scene, double longest_edge_m);
+/// Of all vertices, relative to Patches::center [m].
+Bounds bounds_of(const Patches& patches);
 /// The longest edge with which the scene has about `count` patches (within a factor of two where its surfaces
 /// are large against that).
 double patch_size_m(const Scene& scene, double count = 10'000);

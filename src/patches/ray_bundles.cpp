@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "patches/coincident_crossings.h"
+
 namespace stilb {
 namespace {
 

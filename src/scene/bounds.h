@@ -14,6 +14,10 @@ struct Bounds {
     Vec3 max{-kInfinity, -kInfinity, -kInfinity};
 
     constexpr bool is_empty() const { return min.x > max.x; }
+    /// Half of the longest edge; 0 where there is nothing.
+    constexpr double half_extent() const {
+        return is_empty() ? 0 : std::max({max.x - min.x, max.y - min.y, max.z - min.z}) / 2;
+    }
     constexpr void include(const Vec3& p) {
         min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
         max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};

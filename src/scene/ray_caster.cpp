@@ -199,8 +199,7 @@ struct RayCaster::Implementation {
 
     explicit Implementation(const Scene& s) : scene(s), bounds(bounds_of_scene(s)) {
         center = 0.5 * (bounds.min + bounds.max);
-        const Vec3 half = 0.5 * (bounds.max - bounds.min);
-        half_extent = std::max({half.x, half.y, half.z});
+        half_extent = bounds.half_extent();
         has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
             return std::ranges::any_of(object.materials,
                                        [&](MaterialId id) { return pane_of(id) != nullptr; });

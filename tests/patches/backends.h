@@ -5,13 +5,16 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "patches/opengl_bundles.h"
 #include "patches/opengl_context.h"
 #include "patches/opengl_item_buffers.h"
+#include "patches/ray_bundles.h"
 #include "patches/ray_item_buffers.h"
 
 namespace stilb {
@@ -41,6 +44,16 @@ inline void set_ray(RayPacket& rays, std::size_t lane, const Vec3& origin, const
     rays.origin_z[lane] = static_cast<float>(origin.z),
     rays.direction_z[lane] = static_cast<float>(direction.z);
     rays.end[lane] = std::numeric_limits<float>::infinity();
+}
+
+inline std::unique_ptr<ItemBuffers> make_item_buffers(Backend backend, const PatchCaster& caster) {
+    if (backend == Backend::rays) return std::make_unique<RayItemBuffers>(caster);
+    return std::make_unique<OpenGlItemBuffers>(caster.patches());
+}
+
+inline std::unique_ptr<Bundles> make_bundles(Backend backend, const PatchCaster& caster) {
+    if (backend == Backend::rays) return std::make_unique<RayBundles>(caster);
+    return std::make_unique<OpenGlBundles>(caster.patches());
 }
 
 inline std::vector<std::uint32_t> filled(ItemBuffers& buffers, const ItemBufferLayout& layout,

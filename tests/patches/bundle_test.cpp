@@ -6,15 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include "base/error.h"
 #include "base/sampling.h"
 #include "patches/backends.h"
-#include "patches/ray_bundles.h"
 #include "patches/rooms.h"
 #include "support/random_pairs.h"
 
@@ -49,7 +50,7 @@ class BundlesOf : public testing::TestWithParam<Backend> {
     void look_at(const Scene& scene, double patch_size_m) {
         patches_ = make_patches(scene, patch_size_m);
         caster_.emplace(patches_);
-        bundles_ = std::make_unique<RayBundles>(*caster_);
+        bundles_ = make_bundles(GetParam(), *caster_);
     }
 
     /// A direction uniform over the sphere, the axes of the grid turned about it, and an offset.
@@ -68,6 +69,10 @@ class BundlesOf : public testing::TestWithParam<Backend> {
         });
     }
 
+    /// At outlines, where a line enters and leaves at once, rounding decides on what comes first. OpenGL
+    /// rounds to 1/256 of the spacing.
+    double most_turned_around() const { return GetParam() == Backend::rays ? 1e-5 : 2e-4; }
+
     Patches patches_;
     std::optional<PatchCaster> caster_;
     std::unique_ptr<Bundles> bundles_;
@@ -76,17 +81,18 @@ class BundlesOf : public testing::TestWithParam<Backend> {
 
 TEST_P(BundlesOf, AConvexRoomCrossItTwice) {
     look_at(empty_room(), 0.3);
-    std::size_t lines = 0;
+    double lines = 0, turned_around = 0;
     for (int i = 0; i < 20; ++i) {
         for_each_line(random_bundle(0.04), [&](const CrossedLine& line) {
             ++lines;
             ASSERT_EQ(line.sides.size(), 2u);
-            EXPECT_FALSE(patches_.is_front(line.sides[0]));
-            EXPECT_TRUE(patches_.is_front(line.sides[1]));
-            EXPECT_LT(line.distances_m[0], line.distances_m[1]);
+            EXPECT_NE(patches_.is_front(line.sides[0]), patches_.is_front(line.sides[1]));
+            EXPECT_LE(line.distances_m[0], line.distances_m[1]);
+            if (patches_.is_front(line.sides[0])) ++turned_around;
         });
     }
-    EXPECT_GT(lines, 100'000u);
+    EXPECT_GT(lines, 100'000);
+    EXPECT_LT(turned_around, most_turned_around() * lines);
 }
 
 /// Lines exactly on edges and corners of patches, straight and at a slant: neighbours in a plane do not see
@@ -118,18 +124,21 @@ TEST_P(BundlesOf, NestedBoxesCrossAsManyOnBothWays) {
     }
     look_at(scene, 0.2);
     std::size_t deepest = 0;
+    double lines = 0, turned_around = 0;
     for (int i = 0; i < 20; ++i) {
         for_each_line(random_bundle(0.02), [&](const CrossedLine& line) {
+            ++lines;
             const std::size_t n = line.sides.size();
             deepest = std::max(deepest, n);
             ASSERT_EQ(n % 2, 0u);
-            for (std::size_t k = 0; k < n; ++k) {
-                EXPECT_EQ(patches_.is_front(line.sides[k]), k < n / 2);
-            }
+            const auto is_front = [&](std::uint32_t side) { return patches_.is_front(side); };
+            EXPECT_EQ(std::ranges::count_if(line.sides, is_front), n / 2);
+            if (!std::ranges::is_partitioned(line.sides, is_front)) ++turned_around;
             EXPECT_TRUE(std::ranges::is_sorted(line.distances_m));
         });
     }
     EXPECT_EQ(deepest, 2u * boxes);
+    EXPECT_LT(turned_around, most_turned_around() * lines);
 }
 
 /// Sheets and a board that is thinner than the sheets' gap, a few hundredths of a millimetre in a room of 5
@@ -181,7 +190,7 @@ TEST_P(BundlesOf, AFurnishedRoomMeetPatchesWhereTheyAre) {
 TEST_P(BundlesOf, AFurnishedRoomCrossPatchesByTheirProjectedArea) {
     look_at(furnished_room(), 0.6);
     Bundle bundle = random_bundle(0.1);
-    constexpr int offsets = 400;
+    const int offsets = GetParam() == Backend::rays ? 400 : 100;
     std::vector<Moments> crossings(patches_.count());
     for (int i = 0; i < offsets; ++i) {
         bundle.offset = {random_.next(), random_.next()};
@@ -220,14 +229,14 @@ TEST_P(BundlesOf, ACubeHaveItsFormFactors) {
     };
     const int directions = GetParam() == Backend::rays ? 20'000 : 1'000;
     Moments opposite, adjacent;
-    std::size_t pairs = 0, outside = 0;  // at outlines rounding decides on which wall is met first
+    double pairs = 0, outside = 0;
     for (int i = 0; i < directions; ++i) {
         const Bundle bundle = random_bundle(0.06);
         double opposite_m2 = 0, adjacent_m2 = 0;
         bundles_->cast(bundle, [&](const CrossedLines& lines) {
             for_each_pair(patches_, lines, [&](std::uint32_t sender, std::uint32_t receiver) {
                 ++pairs;
-                outside += patches_.is_front(sender) && patches_.is_front(receiver) ? 0 : 1;
+                if (!patches_.is_front(sender) || !patches_.is_front(receiver)) ++outside;
                 (face(sender) / 2 == face(receiver) / 2 ? opposite_m2 : adjacent_m2) +=
                     bundle.spacing_m * bundle.spacing_m;
             });
@@ -240,21 +249,20 @@ TEST_P(BundlesOf, ACubeHaveItsFormFactors) {
     EXPECT_LT(std::abs(opposite.z_score(opposite_exact)), 4) << opposite.mean();
     EXPECT_LT(std::abs(adjacent.z_score((1 - opposite_exact) / 4)), 4) << adjacent.mean();
     EXPECT_LT(opposite.standard_error() / opposite.mean(), 0.04);
-    EXPECT_LE(outside, pairs / 100'000);
+    EXPECT_LT(outside, most_turned_around() * pairs);
 }
 
 /// Under a sky of luminance 1 everywhere, each surface has the illuminance pi: J = sum L dA / A_j is a
 /// quarter on average over directions, of 4 pi.
 TEST_P(BundlesOf, AClosedSceneLightEverySurfaceAlike) {
-    Scene scene = furnished_room();
-    scene.objects[1].shape = Box{{0.5, 0.4, 0.1}, {1.4, 1.1, 1.8}};  // off the floor, which hid its bottom
-    look_at(scene, 0.3);
+    look_at(room_without_overlaps(), 0.3);
     const std::size_t objects = patches_.first_of_object.size() - 1;
     std::vector<double> areas_m2(objects);
     for (std::uint32_t p = 0; p < patches_.count(); ++p)
         areas_m2[index_of(patches_.object_of(p))] += patches_.areas_m2[p];
     std::vector<std::array<Moments, 2>> illuminance_lx(objects);
-    for (int i = 0; i < 500; ++i) {
+    const int directions = GetParam() == Backend::rays ? 500 : 100;
+    for (int i = 0; i < directions; ++i) {
         const Bundle bundle = random_bundle(0.08);
         std::vector<std::array<double, 2>> received(objects);  // by fronts and backs
         const auto receive = [&](std::uint32_t side) {
@@ -273,14 +281,30 @@ TEST_P(BundlesOf, AClosedSceneLightEverySurfaceAlike) {
     for (std::size_t o = 0; o < objects; ++o) {
         const auto& [front, back] = illuminance_lx[o];
         EXPECT_LT(std::abs(front.z_score(kPi)), 4) << o << ": " << front.mean();
-        EXPECT_LT(front.standard_error() / kPi, 0.04);
+        EXPECT_LT(front.standard_error() / kPi, 0.1);
         if (o == table || o == disk) {
             EXPECT_LT(std::abs(back.z_score(kPi)), 4) << o << ": " << back.mean();
         }
         if (o == room) {
-            EXPECT_EQ(back.sum, 0);
+            EXPECT_LT(back.mean(), most_turned_around() * kPi);
         }
     }
+}
+
+TEST_P(BundlesOf, AnythingCanBeCastOnSeveralThreads) {
+    look_at(furnished_room(), 0.3);
+    const Bundle bundle = random_bundle(0.03);
+    const auto sum_of_sides = [&] {
+        std::uint64_t sum = 0;
+        for_each_line(bundle, [&](const CrossedLine& line) {
+            sum = std::accumulate(line.sides.begin(), line.sides.end(), sum);
+        });
+        return sum;
+    };
+    const std::uint64_t alone = sum_of_sides();
+    std::vector<std::future<std::uint64_t>> together;
+    for (int i = 0; i < 4; ++i) together.push_back(std::async(std::launch::async, sum_of_sides));
+    for (auto& sum : together) EXPECT_EQ(sum.get(), alone);
 }
 
 TEST_P(BundlesOf, NothingCrossNothing) {
@@ -295,7 +319,7 @@ TEST_P(BundlesOf, NoSpacingAreRefused) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, BundlesOf, testing::Values(Backend::rays), name_of_backend);
+INSTANTIATE_TEST_SUITE_P(Both, BundlesOf, testing::Values(Backend::rays, Backend::opengl), name_of_backend);
 
 }  // namespace
 }  // namespace stilb

@@ -19,6 +19,13 @@ inline Scene furnished_room() {
     return scene;
 }
 
+/// The same with the cabinet off the floor: no two surfaces lie in each other.
+inline Scene room_without_overlaps() {
+    Scene scene = furnished_room();
+    scene.objects[1].shape = Box{{0.5, 0.4, 0.1}, {1.4, 1.1, 1.8}};
+    return scene;
+}
+
 inline Scene empty_room() {
     Scene scene;
     add_object(scene, inward(kRoom), diffuse(0.5));

@@ -47,11 +47,7 @@ class SeenPatches : public testing::TestWithParam<Backend> {
     void look_at(const Scene& scene, double patch_size_m) {
         patches_ = make_patches(scene, patch_size_m);
         caster_.emplace(patches_);
-        if (GetParam() == Backend::rays) {
-            buffers_ = std::make_unique<RayItemBuffers>(*caster_);
-        } else {
-            buffers_ = std::make_unique<OpenGlItemBuffers>(patches_);
-        }
+        buffers_ = make_item_buffers(GetParam(), *caster_);
     }
     Accumulated seen(const ItemBufferLayout& layout, const Viewpoint& viewpoint) {
         return accumulated(patches_, layout, filled(*buffers_, layout, viewpoint));
