@@ -17,8 +17,7 @@ CoincidentCrossings::CoincidentCrossings(const Patches& patches, const Bounds& b
 
 void CoincidentCrossings::remove_from(std::vector<Crossing>& crossings) const {
     const auto same = [&](const Crossing& before, const Crossing& after) { return is_same(before, after); };
-    const auto superfluous = std::ranges::unique(crossings, same);
-    crossings.erase(superfluous.begin(), superfluous.end());
+    crossings.erase(std::unique(crossings.begin(), crossings.end(), same), crossings.end());
 }
 
 bool CoincidentCrossings::is_same(const Crossing& before, const Crossing& after) const {

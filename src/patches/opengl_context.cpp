@@ -15,9 +15,9 @@ namespace {
 
 [[noreturn]] void throw_missing(const std::string& what) {
     throw InputError(
-        "there is no OpenGL here to draw item buffers with: " + what +
+        "there is no OpenGL here to draw patches with: " + what +
         " Install a driver (in Debian: libegl1, libgl1 and libgl1-mesa-dri, which needs no graphics card), "
-        "or have them filled by rays.");
+        "or take rays instead.");
 }
 
 std::vector<EGLDisplay> displays() {
