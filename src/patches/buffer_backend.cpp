@@ -1,6 +1,8 @@
 #include "patches/buffer_backend.h"
 
+#include "patches/opengl_bundles.h"
 #include "patches/opengl_item_buffers.h"
+#include "patches/ray_bundles.h"
 #include "patches/ray_item_buffers.h"
 
 namespace stilb {
@@ -8,6 +10,11 @@ namespace stilb {
 std::unique_ptr<ItemBuffers> make_item_buffers(BufferBackend backend, const PatchCaster& caster) {
     if (backend == BufferBackend::rays) return std::make_unique<RayItemBuffers>(caster);
     return std::make_unique<OpenGlItemBuffers>(caster.patches());
+}
+
+std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& caster) {
+    if (backend == BufferBackend::rays) return std::make_unique<RayBundles>(caster);
+    return std::make_unique<OpenGlBundles>(caster.patches());
 }
 
 }  // namespace stilb

@@ -1,4 +1,4 @@
-// Who fills item buffers.
+// Who fills item buffers and casts bundles.
 #pragma once
 
 #include <array>
@@ -6,6 +6,7 @@
 #include <memory>
 #include <string_view>
 
+#include "patches/bundle.h"
 #include "patches/item_buffer.h"
 #include "patches/patch_caster.h"
 
@@ -18,7 +19,9 @@ constexpr std::string_view name_of(BufferBackend backend) {
     return kBufferBackendNames[static_cast<std::size_t>(backend)];
 }
 
-/// Keeps a reference to the caster or its patches. Throws InputError where OpenGL is asked for and missing.
+/// Both keep a reference to the caster or its patches. Throw InputError where OpenGL is asked for and
+/// missing.
 std::unique_ptr<ItemBuffers> make_item_buffers(BufferBackend backend, const PatchCaster& caster);
+std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& caster);
 
 }  // namespace stilb

@@ -1,28 +1,22 @@
-// Rays, and both ways of filling item buffers, for tests that hold for either.
+// Rays, and both backends, for tests that hold for either.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "patches/opengl_bundles.h"
+#include "patches/buffer_backend.h"
 #include "patches/opengl_context.h"
-#include "patches/opengl_item_buffers.h"
-#include "patches/ray_bundles.h"
-#include "patches/ray_item_buffers.h"
 
 namespace stilb {
 
-enum class Backend { rays, opengl };
-
-inline std::string name_of_backend(const testing::TestParamInfo<Backend>& test) {
-    return test.param == Backend::rays ? "rays" : "opengl";
+inline std::string name_of_backend(const testing::TestParamInfo<BufferBackend>& test) {
+    return std::string(name_of(test.param));
 }
 
 /// Why this machine has no OpenGL, where it has none.
@@ -44,16 +38,6 @@ inline void set_ray(RayPacket& rays, std::size_t lane, const Vec3& origin, const
     rays.origin_z[lane] = static_cast<float>(origin.z),
     rays.direction_z[lane] = static_cast<float>(direction.z);
     rays.end[lane] = std::numeric_limits<float>::infinity();
-}
-
-inline std::unique_ptr<ItemBuffers> make_item_buffers(Backend backend, const PatchCaster& caster) {
-    if (backend == Backend::rays) return std::make_unique<RayItemBuffers>(caster);
-    return std::make_unique<OpenGlItemBuffers>(caster.patches());
-}
-
-inline std::unique_ptr<Bundles> make_bundles(Backend backend, const PatchCaster& caster) {
-    if (backend == Backend::rays) return std::make_unique<RayBundles>(caster);
-    return std::make_unique<OpenGlBundles>(caster.patches());
 }
 
 inline std::vector<std::uint32_t> filled(ItemBuffers& buffers, const ItemBufferLayout& layout,

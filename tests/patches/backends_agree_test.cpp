@@ -7,6 +7,8 @@
 #include <set>
 
 #include "patches/backends.h"
+#include "patches/opengl_item_buffers.h"
+#include "patches/ray_item_buffers.h"
 #include "patches/rooms.h"
 
 namespace stilb {

@@ -41,10 +41,10 @@ double least_variance(double mean) {
     return part * (1 - part);
 }
 
-class BundlesOf : public testing::TestWithParam<Backend> {
+class BundlesOf : public testing::TestWithParam<BufferBackend> {
   protected:
     void SetUp() override {
-        if (GetParam() == Backend::rays) return;
+        if (GetParam() == BufferBackend::rays) return;
         if (const auto why_not = missing_opengl()) GTEST_SKIP() << *why_not;
     }
     void look_at(const Scene& scene, double patch_size_m) {
@@ -71,7 +71,7 @@ class BundlesOf : public testing::TestWithParam<Backend> {
 
     /// At outlines, where a line enters and leaves at once, rounding decides on what comes first. OpenGL
     /// rounds to 1/256 of the spacing.
-    double most_turned_around() const { return GetParam() == Backend::rays ? 1e-5 : 2e-4; }
+    double most_turned_around() const { return GetParam() == BufferBackend::rays ? 1e-5 : 2e-4; }
 
     Patches patches_;
     std::optional<PatchCaster> caster_;
@@ -190,7 +190,7 @@ TEST_P(BundlesOf, AFurnishedRoomMeetPatchesWhereTheyAre) {
 TEST_P(BundlesOf, AFurnishedRoomCrossPatchesByTheirProjectedArea) {
     look_at(furnished_room(), 0.6);
     Bundle bundle = random_bundle(0.1);
-    const int offsets = GetParam() == Backend::rays ? 400 : 100;
+    const int offsets = GetParam() == BufferBackend::rays ? 400 : 100;
     std::vector<Moments> crossings(patches_.count());
     for (int i = 0; i < offsets; ++i) {
         bundle.offset = {random_.next(), random_.next()};
@@ -227,7 +227,7 @@ TEST_P(BundlesOf, ACubeHaveItsFormFactors) {
     const auto face = [&](std::uint32_t side) {
         return index_of(patches_.object_of(patches_.patch_of(side)));
     };
-    const int directions = GetParam() == Backend::rays ? 20'000 : 1'000;
+    const int directions = GetParam() == BufferBackend::rays ? 20'000 : 1'000;
     Moments opposite, adjacent;
     double pairs = 0, outside = 0;
     for (int i = 0; i < directions; ++i) {
@@ -261,7 +261,7 @@ TEST_P(BundlesOf, AClosedSceneLightEverySurfaceAlike) {
     for (std::uint32_t p = 0; p < patches_.count(); ++p)
         areas_m2[index_of(patches_.object_of(p))] += patches_.areas_m2[p];
     std::vector<std::array<Moments, 2>> illuminance_lx(objects);
-    const int directions = GetParam() == Backend::rays ? 500 : 100;
+    const int directions = GetParam() == BufferBackend::rays ? 500 : 100;
     for (int i = 0; i < directions; ++i) {
         const Bundle bundle = random_bundle(0.08);
         std::vector<std::array<double, 2>> received(objects);  // by fronts and backs
@@ -319,7 +319,8 @@ TEST_P(BundlesOf, NoSpacingAreRefused) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, BundlesOf, testing::Values(Backend::rays, Backend::opengl), name_of_backend);
+INSTANTIATE_TEST_SUITE_P(Both, BundlesOf, testing::Values(BufferBackend::rays, BufferBackend::opengl),
+                         name_of_backend);
 
 }  // namespace
 }  // namespace stilb

@@ -2,12 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 #include <vector>
 
 #include "patches/backends.h"
+#include "patches/opengl_bundles.h"
+#include "patches/ray_bundles.h"
 #include "patches/rooms.h"
 
 namespace stilb {
@@ -45,18 +46,12 @@ bool is_at_boundary(const PatchCaster& caster, const Vec3& origin, const Bundle&
     RayPacket rays;
     LaneMask lanes;
     lanes.fill(-1);
-    rays.end.fill(std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kPacketWidth;
         const double away_m = bundle.spacing_m / 128;
         const Vec3 from =
             origin + away_m * (std::cos(angle) * bundle.frame.u + std::sin(angle) * bundle.frame.v);
-        rays.origin_x[i] = static_cast<float>(from.x);
-        rays.origin_y[i] = static_cast<float>(from.y);
-        rays.origin_z[i] = static_cast<float>(from.z);
-        rays.direction_x[i] = static_cast<float>(bundle.frame.w.x);
-        rays.direction_y[i] = static_cast<float>(bundle.frame.w.y);
-        rays.direction_z[i] = static_cast<float>(bundle.frame.w.z);
+        set_ray(rays, i, from, bundle.frame.w);
     }
     PacketCrossings crossings;
     caster.all(rays, lanes, crossings);

@@ -38,10 +38,10 @@ Accumulated accumulated(const Patches& patches, const ItemBufferLayout& layout,
     return sums;
 }
 
-class SeenPatches : public testing::TestWithParam<Backend> {
+class SeenPatches : public testing::TestWithParam<BufferBackend> {
   protected:
     void SetUp() override {
-        if (GetParam() == Backend::rays) return;
+        if (GetParam() == BufferBackend::rays) return;
         if (const auto why_not = missing_opengl()) GTEST_SKIP() << *why_not;
     }
     void look_at(const Scene& scene, double patch_size_m) {
@@ -178,7 +178,8 @@ TEST_P(SeenPatches, AreNoneInAnEmptyScene) {
     EXPECT_EQ(seen({BufferShape::cube, 16}, point_in_room()).lost_pixels, 6u * 16 * 16);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, SeenPatches, testing::Values(Backend::rays, Backend::opengl), name_of_backend);
+INSTANTIATE_TEST_SUITE_P(Both, SeenPatches, testing::Values(BufferBackend::rays, BufferBackend::opengl),
+                         name_of_backend);
 
 }  // namespace
 }  // namespace stilb
