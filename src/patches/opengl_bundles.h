@@ -10,8 +10,9 @@
 namespace stilb {
 
 /// Draws the patches without perspective, layer behind layer, until nothing is left to draw; without a card
-/// by Mesa's software. A pixel's middle is a line. One bundle at a time: others wait. Copies of the patches'
-/// geometry go to the driver. Distances are right to 2^-9 spacings as measured across the patch.
+/// by Mesa's software. A pixel's middle is a line. Casts may run in parallel, but draw one after another.
+/// Copies of the patches' geometry go to the driver. Distances are right to 2^-8 of the spacing, as measured
+/// across the patch.
 class OpenGlBundles : public Bundles {
   public:
     /// Throws InputError where there is no OpenGL 4.5 (OpenGlContext).
