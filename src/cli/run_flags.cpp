@@ -46,6 +46,7 @@ void RunFlags::add_to(CLI::App& command) {
                     "Processor threads (default: all); the result does not depend on it")
         ->type_name("N");
     command.add_flag("--quiet", quiet, "No progress, no warnings on stderr");
+    patches.add_to(command);
 }
 
 RunOptions RunFlags::over(RunOptions options) const {
@@ -67,6 +68,7 @@ RunOptions RunFlags::over(RunOptions options) const {
     if (bounces) options.bounces = *bounces;
     if (seed) options.seed = *seed;
     if (threads) options.threads = *threads;
+    options.patches = patches.options_for(options.method);
     return options;
 }
 

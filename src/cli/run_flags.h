@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/patch_flags.h"
 #include "run/options.h"
 
 namespace stilb {
@@ -17,6 +18,7 @@ struct RunFlags {
     std::optional<std::uint64_t> paths, seed;
     std::optional<int> bounces, threads;
     bool quiet = false;
+    PatchFlags patches;
 
     void add_to(CLI::App& command);
     /// --paths alone drops the file's error and time: so many paths are done, no fewer.

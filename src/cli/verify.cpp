@@ -106,8 +106,7 @@ std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names
 }
 
 std::vector<EstimatorEntry> chosen_methods(const std::vector<std::string>& names) {
-    const auto all = estimator_list();
-    if (names.empty()) return {all.begin(), all.end()};
+    if (names.empty()) return unbiased_estimators();
     std::vector<EstimatorEntry> methods;
     for (const std::string& name : names) methods.push_back(find_estimator(name));
     return methods;

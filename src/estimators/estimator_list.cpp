@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "estimators/local_estimation.h"
 #include "estimators/path.h"
+#include "estimators/picture_bundle.h"
 #include "estimators/picture_local.h"
 #include "estimators/picture_path.h"
 
@@ -27,8 +28,19 @@ std::span<const EstimatorEntry> estimator_list() {
         EstimatorEntry{"path",
                        "path tracing from every point with next-event estimation: the naive reference", false,
                        make_path_estimator, make_path_picture},
+        EstimatorEntry{"ray-bundle",
+                       "stochastic iteration with bundles of parallel rays and first shot over patches: the "
+                       "whole scene at once, biased by the size of the patches (--patch)",
+                       false, make_ray_bundle_estimator, make_ray_bundle_picture, true},
     };
     return list;
+}
+
+std::vector<EstimatorEntry> unbiased_estimators() {
+    std::vector<EstimatorEntry> entries;
+    std::ranges::copy_if(estimator_list(), std::back_inserter(entries),
+                         [](const EstimatorEntry& entry) { return !entry.lights_patches; });
+    return entries;
 }
 
 std::vector<std::string_view> luminance_methods() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "estimators/estimator.h"
+#include "estimators/patch_options.h"
 #include "estimators/picture_estimator.h"
 #include "scene/ray_caster.h"
 #include "sensors/sensor.h"
@@ -24,6 +25,8 @@ struct EstimatorInput {
     RandomKey preparation_key;
     /// How much each point's relative variance matters beside the others'. Empty: all alike.
     std::span<const double> weights = {};
+    /// For methods that light patches.
+    PatchOptions patches = {};
 };
 
 struct EstimatorEntry {
@@ -34,11 +37,16 @@ struct EstimatorEntry {
     std::unique_ptr<Estimator> (*make)(const EstimatorInput& input);
     /// Null where the method does not measure luminance.
     std::unique_ptr<PictureEstimator> (*make_picture)(const PictureInput& input);
+    /// Whether it lights patches: then it is biased by their size.
+    bool lights_patches = false;
 
     bool measures_luminance() const { return make_picture != nullptr; }
 };
 
 std::span<const EstimatorEntry> estimator_list();
+
+/// Those without patches, which all have the same expectations: the exact ones.
+std::vector<EstimatorEntry> unbiased_estimators();
 
 /// For messages.
 std::vector<std::string_view> luminance_methods();

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/error.h"
+#include "estimators/estimator.h"
+
 namespace stilb {
 namespace {
 
@@ -32,6 +35,19 @@ std::vector<std::string> path_warnings(const Scene& scene) {
     return specular_warnings(scene,
                              "path tracing cannot make light that leaves a point or photometry light and is "
                              "reflected by a mirror or pane or meets solid glass before anything else");
+}
+
+std::vector<std::string> patch_warnings(const Scene& scene, std::string_view method) {
+    if (!has_specular_surfaces(scene)) return {};
+    return {fmt::format("method {}: mirrors and glass reflect and transmit only what sensors see in them: light "
+                        "that they cast on other surfaces is missing.",
+                        method)};
+}
+
+void require_all_reflections(int max_reflections, std::string_view method) {
+    if (max_reflections == kUnlimited) return;
+    throw InputError(fmt::format("method {} makes all reflections at once: it cannot limit them (--bounces).",
+                                 method));
 }
 
 std::vector<std::string> local_warnings(const Scene& scene) {

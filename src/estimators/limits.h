@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/scene.h"
@@ -14,5 +15,10 @@ bool has_specular_surfaces(const Scene& scene);
 /// point or photometry lights; empty elsewhere.
 std::vector<std::string> path_warnings(const Scene& scene);
 std::vector<std::string> local_warnings(const Scene& scene);
+/// Of methods that light patches, where the scene has mirrors or glass.
+std::vector<std::string> patch_warnings(const Scene& scene, std::string_view method);
+
+/// Throws InputError where reflections are limited.
+void require_all_reflections(int max_reflections, std::string_view method);
 
 }  // namespace stilb

@@ -10,6 +10,7 @@
 
 #include "base/random.h"
 #include "base/spectrum.h"
+#include "estimators/patch_options.h"
 #include "scene/ray_caster.h"
 #include "sensors/camera.h"
 
@@ -62,6 +63,8 @@ struct PictureInput {
     int max_reflections;
     /// For decisions that are taken before sampling starts; independent of all passes' keys.
     RandomKey preparation_key;
+    /// For methods that light patches.
+    PatchOptions patches = {};
 };
 
 }  // namespace stilb

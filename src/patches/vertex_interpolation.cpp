@@ -1,6 +1,7 @@
 #include "patches/vertex_interpolation.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace stilb {
 namespace {
@@ -59,6 +60,31 @@ void for_each_corner(const Patches& patches, const Visitor& visit) {
 }
 
 }  // namespace
+
+std::vector<std::vector<VertexInterpolation::Share>> VertexInterpolation::shares_of(
+    std::span<const Place> places) const {
+    struct User {
+        std::size_t place;
+        double weight;  ///< of the vertex
+    };
+    std::unordered_multimap<std::uint32_t, User> users;  // by vertex
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto& [a, b, c] = patches_.corners[places[i].patch];
+        const auto& [b0, b1, b2] = places[i].place;
+        users.insert({{a, {i, b0}}, {b, {i, b1}}, {c, {i, b2}}});
+    }
+    std::vector<std::vector<Share>> shares(places.size());
+    for (std::uint32_t p = 0; p < patches_.count(); ++p) {
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const auto [first, last] = users.equal_range(patches_.corners[p][corner]);
+            for (auto user = first; user != last; ++user) {
+                shares[user->second.place].push_back(
+                    {p, user->second.weight * double{weights_[p][corner]}});
+            }
+        }
+    }
+    return shares;
+}
 
 VertexInterpolation::VertexInterpolation(const Patches& patches)
     : patches_(patches), weights_(patches.count()) {

@@ -45,6 +45,18 @@ class VertexInterpolation {
         return value;
     }
 
+    /// A point of a patch, and what the patches around it share in its value: the weights of at().
+    struct Place {
+        std::uint32_t patch = 0;
+        Barycentric place;
+    };
+    struct Share {
+        std::uint32_t patch = 0;
+        double weight = 0;
+    };
+    /// For few points, whose values are wanted without those of all vertices.
+    std::vector<std::vector<Share>> shares_of(std::span<const Place> places) const;
+
   private:
     const Patches& patches_;
     std::vector<std::array<float, 3>> weights_;  ///< per patch and corner: the patch's share of that vertex

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "estimators/patch_options.h"
+
 namespace stilb {
 
 struct RunOptions {
@@ -21,6 +23,7 @@ struct RunOptions {
     int threads = 0;
     /// Independent repetitions that standard errors come from (theory 6).
     int replicates = 32;
+    PatchOptions patches;
 };
 
 /// Throws InputError where one of them makes no sense.

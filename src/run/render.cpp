@@ -298,7 +298,7 @@ RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& 
     arena.execute([&] {
         const auto estimator =
             method.make_picture({scene, caster, camera, options.bounces.value_or(kUnlimited),
-                                 RandomKey{options.seed}.derived(kPreparation)});
+                                 RandomKey{options.seed}.derived(kPreparation), options.patches});
         Passes passes(*estimator, camera, options.seed, interrupt);
         result.stop_reason = PictureSchedule(options, clock, blind, sink).proceed(passes, sums);
         result.warnings = estimator->warnings();

@@ -317,7 +317,7 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     tbb::task_arena arena(threads);
     const auto estimator = arena.execute([&] {
         return method.make({scene, caster, measurands, options.bounces.value_or(kUnlimited),
-                            RandomKey{options.seed}.derived(kPreparation), weights});
+                            RandomKey{options.seed}.derived(kPreparation), weights, options.patches});
     });
     Campaign campaign(*estimator, measurands.size(), options.replicates, options.seed);
     RunResult result;

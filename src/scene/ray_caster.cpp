@@ -466,14 +466,7 @@ void RayCaster::transmittances(std::span<const Segment> segments, Coherence cohe
         LaneMask lanes{};
         for (std::size_t i = 0; i < count; ++i) {
             const Segment& segment = segments[first + i];
-            const Vec3 origin = segment.from - center(), direction = segment.to - segment.from;
-            packet.origin_x[i] = static_cast<float>(origin.x);
-            packet.origin_y[i] = static_cast<float>(origin.y);
-            packet.origin_z[i] = static_cast<float>(origin.z);
-            packet.direction_x[i] = static_cast<float>(direction.x);
-            packet.direction_y[i] = static_cast<float>(direction.y);
-            packet.direction_z[i] = static_cast<float>(direction.z);
-            packet.end[i] = 1;
+            packet.set(i, segment.from - center(), segment.to - segment.from, 1);
             lanes[i] = -1;
         }
         occlude(packet, lanes, coherence);

@@ -68,6 +68,14 @@ struct alignas(64) RayPacket {
     Words mask, id{}, flags{};
 
     RayPacket() { mask.fill(~0u); }
+
+    void set(std::size_t lane, const Vec3& origin, const Vec3& direction, float length) {
+        origin_x[lane] = static_cast<float>(origin.x), origin_y[lane] = static_cast<float>(origin.y);
+        origin_z[lane] = static_cast<float>(origin.z), direction_x[lane] = static_cast<float>(direction.x);
+        direction_y[lane] = static_cast<float>(direction.y);
+        direction_z[lane] = static_cast<float>(direction.z);
+        end[lane] = length;
+    }
 };
 
 /// Immutable after construction; all queries may run in parallel. Keeps a reference to the scene.

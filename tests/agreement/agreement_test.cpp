@@ -36,7 +36,7 @@ std::vector<std::string> methods_for(const AgreementScene& scene) {
     std::vector<std::string> methods;
     // At points double-local is local.
     const std::string_view left_out = scene.sights.empty() ? "double-local" : "local";
-    for (const EstimatorEntry& method : estimator_list()) {
+    for (const EstimatorEntry& method : unbiased_estimators()) {
         if (method.name != left_out && can_measure(method, scene.demand)) methods.emplace_back(method.name);
     }
     return methods;

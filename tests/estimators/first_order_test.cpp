@@ -103,7 +103,7 @@ TEST_P(FirstOrder, IsTheIntegralOverTheLight) {
         const auto& ray = std::get<EmergentRay>(measurand);
         exact.push_back(exact_luminance_cd_m2(ray.position, ray.direction, GetParam()));
     }
-    for (const EstimatorEntry& method : estimator_list()) {
+    for (const EstimatorEntry& method : unbiased_estimators()) {
         if (!method.measures_luminance()) continue;
         const std::vector<Estimate> measured = measure(method, scene, rays);
         for (std::size_t j = 0; j < rays.size(); ++j) {

@@ -1,0 +1,25 @@
+// The flags of methods that light patches.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "estimators/patch_options.h"
+
+namespace stilb {
+
+struct PatchFlags {
+    std::optional<double> patch_m;
+    std::optional<std::string> first_shot, window, visibility, directions;
+    std::optional<int> resolution;
+
+    void add_to(CLI::App& command);
+    /// Throws InputError where one of them is given and the method lights no patches, or has no such value.
+    PatchOptions options_for(const std::string& method) const;
+
+  private:
+    bool are_given() const;
+};
+
+}  // namespace stilb

@@ -1,0 +1,27 @@
+// How methods that light patches are asked to do it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include "estimators/first_shot.h"
+
+namespace stilb {
+
+/// Directions of a step of stochastic iteration (theory 8).
+enum class BundleDirections { single, pair, frame };
+inline constexpr std::array<std::string_view, 3> kBundleDirectionsNames{"single", "pair", "frame"};
+constexpr std::string_view name_of(BundleDirections directions) {
+    return kBundleDirectionsNames[static_cast<std::size_t>(directions)];
+}
+
+struct PatchOptions {
+    /// Longest edge; by the scene where absent: about 10,000 patches.
+    std::optional<double> patch_m;
+    FirstShotOptions first_shot;
+    BundleDirections directions = BundleDirections::frame;
+};
+
+}  // namespace stilb

@@ -1,0 +1,73 @@
+// What the methods that light patches share: the patches, how they reflect, and what is known of the light.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "estimators/first_shot.h"
+#include "estimators/light_sampler.h"
+#include "estimators/patch_options.h"
+#include "patches/bundle.h"
+#include "patches/patch_caster.h"
+#include "patches/vertex_interpolation.h"
+
+namespace stilb {
+
+/// Single precision, for what every side has.
+using Rgb = std::array<float, kBands>;
+
+inline Rgb rgb_of(const Spectrum& spectrum) {
+    return {static_cast<float>(spectrum[0]), static_cast<float>(spectrum[1]),
+            static_cast<float>(spectrum[2])};
+}
+inline Spectrum spectrum_of(const Rgb& rgb) { return {{rgb[0], rgb[1], rgb[2]}}; }
+
+/// Keeps references to scene and caster. Immutable once made.
+struct PatchTransport {
+    PatchTransport(const Scene& scene, const RayCaster& caster, const PatchOptions& options);
+
+    const Material& material_of(std::uint32_t patch) const {
+        return scene.material(patches.materials[patch]);
+    }
+    std::uint32_t side_towards(std::uint32_t patch, const Vec3& direction) const {
+        const bool front = dot(Vec3(patches.normals[patch]), direction) > 0;
+        return front ? patch : patches.other_side(patch);
+    }
+    bool reflects_alike(std::uint32_t patch) const { return glossy_number[patch] == kConstant; }
+
+    /// What first shot makes a side reflect, as a mean over the patch; nothing where it depends on the place.
+    Spectrum first_reflected(std::uint32_t side, const Vec3& out) const;
+    /// The other part: what depends on the place.
+    Spectrum first_reflected_at(std::uint32_t side, const Vec3& position, const Vec3& out) const {
+        return first_shot.needs_position(side) ? first_shot.reflected(side, position, out) : Spectrum{};
+    }
+
+    const Scene& scene;
+    const RayCaster& caster;
+    PatchOptions options;
+    LightSampler lights;
+    Patches patches;
+    PatchCaster patch_caster;
+    VertexInterpolation interpolation;
+    std::unique_ptr<Bundles> bundles;
+    FirstShot first_shot;
+    double spacing_m;  ///< of bundles' rays
+
+    static constexpr std::uint32_t kConstant = ~0u;
+    /// Per patch: its place in `glossy_patches`, or kConstant: it reflects alike in all directions.
+    std::vector<std::uint32_t> glossy_number;
+    std::vector<std::uint32_t> glossy_patches;
+    std::vector<Rgb> constant_brdf;     ///< per patch [1/sr]; 0 where it depends on direction
+    std::vector<Rgb> first_reflection;  ///< per side [cd/m2]; 0 where it depends on direction or place
+    std::vector<Rgb> emission;          ///< per patch, of its front; 0 where first shot stands for it
+    double mean_reflectance = 0;        ///< by area
+
+  private:
+    void add_reflection(std::uint32_t patch);
+    void add_emission(std::size_t light);
+};
+
+}  // namespace stilb

@@ -1,0 +1,62 @@
+// Stochastic iteration with ray bundles and first shot, for pictures: bundle_iteration.h has the iteration. A
+// pass is the mean over the steps of some walks.
+#include "estimators/picture_bundle.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "estimators/bundle_iteration.h"
+#include "estimators/limits.h"
+#include "estimators/patch_picture.h"
+
+namespace stilb {
+namespace {
+
+/// Of a pass, each a task of its own.
+constexpr std::uint64_t kWalks = 4;
+
+enum Purpose : std::uint64_t { kWalk = kPixels + 1 };
+
+class BundlePicture final : public PictureEstimator {
+  public:
+    explicit BundlePicture(const PictureInput& input)
+        : tracing_(input), transport_(input.scene, input.caster, input.patches) {
+        require_all_reflections(input.max_reflections, "ray-bundle");
+    }
+
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return std::make_unique<PatchPass>(tracing_, transport_, pass, mean_of_walks(pass));
+    }
+    std::vector<std::string> warnings() const override {
+        return patch_warnings(transport_.scene, "ray-bundle");
+    }
+
+  private:
+    std::vector<Rgb> mean_of_walks(const Pass& pass) const {
+        const std::uint64_t first = first_steps(transport_), steps = std::max<std::uint64_t>(2 * first, 16);
+        const RandomKey key = pass.key.derived(kWalk).derived(pass.index);
+        std::vector<SeenSides> walks(kWalks, SeenSides(transport_, tracing_.view.position()));
+        tbb::parallel_for(std::uint64_t{0}, kWalks, [&](std::uint64_t walk) {
+            BundleIteration iteration(transport_, key.derived(walk));
+            for (std::uint64_t i = 0; i < first; ++i) iteration.step();
+            for (std::uint64_t i = 0; i < steps; ++i) {
+                iteration.step();
+                walks[walk].add(iteration);
+            }
+        });
+        for (std::size_t walk = 1; walk < kWalks; ++walk) walks[0].add(walks[walk]);
+        return walks[0].mean_cd_m2();
+    }
+
+    PictureTracing tracing_;
+    PatchTransport transport_;
+};
+
+}  // namespace
+
+std::unique_ptr<PictureEstimator> make_ray_bundle_picture(const PictureInput& input) {
+    return std::make_unique<BundlePicture>(input);
+}
+
+}  // namespace stilb
