@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <vector>
 
 #include "base/error.h"
@@ -11,6 +13,7 @@
 #include "estimators/picture_bundle.h"
 #include "estimators/picture_local.h"
 #include "estimators/picture_path.h"
+#include "estimators/ray_bundle.h"
 
 namespace stilb {
 

@@ -80,7 +80,7 @@ void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Re
         packet.set(i, points[i].lifted() - center, sample->direction, std::numeric_limits<float>::infinity());
         lanes[i] = -1;
     }
-    const PatchCaster::Sides sides = transport_.patch_caster.closest(packet, lanes);
+    const auto sides = transport_.patch_caster.closest(packet, lanes).sides;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (sides[i] == kNoSide) continue;
         const Vec3 out = -samples[i].direction;

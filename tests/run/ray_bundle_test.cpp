@@ -1,0 +1,148 @@
+// Ray bundles against exact values and against path tracing, as patches shrink.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "run/render.h"
+#include "run/run.h"
+#include "statistics/hypothesis.h"
+#include "support/scene_builder.h"
+
+namespace stilb {
+namespace {
+
+constexpr Vec3 kUp{0, 0, 1};
+
+/// A cube of 4 m with 10 klm at its centre.
+Scene lamp_in_cube(double reflectance) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 4, 4}}, Diffuse{Spectrum::grey(reflectance)});
+    add_point_light(scene, {2, 2, 2}, Spectrum::grey(10'000 / (4 * std::numbers::pi)));
+    return scene;
+}
+
+/// A room of all that reflects diffusely and not, with a small and a large light.
+Scene glossy_room() {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Diffuse{{{0.7, 0.6, 0.4}}});
+    add_object(scene, Box{{2, 1, 0}, {2.6, 1.6, 1}}, Phong{Spectrum::grey(0.3), Spectrum::grey(0.4), 5});
+    add_object(scene, Box{{0.5, 2, 0}, {1.2, 2.6, 0.6}}, Rough(Spectrum::grey(0.8), 0.4));
+    add_area_light(scene, Rectangle{{1, 0.6, 2.7}, {0, 1.6, 0}, {2, 0, 0}}, Spectrum::grey(100));
+    add_point_light(scene, {3.2, 2.4, 2}, Spectrum::grey(100));
+    return scene;
+}
+
+Sensor points(std::vector<MeasuringPoint> places) {
+    Sensor sensor{"points", SensorType::illuminance, {}};
+    for (const MeasuringPoint& place : places) sensor.measurands.emplace_back(place);
+    return sensor;
+}
+
+Sensor sights(std::vector<Measurand> lines) {
+    return {"sights", SensorType::luminance, std::move(lines)};
+}
+
+RunOptions bundle_options(double patch_m, std::uint64_t steps) {
+    RunOptions options;
+    options.method = "ray-bundle";
+    options.paths = steps;
+    options.patches.patch_m = patch_m;
+    return options;
+}
+
+Estimate measured(const Scene& scene, const Sensor& sensor, const RunOptions& options, std::size_t reading) {
+    return run(scene, {&sensor, 1}, options).sensors[0].readings[reading].estimate;
+}
+
+TEST(RayBundle, LightsACubeAsComputed) {
+    const Sensor floor = points({{{2, 2, 0}, kUp}, {{0.5, 0.5, 0}, kUp}});
+    const RunResult result = run(lamp_in_cube(0.8), {&floor, 1}, bundle_options(0.2, 1 << 14));
+    const auto direct = [](double x, double y) {
+        const double squared = 4 + (x - 2) * (x - 2) + (y - 2) * (y - 2);
+        return 10'000 / (4 * std::numbers::pi) * 2 / std::pow(squared, 1.5);
+    };
+    const auto& readings = result.sensors[0].readings;
+    EXPECT_NEAR(readings[0].estimate.value - direct(2, 2), 430.95, 0.01 * 430.95);
+    EXPECT_NEAR(readings[1].estimate.value - direct(0.5, 0.5), 403.10, 0.01 * 403.10);
+    EXPECT_LT(readings[0].estimate.standard_error, 0.004 * 430.95);
+}
+
+/// One direction and one axis have finite variance at a reflectance of 0.5, too.
+TEST(RayBundle, AllDirectionsHaveTheSameMean) {
+    const Scene scene = lamp_in_cube(0.5);
+    const Sensor floor = points({{{1, 1.3, 0}, kUp}});
+    std::vector<Estimate> estimates;
+    for (const BundleDirections directions :
+         {BundleDirections::single, BundleDirections::pair, BundleDirections::frame}) {
+        RunOptions options = bundle_options(0.5, 1 << 15);
+        options.patches.directions = directions;
+        estimates.push_back(measured(scene, floor, options, 0));
+        EXPECT_LT(estimates.back().standard_error, 0.005 * estimates.back().value) << name_of(directions);
+    }
+    const double threshold = sidak_threshold_z(0.001, 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_LT(std::abs(equivalent_z(z_score(estimates[i], estimates[(i + 1) % 3]), 31)), threshold)
+            << estimates[i].value << ' ' << estimates[(i + 1) % 3].value;
+    }
+}
+
+TEST(RayBundle, EveryFirstShotApproachesPathTracing) {
+    const Scene scene = glossy_room();
+    const Sensor sensor = sights({LineOfSight{{0.3, 0.3, 1.5}, normalized(Vec3{2, 1, -0.8})},
+                                  LineOfSight{{0.3, 0.3, 1.5}, normalized(Vec3{1, 2.2, -1.1})},
+                                  LineOfSight{{2, 1.5, 1.5}, normalized(Vec3{1, 0.3, -1})}});
+    RunOptions path;
+    path.method = "path";
+    path.error = 0.003;
+    const RunResult exact = run(scene, {&sensor, 1}, path);
+    for (const FirstShotVariant variant : {FirstShotVariant::none, FirstShotVariant::classical,
+                                           FirstShotVariant::diffuse, FirstShotVariant::incoming,
+                                           FirstShotVariant::on_the_fly}) {
+        if (variant == FirstShotVariant::none) continue;  // nothing meets a point light
+        RunOptions options = bundle_options(0.12, 1 << 12);
+        options.patches.first_shot.variant = variant;
+        const RunResult result = run(scene, {&sensor, 1}, options);
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double expected = exact.sensors[0].readings[j].estimate.value;
+            EXPECT_NEAR(result.sensors[0].readings[j].estimate.value, expected, 0.02 * expected)
+                << name_of(variant) << ' ' << j;
+        }
+    }
+}
+
+TEST(RayBundle, ThreadsAndRepetitionsChangeNothing) {
+    const Scene scene = glossy_room();
+    const Sensor floor = points({{{1, 1.3, 0}, kUp}, {{3, 1.3, 0.8}, kUp}});
+    RunOptions options = bundle_options(0.4, 2048);
+    const Estimate once = measured(scene, floor, options, 1);
+    for (const int threads : {1, 2, 3}) {
+        options.threads = threads;
+        const Estimate again = measured(scene, floor, options, 1);
+        EXPECT_EQ(again.value, once.value);
+        EXPECT_EQ(again.standard_error, once.standard_error);
+    }
+}
+
+TEST(RayBundle, PicturesShowWhatMetersMeasure) {
+    const Scene scene = glossy_room();
+    Sensor camera{"camera", SensorType::camera, {}};
+    camera.camera = {{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {24, 16}, Projection::perspective};
+    RunOptions options = bundle_options(0.12, 64);
+    const RenderResult bundle = render(scene, camera, options);
+    options.method = "path";
+    options.paths = 2048;
+    const RenderResult path = render(scene, camera, options);
+    EXPECT_NEAR(bundle.mean_luminance_cd_m2, path.mean_luminance_cd_m2, 0.01 * path.mean_luminance_cd_m2);
+    EXPECT_LT(bundle.mean_standard_error_cd_m2, 0.05 * bundle.mean_luminance_cd_m2);
+}
+
+TEST(RayBundle, RefusesToLimitReflections) {
+    RunOptions options = bundle_options(1, 16);
+    options.bounces = 2;
+    const Sensor floor = points({{{1, 1.3, 0}, kUp}});
+    EXPECT_THROW(run(lamp_in_cube(0.5), {&floor, 1}, options), InputError);
+}
+
+}  // namespace
+}  // namespace stilb
