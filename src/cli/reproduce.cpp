@@ -1,4 +1,4 @@
-// stilb reproduce: the figures of the paper [LocalEstimation], computed anew.
+// stilb reproduce: the figures of the papers, computed anew.
 #include "cli/reproduce.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,9 @@ constexpr std::array kFigures{
     Figure{"room", "a picture of a simple room with an isotropic source (figure 5, without the head)",
            "room.exr and .png", reproduce_room},
     Figure{"polar", "light reflected more than once in Sobolev's problem, over its direction (figure 6)",
-           "polar.csv, .svg and .png", reproduce_polar}};
+           "polar.csv, .svg and .png", reproduce_polar},
+    Figure{"first-shot", "error of ray-bundle pictures with every first shot (the other paper's figure 6)",
+           "first-shot-*.csv, .svg and .png", reproduce_first_shot}};
 
 std::vector<Figure> chosen_figures(const std::string& name) {
     std::vector<std::string_view> known;
@@ -60,7 +62,7 @@ int run_reproduce(const std::string& name, const fs::path& directory) {
 
 void add_reproduce(CLI::App& app, int& exit_code) {
     CLI::App* command =
-        app.add_subcommand("reproduce", "The figures of the paper on local estimations, computed anew");
+        app.add_subcommand("reproduce", "The figures of the papers on local estimations and on first shot, computed anew");
     set_examples(*command,
                  "  stilb reproduce sobolev -o figures\n"
                  "  stilb reproduce -o figures\n");

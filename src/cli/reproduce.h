@@ -12,5 +12,7 @@ void reproduce_sobolev(const std::filesystem::path& directory);
 void reproduce_room(const std::filesystem::path& directory);
 /// [LocalEstimation], figure 6.
 void reproduce_polar(const std::filesystem::path& directory);
+/// [FirstShot], figure 6.
+void reproduce_first_shot(const std::filesystem::path& directory);
 
 }  // namespace stilb

@@ -1,0 +1,98 @@
+#include "cli/first_shot_convergence.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "estimators/bundle_iteration.h"
+#include "estimators/estimator.h"
+#include "estimators/patch_picture.h"
+#include "estimators/patch_place.h"
+#include "run/clock.h"
+
+namespace stilb {
+namespace {
+
+constexpr int kReferenceWalks = 8, kReferenceSteps = 2000;
+enum Purpose : std::uint64_t { kReference, kWalk };
+
+/// Pixels that show each side.
+std::vector<double> pixels_of_sides(const PictureTracing& tracing, const PatchTransport& transport) {
+    std::vector<double> pixels(2 * transport.patches.count());
+    const PixelBlock all{0, 0, tracing.camera.resolution[0], tracing.camera.resolution[1]};
+    for (Path& path : tracing.start_paths(pixels_of(all), {RandomKey{1}, 0}).paths) {
+        if (!tracing.tracer.look_through(path)) continue;
+        if (const auto seen = find_place(transport.patch_caster, path.hit, path.outgoing)) {
+            pixels[seen->side] += 1;
+        }
+    }
+    return pixels;
+}
+
+double difference(const std::vector<Rgb>& sides, const std::vector<Rgb>& reference,
+                  const std::vector<double>& pixels) {
+    double sum = 0, all = 0;
+    for (std::size_t side = 0; side < pixels.size(); ++side) {
+        if (pixels[side] == 0) continue;
+        const double expected = spectrum_of(reference[side]).luminance();
+        sum += pixels[side] * std::abs(spectrum_of(sides[side]).luminance() - expected);
+        all += pixels[side] * expected;
+    }
+    return sum / all;
+}
+
+std::vector<Rgb> reference_of(const PatchTransport& transport, const Vec3& eye) {
+    SeenSides seen(transport, eye);
+    for (std::uint64_t walk = 0; walk < kReferenceWalks; ++walk) {
+        BundleIteration iteration(transport, RandomKey{kReference}.derived(walk));
+        for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
+        for (int step = 0; step < kReferenceSteps; ++step) {
+            iteration.step();
+            seen.add(iteration);
+        }
+    }
+    return seen.mean_cd_m2();
+}
+
+/// 1, 2, 3, 5, 7, 10 ... and the last.
+bool is_looked_at(int step, int last) {
+    int digits = step;
+    while (digits >= 100 && digits % 10 == 0) digits /= 10;
+    const bool round = digits == 1 || digits == 2 || digits == 3 || digits == 5 || digits == 7 ||
+                       digits == 10 || digits == 20 || digits == 30 || digits == 50 || digits == 70;
+    return round || step == last;
+}
+
+}  // namespace
+
+std::vector<ConvergenceCurve> converge(const Scene& scene, const RayCaster& caster, const Camera& camera,
+                                       const std::vector<ConvergenceMethod>& methods, int steps,
+                                       double most_time_s) {
+    const PictureTracing tracing({scene, caster, camera, kUnlimited, RandomKey{1}});
+    const PatchTransport best(scene, caster, {});
+    const Vec3& eye = tracing.view.position();
+    const std::vector<double> pixels = pixels_of_sides(tracing, best);
+    const std::vector<Rgb> reference = reference_of(best, eye);
+    std::vector<ConvergenceCurve> curves;
+    for (const auto& [name, options] : methods) {
+        ConvergenceCurve curve{name, {}};
+        const PatchTransport transport(scene, caster, options);
+        const Clock clock;
+        BundleIteration iteration(transport, RandomKey{kWalk});
+        SeenSides seen(transport, eye);
+        double looking_s = 0;
+        for (int step = 1; step <= steps; ++step) {
+            iteration.step();
+            seen.add(iteration);
+            if (!is_looked_at(step, steps)) continue;
+            const double elapsed_s = clock.elapsed_s() - looking_s;
+            curve.points.push_back({static_cast<double>(step), transport.first_shot.set_up_s() + elapsed_s,
+                                    difference(seen.mean_cd_m2(), reference, pixels)});
+            if (elapsed_s > most_time_s) break;
+            looking_s = clock.elapsed_s() - elapsed_s;
+        }
+        curves.push_back(std::move(curve));
+    }
+    return curves;
+}
+
+}  // namespace stilb

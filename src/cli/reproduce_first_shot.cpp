@@ -1,0 +1,92 @@
+// The experiment of [FirstShot]: error of ray-bundle pictures over steps and over time, with every first shot
+// (figure 6), and the pictures after 10, 100 and 1000 steps.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "cli/first_shot_convergence.h"
+#include "cli/furnished_room.h"
+#include "cli/rendered_picture.h"
+#include "cli/reproduce.h"
+#include "files/picture_file.h"
+#include "files/plot.h"
+#include "files/scene_file.h"
+#include "files/table.h"
+
+namespace stilb {
+namespace {
+
+constexpr int kSteps = 1000;
+constexpr double kMostTime_s = 60;
+constexpr const char* kSceneFile = "scenes/paper/furnished.toml";
+
+/// With only the lights whose names begin so.
+SceneFile furnished_room(std::string_view lights) {
+    SceneFile file = read_scene(kFurnishedRoom, kSceneFile, {});
+    std::erase_if(file.scene.lights, [&](const Light& light) { return !light.name.starts_with(lights); });
+    return file;
+}
+
+ConvergenceMethod method(const std::string& name, FirstShotVariant variant,
+                         BundleDirections directions = BundleDirections::frame) {
+    PatchOptions options;
+    options.first_shot.variant = variant;
+    options.directions = directions;
+    return {name, options};
+}
+
+/// Without first shot a point light lights nothing.
+std::vector<ConvergenceMethod> methods_for(bool are_points) {
+    std::vector<ConvergenceMethod> methods{
+        method("incoming first shot", FirstShotVariant::incoming),
+        method("classical", FirstShotVariant::classical),
+        method("diffuse", FirstShotVariant::diffuse),
+        method("on the fly", FirstShotVariant::on_the_fly),
+        method("incoming, single directions", FirstShotVariant::incoming, BundleDirections::single)};
+    if (!are_points) methods.push_back(method("no first shot", FirstShotVariant::none));
+    return methods;
+}
+
+void write_curves(const std::vector<ConvergenceCurve>& curves, const std::filesystem::path& directory,
+                  const std::string& name) {
+    std::vector<std::string> names;
+    std::vector<double> steps, times_s, errors;
+    Plot over_steps{"Error of the picture over steps, " + name, {"steps", ScaleType::logarithmic}, {}};
+    Plot over_time{"Error of the picture over time, " + name, {"time [s]", ScaleType::logarithmic}, {}};
+    PlotPanel step_panel{{"relative error", ScaleType::logarithmic}, {}}, time_panel = step_panel;
+    for (const ConvergenceCurve& curve : curves) {
+        Series by_steps{curve.name, {}, {}}, by_time = by_steps;
+        for (const auto& [step, elapsed_s, error] : curve.points) {
+            names.push_back(curve.name), steps.push_back(step), times_s.push_back(elapsed_s);
+            errors.push_back(error);
+            by_steps.x.push_back(step), by_time.x.push_back(elapsed_s);
+            by_steps.y.push_back(error), by_time.y.push_back(error);
+        }
+        step_panel.series.push_back(by_steps), time_panel.series.push_back(by_time);
+    }
+    over_steps.panels = {step_panel}, over_time.panels = {time_panel};
+    write_csv(std::vector<Column>{{"first_shot", names}, {"steps", steps}, {"time_s", times_s},
+                                  {"relative_error", errors}},
+              directory / fmt::format("first-shot-{}.csv", name));
+    for (const char* extension : {"svg", "png"}) {
+        draw_plot(over_steps, directory / fmt::format("first-shot-{}-steps.{}", name, extension));
+        draw_plot(over_time, directory / fmt::format("first-shot-{}-time.{}", name, extension));
+    }
+}
+
+void reproduce_scene(std::string_view lights, const std::filesystem::path& directory) {
+    const SceneFile file = furnished_room(lights);
+    const RayCaster caster(file.scene);
+    const Camera& camera = file.sensors.front().camera;
+    const auto curves = converge(file.scene, caster, camera, methods_for(lights == "point"), kSteps, kMostTime_s);
+    write_curves(curves, directory, std::string(lights) + "s");
+}
+
+}  // namespace
+
+void reproduce_first_shot(const std::filesystem::path& directory) {
+    for (const std::string_view lights : {"point", "panel"}) reproduce_scene(lights, directory);
+}
+
+}  // namespace stilb
