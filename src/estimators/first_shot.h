@@ -77,6 +77,12 @@ class FirstShot {
     /// enough for all steps.
     bool is_constant(std::uint32_t side) const;
 
+    /// Whether the position matters: shadow rays start there.
+    bool needs_position(std::uint32_t side) const {
+        return std::holds_alternative<ShadowRays>(stored_) ||
+               (std::holds_alternative<DiffuseFirstShot>(stored_) && !is_constant(side));
+    }
+
     /// What was decided of each light, as Scene::lights.
     std::span<const FirstShotLight> lights() const { return lights_.lights; }
     std::span<const LightSample> samples() const { return lights_.samples; }

@@ -57,7 +57,7 @@ Estimate measured(const Scene& scene, const Sensor& sensor, const RunOptions& op
 
 TEST(RayBundle, LightsACubeAsComputed) {
     const Sensor floor = points({{{2, 2, 0}, kUp}, {{0.5, 0.5, 0}, kUp}});
-    const RunResult result = run(lamp_in_cube(0.8), {&floor, 1}, bundle_options(0.2, 1 << 14));
+    const RunResult result = run(lamp_in_cube(0.8), {&floor, 1}, bundle_options(0.5, 1 << 12));
     const auto direct = [](double x, double y) {
         const double squared = 4 + (x - 2) * (x - 2) + (y - 2) * (y - 2);
         return 10'000 / (4 * std::numbers::pi) * 2 / std::pow(squared, 1.5);
@@ -65,7 +65,7 @@ TEST(RayBundle, LightsACubeAsComputed) {
     const auto& readings = result.sensors[0].readings;
     EXPECT_NEAR(readings[0].estimate.value - direct(2, 2), 430.95, 0.01 * 430.95);
     EXPECT_NEAR(readings[1].estimate.value - direct(0.5, 0.5), 403.10, 0.01 * 403.10);
-    EXPECT_LT(readings[0].estimate.standard_error, 0.004 * 430.95);
+    EXPECT_LT(readings[0].estimate.standard_error, 0.005 * 430.95);
 }
 
 /// One direction and one axis have finite variance at a reflectance of 0.5, too.
@@ -75,7 +75,7 @@ TEST(RayBundle, AllDirectionsHaveTheSameMean) {
     std::vector<Estimate> estimates;
     for (const BundleDirections directions :
          {BundleDirections::single, BundleDirections::pair, BundleDirections::frame}) {
-        RunOptions options = bundle_options(0.5, 1 << 15);
+        RunOptions options = bundle_options(1, 1 << 14);
         options.patches.directions = directions;
         estimates.push_back(measured(scene, floor, options, 0));
         EXPECT_LT(estimates.back().standard_error, 0.005 * estimates.back().value) << name_of(directions);
@@ -96,16 +96,16 @@ TEST(RayBundle, EveryFirstShotApproachesPathTracing) {
     path.method = "path";
     path.error = 0.003;
     const RunResult exact = run(scene, {&sensor, 1}, path);
-    for (const FirstShotVariant variant : {FirstShotVariant::none, FirstShotVariant::classical,
-                                           FirstShotVariant::diffuse, FirstShotVariant::incoming,
-                                           FirstShotVariant::on_the_fly}) {
-        if (variant == FirstShotVariant::none) continue;  // nothing meets a point light
-        RunOptions options = bundle_options(0.12, 1 << 12);
+    for (const FirstShotVariant variant : {FirstShotVariant::classical, FirstShotVariant::diffuse,
+                                           FirstShotVariant::incoming, FirstShotVariant::on_the_fly}) {
+        RunOptions options = bundle_options(0.12, 1 << 10);
         options.patches.first_shot.variant = variant;
+        // A bin's radiance is a mean over its directions.
+        const double tolerance = variant == FirstShotVariant::classical ? 0.04 : 0.02;
         const RunResult result = run(scene, {&sensor, 1}, options);
         for (std::size_t j = 0; j < 3; ++j) {
             const double expected = exact.sensors[0].readings[j].estimate.value;
-            EXPECT_NEAR(result.sensors[0].readings[j].estimate.value, expected, 0.02 * expected)
+            EXPECT_NEAR(result.sensors[0].readings[j].estimate.value, expected, tolerance * expected)
                 << name_of(variant) << ' ' << j;
         }
     }
@@ -114,7 +114,7 @@ TEST(RayBundle, EveryFirstShotApproachesPathTracing) {
 TEST(RayBundle, ThreadsAndRepetitionsChangeNothing) {
     const Scene scene = glossy_room();
     const Sensor floor = points({{{1, 1.3, 0}, kUp}, {{3, 1.3, 0.8}, kUp}});
-    RunOptions options = bundle_options(0.4, 2048);
+    RunOptions options = bundle_options(0.5, 512);
     const Estimate once = measured(scene, floor, options, 1);
     for (const int threads : {1, 2, 3}) {
         options.threads = threads;
@@ -128,7 +128,7 @@ TEST(RayBundle, PicturesShowWhatMetersMeasure) {
     const Scene scene = glossy_room();
     Sensor camera{"camera", SensorType::camera, {}};
     camera.camera = {{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {24, 16}, Projection::perspective};
-    RunOptions options = bundle_options(0.12, 64);
+    RunOptions options = bundle_options(0.12, 32);
     const RenderResult bundle = render(scene, camera, options);
     options.method = "path";
     options.paths = 2048;
