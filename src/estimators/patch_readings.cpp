@@ -6,6 +6,13 @@
 #include "estimators/direct_light.h"
 
 namespace stilb {
+namespace {
+
+/// From each point: a step of the light costs far more than a ray.
+constexpr std::uint64_t kRaysPerSample = 4;
+constexpr double kShare = 1.0 / kRaysPerSample;
+
+}  // namespace
 
 PatchReadings::PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands)
     : transport_(transport), known_part_(measurands.size()) {
@@ -47,8 +54,10 @@ void PatchReadings::add(const PatchLight& light, RandomKey key, std::uint64_t sa
     for (const View& view : views_) add_luminance(light, view, sums);
     for (std::size_t first = 0; first < points_.size(); first += kPacketWidth) {
         const std::size_t count = std::min<std::size_t>(kPacketWidth, points_.size() - first);
-        add_illuminances(light, std::span(points_).subspan(first, count),
-                         SampleStream(key.derived(first), sample), sums);
+        for (std::uint64_t ray = 0; ray < kRaysPerSample; ++ray) {
+            add_illuminances(light, std::span(points_).subspan(first, count),
+                             SampleStream(key.derived(first), kRaysPerSample * sample + ray), sums);
+        }
     }
 }
 
@@ -72,8 +81,8 @@ void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Re
     LaneMask lanes{};
     std::array<Receiver::Sample, kPacketWidth> samples;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        sums.add(points[i].reading(),
-                 sample_direct_from_areas(points[i], transport_.caster, transport_.lights, stream));
+        sums.add(points[i].reading(), kShare * sample_direct_from_areas(points[i], transport_.caster,
+                                                                        transport_.lights, stream));
         const auto sample = points[i].sample(u1, u2);
         if (!sample) continue;
         samples[i] = *sample;
@@ -86,7 +95,7 @@ void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Re
         const Vec3 out = -samples[i].direction;
         const Vec3 met = points[i].lifted() - double{packet.end[i]} * out;
         sums.add(points[i].reading(),
-                 samples[i].weight *
+                 kShare * samples[i].weight *
                      (light.reflected(sides[i], out) + transport_.first_reflected_at(sides[i], met, out)));
     }
 }

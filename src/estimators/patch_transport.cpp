@@ -4,7 +4,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "patches/ray_bundles.h"
+#include "patches/buffer_backend.h"
 
 namespace stilb {
 namespace {
@@ -26,7 +26,7 @@ PatchTransport::PatchTransport(const Scene& all, const RayCaster& rays, const Pa
       patches(make_patches(scene, options.patch_m.value_or(patch_size_m(scene)))),
       patch_caster(patches),
       interpolation(patches),
-      bundles(std::make_unique<RayBundles>(patch_caster)),
+      bundles(make_bundles(options.first_shot.shooting.backend, patch_caster)),
       first_shot(scene, caster, lights, patch_caster, options.first_shot),
       spacing_m(std::sqrt(area_m2(patches) / static_cast<double>(patches.count()) / kRaysPerPatch)),
       glossy_number(patches.count(), kConstant),
