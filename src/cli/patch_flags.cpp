@@ -55,10 +55,11 @@ bool PatchFlags::are_given() const {
 
 PatchOptions PatchFlags::options_for(const std::string& method) const {
     if (are_given() && !find_estimator(method).lights_patches) {
-        throw InputError(fmt::format(
-            "--patch, --first-shot, --window, --resolution, --visibility and --directions are for methods that "
-            "light patches, and {} has none. Use --method ray-bundle.",
-            method));
+        throw InputError(
+            fmt::format("--patch, --first-shot, --window, --resolution, --visibility and --directions are "
+                        "for methods that "
+                        "light patches, and {} has none. Use --method ray-bundle.",
+                        method));
     }
     PatchOptions options;
     options.patch_m = patch_m;

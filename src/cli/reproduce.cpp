@@ -61,8 +61,8 @@ int run_reproduce(const std::string& name, const fs::path& directory) {
 }  // namespace
 
 void add_reproduce(CLI::App& app, int& exit_code) {
-    CLI::App* command =
-        app.add_subcommand("reproduce", "The figures of the papers on local estimations and on first shot, computed anew");
+    CLI::App* command = app.add_subcommand(
+        "reproduce", "The figures of the papers on local estimations and on first shot, computed anew");
     set_examples(*command,
                  "  stilb reproduce sobolev -o figures\n"
                  "  stilb reproduce -o figures\n");

@@ -40,8 +40,7 @@ ConvergenceMethod method(const std::string& name, FirstShotVariant variant,
 std::vector<ConvergenceMethod> methods_for(bool are_points) {
     std::vector<ConvergenceMethod> methods{
         method("incoming first shot", FirstShotVariant::incoming),
-        method("classical", FirstShotVariant::classical),
-        method("diffuse", FirstShotVariant::diffuse),
+        method("classical", FirstShotVariant::classical), method("diffuse", FirstShotVariant::diffuse),
         method("on the fly", FirstShotVariant::on_the_fly),
         method("incoming, single directions", FirstShotVariant::incoming, BundleDirections::single)};
     if (!are_points) methods.push_back(method("no first shot", FirstShotVariant::none));
@@ -66,9 +65,10 @@ void write_curves(const std::vector<ConvergenceCurve>& curves, const std::filesy
         step_panel.series.push_back(by_steps), time_panel.series.push_back(by_time);
     }
     over_steps.panels = {step_panel}, over_time.panels = {time_panel};
-    write_csv(std::vector<Column>{{"first_shot", names}, {"steps", steps}, {"time_s", times_s},
-                                  {"relative_error", errors}},
-              directory / fmt::format("first-shot-{}.csv", name));
+    write_csv(
+        std::vector<Column>{
+            {"first_shot", names}, {"steps", steps}, {"time_s", times_s}, {"relative_error", errors}},
+        directory / fmt::format("first-shot-{}.csv", name));
     for (const char* extension : {"svg", "png"}) {
         draw_plot(over_steps, directory / fmt::format("first-shot-{}-steps.{}", name, extension));
         draw_plot(over_time, directory / fmt::format("first-shot-{}-time.{}", name, extension));
@@ -79,7 +79,8 @@ void reproduce_scene(std::string_view lights, const std::filesystem::path& direc
     const SceneFile file = furnished_room(lights);
     const RayCaster caster(file.scene);
     const Camera& camera = file.sensors.front().camera;
-    const auto curves = converge(file.scene, caster, camera, methods_for(lights == "point"), kSteps, kMostTime_s);
+    const auto curves =
+        converge(file.scene, caster, camera, methods_for(lights == "point"), kSteps, kMostTime_s);
     write_curves(curves, directory, std::string(lights) + "s");
 }
 

@@ -55,9 +55,12 @@ std::size_t axes_of(BundleDirections directions) { return directions == BundleDi
 /// Of each axis (theory 8).
 double weight_of(BundleDirections directions) {
     switch (directions) {
-        case BundleDirections::single: return 4 * kPi;
-        case BundleDirections::pair: return 2 * kPi;
-        case BundleDirections::frame: break;
+        case BundleDirections::single:
+            return 4 * kPi;
+        case BundleDirections::pair:
+            return 2 * kPi;
+        case BundleDirections::frame:
+            break;
     }
     return 2 * kPi / 3;
 }

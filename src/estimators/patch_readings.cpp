@@ -64,8 +64,7 @@ void PatchReadings::add(const PatchLight& light, RandomKey key, std::uint64_t sa
 void PatchReadings::add_luminance(const PatchLight& light, const View& view, ReadingSums& sums) const {
     const Patches& patches = transport_.patches;
     const bool front = patches.is_front(view.seen.side);
-    Spectrum luminance =
-        transport_.first_reflected_at(view.seen.side, view.position, view.outgoing);
+    Spectrum luminance = transport_.first_reflected_at(view.seen.side, view.position, view.outgoing);
     for (const auto& [patch, weight] : view.shares) {
         luminance += light.reflected(front ? patch : patches.other_side(patch), view.outgoing) * weight;
     }
@@ -81,8 +80,8 @@ void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Re
     LaneMask lanes{};
     std::array<Receiver::Sample, kPacketWidth> samples;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        sums.add(points[i].reading(), kShare * sample_direct_from_areas(points[i], transport_.caster,
-                                                                        transport_.lights, stream));
+        sums.add(points[i].reading(),
+                 kShare * sample_direct_from_areas(points[i], transport_.caster, transport_.lights, stream));
         const auto sample = points[i].sample(u1, u2);
         if (!sample) continue;
         samples[i] = *sample;

@@ -1,8 +1,8 @@
 // Readings of lit patches.
 //
-// Luminance: at the sub-points of lines of sight, interpolated between the patches around. Illuminance: direct
-// light as everywhere (direct_light.h), and along a few rays from the point for each sample what the patches
-// that they meet reflect.
+// Luminance: at the sub-points of lines of sight, interpolated between the patches around. Illuminance:
+// direct light as everywhere (direct_light.h), and along a few rays from the point for each sample what the
+// patches that they meet reflect.
 #pragma once
 
 #include <span>

@@ -78,8 +78,7 @@ std::vector<std::vector<VertexInterpolation::Share>> VertexInterpolation::shares
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const auto [first, last] = users.equal_range(patches_.corners[p][corner]);
             for (auto user = first; user != last; ++user) {
-                shares[user->second.place].push_back(
-                    {p, user->second.weight * double{weights_[p][corner]}});
+                shares[user->second.place].push_back({p, user->second.weight * double{weights_[p][corner]}});
             }
         }
     }
