@@ -67,7 +67,7 @@ PatchOptions PatchFlags::options_for(const std::string& method) const {
     read("--window", window, kWindowNames, options.first_shot.shooting.window);
     read("--visibility", visibility, kBufferBackendNames, options.first_shot.shooting.backend);
     read("--directions", directions, kBundleDirectionsNames, options.directions);
-    if (resolution) options.first_shot.shooting.resolution = *resolution;
+    options.resolution = resolution;
     return options;
 }
 
