@@ -34,7 +34,7 @@ void read(const char* flag, const std::optional<std::string>& typed, std::span<c
 }  // namespace
 
 void PatchFlags::add_to(CLI::App& command) {
-    const std::string group = "Methods that light patches (ray-bundle)";
+    const std::string group = "Methods that light patches (ray-bundle, radiosity; particles: --patch only)";
     const auto add = [&](const char* name, auto& value, const std::string& text, const char* type) {
         command.add_option(name, value, text)->type_name(type)->group(group);
     };
@@ -43,24 +43,44 @@ void PatchFlags::add_to(CLI::App& command) {
         "What stands for small lights: auto, none, classical, diffuse, incoming, on-the-fly (default: auto, "
         "which is incoming)",
         "NAME");
-    add("--window", window, "Item buffers on area lights: hemicube (default) or tetrahedron", "NAME");
-    add("--resolution", resolution, "Pixels along an edge of item buffers (default: by the patches)", "R");
+    add("--window", window,
+        "Item buffers on area lights, and on patches of radiosity: hemicube (default) or tetrahedron",
+        "NAME");
+    add("--resolution", resolution,
+        "Pixels along an edge of item buffers (default: by the patches; 64 on patches of radiosity)", "R");
     add("--visibility", visibility, "Who finds what patches see: rays (default) or opengl", "NAME");
-    add("--directions", directions, "Bundles of a step: single, pair or frame (default)", "NAME");
+    add("--directions", directions, "ray-bundle: bundles of a step, single, pair or frame (default)", "NAME");
 }
 
-bool PatchFlags::are_given() const {
-    return patch_m || first_shot || window || visibility || directions || resolution;
+std::vector<std::string_view> PatchFlags::given() const {
+    std::vector<std::string_view> names;
+    const auto add = [&](std::string_view name, bool is_given) {
+        if (is_given) names.push_back(name);
+    };
+    add("--patch", patch_m.has_value());
+    add("--first-shot", first_shot.has_value());
+    add("--window", window.has_value());
+    add("--resolution", resolution.has_value());
+    add("--visibility", visibility.has_value());
+    add("--directions", directions.has_value());
+    return names;
+}
+
+void PatchFlags::require_known_to(const EstimatorEntry& method) const {
+    for (const std::string_view flag : given()) {
+        if (std::ranges::find(method.patch_flags, flag) != method.patch_flags.end()) continue;
+        std::vector<std::string_view> methods;
+        for (const EstimatorEntry& entry : estimator_list()) {
+            if (std::ranges::find(entry.patch_flags, flag) != entry.patch_flags.end())
+                methods.push_back(entry.name);
+        }
+        throw InputError(fmt::format("{} means nothing to method {}. It is for {}.", flag, method.name,
+                                     fmt::join(methods, ", ")));
+    }
 }
 
 PatchOptions PatchFlags::options_for(const std::string& method) const {
-    if (are_given() && !find_estimator(method).lights_patches) {
-        throw InputError(
-            fmt::format("--patch, --first-shot, --window, --resolution, --visibility and --directions are "
-                        "for methods that "
-                        "light patches, and {} has none. Use --method ray-bundle.",
-                        method));
-    }
+    require_known_to(find_estimator(method));
     PatchOptions options;
     options.patch_m = patch_m;
     if (first_shot != "auto") read("--first-shot", first_shot, kFirstShotNames, options.first_shot.variant);

@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "estimators/patch_options.h"
+#include "estimators/estimator_list.h"
 
 namespace stilb {
 
@@ -19,7 +21,8 @@ struct PatchFlags {
     PatchOptions options_for(const std::string& method) const;
 
   private:
-    bool are_given() const;
+    std::vector<std::string_view> given() const;
+    void require_known_to(const EstimatorEntry& method) const;
 };
 
 }  // namespace stilb

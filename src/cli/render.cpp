@@ -90,6 +90,8 @@ std::string ending(const RenderResult& result) {
             return "the time is over";
         case StopReason::interrupted:
             return "interrupted";
+        case StopReason::solved:
+            break;  // pictures are never
     }
     return "";
 }
@@ -98,11 +100,13 @@ void print_summary(const RenderResult& result, const Sensor& sensor) {
     const auto& [width, height] = sensor.camera.resolution;
     fmt::print("{}: {} x {} pixels, mean luminance {:.4g} cd/m²\n", sensor.name, width, height,
                result.mean_luminance_cd_m2);
-    fmt::print("mean standard error of a pixel: {:.3g} cd/m², {:.2g} % of the mean luminance\n",
-               result.mean_standard_error_cd_m2,
-               100 * result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2);
-    fmt::print("95 % of the pixels have a 95 % interval within {:.2g} % of their value\n",
-               100 * result.attained_error);
+    if (result.replicates > 1) {
+        fmt::print("mean standard error of a pixel: {:.3g} cd/m², {:.2g} % of the mean luminance\n",
+                   result.mean_standard_error_cd_m2,
+                   100 * result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2);
+        fmt::print("95 % of the pixels have a 95 % interval within {:.2g} % of their value\n",
+                   100 * result.attained_error);
+    }
     fmt::print("{}, {} passes in {:.1f} s: {}\n", result.method, result.passes, result.elapsed_s,
                ending(result));
 }

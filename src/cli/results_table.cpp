@@ -96,8 +96,11 @@ std::string summary_text(const GridSummary& summary, const Sensor& sensor) {
 std::string sensor_table(const SensorResult& result, const Sensor& sensor) {
     const std::size_t readings = sensor.measurands.size();
     if (readings == 1) return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0));
-    std::string text = fmt::format("{:12}  {}; 95 % of the readings within {:.2g} %\n", sensor.name,
-                                   size_text(sensor), 100 * result.attained_error);
+    std::string text = fmt::format("{:12}  {}", sensor.name, size_text(sensor));
+    if (!std::isnan(result.attained_error)) {
+        text += fmt::format("; 95 % of the readings within {:.2g} %", 100 * result.attained_error);
+    }
+    text += '\n';
     text += summary_text(result.summary, sensor);
     const auto& count = sensor.grid.count;
     if (sensor.type == SensorType::grid)
@@ -125,6 +128,8 @@ std::string ending(const RunResult& result) {
             return fmt::format("the time is over; error {}", attained);
         case StopReason::interrupted:
             return fmt::format("interrupted; error {}", attained);
+        case StopReason::solved:
+            return "solved; the error by the size of the patches is not known";
     }
     return "";
 }
@@ -133,14 +138,18 @@ std::string ending(const RunResult& result) {
 
 std::string with_error(const Estimate& estimate) {
     const int decimals = decimals_for(estimate);
+    if (std::isnan(estimate.standard_error)) return fmt::format("{:.{}f}", estimate.value, decimals);
     return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, half_width(estimate), decimals);
 }
 
 std::string to_table(const RunResult& result, std::span<const Sensor> sensors) {
-    std::string text = title_of(sensors) + ", with 95 % intervals\n\n";
+    const bool has_intervals = result.stop_reason != StopReason::solved;
+    std::string text =
+        title_of(sensors) + (has_intervals ? ", with 95 % intervals\n\n" : ", without intervals\n\n");
     for (std::size_t s = 0; s < sensors.size(); ++s) text += sensor_table(result.sensors[s], sensors[s]);
-    return text + fmt::format("\n{}, {} paths in {:.2f} s: {}\n", result.method, result.paths,
-                              result.elapsed_s, ending(result));
+    const std::string paths = has_intervals ? fmt::format(", {} paths", result.paths) : "";
+    return text +
+           fmt::format("\n{}{} in {:.2f} s: {}\n", result.method, paths, result.elapsed_s, ending(result));
 }
 
 }  // namespace stilb

@@ -108,7 +108,12 @@ std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names
 std::vector<EstimatorEntry> chosen_methods(const std::vector<std::string>& names) {
     if (names.empty()) return unbiased_estimators();
     std::vector<EstimatorEntry> methods;
-    for (const std::string& name : names) methods.push_back(find_estimator(name));
+    for (const std::string& name : names) {
+        methods.push_back(find_estimator(name));
+        if (methods.back().is_deterministic) {
+            throw InputError(fmt::format("--method {}: it knows no errors to judge its readings by.", name));
+        }
+    }
     return methods;
 }
 

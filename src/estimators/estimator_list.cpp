@@ -9,13 +9,23 @@
 
 #include "base/error.h"
 #include "estimators/local_estimation.h"
+#include "estimators/particles.h"
 #include "estimators/path.h"
 #include "estimators/picture_bundle.h"
 #include "estimators/picture_local.h"
 #include "estimators/picture_path.h"
+#include "estimators/radiosity.h"
 #include "estimators/ray_bundle.h"
 
 namespace stilb {
+namespace {
+
+constexpr std::array<std::string_view, 6> kBundleFlags{"--patch",      "--first-shot", "--window",
+                                                       "--resolution", "--visibility", "--directions"};
+constexpr std::span kRadiosityFlags = std::span(kBundleFlags).first<5>();
+constexpr std::span kParticlesFlags = std::span(kBundleFlags).first<1>();
+
+}  // namespace
 
 std::span<const EstimatorEntry> estimator_list() {
     static constexpr std::array list{
@@ -34,7 +44,15 @@ std::span<const EstimatorEntry> estimator_list() {
         EstimatorEntry{"ray-bundle",
                        "stochastic iteration with bundles of parallel rays and first shot over patches: the "
                        "whole scene at once, biased by the size of the patches (--patch)",
-                       false, make_ray_bundle_estimator, make_ray_bundle_picture, true},
+                       false, make_ray_bundle_estimator, make_ray_bundle_picture, true, kBundleFlags},
+        EstimatorEntry{"radiosity",
+                       "progressive shooting between patches until nothing is left, for diffuse scenes: a "
+                       "baseline, without standard errors and biased by the size of the patches",
+                       false, make_radiosity_estimator, make_radiosity_picture, true, kRadiosityFlags, true},
+        EstimatorEntry{"particles",
+                       "particles of light counted in patches, for diffuse scenes: a baseline, biased by the "
+                       "size of the patches",
+                       false, make_particles_estimator, make_particles_picture, true, kParticlesFlags},
     };
     return list;
 }

@@ -39,6 +39,10 @@ struct EstimatorEntry {
     std::unique_ptr<PictureEstimator> (*make_picture)(const PictureInput& input);
     /// Whether it lights patches: then it is biased by their size.
     bool lights_patches = false;
+    /// What of PatchOptions it goes by, as flags of the command line.
+    std::span<const std::string_view> patch_flags = {};
+    /// Whether chance has no part in it: Estimator::known_part() is then all there is, and the error unknown.
+    bool is_deterministic = false;
 
     bool measures_luminance() const { return make_picture != nullptr; }
 };

@@ -45,6 +45,22 @@ std::vector<std::string> patch_warnings(const Scene& scene, std::string_view met
                     method)};
 }
 
+void require_diffuse(const Scene& scene, std::string_view method) {
+    for (const Object& object : scene.objects) {
+        for (const MaterialId id : object.materials) {
+            const NamedMaterial& used = scene.materials[index_of(id)];
+            if (std::holds_alternative<Diffuse>(used.material) ||
+                std::holds_alternative<Black>(used.material)) {
+                continue;
+            }
+            throw InputError(fmt::format(
+                "object \"{}\": its material \"{}\" is neither diffuse nor black, and method {} knows one "
+                "luminance for all directions of a surface. Use --method auto or ray-bundle.",
+                object.name, used.name, method));
+        }
+    }
+}
+
 void require_all_reflections(int max_reflections, std::string_view method) {
     if (max_reflections == kUnlimited) return;
     throw InputError(

@@ -18,6 +18,9 @@ std::vector<std::string> local_warnings(const Scene& scene);
 /// Of methods that light patches, where the scene has mirrors or glass.
 std::vector<std::string> patch_warnings(const Scene& scene, std::string_view method);
 
+/// Throws InputError, which names object and material, where something reflects neither diffusely nor not at
+/// all.
+void require_diffuse(const Scene& scene, std::string_view method);
 /// Throws InputError where reflections are limited.
 void require_all_reflections(int max_reflections, std::string_view method);
 

@@ -21,7 +21,8 @@ struct PatchOptions {
     /// Longest edge; by the scene where absent: about 10,000 patches.
     std::optional<double> patch_m;
     FirstShotOptions first_shot;
-    /// Of item buffers; by the number of patches where absent.
+    /// Of item buffers; where absent, first shot's are by the number of patches, those around patches
+    /// (radiosity) 64.
     std::optional<int> resolution;
     BundleDirections directions = BundleDirections::frame;
 };

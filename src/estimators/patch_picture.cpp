@@ -6,13 +6,6 @@
 #include "estimators/patch_place.h"
 
 namespace stilb {
-namespace {
-
-void add_to(Rgb& sum, const Spectrum& value) {
-    for (std::size_t b = 0; b < kBands; ++b) sum[b] += static_cast<float>(value[b]);
-}
-
-}  // namespace
 
 SeenSides::SeenSides(const PatchTransport& transport, const Vec3& eye)
     : transport_(transport), eye_(eye), sums_(2 * transport.patches.count()) {}

@@ -24,6 +24,9 @@ inline Rgb rgb_of(const Spectrum& spectrum) {
             static_cast<float>(spectrum[2])};
 }
 inline Spectrum spectrum_of(const Rgb& rgb) { return {{rgb[0], rgb[1], rgb[2]}}; }
+inline void add_to(Rgb& sum, const Spectrum& value) {
+    for (std::size_t b = 0; b < kBands; ++b) sum[b] += static_cast<float>(value[b]);
+}
 
 /// Keeps references to scene and caster. Immutable once made.
 struct PatchTransport {

@@ -25,24 +25,29 @@ namespace {
 /// Fewer than for readings: a pixel's error matters less than memory for them all.
 constexpr std::uint64_t kReplicates = 16;
 constexpr double kDefaultTime_s = 60;
+/// For smooth edges.
+constexpr std::uint64_t kSmoothingPasses = 16;
 /// Samples that may fail to be finite before the run does.
 constexpr double kInvalidRate = 1e-6;
 enum Purpose : std::uint64_t { kPreparation, kSamples, kOffset };
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
-/// Sums of passes. Pass p is of replicate p mod kReplicates, so that all replicates grow together.
+/// Sums of passes. Pass p is of replicate p mod `replicates`, so that all replicates grow together.
 class PictureSums {
   public:
-    explicit PictureSums(std::size_t pixels) : rgb_(pixels), luminance_(pixels * kReplicates) {}
+    /// One replicate: no errors are wanted.
+    PictureSums(std::size_t pixels, std::uint64_t replicates)
+        : replicates_(replicates), rgb_(pixels), luminance_(pixels * replicates) {}
 
     std::uint64_t passes() const { return passes_; }
+    std::uint64_t replicates() const { return std::min(passes_, replicates_); }
 
     void add(const std::vector<std::array<float, 3>>& pass) {
-        const std::size_t replicate = passes_ % kReplicates;
+        const std::size_t replicate = passes_ % replicates_;
         for (std::size_t i = 0; i < rgb_.size(); ++i) {
             for (std::size_t b = 0; b < kBands; ++b) rgb_[i][b] += pass[i][b];
-            luminance_[i * kReplicates + replicate] +=
+            luminance_[i * replicates_ + replicate] +=
                 static_cast<float>(Spectrum{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
         }
         ++passes_;
@@ -50,21 +55,21 @@ class PictureSums {
 
     double luminance_cd_m2(std::size_t pixel) const {
         double sum = 0;
-        for (std::size_t r = 0; r < kReplicates; ++r) sum += double{luminance_[pixel * kReplicates + r]};
+        for (std::size_t r = 0; r < replicates_; ++r) sum += double{luminance_[pixel * replicates_ + r]};
         return sum / static_cast<double>(passes_);
     }
 
-    /// From the replicates' means, each weighted by its passes (which differ by one at most); infinite after
-    /// a single pass.
+    /// From the replicates' means, each weighted by its passes (which differ by one at most); infinite with
+    /// a single one.
     double standard_error_cd_m2(std::size_t pixel) const {
-        const std::uint64_t used = std::min(passes_, kReplicates);
+        const std::uint64_t used = replicates();
         if (used < 2) return std::numeric_limits<double>::infinity();
         const double all = static_cast<double>(passes_), mean = luminance_cd_m2(pixel);
         double variance = 0;
         for (std::uint64_t r = 0; r < used; ++r) {
-            const std::uint64_t passes = passes_ / kReplicates + (r < passes_ % kReplicates ? 1 : 0);
+            const std::uint64_t passes = passes_ / replicates_ + (r < passes_ % replicates_ ? 1 : 0);
             const double own = static_cast<double>(passes);
-            const double deviation = (double{luminance_[pixel * kReplicates + r]} - own * mean) / all;
+            const double deviation = (double{luminance_[pixel * replicates_ + r]} - own * mean) / all;
             variance += deviation * deviation;
         }
         return std::sqrt(variance * static_cast<double>(used) / static_cast<double>(used - 1));
@@ -75,13 +80,14 @@ class PictureSums {
         const float per_pass = 1 / static_cast<float>(passes_);
         for (std::size_t i = 0; i < rgb_.size(); ++i) {
             pixels.rgb_cd_m2.push_back({rgb_[i][0] * per_pass, rgb_[i][1] * per_pass, rgb_[i][2] * per_pass});
-            if (passes_ < 2) continue;
+            if (replicates() < 2) continue;
             pixels.standard_error_cd_m2.push_back(static_cast<float>(standard_error_cd_m2(i)));
         }
         return pixels;
     }
 
   private:
+    std::uint64_t replicates_;
     std::vector<std::array<float, 3>> rgb_;
     std::vector<float> luminance_;  ///< pixels x replicates
     std::uint64_t passes_ = 0;
@@ -98,7 +104,7 @@ std::vector<bool> blind_pixels(const Camera& camera) {
 }
 
 double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
-    const std::uint64_t used = std::min(sums.passes(), kReplicates);
+    const std::uint64_t used = sums.replicates();
     if (used < 2) return std::numeric_limits<double>::infinity();
     const double t = student_t_quantile((1 + kStoppedConfidence) / 2, static_cast<int>(used) - 1);
     std::vector<double> half_widths;
@@ -257,7 +263,7 @@ void add_means(const PictureSums& sums, const std::vector<bool>& blind, RenderRe
     for (std::size_t i = 0; i < blind.size(); ++i) {
         if (blind[i]) {
             result.pixels.rgb_cd_m2[i] = {kNoValue, kNoValue, kNoValue};
-            result.pixels.standard_error_cd_m2[i] = kNoValue;
+            if (sums.replicates() > 1) result.pixels.standard_error_cd_m2[i] = kNoValue;
             continue;
         }
         luminance += sums.luminance_cd_m2(i);
@@ -268,8 +274,17 @@ void add_means(const PictureSums& sums, const std::vector<bool>& blind, RenderRe
     result.mean_standard_error_cd_m2 = error / pixels;
 }
 
-RunOptions with_default_target(RunOptions options) {
-    if (!options.error && !options.time_s && !options.paths) options.time_s = kDefaultTime_s;
+/// With the default of a picture that was asked for nothing in particular. Passes of a method without chance
+/// differ only by where they look in the pixels.
+RunOptions with_target(RunOptions options, const EstimatorEntry& method) {
+    if (method.is_deterministic) options.error.reset();
+    if (!options.error && !options.time_s && !options.paths) {
+        if (method.is_deterministic) {
+            options.paths = kSmoothingPasses;
+        } else {
+            options.time_s = kDefaultTime_s;
+        }
+    }
     if (options.paths) options.paths = std::max<std::uint64_t>(*options.paths, 2);
     return options;
 }
@@ -278,9 +293,9 @@ RunOptions with_default_target(RunOptions options) {
 
 RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& asked_options,
                     PictureSink* sink, const std::atomic<bool>* interrupt) {
-    const RunOptions options = with_default_target(asked_options);
-    require_valid(options);
-    const EstimatorEntry& method = find_estimator(options.method);
+    require_valid(asked_options);
+    const EstimatorEntry& method = find_estimator(asked_options.method);
+    const RunOptions options = with_target(asked_options, method);
     if (!method.measures_luminance()) {
         throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
                                      fmt::join(luminance_methods(), ", ")));
@@ -293,7 +308,7 @@ RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& 
                                           static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     const std::vector<bool> blind = blind_pixels(camera);
-    PictureSums sums(blind.size());
+    PictureSums sums(blind.size(), method.is_deterministic ? 1 : kReplicates);
     RenderResult result;
     arena.execute([&] {
         const auto estimator =
@@ -309,13 +324,17 @@ RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& 
             "auto.",
             method.name));
     }
+    if (method.is_deterministic && asked_options.error) {
+        result.warnings.push_back(fmt::format(
+            "method {} knows no statistical error: the error asked for is not looked at.", method.name));
+    }
     result.pixels = sums.pixels();
     add_means(sums, blind, result);
     add_geometry(camera, caster, result);
     result.method = options.method;
     result.seed = options.seed;
     result.passes = sums.passes();
-    result.replicates = static_cast<int>(std::min(sums.passes(), kReplicates));
+    result.replicates = static_cast<int>(sums.replicates());
     result.attained_error = attained_error(sums, blind);
     result.converged = result.stop_reason != StopReason::interrupted &&
                        (!options.error || result.stop_reason == StopReason::target_reached);

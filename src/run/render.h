@@ -17,7 +17,7 @@ namespace stilb {
 /// Pixels row by row from the top, NaN where the camera shows nothing.
 struct Pixels {
     std::vector<std::array<float, 3>> rgb_cd_m2;  ///< linear Rec. 709
-    std::vector<float> standard_error_cd_m2;      ///< of the luminance; empty after a single pass
+    std::vector<float> standard_error_cd_m2;      ///< of the luminance; empty with one replicate
 };
 
 struct RenderResult {
@@ -27,7 +27,7 @@ struct RenderResult {
     std::string method;
     std::uint64_t seed = 0;
     std::uint64_t passes = 0;  ///< samples of each pixel
-    int replicates = 0;
+    int replicates = 0;        ///< 1 after a single pass and without chance: errors are infinite, not known
     double elapsed_s = 0;
     StopReason stop_reason = StopReason::paths_done;
     bool converged = true;      ///< false where an error was asked for and is not met

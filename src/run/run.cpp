@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -33,6 +34,7 @@ constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 constexpr std::uint64_t kLeastLook = 4;
 /// Contributions that may fail to be finite before the run does.
 constexpr double kInvalidRate = 1e-6;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 enum Purpose : std::uint64_t { kPreparation, kReplicates };
 
 /// The replicates' sums, and how far they are.
@@ -162,9 +164,14 @@ double attained_error(const Campaign& campaign, std::span<const Sensor> sensors)
     return worst;
 }
 
-/// The default of a run that was asked for nothing in particular.
-RunOptions with_default_target(RunOptions options) {
-    if (!options.error && !options.time_s && !options.paths) {
+/// With the default of a run that was asked for nothing in particular; a method without chance does what
+/// there is to do, once.
+RunOptions with_target(RunOptions options, const EstimatorEntry& method) {
+    if (method.is_deterministic) {
+        options.error = options.time_s = std::nullopt;
+        options.paths.reset();
+        options.replicates = 1;
+    } else if (!options.error && !options.time_s && !options.paths) {
         options.error = 0.01;
         options.time_s = 60;
     }
@@ -248,12 +255,19 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
     const std::size_t count = sensor.measurands.size();
     const std::vector<double> means = campaign.replicate_means(first, count);
     const ReplicateTable table{means, count};
-    const std::vector<Estimate> estimates = estimate_readings(table, confidence);
+    std::vector<Estimate> estimates;
     SensorResult result;
+    if (table.replicates() > 1) {
+        estimates = estimate_readings(table, confidence);
+        result.summary = summarize_grid(table, confidence);
+        result.attained_error = attained_error(estimates);
+    } else {
+        std::ranges::transform(means, std::back_inserter(estimates), without_error);
+        result.summary = summarize_without_errors(means);
+        result.attained_error = kUnknown;
+    }
     for (std::size_t j = 0; j < count; ++j)
         result.readings.push_back({estimates[j], campaign.rgb(first + j)});
-    result.summary = summarize_grid(table, confidence);
-    result.attained_error = attained_error(estimates);
     return result;
 }
 
@@ -293,7 +307,6 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
 
 RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked_options,
               ProgressSink* progress, const std::atomic<bool>* interrupt) {
-    const RunOptions options = with_default_target(asked_options);
     std::vector<Measurand> measurands;
     std::vector<double> weights;  // a run stops when each sensor as a whole is exact enough
     for (const Sensor& sensor : sensors) {
@@ -304,8 +317,9 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     if (measurands.empty()) {
         throw InputError("no sensor to measure: the scene needs one under [sensors]");
     }
-    require_valid(options);
-    const EstimatorEntry& method = find_estimator(options.method);
+    require_valid(asked_options);
+    const EstimatorEntry& method = find_estimator(asked_options.method);
+    const RunOptions options = with_target(asked_options, method);
     require_measurable(sensors, method);
 
     const Clock clock;
@@ -325,13 +339,19 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     result.seed = options.seed;
     result.replicates = options.replicates;
     arena.execute([&] {
-        Schedule(options, *estimator, clock, interrupt).proceed(campaign, sensors, progress, result);
+        if (method.is_deterministic) {
+            campaign.advance(1);
+            result.stop_reason = StopReason::solved;
+            result.attained_error = kUnknown;
+        } else {
+            Schedule(options, *estimator, clock, interrupt).proceed(campaign, sensors, progress, result);
+        }
     });
     campaign.require_valid();
 
     result.converged = result.stop_reason != StopReason::interrupted &&
                        (!options.error || result.attained_error <= *options.error);
-    result.paths = campaign.paths();
+    result.paths = method.is_deterministic ? 0 : campaign.paths();
     result.rays = campaign.rays();
     // A run that stopped by its own error stops sooner where that happens to be too small
     // (docs/statistics.md).
@@ -343,6 +363,12 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
         first += sensor.measurands.size();
     }
     result.warnings = estimator->warnings();
+    if (method.is_deterministic && (asked_options.error || asked_options.time_s || asked_options.paths)) {
+        result.warnings.push_back(
+            fmt::format("method {} knows no statistical error and ends by itself: error, time and paths are "
+                        "not looked at.",
+                        method.name));
+    }
     for (auto& warning : placement_warnings(scene, caster, sensors))
         result.warnings.push_back(std::move(warning));
     if (method.has_heavy_tails) {

@@ -30,14 +30,15 @@ struct SensorResult {
     double attained_error = 0;  ///< relative half-width that 95 % of the readings keep
 };
 
-enum class StopReason { target_reached, paths_done, time_over, interrupted };
+/// `solved`: there is nothing more to do, as a method without chance is done.
+enum class StopReason { target_reached, paths_done, time_over, interrupted, solved };
 
 struct RunResult {
     std::string method;
     std::uint64_t seed = 0;
     std::uint64_t paths = 0;
     std::uint64_t rays = 0;  ///< of the fans
-    int replicates = 0;
+    int replicates = 0;      ///< 1 where there are no errors: they are NaN
     double elapsed_s = 0;
     StopReason stop_reason = StopReason::paths_done;
     /// False where an error was asked for and is not met.
@@ -62,8 +63,8 @@ class ProgressSink {
 
 /// Measures all sensors at once. The result depends on scene, sensors, method, bounces and seed, and on the
 /// paths done: not on threads or time (a time limit decides how many paths are done). `interrupt` ends the
-/// run early, in good order. Throws InputError where an option is wrong, std::runtime_error where the numbers
-/// are (too many are not finite).
+/// run early, in good order. A deterministic method ends by itself only; its errors are NaN. Throws
+/// InputError where an option is wrong, std::runtime_error where the numbers are (too many are not finite).
 RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
               ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
 

@@ -18,4 +18,7 @@ struct GridSummary {
 /// replicates.
 GridSummary summarize_grid(const ReplicateTable& table, double confidence = 0.95);
 
+/// Of one or more readings whose errors nobody knows (without_error()).
+GridSummary summarize_without_errors(std::span<const double> readings);
+
 }  // namespace stilb

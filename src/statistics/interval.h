@@ -37,6 +37,9 @@ double student_t_quantile(double probability, int degrees_of_freedom);
 /// replicates.
 Estimate estimate_from_replicates(std::span<const double> replicate_means, double confidence = 0.95);
 
+/// A value whose error nobody knows: the others are NaN.
+Estimate without_error(double value);
+
 /// The same for every reading of a table.
 std::vector<Estimate> estimate_readings(const ReplicateTable& table, double confidence = 0.95);
 

@@ -1,0 +1,113 @@
+// Radiosity for readings and pictures: radiosity_solution.h has how the patches are lit, patch_readings.h
+// what is made of it.
+//
+// Nothing is left to chance, so there are no standard errors. What is wrong is the patches: light that varies
+// over one, form factors from its middle. Nobody knows by how much; smaller patches tell.
+#include "estimators/radiosity.h"
+
+#include <tbb/parallel_for.h>
+
+#include "base/error.h"
+#include "estimators/limits.h"
+#include "estimators/patch_picture.h"
+#include "estimators/patch_readings.h"
+#include "estimators/radiosity_solution.h"
+#include "estimators/reflected_sides.h"
+
+namespace stilb {
+namespace {
+
+constexpr std::string_view kName = "radiosity";
+
+/// The patches and their light.
+struct LitPatches {
+    LitPatches(const Scene& scene, const RayCaster& caster, const PatchOptions& options, int max_reflections)
+        : transport(checked(scene, options, max_reflections), caster, options),
+          solution(solve_radiosity(transport)),
+          light(std::move(solution.reflected_cd_m2)) {}
+
+    PatchTransport transport;
+    RadiositySolution solution;
+    ReflectedSides light;
+
+  private:
+    static const Scene& checked(const Scene& scene, const PatchOptions& options, int max_reflections) {
+        require_diffuse(scene, kName);
+        require_all_reflections(max_reflections, kName);
+        if (options.first_shot.variant == FirstShotVariant::on_the_fly) {
+            throw InputError(
+                "method radiosity takes the light of small lights as means over patches, and with "
+                "--first-shot "
+                "on-the-fly there are none. Use incoming.");
+        }
+        return scene;
+    }
+};
+
+/// Samples of a point's hemisphere: Sobol' points, the same ones in every run.
+constexpr std::uint64_t kBlocks = 32, kSamplesOfABlock = 128;
+
+/// All of the readings beside the known part: means over fixed directions from points, and points on lights.
+std::vector<Spectrum> mean_readings(const PatchReadings& readings, const PatchLight& light) {
+    const std::size_t count = readings.known_part().size();
+    std::vector<ReadingSums> blocks(kBlocks, ReadingSums(count));
+    tbb::parallel_for(std::uint64_t{0}, kBlocks, [&](std::uint64_t block) {
+        for (std::uint64_t i = 0; i < kSamplesOfABlock; ++i) {
+            readings.add(light, RandomKey{}, block * kSamplesOfABlock + i, blocks[block]);
+        }
+    });
+    std::vector<Spectrum> means(count);
+    for (const ReadingSums& block : blocks) {
+        for (std::size_t j = 0; j < count; ++j)
+            means[j] += block.sum[j] * (1. / (kBlocks * kSamplesOfABlock));
+    }
+    return means;
+}
+
+class Radiosity final : public Estimator {
+  public:
+    explicit Radiosity(const EstimatorInput& input) : rays_(0) {
+        const LitPatches patches(input.scene, input.caster, input.patches, input.max_reflections);
+        const PatchReadings readings(patches.transport, input.measurands);
+        values_ = mean_readings(readings, patches.light);
+        for (std::size_t j = 0; j < values_.size(); ++j) values_[j] += readings.known_part()[j];
+        rays_ = patches.solution.rays;
+    }
+
+    void run_batch(const Batch&, ReadingSums& sums) const override { sums.rays += rays_; }
+    std::span<const Spectrum> known_part() const override { return values_; }
+    std::uint64_t batch_granularity() const override { return 1; }
+    double rays_per_sample() const override { return 1; }
+    std::vector<std::string> warnings() const override { return {}; }
+
+  private:
+    std::vector<Spectrum> values_;
+    std::uint64_t rays_;
+};
+
+class RadiosityPicture final : public PictureEstimator {
+  public:
+    explicit RadiosityPicture(const PictureInput& input)
+        : tracing_(input), patches_(input.scene, input.caster, input.patches, input.max_reflections) {}
+
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return std::make_unique<PatchPass>(tracing_, patches_.transport, pass, patches_.light.cd_m2());
+    }
+    std::vector<std::string> warnings() const override { return {}; }
+
+  private:
+    PictureTracing tracing_;
+    LitPatches patches_;
+};
+
+}  // namespace
+
+std::unique_ptr<Estimator> make_radiosity_estimator(const EstimatorInput& input) {
+    return std::make_unique<Radiosity>(input);
+}
+
+std::unique_ptr<PictureEstimator> make_radiosity_picture(const PictureInput& input) {
+    return std::make_unique<RadiosityPicture>(input);
+}
+
+}  // namespace stilb

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "estimators/estimator_list.h"
+
+namespace stilb {
+
+std::unique_ptr<Estimator> make_radiosity_estimator(const EstimatorInput& input);
+std::unique_ptr<PictureEstimator> make_radiosity_picture(const PictureInput& input);
+
+}  // namespace stilb
