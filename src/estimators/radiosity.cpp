@@ -5,41 +5,49 @@
 // over one, form factors from its middle. Nobody knows by how much; smaller patches tell.
 #include "estimators/radiosity.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
+
+#include <algorithm>
 
 #include "base/error.h"
 #include "estimators/limits.h"
 #include "estimators/patch_picture.h"
 #include "estimators/patch_readings.h"
 #include "estimators/radiosity_solution.h"
-#include "estimators/reflected_sides.h"
 
 namespace stilb {
 namespace {
 
 constexpr std::string_view kName = "radiosity";
 
+bool is_area_light(const Light& light) { return std::holds_alternative<AreaLight>(light.source); }
+
+/// Lights that are no surfaces come to the patches by what first shot stores, or not at all.
+void require_light_on_patches(const Scene& scene, FirstShotVariant variant) {
+    const bool needs_none = std::ranges::all_of(scene.lights, is_area_light);
+    if (variant == FirstShotVariant::on_the_fly || (variant == FirstShotVariant::none && !needs_none)) {
+        throw InputError(
+            fmt::format("method radiosity cannot do with --first-shot {} here: it needs the light of small "
+                        "lights as means over patches. Use incoming.",
+                        name_of(variant)));
+    }
+}
+
 /// The patches and their light.
 struct LitPatches {
     LitPatches(const Scene& scene, const RayCaster& caster, const PatchOptions& options, int max_reflections)
         : transport(checked(scene, options, max_reflections), caster, options),
-          solution(solve_radiosity(transport)),
-          light(std::move(solution.reflected_cd_m2)) {}
+          solution(solve_radiosity(transport)) {}
 
     PatchTransport transport;
     RadiositySolution solution;
-    ReflectedSides light;
 
   private:
     static const Scene& checked(const Scene& scene, const PatchOptions& options, int max_reflections) {
         require_diffuse(scene, kName);
         require_all_reflections(max_reflections, kName);
-        if (options.first_shot.variant == FirstShotVariant::on_the_fly) {
-            throw InputError(
-                "method radiosity takes the light of small lights as means over patches, and with "
-                "--first-shot "
-                "on-the-fly there are none. Use incoming.");
-        }
+        require_light_on_patches(scene, options.first_shot.variant);
         return scene;
     }
 };
@@ -66,10 +74,10 @@ std::vector<Spectrum> mean_readings(const PatchReadings& readings, const PatchLi
 
 class Radiosity final : public Estimator {
   public:
-    explicit Radiosity(const EstimatorInput& input) : rays_(0) {
+    explicit Radiosity(const EstimatorInput& input) {
         const LitPatches patches(input.scene, input.caster, input.patches, input.max_reflections);
         const PatchReadings readings(patches.transport, input.measurands);
-        values_ = mean_readings(readings, patches.light);
+        values_ = mean_readings(readings, patches.solution.light);
         for (std::size_t j = 0; j < values_.size(); ++j) values_[j] += readings.known_part()[j];
         rays_ = patches.solution.rays;
     }
@@ -82,7 +90,7 @@ class Radiosity final : public Estimator {
 
   private:
     std::vector<Spectrum> values_;
-    std::uint64_t rays_;
+    std::uint64_t rays_ = 0;
 };
 
 class RadiosityPicture final : public PictureEstimator {
@@ -91,7 +99,8 @@ class RadiosityPicture final : public PictureEstimator {
         : tracing_(input), patches_(input.scene, input.caster, input.patches, input.max_reflections) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
-        return std::make_unique<PatchPass>(tracing_, patches_.transport, pass, patches_.light.cd_m2());
+        return std::make_unique<PatchPass>(tracing_, patches_.transport, pass,
+                                           patches_.solution.light.cd_m2());
     }
     std::vector<std::string> warnings() const override { return {}; }
 

@@ -55,7 +55,7 @@ class Shooting {
             shoot();
             left = look();
         }
-        return {std::move(reflected_), done_, done_ * shots_.rays_per_shot()};
+        return {ReflectedSides(std::move(reflected_)), done_, done_ * shots_.rays_per_shot()};
     }
 
   private:

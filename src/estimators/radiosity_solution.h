@@ -15,9 +15,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "estimators/patch_transport.h"
+#include "estimators/reflected_sides.h"
 
 namespace stilb {
 
@@ -26,7 +25,7 @@ namespace stilb {
 inline constexpr double kUnshotShare = 1e-3;
 
 struct RadiositySolution {
-    std::vector<Rgb> reflected_cd_m2;  ///< of every side
+    ReflectedSides light;
     std::uint64_t shots = 0;
     std::uint64_t rays = 0;
 };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "files/luminance_results.h"
 
 namespace stilb {
@@ -33,6 +35,27 @@ TEST(ResultsTable, OneLineOfSightIsOneLine) {
     made.result.sensors[0].sub_points.clear();
     EXPECT_TRUE(has(table_of(made), "\nview          100.0 ± 2.0 cd/m²   from (2, 0, 1) along (0, 1, 0)\n"))
         << table_of(made);
+}
+
+/// As of methods without chance.
+TEST(ResultsTable, ShowsNoErrorsWhereNoneAreKnown) {
+    HandMade made = luminance_results();
+    made.sensors.resize(1);
+    made.result.sensors.resize(1);
+    made.result.stop_reason = StopReason::solved;
+    SensorResult& view = made.result.sensors[0];
+    view.attained_error = std::numeric_limits<double>::quiet_NaN();
+    for (Reading& reading : view.readings) reading.estimate = without_error(reading.estimate.value);
+    view.summary = summarize_without_errors(std::vector<double>{100, 200});
+    EXPECT_EQ(table_of(made),
+              "Luminance, without intervals\n"
+              "\n"
+              "view          2 lines of sight\n"
+              "    mean 150.00 cd/m²   minimum 100.00 cd/m²   maximum 200.00 cd/m²\n"
+              "    100.00 cd/m²   from (2, 0, 1) along (0, 1, 0), meets (2, 4, 1)\n"
+              "    200.00 cd/m²   from (2, 0, 1) along (0, 0, 1), leaves the scene\n"
+              "\n"
+              "auto in 0.00 s: solved; the error by the size of the patches is not known\n");
 }
 
 TEST(ResultsTable, NamesTheQuantities) {

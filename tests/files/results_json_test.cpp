@@ -50,6 +50,18 @@ TEST(ResultsJson, LuminancesHaveNoUniformity) {
     }
 }
 
+/// As of methods without chance.
+TEST(ResultsJson, UnknownErrorsAreNull) {
+    HandMade made = luminance_results();
+    made.result.stop_reason = StopReason::solved;
+    made.result.sensors[0].readings[0].estimate = without_error(100);
+    const Json value = json_of(made)[0]["values"][0];
+    EXPECT_EQ(value["value"], 100);
+    EXPECT_TRUE(value["standard_error"].is_null());
+    EXPECT_EQ(value["interval"], Json::parse("[null, null]"));
+    EXPECT_EQ(Json::parse(to_json(made.result, made.sensors, "room.toml"))["stopped"], "solved");
+}
+
 TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
     HandMade made = luminance_results();
     made.sensors.push_back(make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1}));

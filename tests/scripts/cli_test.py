@@ -283,6 +283,25 @@ class MeasureTest(CommandLineTest):
         for method in ("local", "path"):
             self.assertAlmostEqual(means[method] / means["auto"], 1, delta=0.05)
 
+    def test_radiosity_has_no_errors(self):
+        document = self.measure("--method", "radiosity", "--patch", "1", "--resolution", "32", "--csv", self.folder / "tables")
+        self.assertEqual((document["converged"], document["attained_error"], document["paths"]), (True, None, 0))
+        for sensor in document["sensors"]:
+            for value in sensor["values"]:
+                self.assertGreater(value["value"], 0)
+                self.assertEqual((value["standard_error"], value["interval"]), (None, [None, None]))
+        for line in (self.folder / "tables/wall.csv").read_text().splitlines()[1:]:
+            self.assertIn(",,,", line)
+
+    def test_patch_flags_of_other_methods(self):
+        for method, flag, right in (("particles", "--window", "radiosity"), ("radiosity", "--directions", "ray-bundle"),
+                                    ("path", "--patch", "particles")):
+            value = {"--window": "hemicube", "--directions": "pair", "--patch": "1"}[flag]
+            result = run("measure", self.scene, "--method", method, flag, value)
+            self.assertEqual(result.returncode, 2)
+            for part in (flag, method, right):
+                self.assertIn(part, result.stderr)
+
     def test_csv_files_hold_the_readings(self):
         document = self.measure("--error", "5%", "--csv", self.folder / "tables")
         for sensor in document["sensors"]:
@@ -296,7 +315,7 @@ class MeasureTest(CommandLineTest):
     def test_without_lights_everything_is_dark(self):
         lights = ROOM.index("[lights.bulb]")
         self.scene = self.write("dark.toml", ROOM[:lights] + ROOM[ROOM.index("[sensors.desk]"):])
-        for method in ("auto", "local", "path"):
+        for method in ("auto", "local", "path", "radiosity", "particles"):
             with self.subTest(method=method):
                 result = self.measure("--method", method, "--paths", "1")
                 self.assertEqual({value["value"] for sensor in result["sensors"] for value in sensor["values"]}, {0})
