@@ -55,21 +55,20 @@ struct LitPatches {
 /// Samples of a point's hemisphere: Sobol' points, the same ones in every run.
 constexpr std::uint64_t kBlocks = 32, kSamplesOfABlock = 128;
 
-/// All of the readings beside the known part: means over fixed directions from points, and points on lights.
-std::vector<Spectrum> mean_readings(const PatchReadings& readings, const PatchLight& light) {
-    const std::size_t count = readings.known_part().size();
-    std::vector<ReadingSums> blocks(kBlocks, ReadingSums(count));
+/// Beside the known part: sums over fixed directions from points, and points on lights.
+ReadingSums sum_readings(const PatchReadings& readings, const PatchLight& light) {
+    std::vector<ReadingSums> blocks(kBlocks, ReadingSums(readings.known_part().size()));
     tbb::parallel_for(std::uint64_t{0}, kBlocks, [&](std::uint64_t block) {
         for (std::uint64_t i = 0; i < kSamplesOfABlock; ++i) {
             readings.add(light, RandomKey{}, block * kSamplesOfABlock + i, blocks[block]);
         }
     });
-    std::vector<Spectrum> means(count);
+    ReadingSums sums(readings.known_part().size());
     for (const ReadingSums& block : blocks) {
-        for (std::size_t j = 0; j < count; ++j)
-            means[j] += block.sum[j] * (1. / (kBlocks * kSamplesOfABlock));
+        for (std::size_t j = 0; j < sums.sum.size(); ++j) sums.sum[j] += block.sum[j];
+        sums.invalid += block.invalid;
     }
-    return means;
+    return sums;
 }
 
 class Radiosity final : public Estimator {
@@ -77,12 +76,18 @@ class Radiosity final : public Estimator {
     explicit Radiosity(const EstimatorInput& input) {
         const LitPatches patches(input.scene, input.caster, input.patches, input.max_reflections);
         const PatchReadings readings(patches.transport, input.measurands);
-        values_ = mean_readings(readings, patches.solution.light);
-        for (std::size_t j = 0; j < values_.size(); ++j) values_[j] += readings.known_part()[j];
+        const ReadingSums sums = sum_readings(readings, patches.solution.light);
+        for (std::size_t j = 0; j < sums.sum.size(); ++j) {
+            values_.push_back(readings.known_part()[j] + sums.sum[j] * (1. / (kBlocks * kSamplesOfABlock)));
+        }
+        invalid_ = sums.invalid;
         rays_ = patches.solution.rays;
     }
 
-    void run_batch(const Batch&, ReadingSums& sums) const override { sums.rays += rays_; }
+    void run_batch(const Batch&, ReadingSums& sums) const override {
+        sums.rays += rays_;
+        sums.invalid += invalid_;
+    }
     std::span<const Spectrum> known_part() const override { return values_; }
     std::uint64_t batch_granularity() const override { return 1; }
     double rays_per_sample() const override { return 1; }
@@ -90,7 +95,7 @@ class Radiosity final : public Estimator {
 
   private:
     std::vector<Spectrum> values_;
-    std::uint64_t rays_ = 0;
+    std::uint64_t invalid_ = 0, rays_ = 0;
 };
 
 class RadiosityPicture final : public PictureEstimator {

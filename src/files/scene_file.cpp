@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,9 +15,6 @@
 namespace stilb {
 namespace {
 
-constexpr std::array<std::string_view, 4> kLaterMethods{"double-local", "ray-bundle", "radiosity",
-                                                        "particles"};
-
 constexpr Range kRelativeError{1e-9, 0.999999, "a share between 0 and 1, such as 0.01 or \"1%\""};
 constexpr Range kSeconds{1e-3, 1e9, "a time above 0 (from 0.001 to 1e9 s)"};
 constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
@@ -26,7 +22,7 @@ constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
 std::string read_method(const TomlItem& item) {
     std::vector<std::string_view> methods;
     for (const EstimatorEntry& entry : estimator_list()) methods.push_back(entry.name);
-    return std::string(methods[item.index_in(methods, "method", kLaterMethods)]);
+    return std::string(methods[item.index_in(methods, "method")]);
 }
 
 double read_error(const TomlItem& item) {

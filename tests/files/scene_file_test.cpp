@@ -199,10 +199,7 @@ TEST(SceneFile, RefusesNamesThatCannotBeFileNames) {
 TEST(SceneFile, RefusesWrongRunOptions) {
     EXPECT_REFUSAL("[run]\nmethod = \"pth\"",
                    "s.toml:2: run.method: unknown method \"pth\". Did you mean \"path\"? Allowed: auto, "
-                   "local, double-local, path, ray-bundle.");
-    EXPECT_REFUSAL("[run]\nmethod = \"radiosity\"",
-                   "s.toml:2: run.method: method \"radiosity\" is not supported yet. Allowed: auto, local, "
-                   "double-local, path, ray-bundle.");
+                   "local, double-local, path, ray-bundle, radiosity, particles.");
     EXPECT_REFUSAL(
         "[run]\nmetod = \"auto\"",
         "s.toml:2: run: unknown key \"metod\". Did you mean \"method\"? Allowed: method, error, time, paths, "
