@@ -39,9 +39,10 @@ std::vector<std::string> path_warnings(const Scene& scene) {
 
 std::vector<std::string> patch_warnings(const Scene& scene, std::string_view method) {
     if (!has_specular_surfaces(scene)) return {};
-    return {fmt::format("method {}: mirrors and glass reflect and transmit only what sensors see in them: light "
-                        "that they cast on other surfaces is missing.",
-                        method)};
+    return {
+        fmt::format("method {}: mirrors and glass reflect and transmit only what sensors see in them: light "
+                    "that they cast on other surfaces is missing.",
+                    method)};
 }
 
 void require_diffuse(const Scene& scene, std::string_view method) {
@@ -62,8 +63,8 @@ void require_diffuse(const Scene& scene, std::string_view method) {
 
 void require_all_reflections(int max_reflections, std::string_view method) {
     if (max_reflections == kUnlimited) return;
-    throw InputError(fmt::format("method {} makes all reflections at once: it cannot limit them (--bounces).",
-                                 method));
+    throw InputError(
+        fmt::format("method {} makes all reflections at once: it cannot limit them (--bounces).", method));
 }
 
 std::vector<std::string> local_warnings(const Scene& scene) {

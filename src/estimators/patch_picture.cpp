@@ -30,7 +30,8 @@ void SeenSides::add(const PatchLight& light) {
 
 void SeenSides::add(const SeenSides& others) {
     lights_ += others.lights_;
-    for (std::size_t side = 0; side < sums_.size(); ++side) add_to(sums_[side], spectrum_of(others.sums_[side]));
+    for (std::size_t side = 0; side < sums_.size(); ++side)
+        add_to(sums_[side], spectrum_of(others.sums_[side]));
 }
 
 std::vector<Rgb> SeenSides::mean_cd_m2() const {
