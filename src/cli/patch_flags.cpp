@@ -88,6 +88,7 @@ PatchOptions PatchFlags::options_for(const std::string& method) const {
     read("--visibility", visibility, kBufferBackendNames, options.first_shot.shooting.backend);
     read("--directions", directions, kBundleDirectionsNames, options.directions);
     options.resolution = resolution;
+    if (resolution) options.shot_resolution = *resolution;
     return options;
 }
 

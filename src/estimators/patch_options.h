@@ -21,10 +21,11 @@ struct PatchOptions {
     /// Longest edge; by the scene where absent: about 10,000 patches.
     std::optional<double> patch_m;
     FirstShotOptions first_shot;
-    /// Of item buffers; where absent, first shot's are by the number of patches, those around patches
-    /// (radiosity) 64.
+    /// Of first shot's item buffers; by the number of patches where absent.
     std::optional<int> resolution;
     BundleDirections directions = BundleDirections::frame;
+    /// Of the item buffers around patches of method radiosity, whose window and backend are first shot's.
+    int shot_resolution = 64;
 };
 
 }  // namespace stilb

@@ -24,7 +24,7 @@ double magnitude(const Rgb& light) {
 
 ShootingOptions shooting_options(const PatchOptions& options) {
     ShootingOptions shooting = options.first_shot.shooting;
-    shooting.resolution = options.resolution.value_or(64);
+    shooting.resolution = options.shot_resolution;
     return shooting;
 }
 
