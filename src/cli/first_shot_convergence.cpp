@@ -19,11 +19,12 @@ enum Purpose : std::uint64_t { kReference, kWalk };
 std::vector<double> pixels_of_sides(const PictureTracing& tracing, const PatchTransport& transport) {
     std::vector<double> pixels(2 * transport.patches.count());
     const PixelBlock all{0, 0, tracing.camera.resolution[0], tracing.camera.resolution[1]};
+    std::vector<SeenPoint> points;
     for (Path& path : tracing.start_paths(pixels_of(all), {RandomKey{1}, 0}).paths) {
-        if (!tracing.tracer.look_through(path)) continue;
-        if (const auto seen = find_place(transport.patch_caster, path.hit, path.outgoing)) {
-            pixels[seen->side] += 1;
-        }
+        if (tracing.tracer.look_through(path)) points.push_back({path.hit, path.outgoing});
+    }
+    for (const auto& seen : find_places(transport.patch_caster, points)) {
+        if (seen) pixels[seen->side] += 1;
     }
     return pixels;
 }
@@ -41,16 +42,17 @@ double difference(const std::vector<Rgb>& sides, const std::vector<Rgb>& referen
 }
 
 std::vector<Rgb> reference_of(const PatchTransport& transport, const Vec3& eye) {
-    SeenSides seen(transport, eye);
+    const SeenSides seen(transport, eye);
+    std::vector<Rgb> sums(seen.count());
     for (std::uint64_t walk = 0; walk < kReferenceWalks; ++walk) {
         BundleIteration iteration(transport, RandomKey{kReference}.derived(walk));
         for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
         for (int step = 0; step < kReferenceSteps; ++step) {
             iteration.step();
-            seen.add(iteration);
+            seen.add(iteration, sums);
         }
     }
-    return seen.mean_cd_m2();
+    return seen.mean_cd_m2(sums, kReferenceWalks * kReferenceSteps);
 }
 
 /// 1, 2, 3, 5, 7, 10 ... and the last.
@@ -78,15 +80,16 @@ std::vector<ConvergenceCurve> converge(const Scene& scene, const RayCaster& cast
         const PatchTransport transport(scene, caster, options);
         const Clock clock;
         BundleIteration iteration(transport, RandomKey{kWalk});
-        SeenSides seen(transport, eye);
+        const SeenSides seen(transport, eye);
+        std::vector<Rgb> sums(seen.count());
         double looking_s = 0;
         for (int step = 1; step <= steps; ++step) {
             iteration.step();
-            seen.add(iteration);
+            seen.add(iteration, sums);
             if (!is_looked_at(step, steps)) continue;
             const double elapsed_s = clock.elapsed_s() - looking_s;
             curve.points.push_back({static_cast<double>(step), transport.first_shot.set_up_s() + elapsed_s,
-                                    difference(seen.mean_cd_m2(), reference, pixels)});
+                                    difference(seen.mean_cd_m2(sums, step), reference, pixels)});
             if (elapsed_s > most_time_s) break;
             looking_s = clock.elapsed_s() - elapsed_s;
         }

@@ -126,7 +126,7 @@ void BundleIteration::radiate_glossy(const Vec3& axis) {
     for (std::uint32_t patch : transport_.glossy_patches) {
         for (const Vec3& out : {axis, -axis}) {
             const std::uint32_t side = transport_.side_towards(patch, out);
-            Spectrum luminance = reflected(side, out);
+            Spectrum luminance = transport_.first_reflected(side, out) + reflected(side, out);
             if (side == patch) luminance += spectrum_of(transport_.emission[patch]);
             radiance_[side] = rgb_of(luminance);
         }
@@ -175,13 +175,12 @@ Spectrum BundleIteration::reflected(std::uint32_t side, const Vec3& out) const {
     const std::uint32_t patch = transport_.patches.patch_of(side);
     const std::uint32_t glossy = transport_.glossy_number[patch];
     if (glossy == PatchTransport::kConstant) {
-        return transport_.first_reflected(side, out) +
-               spectrum_of(transport_.constant_brdf[patch]) * spectrum_of(received_[side]) * weight_;
+        return spectrum_of(transport_.constant_brdf[patch]) * spectrum_of(received_[side]) * weight_;
     }
     const Material& material = transport_.material_of(patch);
     const Frame frame = Frame::of_surface(transport_.patches.normal_of(side));
     const Vec3 local_out = frame.to_local(out);
-    Spectrum luminance = transport_.first_reflected(side, out);
+    Spectrum luminance;
     for (std::size_t axis = 0; axis < axes_; ++axis) {
         const Spectrum received = spectrum_of(glossy_received_[glossy_index(side, glossy, axis)]);
         if (!(received.max() > 0)) continue;

@@ -33,7 +33,7 @@ class BundleIteration final : public PatchLight {
 
     void step();
 
-    /// Of the light that was received in the last step, and of first shot.
+    /// Of the light that was received in the last step.
     Spectrum reflected(std::uint32_t side, const Vec3& out) const override;
 
     std::uint64_t rays() const { return rays_; }

@@ -13,7 +13,7 @@ class PatchLight {
     virtual ~PatchLight() = default;
 
     /// The luminance [cd/m2] that a side reflects towards the unit `out`, in front of it, as a mean over the
-    /// patch; without emission and without what first shot does not store (FirstShot::needs_position).
+    /// patch; without emission and without first shot.
     virtual Spectrum reflected(std::uint32_t side, const Vec3& out) const = 0;
 };
 

@@ -3,41 +3,47 @@
 #include <algorithm>
 #include <iterator>
 
-#include "estimators/patch_place.h"
-
 namespace stilb {
 
 SeenSides::SeenSides(const PatchTransport& transport, const Vec3& eye)
-    : transport_(transport), eye_(eye), sums_(2 * transport.patches.count()) {}
+    : transport_(transport),
+      eye_(eye),
+      are_backs_seen_(std::ranges::any_of(transport.scene.materials,
+                                          [](const auto& named) { return is_specular(named.material); })),
+      first_(2 * transport.patches.count()) {
+    for_each([&](std::uint32_t side, const Vec3& out) {
+        first_[side] = rgb_of(transport.first_reflected(side, out));
+    });
+}
 
-void SeenSides::add(const PatchLight& light) {
+template <typename Visit>
+void SeenSides::for_each(const Visit& visit) const {
     const Patches& patches = transport_.patches;
-    lights_ += 1;
     for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
-        const std::uint32_t back = patches.other_side(patch);
         const Vec3 normal = patches.normal_of(patch);
+        const std::uint32_t back = patches.other_side(patch);
         if (transport_.reflects_alike(patch)) {
-            add_to(sums_[patch], light.reflected(patch, normal));
-            add_to(sums_[back], light.reflected(back, -normal));
+            visit(patch, normal);
+            visit(back, -normal);
             continue;
         }
         const Vec3 to_eye = normalized(eye_ - patches.middle(patch));
         const bool front_is_seen = dot(to_eye, normal) > 0;
-        add_to(sums_[patch], light.reflected(patch, front_is_seen ? to_eye : normal));
-        add_to(sums_[back], light.reflected(back, front_is_seen ? -normal : to_eye));
+        visit(front_is_seen ? patch : back, to_eye);
+        if (are_backs_seen_) visit(front_is_seen ? back : patch, front_is_seen ? -normal : normal);
     }
 }
 
-void SeenSides::add(const SeenSides& others) {
-    lights_ += others.lights_;
-    for (std::size_t side = 0; side < sums_.size(); ++side)
-        add_to(sums_[side], spectrum_of(others.sums_[side]));
+void SeenSides::add(const PatchLight& light, std::vector<Rgb>& sums_cd_m2) const {
+    for_each(
+        [&](std::uint32_t side, const Vec3& out) { add_to(sums_cd_m2[side], light.reflected(side, out)); });
 }
 
-std::vector<Rgb> SeenSides::mean_cd_m2() const {
-    std::vector<Rgb> means;
-    means.reserve(sums_.size());
-    for (const Rgb& sum : sums_) means.push_back(rgb_of(spectrum_of(sum) * (1 / lights_)));
+std::vector<Rgb> SeenSides::mean_cd_m2(const std::vector<Rgb>& sums_cd_m2, double lights) const {
+    std::vector<Rgb> means = first_;
+    for (std::size_t side = 0; side < means.size(); ++side) {
+        add_to(means[side], spectrum_of(sums_cd_m2[side]) * (1 / lights));
+    }
     return means;
 }
 
@@ -55,11 +61,21 @@ PatchPass::PatchPass(const PictureTracing& tracing, const PatchTransport& transp
 std::uint64_t PatchPass::sample(const PixelBlock& block, std::span<Spectrum> pixels) const {
     std::ranges::fill(pixels, Spectrum{});
     auto [paths, numbers] = tracing_.start_paths(pixels_of(block), pass_);
+    std::vector<std::size_t> standing;
+    std::vector<SeenPoint> points;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        if (!tracing_.tracer.look_through(paths[i])) continue;
+        standing.push_back(i);
+        points.push_back({paths[i].hit, paths[i].outgoing});
+    }
+    const auto places = find_places(transport_.patch_caster, points);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        Path& path = paths[standing[i]];
+        if (places[i]) path.luminance_cd_m2 += path.throughput * reflected(path, *places[i]);
+    }
     std::uint64_t invalid = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        const bool meets_surface = tracing_.tracer.look_through(paths[i]);
-        Spectrum luminance = paths[i].luminance_cd_m2;
-        if (meets_surface) luminance += paths[i].throughput * reflected(paths[i]);
+        const Spectrum& luminance = paths[i].luminance_cd_m2;
         if (luminance.is_finite()) {
             pixels[numbers[i]] = luminance;
         } else {
@@ -69,13 +85,11 @@ std::uint64_t PatchPass::sample(const PixelBlock& block, std::span<Spectrum> pix
     return invalid;
 }
 
-Spectrum PatchPass::reflected(const Path& path) const {
-    const auto seen = find_place(transport_.patch_caster, path.hit, path.outgoing);
-    if (!seen) return {};
-    const bool is_front = transport_.patches.is_front(seen->side);
+Spectrum PatchPass::reflected(const Path& path, const PatchPlace& seen) const {
+    const bool is_front = transport_.patches.is_front(seen.side);
     const std::span<const Spectrum> vertices(is_front ? fronts_ : backs_);
-    return transport_.interpolation.at(vertices, transport_.patches.patch_of(seen->side), seen->place) +
-           transport_.first_reflected_at(seen->side, path.hit.position, path.outgoing);
+    return transport_.interpolation.at(vertices, transport_.patches.patch_of(seen.side), seen.place) +
+           transport_.first_reflected_at(seen.side, path.hit.position, path.outgoing);
 }
 
 }  // namespace stilb

@@ -1,21 +1,33 @@
 #include "estimators/patch_place.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace stilb {
-std::optional<PatchPlace> find_place(const PatchCaster& caster, const Hit& hit, const Vec3& outgoing) {
+
+std::vector<std::optional<PatchPlace>> find_places(const PatchCaster& caster,
+                                                   std::span<const SeenPoint> points) {
     // The way to the hit is free. So is a short stretch of it, from where patches that bulge out of the true
     // surface by rounding are met.
     constexpr double stretch = 1e-3;
-    const Patches& patches = caster.patches();
-    const Vec3 origin = hit.position + (stretch * hit.distance_m) * outgoing - patches.center;
-    RayPacket packet;
-    LaneMask lanes{};
-    lanes[0] = -1;
-    packet.set(0, origin, -outgoing, std::numeric_limits<float>::infinity());
-    const PatchHits hits = caster.closest(packet, lanes);
-    if (hits.sides[0] == kNoSide) return std::nullopt;
-    return PatchPlace{hits.sides[0], hits.place(0)};
+    std::vector<std::optional<PatchPlace>> places(points.size());
+    for (std::size_t first = 0; first < points.size(); first += kPacketWidth) {
+        const std::size_t count = std::min<std::size_t>(kPacketWidth, points.size() - first);
+        RayPacket packet;
+        LaneMask lanes{};
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            const auto& [hit, outgoing] = points[first + lane];
+            packet.set(lane, hit.position + (stretch * hit.distance_m) * outgoing - caster.patches().center,
+                       -outgoing, std::numeric_limits<float>::infinity());
+            lanes[lane] = -1;
+        }
+        const PatchHits hits = caster.closest(packet, lanes);
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            if (hits.sides[lane] == kNoSide) continue;
+            places[first + lane] = PatchPlace{hits.sides[lane], hits.place(lane)};
+        }
+    }
+    return places;
 }
 
 }  // namespace stilb

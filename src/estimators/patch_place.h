@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "patches/patch_caster.h"
 #include "scene/ray_caster.h"
@@ -13,8 +15,15 @@ struct PatchPlace {
     Barycentric place;
 };
 
-/// The place on a patch that stands for `hit`, seen from the unit direction `outgoing`; nothing where the
-/// patches of a curved surface leave it out, at its outline.
-std::optional<PatchPlace> find_place(const PatchCaster& caster, const Hit& hit, const Vec3& outgoing);
+/// A point of a true surface, seen from the unit direction `outgoing`.
+struct SeenPoint {
+    Hit hit;
+    Vec3 outgoing;
+};
+
+/// The places on patches that stand for points; nothing where the patches of a curved surface leave one out,
+/// at its outline. Neighbouring points are best seen from nearly the same direction.
+std::vector<std::optional<PatchPlace>> find_places(const PatchCaster& caster,
+                                                   std::span<const SeenPoint> points);
 
 }  // namespace stilb

@@ -32,11 +32,15 @@ void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measuran
     }
     const Sight sight = look(measurand, transport_.scene, caster, transport_.lights, kUnlimited);
     known_part_[reading] = sight.emission_cd_m2;
+    std::vector<SeenPoint> points;
     for (const SubPoint& sub_point : sight.sub_points) {
-        const auto seen = find_place(transport_.patch_caster, sub_point.surface, sub_point.outgoing);
-        if (!seen) continue;
-        views_.push_back(
-            {reading, sub_point.transmission, *seen, sub_point.surface.position, sub_point.outgoing});
+        points.push_back({sub_point.surface, sub_point.outgoing});
+    }
+    const auto places = find_places(transport_.patch_caster, points);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!places[i]) continue;
+        views_.push_back({reading, sight.sub_points[i].transmission, *places[i], points[i].hit.position,
+                          points[i].outgoing});
     }
 }
 
@@ -46,7 +50,25 @@ void PatchReadings::add_shares() {
         places.push_back({transport_.patches.patch_of(view.seen.side), view.seen.place});
     }
     auto shares = transport_.interpolation.shares_of(places);
-    for (std::size_t i = 0; i < views_.size(); ++i) views_[i].shares = std::move(shares[i]);
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        views_[i].shares = std::move(shares[i]);
+        known_part_[views_[i].reading] += views_[i].transmission * first_reflected(views_[i]);
+    }
+}
+
+template <typename Visit>
+void PatchReadings::for_each_share(const View& view, const Visit& visit) const {
+    const Patches& patches = transport_.patches;
+    const bool front = patches.is_front(view.seen.side);
+    for (const auto& [patch, weight] : view.shares) visit(front ? patch : patches.other_side(patch), weight);
+}
+
+Spectrum PatchReadings::first_reflected(const View& view) const {
+    Spectrum luminance = transport_.first_reflected_at(view.seen.side, view.position, view.outgoing);
+    for_each_share(view, [&](std::uint32_t side, double weight) {
+        luminance += transport_.first_reflected(side, view.outgoing) * weight;
+    });
+    return luminance;
 }
 
 void PatchReadings::add(const PatchLight& light, RandomKey key, std::uint64_t sample,
@@ -62,12 +84,10 @@ void PatchReadings::add(const PatchLight& light, RandomKey key, std::uint64_t sa
 }
 
 void PatchReadings::add_luminance(const PatchLight& light, const View& view, ReadingSums& sums) const {
-    const Patches& patches = transport_.patches;
-    const bool front = patches.is_front(view.seen.side);
-    Spectrum luminance = transport_.first_reflected_at(view.seen.side, view.position, view.outgoing);
-    for (const auto& [patch, weight] : view.shares) {
-        luminance += light.reflected(front ? patch : patches.other_side(patch), view.outgoing) * weight;
-    }
+    Spectrum luminance;
+    for_each_share(view, [&](std::uint32_t side, double weight) {
+        luminance += light.reflected(side, view.outgoing) * weight;
+    });
     sums.add(view.reading, view.transmission * luminance);
 }
 
@@ -95,7 +115,8 @@ void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Re
         const Vec3 met = points[i].lifted() - double{packet.end[i]} * out;
         sums.add(points[i].reading(),
                  kShare * samples[i].weight *
-                     (light.reflected(sides[i], out) + transport_.first_reflected_at(sides[i], met, out)));
+                     (light.reflected(sides[i], out) + transport_.first_reflected(sides[i], out) +
+                      transport_.first_reflected_at(sides[i], met, out)));
     }
 }
 

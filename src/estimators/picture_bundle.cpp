@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 
 #include "estimators/bundle_iteration.h"
 #include "estimators/limits.h"
@@ -15,13 +16,17 @@ namespace {
 
 /// Of a pass, each a task of its own.
 constexpr std::uint64_t kWalks = 4;
+/// Of a walk, that count.
+constexpr std::uint64_t kLeastSteps = 8;
 
 enum Purpose : std::uint64_t { kWalk = kPixels + 1 };
 
 class BundlePicture final : public PictureEstimator {
   public:
     explicit BundlePicture(const PictureInput& input)
-        : tracing_(input), transport_(input.scene, input.caster, input.patches) {
+        : tracing_(input),
+          transport_(input.scene, input.caster, input.patches),
+          seen_(transport_, tracing_.view.position()) {
         require_all_reflections(input.max_reflections, "ray-bundle");
     }
 
@@ -34,23 +39,28 @@ class BundlePicture final : public PictureEstimator {
 
   private:
     std::vector<Rgb> mean_of_walks(const Pass& pass) const {
-        const std::uint64_t first = first_steps(transport_), steps = std::max<std::uint64_t>(2 * first, 16);
+        const std::uint64_t first = first_steps(transport_), steps = std::max(first, kLeastSteps);
         const RandomKey key = pass.key.derived(kWalk).derived(pass.index);
-        std::vector<SeenSides> walks(kWalks, SeenSides(transport_, tracing_.view.position()));
+        std::array<std::vector<Rgb>, kWalks> sums;
         tbb::parallel_for(std::uint64_t{0}, kWalks, [&](std::uint64_t walk) {
+            sums[walk].resize(seen_.count());
             BundleIteration iteration(transport_, key.derived(walk));
             for (std::uint64_t i = 0; i < first; ++i) iteration.step();
             for (std::uint64_t i = 0; i < steps; ++i) {
                 iteration.step();
-                walks[walk].add(iteration);
+                seen_.add(iteration, sums[walk]);
             }
         });
-        for (std::size_t walk = 1; walk < kWalks; ++walk) walks[0].add(walks[walk]);
-        return walks[0].mean_cd_m2();
+        for (std::size_t walk = 1; walk < kWalks; ++walk) {
+            for (std::size_t side = 0; side < seen_.count(); ++side)
+                add_to(sums[0][side], spectrum_of(sums[walk][side]));
+        }
+        return seen_.mean_cd_m2(sums[0], static_cast<double>(kWalks * steps));
     }
 
     PictureTracing tracing_;
     PatchTransport transport_;
+    SeenSides seen_;
 };
 
 }  // namespace

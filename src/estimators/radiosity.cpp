@@ -101,17 +101,20 @@ class Radiosity final : public Estimator {
 class RadiosityPicture final : public PictureEstimator {
   public:
     explicit RadiosityPicture(const PictureInput& input)
-        : tracing_(input), patches_(input.scene, input.caster, input.patches, input.max_reflections) {}
+        : tracing_(input),
+          patches_(input.scene, input.caster, input.patches, input.max_reflections),
+          sides_cd_m2_(SeenSides(patches_.transport, tracing_.view.position())
+                           .mean_cd_m2(patches_.solution.light.cd_m2(), 1)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
-        return std::make_unique<PatchPass>(tracing_, patches_.transport, pass,
-                                           patches_.solution.light.cd_m2());
+        return std::make_unique<PatchPass>(tracing_, patches_.transport, pass, sides_cd_m2_);
     }
     std::vector<std::string> warnings() const override { return {}; }
 
   private:
     PictureTracing tracing_;
     LitPatches patches_;
+    std::vector<Rgb> sides_cd_m2_;
 };
 
 }  // namespace

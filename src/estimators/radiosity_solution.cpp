@@ -34,7 +34,7 @@ class Shooting {
         : transport_(transport),
           shots_(transport.patch_caster, shooting_options(transport.options)),
           overshoot_(2 / (1 + std::sqrt(1 - std::pow(std::min(transport.mean_reflectance, 0.999), 2)))),
-          reflected_(transport.first_reflection),
+          reflected_(transport.first_reflection.size()),
           unshot_(transport.first_reflection) {
         for (std::size_t patch = 0; patch < transport.patches.count(); ++patch) {
             add_to(unshot_[patch], spectrum_of(transport.emission[patch]));
@@ -109,7 +109,8 @@ class Shooting {
     const PatchTransport& transport_;
     PatchShots shots_;
     double overshoot_;
-    std::vector<Rgb> reflected_, unshot_;  ///< [cd/m2], of every side
+    std::vector<Rgb> reflected_;  ///< [cd/m2], of every side, without first shot
+    std::vector<Rgb> unshot_;     ///< [cd/m2], of every side
     std::vector<Candidate> candidates_;
     std::uint64_t done_ = 0;
 };

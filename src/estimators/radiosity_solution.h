@@ -26,7 +26,7 @@ namespace stilb {
 inline constexpr double kUnshotShare = 1e-3;
 
 struct RadiositySolution {
-    ReflectedSides light;
+    ReflectedSides light;  ///< without first shot
     std::uint64_t shots = 0;
     std::uint64_t rays = 0;
 };

@@ -51,7 +51,8 @@ TEST_F(LitRoom, AbsorbsWhatRadiositySends) {
     const PatchTransport transport(scene_, caster_, options_);
     ASSERT_FALSE(transport.first_shot.replaces(1));  // the light is large
     const RadiositySolution solution = solve_radiosity(transport);
-    const Spectrum absorbed = absorbed_lm(transport, solution.light.cd_m2());
+    const Spectrum absorbed =
+        absorbed_lm(transport, solution.light.cd_m2()) + absorbed_lm(transport, transport.first_reflection);
     for (std::size_t b = 0; b < kBands; ++b) EXPECT_NEAR(absorbed[b], kFlux_lm[b], 0.003 * kFlux_lm[b]) << b;
 }
 

