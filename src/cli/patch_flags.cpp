@@ -16,11 +16,11 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kWindowNames{"cube", "hemicube", "tetrahedron"};
 
-/// The value of `flag`, by its place among the names.
+/// The value of `flag`, by its place among the names; nothing where it was not typed.
 template <typename Enum>
-void read(const char* flag, const std::optional<std::string>& typed, std::span<const std::string_view> names,
-          Enum& value) {
-    if (!typed) return;
+std::optional<Enum> read(const char* flag, const std::optional<std::string>& typed,
+                         std::span<const std::string_view> names) {
+    if (!typed) return std::nullopt;
     const auto found = std::ranges::find(names, *typed);
     if (found == names.end()) {
         const std::string nearest = nearest_name(*typed, names);
@@ -28,23 +28,25 @@ void read(const char* flag, const std::optional<std::string>& typed, std::span<c
                                      nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
                                      fmt::join(names, ", ")));
     }
-    value = static_cast<Enum>(found - names.begin());
+    return static_cast<Enum>(found - names.begin());
 }
 
 }  // namespace
 
 void PatchFlags::add_to(CLI::App& command) {
-    const std::string group = "Methods that light patches (ray-bundle, radiosity; particles: --patch only)";
+    const std::string group =
+        "Patches and first shot (ray-bundle, radiosity; path with --first-shot; particles: --patch only)";
     const auto add = [&](const char* name, auto& value, const std::string& text, const char* type) {
         command.add_option(name, value, text)->type_name(type)->group(group);
     };
     add("--patch", patch_m, "Longest edge of a patch [m] (default: about 10,000 patches)", "SIZE");
     add("--first-shot", first_shot,
         "What stands for small lights: auto, none, classical, diffuse, incoming, on-the-fly (default: auto, "
-        "which is incoming)",
+        "which is incoming; path: none)",
         "NAME");
     add("--window", window,
-        "Item buffers on area lights, and on patches of radiosity: hemicube (default) or tetrahedron",
+        "Item buffers on area lights, and on patches of radiosity: cube (its rear half carries nothing), "
+        "hemicube (default) or tetrahedron; points have cubes",
         "NAME");
     add("--resolution", resolution,
         "Pixels along an edge of item buffers (default: by the patches; 64 on patches of radiosity)", "R");
@@ -77,16 +79,25 @@ void PatchFlags::require_known_to(const EstimatorEntry& method) const {
         throw InputError(fmt::format("{} means nothing to method {}. It is for {}.", flag, method.name,
                                      fmt::join(methods, ", ")));
     }
+    if (!method.lights_patches && !given().empty() && !first_shot) {
+        throw InputError(
+            fmt::format("{} means nothing to method {} without --first-shot.", given().front(), method.name));
+    }
 }
 
 PatchOptions PatchFlags::options_for(const std::string& method) const {
     require_known_to(find_estimator(method));
     PatchOptions options;
     options.patch_m = patch_m;
-    if (first_shot != "auto") read("--first-shot", first_shot, kFirstShotNames, options.first_shot.variant);
-    read("--window", window, kWindowNames, options.first_shot.shooting.window);
-    read("--visibility", visibility, kBufferBackendNames, options.first_shot.shooting.backend);
-    read("--directions", directions, kBundleDirectionsNames, options.directions);
+    options.first_shot.variant = first_shot == "auto"
+                                     ? kUsualFirstShot
+                                     : read<FirstShotVariant>("--first-shot", first_shot, kFirstShotNames);
+    ShootingOptions& shooting = options.first_shot.shooting;
+    shooting.window = read<BufferShape>("--window", window, kWindowNames).value_or(shooting.window);
+    shooting.backend =
+        read<BufferBackend>("--visibility", visibility, kBufferBackendNames).value_or(shooting.backend);
+    options.directions = read<BundleDirections>("--directions", directions, kBundleDirectionsNames)
+                             .value_or(options.directions);
     options.resolution = resolution;
     if (resolution) options.shot_resolution = *resolution;
     return options;

@@ -17,7 +17,7 @@ struct PatchFlags {
     std::optional<int> resolution;
 
     void add_to(CLI::App& command);
-    /// Throws InputError where one of them is given and the method lights no patches, or has no such value.
+    /// Throws InputError where one of them is given that means nothing to the method, or has no such value.
     PatchOptions options_for(const std::string& method) const;
 
   private:

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/patch_text.h"
 #include "cli/progress.h"
 #include "cli/rendered_picture.h"
 #include "cli/run_flags.h"
@@ -109,6 +110,7 @@ void print_summary(const RenderResult& result, const Sensor& sensor) {
     }
     fmt::print("{}, {} passes in {:.1f} s: {}\n", result.method, result.passes, result.elapsed_s,
                ending(result));
+    if (result.patches) fmt::print("{}", patch_text(*result.patches));
 }
 
 int run_render(const RenderRequest& request) {

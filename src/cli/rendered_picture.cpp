@@ -17,6 +17,11 @@ Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrig
     origin.paths = result.passes;
     origin.replicates = result.replicates;
     origin.elapsed_s = result.elapsed_s;
+    if (result.patches) {
+        origin.patches = result.patches->count;
+        origin.patch_size_m = result.patches->size_m;
+        origin.first_shot = name_of(result.patches->first_shot);
+    }
     Picture picture = picture_of(result.pixels, camera, origin);
     picture.normals = result.normals;
     picture.depth_m = result.depth_m;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/patch_text.h"
 #include "cli/place_text.h"
 
 namespace stilb {
@@ -148,8 +149,8 @@ std::string to_table(const RunResult& result, std::span<const Sensor> sensors) {
         title_of(sensors) + (has_intervals ? ", with 95 % intervals\n\n" : ", without intervals\n\n");
     for (std::size_t s = 0; s < sensors.size(); ++s) text += sensor_table(result.sensors[s], sensors[s]);
     const std::string paths = has_intervals ? fmt::format(", {} paths", result.paths) : "";
-    return text +
-           fmt::format("\n{}{} in {:.2f} s: {}\n", result.method, paths, result.elapsed_s, ending(result));
+    text += fmt::format("\n{}{} in {:.2f} s: {}\n", result.method, paths, result.elapsed_s, ending(result));
+    return result.patches ? text + patch_text(*result.patches) : text;
 }
 
 }  // namespace stilb

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/random.h"
 #include "base/spectrum.h"
+#include "estimators/patch_report.h"
 
 namespace stilb {
 
@@ -59,6 +61,8 @@ class Estimator {
     virtual double rays_per_sample() const = 0;
     /// What the method cannot make in this scene, for the user; empty where nothing is missing.
     virtual std::vector<std::string> warnings() const = 0;
+    /// Where patches stand for surfaces.
+    virtual std::optional<PatchReport> patch_report() const { return std::nullopt; }
 };
 
 }  // namespace stilb

@@ -16,7 +16,8 @@ FirstShot::FirstShot(const Scene& scene, const RayCaster& caster, const LightSam
 
 void FirstShot::set_up(const Scene& scene, const RayCaster& caster, const LightSampler& sampler,
                        const PatchCaster& patch_caster, const FirstShotOptions& options) {
-    if (options.variant == FirstShotVariant::none) {
+    const FirstShotVariant variant = options.variant.value_or(kUsualFirstShot);
+    if (variant == FirstShotVariant::none) {
         for (const Light& light : scene.lights)
             lights_.lights.push_back({light.name, false, "no first shot"});
         return;
@@ -24,16 +25,17 @@ void FirstShot::set_up(const Scene& scene, const RayCaster& caster, const LightS
     const Patches& patches = patch_caster.patches();
     lights_ = choose_first_shot_lights(scene, caster, patches.center);
     const ShadowRays rays(scene, patches, caster, sampler, lights_);
-    if (options.variant == FirstShotVariant::on_the_fly) {
+    if (variant == FirstShotVariant::on_the_fly) {
         stored_.emplace<ShadowRays>(rays);
         return;
     }
+    resolution_ = options.shooting.resolution;
     FirstShotFactors factors(patch_caster, lights_.samples, options.shooting);
     missed_ = count_missed(scene, caster, patches, lights_.samples, factors, options.shooting.resolution);
     IncomingFirstShot incoming(scene, patches, lights_, std::move(factors));
-    if (options.variant == FirstShotVariant::classical) {
+    if (variant == FirstShotVariant::classical) {
         stored_.emplace<ClassicalFirstShot>(scene, patches, incoming, HemisphereBins(options.bin_rings));
-    } else if (options.variant == FirstShotVariant::diffuse) {
+    } else if (variant == FirstShotVariant::diffuse) {
         stored_.emplace<DiffuseFirstShot>(scene, patches, incoming, rays);
     } else {
         stored_.emplace<IncomingFirstShot>(std::move(incoming));

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <variant>
@@ -40,8 +41,11 @@ constexpr std::string_view name_of(FirstShotVariant variant) {
     return kFirstShotNames[static_cast<std::size_t>(variant)];
 }
 
+/// Where none is asked for, but for path tracing: that takes none.
+inline constexpr FirstShotVariant kUsualFirstShot = FirstShotVariant::incoming;
+
 struct FirstShotOptions {
-    FirstShotVariant variant = FirstShotVariant::incoming;
+    std::optional<FirstShotVariant> variant;  ///< absent: as is usual with the method
     ShootingOptions shooting;
     int bin_rings = 4;  ///< classical: 4 bin_rings^2 bins where reflection depends on direction
 };
@@ -83,6 +87,9 @@ class FirstShot {
                (std::holds_alternative<DiffuseFirstShot>(stored_) && !is_constant(side));
     }
 
+    FirstShotVariant variant() const { return static_cast<FirstShotVariant>(stored_.index()); }
+    /// Of the item buffers that were filled, if any.
+    std::optional<int> resolution() const { return resolution_; }
     /// What was decided of each light, as Scene::lights.
     std::span<const FirstShotLight> lights() const { return lights_.lights; }
     std::span<const LightSample> samples() const { return lights_.samples; }
@@ -100,7 +107,9 @@ class FirstShot {
                 const PatchCaster& patch_caster, const FirstShotOptions& options);
 
     FirstShotLights lights_;
+    std::optional<int> resolution_;
     std::size_t missed_ = 0;
+    /// In the order of FirstShotVariant.
     std::variant<NoFirstShot, ClassicalFirstShot, DiffuseFirstShot, IncomingFirstShot, ShadowRays> stored_;
     double set_up_s_ = 0;
 };

@@ -60,6 +60,7 @@ class Particles final : public Estimator {
         return reflections + looks * static_cast<double>(known_part().size());
     }
     std::vector<std::string> warnings() const override { return {}; }
+    std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
     PatchTransport transport_;
@@ -89,6 +90,7 @@ class ParticlesPicture final : public PictureEstimator {
         return std::make_unique<PatchPass>(tracing_, transport_, pass, mean);
     }
     std::vector<std::string> warnings() const override { return {}; }
+    std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
     /// Of a pass, each a task of its own.

@@ -39,7 +39,7 @@ class Shooter {
         std::vector<FormFactor> factors;
         for (std::size_t pixel = 0; pixel < seen_.size(); ++pixel) {
             const std::uint32_t side = seen_[pixel];
-            if (side == kNoSide) continue;
+            if (side == kNoSide || weights_[pixel] == 0) continue;
             if (shares_[side] == 0) factors.push_back({side, 0});
             shares_[side] += weights_[pixel];
         }

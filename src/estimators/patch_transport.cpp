@@ -12,12 +12,6 @@ namespace {
 /// Rays of a bundle that meet a patch of mean size which stands across it.
 constexpr double kRaysPerPatch = 2;
 
-FirstShotOptions first_shot_options(const PatchOptions& asked, const Patches& patches) {
-    FirstShotOptions options = asked.first_shot;
-    options.shooting.resolution = asked.resolution.value_or(first_shot_resolution(patches.count()));
-    return options;
-}
-
 double area_m2(const Patches& patches) {
     return std::accumulate(patches.areas_m2.begin(), patches.areas_m2.end(), 0.0);
 }
@@ -25,15 +19,9 @@ double area_m2(const Patches& patches) {
 }  // namespace
 
 PatchTransport::PatchTransport(const Scene& all, const RayCaster& rays, const PatchOptions& asked)
-    : scene(all),
-      caster(rays),
-      options(asked),
-      lights(scene, caster),
-      patches(make_patches(scene, options.patch_m.value_or(patch_size_m(scene)))),
-      patch_caster(patches),
+    : FirstShotPatches(all, rays, asked),
       interpolation(patches),
       bundles(make_bundles(options.first_shot.shooting.backend, patch_caster)),
-      first_shot(scene, caster, lights, patch_caster, first_shot_options(options, patches)),
       spacing_m(std::sqrt(area_m2(patches) / static_cast<double>(patches.count()) / kRaysPerPatch)),
       glossy_number(patches.count(), kConstant),
       constant_brdf(patches.count()),

@@ -4,14 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "estimators/first_shot.h"
-#include "estimators/light_sampler.h"
-#include "estimators/patch_options.h"
+#include "estimators/first_shot_patches.h"
 #include "patches/bundle.h"
-#include "patches/patch_caster.h"
 #include "patches/vertex_interpolation.h"
 
 namespace stilb {
@@ -29,7 +25,7 @@ inline void add_to(Rgb& sum, const Spectrum& value) {
 }
 
 /// Keeps references to scene and caster. Immutable once made.
-struct PatchTransport {
+struct PatchTransport : FirstShotPatches {
     PatchTransport(const Scene& scene, const RayCaster& caster, const PatchOptions& options);
 
     const Material& material_of(std::uint32_t patch) const {
@@ -48,15 +44,8 @@ struct PatchTransport {
         return first_shot.needs_position(side) ? first_shot.reflected(side, position, out) : Spectrum{};
     }
 
-    const Scene& scene;
-    const RayCaster& caster;
-    PatchOptions options;
-    LightSampler lights;
-    Patches patches;
-    PatchCaster patch_caster;
     VertexInterpolation interpolation;
     std::unique_ptr<Bundles> bundles;
-    FirstShot first_shot;
     double spacing_m;  ///< of bundles' rays
 
     static constexpr std::uint32_t kConstant = ~0u;

@@ -36,6 +36,7 @@ class BundlePicture final : public PictureEstimator {
     std::vector<std::string> warnings() const override {
         return patch_warnings(transport_.scene, "ray-bundle");
     }
+    std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
     std::vector<Rgb> mean_of_walks(const Pass& pass) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "base/random.h"
 #include "base/spectrum.h"
 #include "estimators/patch_options.h"
+#include "estimators/patch_report.h"
 #include "scene/ray_caster.h"
 #include "sensors/camera.h"
 
@@ -53,6 +55,8 @@ class PictureEstimator {
     virtual std::unique_ptr<const PicturePass> start(const Pass& pass) const = 0;
     /// What the method cannot make in this scene, for the user; empty where nothing is missing.
     virtual std::vector<std::string> warnings() const = 0;
+    /// Where patches stand for surfaces.
+    virtual std::optional<PatchReport> patch_report() const { return std::nullopt; }
 };
 
 /// The estimator keeps references to scene and caster.

@@ -47,7 +47,7 @@ struct LitPatches {
     static const Scene& checked(const Scene& scene, const PatchOptions& options, int max_reflections) {
         require_diffuse(scene, kName);
         require_all_reflections(max_reflections, kName);
-        require_light_on_patches(scene, options.first_shot.variant);
+        require_light_on_patches(scene, options.first_shot.variant.value_or(kUsualFirstShot));
         return scene;
     }
 };
@@ -82,6 +82,7 @@ class Radiosity final : public Estimator {
         }
         invalid_ = sums.invalid;
         rays_ = patches.solution.rays;
+        report_ = patches.transport.report();
     }
 
     void run_batch(const Batch&, ReadingSums& sums) const override {
@@ -92,10 +93,12 @@ class Radiosity final : public Estimator {
     std::uint64_t batch_granularity() const override { return 1; }
     double rays_per_sample() const override { return 1; }
     std::vector<std::string> warnings() const override { return {}; }
+    std::optional<PatchReport> patch_report() const override { return report_; }
 
   private:
     std::vector<Spectrum> values_;
     std::uint64_t invalid_ = 0, rays_ = 0;
+    PatchReport report_;
 };
 
 class RadiosityPicture final : public PictureEstimator {
@@ -110,6 +113,7 @@ class RadiosityPicture final : public PictureEstimator {
         return std::make_unique<PatchPass>(tracing_, patches_.transport, pass, sides_cd_m2_);
     }
     std::vector<std::string> warnings() const override { return {}; }
+    std::optional<PatchReport> patch_report() const override { return patches_.transport.report(); }
 
   private:
     PictureTracing tracing_;

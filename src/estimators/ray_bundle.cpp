@@ -43,6 +43,7 @@ class RayBundle final : public Estimator {
     std::vector<std::string> warnings() const override {
         return patch_warnings(transport_.scene, "ray-bundle");
     }
+    std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
     PatchTransport transport_;

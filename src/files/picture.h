@@ -25,6 +25,9 @@ struct PictureOrigin {
     std::uint64_t paths = 0;
     int replicates = 0;
     double elapsed_s = 0;
+    std::uint64_t patches = 0;  ///< that stand for the surfaces
+    double patch_size_m = 0;    ///< no edge is longer
+    std::string first_shot;     ///< which one stands for small lights
     bool operator==(const PictureOrigin&) const = default;
 };
 

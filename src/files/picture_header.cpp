@@ -122,6 +122,9 @@ std::vector<HeaderField> header_fields(const Picture& picture) {
     if (origin.paths > 0) add("paths", fmt::to_string(origin.paths));
     if (origin.replicates > 0) add("replicates", fmt::to_string(origin.replicates));
     if (origin.elapsed_s > 0) add("elapsed_s", fmt::format("{:.3f}", origin.elapsed_s));
+    if (origin.patches > 0) add("patches", fmt::to_string(origin.patches));
+    if (origin.patch_size_m > 0) add("patchSize_m", fmt::to_string(origin.patch_size_m));
+    add("firstShot", origin.first_shot);
     if (picture.camera) fields.push_back(view_field(*picture.camera));
     return fields;
 }
@@ -140,6 +143,9 @@ void read_header_field(Picture& picture, std::string_view name, std::string_view
     if (is("paths")) origin.paths = whole_number(text);
     if (is("replicates")) origin.replicates = static_cast<int>(whole_number(text, 1'000'000));
     if (is("elapsed_s")) origin.elapsed_s = std::max(parse_number(text).value_or(0), 0.0);
+    if (is("patches")) origin.patches = whole_number(text);
+    if (is("patchSize_m")) origin.patch_size_m = std::max(parse_number(text).value_or(0), 0.0);
+    if (is("firstShot")) origin.first_shot = text;
     if (is("VIEW")) read_camera(picture, text, Projection::perspective);
     if (is("PANORAMA")) read_camera(picture, text, Projection::panorama);
 }

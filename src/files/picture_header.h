@@ -14,8 +14,8 @@ struct HeaderField {
     std::string text;  ///< one line
 };
 
-/// Origin (scene, sceneHash, sensor, method, seed, paths, replicates, elapsed_s, command, software) and view;
-/// what is unknown is left out.
+/// Origin (scene, sceneHash, sensor, method, seed, paths, replicates, elapsed_s, patches, patchSize_m,
+/// firstShot, command, software) and view; what is unknown is left out.
 ///
 /// The view is in Radiance's words: VIEW = "-vtv -vp 0 0 1.5 -vd 1 0 0 -vu 0 0 1 -vh 60 -vv 36", with -vtv
 /// for perspective and -vta for an (equiangular) fisheye. Radiance has no equirectangular type (its -vtc is a

@@ -56,6 +56,26 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     return json;
 }
 
+Json light_json(const FirstShotLight& light) {
+    return {{"name", light.name},
+            {"replaced", light.is_replaced},
+            {"samples", light.samples},
+            {"reason", light.why}};
+}
+
+Json patches_json(const PatchReport& report) {
+    Json lights = Json::array();
+    for (const FirstShotLight& light : report.lights) lights.push_back(light_json(light));
+    return {{"count", report.count},
+            {"size_m", report.size_m},
+            {"first_shot",
+             {{"variant", name_of(report.first_shot)},
+              {"resolution", report.resolution ? Json(*report.resolution) : Json()},
+              {"missed", report.missed},
+              {"bytes_per_patch", report.bytes_per_patch},
+              {"lights", std::move(lights)}}}};
+}
+
 const char* text_of(StopReason reason) {
     switch (reason) {
         case StopReason::target_reached:
@@ -87,6 +107,10 @@ std::string to_json(const RunResult& result, std::span<const Sensor> sensors, co
               {"stopped", text_of(result.stop_reason)},
               {"attained_error", result.attained_error},
               {"warnings", result.warnings}};
+    if (result.patches) {
+        json["first_shot_set_up_s"] = result.patches->set_up_s;
+        json["patches"] = patches_json(*result.patches);
+    }
     Json list = Json::array();
     for (std::size_t s = 0; s < sensors.size(); ++s)
         list.push_back(sensor_json(result.sensors[s], sensors[s]));

@@ -316,6 +316,7 @@ RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& 
                                  RandomKey{options.seed}.derived(kPreparation), options.patches});
         Passes passes(*estimator, camera, options.seed, interrupt);
         result.stop_reason = PictureSchedule(options, clock, blind, sink).proceed(passes, sums);
+        result.patches = estimator->patch_report();
         result.warnings = estimator->warnings();
     });
     if (method.has_heavy_tails) {

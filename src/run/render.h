@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct RenderResult {
     double attained_error = 0;  ///< relative half-width that 95 % of the pixels keep
     double mean_luminance_cd_m2 = 0;
     double mean_standard_error_cd_m2 = 0;  ///< of single pixels
+    std::optional<PatchReport> patches;    ///< where the method lights patches
     std::vector<std::string> warnings;
 };
 

@@ -362,6 +362,7 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
         result.sensors.back().sub_points = sub_points(sensor, scene, caster);
         first += sensor.measurands.size();
     }
+    result.patches = estimator->patch_report();
     result.warnings = estimator->warnings();
     if (method.is_deterministic && (asked_options.error || asked_options.time_s || asked_options.paths)) {
         result.warnings.push_back(

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/spectrum.h"
+#include "estimators/patch_report.h"
 #include "run/options.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
@@ -43,8 +44,9 @@ struct RunResult {
     StopReason stop_reason = StopReason::paths_done;
     /// False where an error was asked for and is not met.
     bool converged = true;
-    double attained_error = 0;          ///< the worst sensor's
-    std::vector<SensorResult> sensors;  ///< in the order asked for
+    double attained_error = 0;           ///< the worst sensor's
+    std::vector<SensorResult> sensors;   ///< in the order asked for
+    std::optional<PatchReport> patches;  ///< where the method lights patches
     std::vector<std::string> warnings;
 };
 

@@ -1,5 +1,6 @@
 #include "cli/results_table.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -56,6 +57,35 @@ TEST(ResultsTable, ShowsNoErrorsWhereNoneAreKnown) {
               "    200.00 cd/m²   from (2, 0, 1) along (0, 0, 1), leaves the scene\n"
               "\n"
               "auto in 0.00 s: solved; the error by the size of the patches is not known\n");
+}
+
+TEST(ResultsTable, SaysWhatPatchesStandFor) {
+    HandMade made = luminance_results();
+    made.result.patches = patch_report();
+    EXPECT_TRUE(table_of(made).ends_with(
+        "\nauto, 0 paths in 0.00 s: all paths done; error 0 %\n"
+        "1000 patches of 0.25 m; first shot (incoming, resolution 256) for 1 of 2 lights, 0.12 s, "
+        "72 bytes per patch\n"
+        "lights that stay: panel (large)\n"))
+        << table_of(made);
+}
+
+TEST(ResultsTable, NamesFewOfManyLights) {
+    HandMade made = luminance_results();
+    made.result.patches = patch_report();
+    for (int i = 2; i < 6; ++i) {
+        made.result.patches->lights.push_back({fmt::format("panel {}", i), false, "large", 0, {}});
+    }
+    EXPECT_TRUE(table_of(made).ends_with(
+        "\nlights that stay: panel (large), panel 2 (large), panel 3 (large) and 2 more\n"))
+        << table_of(made);
+}
+
+TEST(ResultsTable, LightsNeedNoWordsWithoutFirstShot) {
+    HandMade made = luminance_results();
+    made.result.patches = patch_report();
+    made.result.patches->first_shot = FirstShotVariant::none;
+    EXPECT_TRUE(table_of(made).ends_with("\n1000 patches of 0.25 m; no first shot\n")) << table_of(made);
 }
 
 TEST(ResultsTable, NamesTheQuantities) {

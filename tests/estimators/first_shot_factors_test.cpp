@@ -57,7 +57,8 @@ class Factors : public testing::TestWithParam<BufferBackend> {
 TEST_P(Factors, TakeAllLightOfAClosedRoom) {
     const PreparedScene room(room_of_lights(), 0.5);
     const FirstShotLights lights = room.lights();
-    for (const BufferShape window : {BufferShape::hemicube, BufferShape::cubic_tetrahedron}) {
+    for (const BufferShape window :
+         {BufferShape::cube, BufferShape::hemicube, BufferShape::cubic_tetrahedron}) {
         for (const int resolution : {64, 256}) {
             const FirstShotFactors factors(room.patch_caster, lights.samples,
                                            {window, GetParam(), resolution});
@@ -73,6 +74,26 @@ TEST_P(Factors, TakeAllLightOfAClosedRoom) {
                 EXPECT_NEAR(arrived_lm[i] / flux, 1, 1e-6 + 6. / (resolution * resolution))
                     << name_of(window) << ", " << resolution << ", light " << i;
             }
+        }
+    }
+}
+
+/// The rear half of a cube on an area light carries nothing; the front half has the hemicube's pixels.
+TEST(FactorsByRays, CubesAreWhatHemicubesAre) {
+    const PreparedScene room(room_of_lights(), 0.5);
+    const FirstShotLights lights = room.lights();
+    const FirstShotFactors cubes(room.patch_caster, lights.samples,
+                                 {BufferShape::cube, BufferBackend::rays, 64});
+    const FirstShotFactors hemicubes(room.patch_caster, lights.samples,
+                                     {BufferShape::hemicube, BufferBackend::rays, 64});
+    for (std::uint32_t side = 0; side < room.sides(); ++side) {
+        const auto of_cubes = cubes.of(side), of_hemicubes = hemicubes.of(side);
+        ASSERT_EQ(of_cubes.size(), of_hemicubes.size()) << side;
+        for (std::size_t i = 0; i < of_cubes.size(); ++i) {
+            EXPECT_EQ(of_cubes[i].sample, of_hemicubes[i].sample) << side;
+            EXPECT_NEAR(of_cubes[i].illuminance_lx, of_hemicubes[i].illuminance_lx,
+                        1e-5 * of_hemicubes[i].illuminance_lx)
+                << side;
         }
     }
 }

@@ -110,6 +110,9 @@ TEST(ExrFile, SaysWhatItsValuesAre) {
     EXPECT_EQ(text("paths"), "4096");
     EXPECT_EQ(text("replicates"), "32");
     EXPECT_EQ(text("elapsed_s"), "12.500");
+    EXPECT_EQ(text("patches"), "10080");
+    EXPECT_EQ(text("patchSize_m"), "0.25");
+    EXPECT_EQ(text("firstShot"), "incoming");
     EXPECT_EQ(text("command"), "stilb render office.toml -o a.exr");
     EXPECT_EQ(text("software"), "Stilb 9.8.7");
     EXPECT_EQ(text("VIEW").rfind("-vtv -vp 0.3 0.25 1.6 ", 0), 0u);

@@ -34,4 +34,16 @@ inline HandMade luminance_results() {
     return made;
 }
 
+/// Of 1000 patches and incoming first shot for a bulb, but not for a large panel.
+inline PatchReport patch_report() {
+    return {1000,
+            0.25,
+            FirstShotVariant::incoming,
+            256,
+            3,
+            71.5,
+            0.125,
+            {{"bulb", true, "a point", 1, {}}, {"panel", false, "large", 0, {}}}};
+}
+
 }  // namespace stilb

@@ -62,6 +62,32 @@ TEST(ResultsJson, UnknownErrorsAreNull) {
     EXPECT_EQ(Json::parse(to_json(made.result, made.sensors, "room.toml"))["stopped"], "solved");
 }
 
+TEST(ResultsJson, PatchesSayWhatBecameOfLights) {
+    HandMade made = luminance_results();
+    made.result.patches = patch_report();
+    const Json json = Json::parse(to_json(made.result, made.sensors, "room.toml"));
+    EXPECT_EQ(json["first_shot_set_up_s"], 0.125);
+    EXPECT_EQ(json["patches"], Json::parse(R"({"count": 1000, "size_m": 0.25, "first_shot": {
+        "variant": "incoming", "resolution": 256, "missed": 3, "bytes_per_patch": 71.5, "lights": [
+        {"name": "bulb", "replaced": true, "samples": 1, "reason": "a point"},
+        {"name": "panel", "replaced": false, "samples": 0, "reason": "large"}]}})"));
+}
+
+TEST(ResultsJson, WithoutItemBuffersThereIsNoResolution) {
+    HandMade made = luminance_results();
+    made.result.patches = patch_report();
+    made.result.patches->resolution.reset();
+    const Json json = Json::parse(to_json(made.result, made.sensors, "room.toml"));
+    EXPECT_TRUE(json["patches"]["first_shot"].at("resolution").is_null());
+}
+
+TEST(ResultsJson, WithoutPatchesThereIsNoReport) {
+    const HandMade made = luminance_results();
+    const Json json = Json::parse(to_json(made.result, made.sensors, "room.toml"));
+    EXPECT_FALSE(json.contains("patches"));
+    EXPECT_FALSE(json.contains("first_shot_set_up_s"));
+}
+
 TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
     HandMade made = luminance_results();
     made.sensors.push_back(make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1}));

@@ -127,6 +127,20 @@ TEST_P(PatchBaseline, PicturesShowWhatMetersMeasure) {
     EXPECT_NEAR(baseline.mean_luminance_cd_m2, path.mean_luminance_cd_m2, 0.01 * path.mean_luminance_cd_m2);
 }
 
+TEST_P(PatchBaseline, ReportsWhatBecameOfLights) {
+    const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}});
+    const RunResult result = run(furnished_room(), {&floor, 1}, options_for(GetParam(), 1, 1 << 17));
+    ASSERT_TRUE(result.patches);
+    EXPECT_GT(result.patches->count, 100U);
+    EXPECT_EQ(result.patches->size_m, 1);
+    const bool has_first_shot = std::string("radiosity") == GetParam();
+    ASSERT_EQ(result.patches->lights.size(), 3U);
+    for (const FirstShotLight& light : result.patches->lights) {
+        EXPECT_EQ(light.is_replaced, has_first_shot) << light.why;
+    }
+    EXPECT_EQ(result.patches->bytes_per_patch > 0, has_first_shot);
+}
+
 TEST_P(PatchBaseline, ThreadsChangeNothing) {
     const Scene scene = furnished_room();
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}, {{3, 1.3, 0.8}, kUp}});
@@ -190,6 +204,15 @@ TEST(Radiosity, RefusesToLoseLight) {
         options.patches.first_shot.variant = variant;
         EXPECT_THROW(run(lamp_in_cube(0.5), {&floor, 1}, options), InputError) << name_of(variant);
     }
+}
+
+/// The rear half of a cube carries nothing.
+TEST(Radiosity, CubesSeeWhatHemicubesSee) {
+    const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}});
+    RunOptions options = options_for("radiosity", 1);
+    const double expected = value_of(run(furnished_room(), {&floor, 1}, options), 0);
+    options.patches.first_shot.shooting.window = BufferShape::cube;
+    EXPECT_NEAR(value_of(run(furnished_room(), {&floor, 1}, options), 0), expected, 1e-3 * expected);
 }
 
 TEST(Radiosity, PicturesHaveNoErrors) {

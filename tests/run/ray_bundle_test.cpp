@@ -138,6 +138,21 @@ TEST(RayBundle, PicturesShowWhatMetersMeasure) {
     EXPECT_LT(bundle.mean_standard_error_cd_m2, 0.05 * bundle.mean_luminance_cd_m2);
 }
 
+TEST(RayBundle, ReportsPatchesAndLights) {
+    const Sensor floor = points({{{1, 1.3, 0}, kUp}});
+    const RunResult result = run(glossy_room(), {&floor, 1}, bundle_options(0.5, 64));
+    ASSERT_TRUE(result.patches);
+    EXPECT_EQ(result.patches->first_shot, FirstShotVariant::incoming);
+    EXPECT_EQ(result.patches->size_m, 0.5);
+    EXPECT_TRUE(result.patches->resolution);
+    ASSERT_EQ(result.patches->lights.size(), 2U);
+    for (const FirstShotLight& light : result.patches->lights) EXPECT_TRUE(light.is_replaced) << light.why;
+    EXPECT_GT(result.patches->lights[0].samples, 4U);
+    EXPECT_EQ(result.patches->lights[1].samples, 1U);
+    EXPECT_GT(result.patches->bytes_per_patch, 0);
+    EXPECT_GT(result.patches->set_up_s, 0);
+}
+
 TEST(RayBundle, RefusesToLimitReflections) {
     RunOptions options = bundle_options(1, 16);
     options.bounces = 2;

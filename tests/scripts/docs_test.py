@@ -97,9 +97,12 @@ class ExampleTest(unittest.TestCase):
         self.assertEqual(tomllib.loads(scene), tomllib.loads((ROOT / "scenes/simple/room.toml").read_text()))
 
     def test_the_page_of_the_json_has_its_keys(self):
-        (example,) = blocks(ROOT / "docs/json.md", "json")
-        result = self.stilb("measure", ROOT / "scenes/simple/room.toml", "--json", "--paths", 64)
+        example, patches = blocks(ROOT / "docs/json.md", "json")
+        room = ROOT / "scenes/simple/room.toml"
+        result = self.stilb("measure", room, "--json", "--paths", 64)
         self.assertEqual(keys(json.loads(example)), keys(result))
+        result = self.stilb("measure", room, "--json", "--method", "ray-bundle", "--patch", 1, "--paths", 64)
+        self.assertEqual(keys(json.loads(patches)), keys(result["patches"]))
 
 
 if __name__ == "__main__":

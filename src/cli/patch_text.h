@@ -1,0 +1,13 @@
+// What became of surfaces and lights where patches stand for them, as text for people.
+#pragma once
+
+#include <string>
+
+#include "estimators/patch_report.h"
+
+namespace stilb {
+
+/// A line on patches and first shot, and one on the lights that are not replaced, if there are any.
+std::string patch_text(const PatchReport& report);
+
+}  // namespace stilb
