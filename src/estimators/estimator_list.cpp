@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kBundleFlags{"--patch",      "--first-shot", "--window",
                                                        "--resolution", "--visibility", "--directions"};
-constexpr std::span kRadiosityFlags = std::span(kBundleFlags).first<5>();
+constexpr std::span kFirstShotFlags = std::span(kBundleFlags).first<5>();
 constexpr std::span kParticlesFlags = std::span(kBundleFlags).first<1>();
 
 }  // namespace
@@ -39,8 +39,9 @@ std::span<const EstimatorEntry> estimator_list() {
                        "source, meets mirror or glass first and comes to them by mirror or glass",
                        true, make_local_estimator, make_local_picture},
         EstimatorEntry{"path",
-                       "path tracing from every point with next-event estimation: the naive reference", false,
-                       make_path_estimator, make_path_picture},
+                       "path tracing from every point with next-event estimation: the naive reference; "
+                       "unbiased unless small lights are left to --first-shot",
+                       false, make_path_estimator, make_path_picture, false, kFirstShotFlags},
         EstimatorEntry{"ray-bundle",
                        "stochastic iteration with bundles of parallel rays and first shot over patches: the "
                        "whole scene at once, biased by the size of the patches (--patch)",
@@ -48,7 +49,7 @@ std::span<const EstimatorEntry> estimator_list() {
         EstimatorEntry{"radiosity",
                        "progressive shooting between patches until nothing is left, for diffuse scenes: a "
                        "baseline, without standard errors and biased by the size of the patches",
-                       false, make_radiosity_estimator, make_radiosity_picture, true, kRadiosityFlags, true},
+                       false, make_radiosity_estimator, make_radiosity_picture, true, kFirstShotFlags, true},
         EstimatorEntry{"particles",
                        "particles of light counted in patches, for diffuse scenes: a baseline, biased by the "
                        "size of the patches",

@@ -25,7 +25,7 @@ struct EstimatorInput {
     RandomKey preparation_key;
     /// How much each point's relative variance matters beside the others'. Empty: all alike.
     std::span<const double> weights = {};
-    /// For methods that light patches.
+    /// For methods that light patches, and first shot.
     PatchOptions patches = {};
 };
 
@@ -37,7 +37,7 @@ struct EstimatorEntry {
     std::unique_ptr<Estimator> (*make)(const EstimatorInput& input);
     /// Null where the method does not measure luminance.
     std::unique_ptr<PictureEstimator> (*make_picture)(const PictureInput& input);
-    /// Whether it lights patches: then it is biased by their size.
+    /// Whether it always lights patches: then it is biased by their size.
     bool lights_patches = false;
     /// What of PatchOptions it goes by, as flags of the command line.
     std::span<const std::string_view> patch_flags = {};
@@ -49,7 +49,7 @@ struct EstimatorEntry {
 
 std::span<const EstimatorEntry> estimator_list();
 
-/// Those without patches, which all have the same expectations: the exact ones.
+/// Those without patches (unless they are asked for), which all have the same expectations: the exact ones.
 std::vector<EstimatorEntry> unbiased_estimators();
 
 /// For messages.

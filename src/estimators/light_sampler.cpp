@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "scene/bounds.h"
 #include "scene/solid_angle_sampling.h"
@@ -110,11 +111,12 @@ void add_mesh(const Mesh& mesh, std::vector<EmitterElement>& elements) {
 
 }  // namespace
 
-LightSampler::LightSampler(const Scene& scene, const RayCaster& caster)
+LightSampler::LightSampler(const Scene& scene, const RayCaster& caster, std::vector<bool> made_elsewhere)
     : scene_(scene),
       caster_(caster),
       luminance_of_object_(scene.objects.size()),
-      light_of_object_(scene.objects.size(), kNoLight) {
+      light_of_object_(scene.objects.size(), kNoLight),
+      made_elsewhere_(std::move(made_elsewhere)) {
     std::vector<double> luminous_flux;
     for (const Light& light : scene.lights) {
         lights_.push_back(&light);
@@ -237,6 +239,7 @@ std::optional<IncidentLight> LightSampler::sample_area_light(std::size_t light, 
 }
 
 double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const {
+    if (is_made_elsewhere(light)) return 0;
     const auto from_point = [&](const Vec3& position, const auto& intensity_cd) {
         const Vec3 towards = position - from;
         const double squared_distance = squared_length(towards);
@@ -264,7 +267,7 @@ double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, cons
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
                                                             SampleStream& stream) const {
-    if (count() == 1) return sample_incident(0, from, stream.next_two());
+    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, from, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
     std::vector<double> weights(count());
@@ -294,6 +297,7 @@ double LightSampler::pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) c
 double LightSampler::pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const {
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
     if (light == kNoLight) return 0;
+    if (is_made_elsewhere(light)) return std::numeric_limits<double>::infinity();
     const double pdf = pdf_of_its_light_per_sr(hit, from);
     if (count() == 1) return pdf;
     double total = 0;

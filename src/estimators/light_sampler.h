@@ -49,7 +49,10 @@ struct EmitterElement {
 /// All lights of a scene. Keeps references to both arguments. Immutable.
 class LightSampler {
   public:
-    LightSampler(const Scene& scene, const RayCaster& caster);
+    /// `made_elsewhere`: of Scene::lights, those whose light something else brings to surfaces; none where it
+    /// is empty. sample_one_light() never chooses them, and to pdf_per_sr() they are as if it always found
+    /// them.
+    LightSampler(const Scene& scene, const RayCaster& caster, std::vector<bool> made_elsewhere = {});
 
     /// A particle drawn in proportion to the emitted luminous flux: light, position, direction.
     EmittedParticle sample_emission(SampleStream& stream) const;
@@ -68,7 +71,7 @@ class LightSampler {
                                                   SampleStream& stream) const;
 
     /// About the density with which sample_one_light() draws the direction to `hit`, on an emitter; 0 where
-    /// it never does.
+    /// it never does, infinite where the light is made elsewhere.
     double pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const;
     /// The same of sample_incident() for the light that `hit` is on.
     double pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) const;
@@ -91,6 +94,9 @@ class LightSampler {
 
     std::optional<IncidentLight> sample_area_light(std::size_t light, const Vec3& from,
                                                    const std::array<double, 2>& u) const;
+    bool is_made_elsewhere(std::size_t light) const {
+        return !made_elsewhere_.empty() && made_elsewhere_[light];
+    }
     double rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const;
     EmittedParticle emit(std::size_t light, SampleStream& stream) const;
 
@@ -102,6 +108,7 @@ class LightSampler {
     DiscreteDistribution by_flux_;
     std::vector<Spectrum> luminance_of_object_;
     std::vector<std::uint32_t> light_of_object_;  ///< kNoLight where it is none
+    std::vector<bool> made_elsewhere_;
     bool has_area_lights_ = false;
 };
 

@@ -6,7 +6,7 @@
 namespace stilb {
 
 std::vector<std::optional<PatchPlace>> find_places(const PatchCaster& caster,
-                                                   std::span<const SeenPoint> points) {
+                                                   std::span<const SeenPoint> points, Coherence coherence) {
     // The way to the hit is free. So is a short stretch of it, from where patches that bulge out of the true
     // surface by rounding are met.
     constexpr double stretch = 1e-3;
@@ -21,7 +21,7 @@ std::vector<std::optional<PatchPlace>> find_places(const PatchCaster& caster,
                        -outgoing, std::numeric_limits<float>::infinity());
             lanes[lane] = -1;
         }
-        const PatchHits hits = caster.closest(packet, lanes);
+        const PatchHits hits = caster.closest(packet, lanes, coherence);
         for (std::size_t lane = 0; lane < count; ++lane) {
             if (hits.sides[lane] == kNoSide) continue;
             places[first + lane] = PatchPlace{hits.sides[lane], hits.place(lane)};

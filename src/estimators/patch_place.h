@@ -22,8 +22,9 @@ struct SeenPoint {
 };
 
 /// The places on patches that stand for points; nothing where the patches of a curved surface leave one out,
-/// at its outline. Neighbouring points are best seen from nearly the same direction.
+/// at its outline. `coherence`: of the ways that neighbouring points are seen along.
 std::vector<std::optional<PatchPlace>> find_places(const PatchCaster& caster,
-                                                   std::span<const SeenPoint> points);
+                                                   std::span<const SeenPoint> points,
+                                                   Coherence coherence = Coherence::coherent);
 
 }  // namespace stilb

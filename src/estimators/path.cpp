@@ -5,14 +5,14 @@
 //
 // by one cosine-distributed ray and the path that it begins, for each sample and point by itself; luminance
 // by paths that begin along the line of sight. Finite variance for bounded BRDFs. Not made: light that leaves
-// a point-like source and meets a mirror or glass before anything else, but panes straight on.
+// a point-like source and meets a mirror or glass before anything else, but panes straight on. With first
+// shot, which is only taken where it is asked for, it is biased by the patches.
 #include "estimators/path.h"
 
 #include <algorithm>
 
 #include "estimators/direct_light.h"
-#include "estimators/limits.h"
-#include "estimators/path_tracer.h"
+#include "estimators/flattened_paths.h"
 #include "estimators/receiver.h"
 
 namespace stilb {
@@ -27,8 +27,7 @@ class PathEstimator final : public Estimator {
         : scene_(input.scene),
           caster_(input.caster),
           max_reflections_(input.max_reflections),
-          lights_(scene_, caster_),
-          tracer_(scene_, caster_, lights_),
+          paths_(scene_, caster_, input.patches),
           known_part_(input.measurands.size()) {
         for (std::uint32_t reading = 0; reading < input.measurands.size(); ++reading) {
             add_reading(reading, input.measurands[reading]);
@@ -48,7 +47,8 @@ class PathEstimator final : public Estimator {
     /// Enough for a first look at the error not to miss what few paths find.
     std::uint64_t batch_granularity() const override { return 64; }
     double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
-    std::vector<std::string> warnings() const override { return path_warnings(scene_); }
+    std::vector<std::string> warnings() const override { return paths_.warnings(); }
+    std::optional<PatchReport> patch_report() const override { return paths_.report(); }
 
   private:
     /// The surface that a line of sight meets first, and the direction that it is seen along.
@@ -63,10 +63,10 @@ class PathEstimator final : public Estimator {
     void add_reading(std::uint32_t reading, const Measurand& measurand) {
         if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
             points_.emplace_back(reading, *point, caster_);
-            known_part_[reading] = direct_from_points(points_.back(), caster_, lights_);
+            known_part_[reading] = direct_from_points(points_.back(), caster_, paths_.lights);
         } else if (const auto hit = first_surface(measurand, caster_)) {
             sights_.push_back({reading, *hit, looking_direction(measurand)});
-            known_part_[reading] = lights_.emitted_luminance(*hit);
+            known_part_[reading] = paths_.lights.emitted_luminance(*hit);
         }
     }
 
@@ -77,7 +77,7 @@ class PathEstimator final : public Estimator {
         std::vector<Spectrum> weights;
         for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
             SampleStream stream(key, i);
-            sums.add(point.reading(), sample_direct_from_areas(point, caster_, lights_, stream));
+            sums.add(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream));
             const auto [u1, u2] = stream.next_two();
             const auto sample = point.sample(u1, u2);
             if (!sample) continue;
@@ -95,7 +95,7 @@ class PathEstimator final : public Estimator {
             paths.back().lookout = kDirectIsKnown;
             weight_of_path.push_back(weights[i]);
         }
-        tracer_.trace(paths, Coherence::scattered);
+        paths_.tracer.trace(paths, Coherence::scattered);
         for (std::size_t i = 0; i < paths.size(); ++i) {
             sums.add(point.reading(), weight_of_path[i] * paths[i].luminance_cd_m2);
         }
@@ -107,15 +107,14 @@ class PathEstimator final : public Estimator {
         for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
             paths.push_back({sighting.hit, -sighting.direction, SampleStream(key, i), max_reflections_});
         }
-        tracer_.trace(paths, Coherence::coherent);
+        paths_.tracer.trace(paths, Coherence::coherent);
         for (const Path& path : paths) sums.add(sighting.reading, path.luminance_cd_m2);
     }
 
     const Scene& scene_;
     const RayCaster& caster_;
     int max_reflections_;
-    LightSampler lights_;
-    PathTracer tracer_;
+    FlattenedPaths paths_;
     std::vector<Receiver> points_;
     std::vector<Sighting> sights_;
     std::vector<Spectrum> known_part_;

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "estimators/balance.h"
+#include "estimators/first_shot_patches.h"
+#include "estimators/patch_place.h"
 #include "estimators/russian_roulette.h"
 #include "estimators/specular_way.h"
 
@@ -21,6 +23,7 @@ void PathTracer::trace(std::span<Path> paths, Coherence first) const {
     std::vector<Spectrum> transmittances(paths.size());
     std::vector<std::optional<Hit>> hits(paths.size());
     for (Coherence coherence = first; !going.empty(); coherence = Coherence::scattered) {
+        if (first_shot_) add_first_reflected(going, coherence);
         lit.clear(), segments.clear(), rays.clear();
         std::size_t count = 0;
         for (Path* path : going) {
@@ -50,7 +53,9 @@ void PathTracer::trace(std::span<Path> paths, Coherence first) const {
 }
 
 void PathTracer::follow(Path& path) const {
+    Path* const self = &path;
     for (;;) {
+        if (first_shot_) add_first_reflected({&self, 1}, Coherence::scattered);
         const Step step = take_step(path);
         if (step.connection) {
             path.luminance_cd_m2 +=
@@ -80,6 +85,23 @@ PathTracer::Step PathTracer::take_step(Path& path) const {
     if (path.reflections_left == 0) return {};
     --path.reflections_left;
     return reflect(path, material);
+}
+
+void PathTracer::add_first_reflected(std::span<Path* const> paths, Coherence coherence) const {
+    std::vector<Path*> reflecting;
+    std::vector<SeenPoint> points;
+    for (Path* path : paths) {
+        if (path->reflections_left == 0 || is_specular(material(path->hit))) continue;
+        reflecting.push_back(path);
+        points.push_back({path->hit, path->outgoing});
+    }
+    const auto places = find_places(first_shot_->patch_caster, points, coherence);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!places[i]) continue;
+        Path& path = *reflecting[i];
+        path.luminance_cd_m2 += path.throughput * first_shot_->first_shot.reflected(
+                                                      places[i]->side, path.hit.position, path.outgoing);
+    }
 }
 
 std::optional<Ray> PathTracer::pass_specular(Path& path, const Material& material) const {

@@ -5,13 +5,19 @@
 // 1995]. Both see straight through panes. Behind mirrors and glass, which next-event estimation cannot see
 // through, emitters count in full. Not made: light that leaves a point-like source and meets a mirror or
 // glass first.
+//
+// With first shot the lights that it replaces are left out of both, and every surface reflects of them what
+// the patch that stands for it does, instead.
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "estimators/light_sampler.h"
 
 namespace stilb {
+
+struct FirstShotPatches;
 
 /// From where a path looks for emitters, beside next-event estimation there.
 struct Lookout {
@@ -38,10 +44,13 @@ struct Path {
 /// Keeps references to its arguments. Immutable.
 class PathTracer {
   public:
-    PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights)
-        : scene_(scene), caster_(caster), lights_(lights) {}
+    /// `first_shot`: null where no light is replaced. To `lights`, those that are have to be made elsewhere.
+    PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+               const FirstShotPatches* first_shot = nullptr)
+        : scene_(scene), caster_(caster), lights_(lights), first_shot_(first_shot) {}
 
-    /// Follows paths to their ends, side by side. `first`: of the shadow rays at their first hits.
+    /// Follows paths to their ends, side by side. `first`: of the ways to their first hits, and of the shadow
+    /// rays there.
     void trace(std::span<Path> paths, Coherence first) const;
 
     /// Follows a path through mirrors and glass until it stands on another surface; false where it ends
@@ -84,6 +93,8 @@ class PathTracer {
         std::optional<Ray> ray;
     };
     Step take_step(Path& path) const;
+    /// What the surfaces that paths stand on reflect of the replaced lights.
+    void add_first_reflected(std::span<Path* const> paths, Coherence coherence) const;
     std::optional<Ray> pass_specular(Path& path, const Material& material) const;
     Step reflect(Path& path, const Material& material) const;
     /// Where the step's ray has met something.
@@ -96,6 +107,7 @@ class PathTracer {
     const Scene& scene_;
     const RayCaster& caster_;
     const LightSampler& lights_;
+    const FirstShotPatches* first_shot_;
 };
 
 }  // namespace stilb

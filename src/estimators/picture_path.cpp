@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "estimators/limits.h"
+#include "estimators/flattened_paths.h"
 #include "estimators/picture_tracing.h"
 
 namespace stilb {
@@ -12,12 +12,13 @@ namespace {
 
 class Paths final : public PicturePass {
   public:
-    Paths(const PictureTracing& tracing, const Pass& pass) : tracing_(tracing), pass_(pass) {}
+    Paths(const PictureTracing& tracing, const PathTracer& tracer, const Pass& pass)
+        : tracing_(tracing), tracer_(tracer), pass_(pass) {}
 
     std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
         std::ranges::fill(pixels, Spectrum{});
         auto [paths, numbers] = tracing_.start_paths(pixels_of(block), pass_);
-        tracing_.tracer.trace(paths, Coherence::coherent);
+        tracer_.trace(paths, Coherence::coherent);
         std::uint64_t invalid = 0;
         for (std::size_t i = 0; i < paths.size(); ++i) {
             const Spectrum& luminance = paths[i].luminance_cd_m2;
@@ -32,20 +33,24 @@ class Paths final : public PicturePass {
 
   private:
     const PictureTracing& tracing_;
+    const PathTracer& tracer_;
     Pass pass_;
 };
 
 class PathPicture final : public PictureEstimator {
   public:
-    explicit PathPicture(const PictureInput& input) : tracing_(input) {}
+    explicit PathPicture(const PictureInput& input)
+        : tracing_(input), paths_(input.scene, input.caster, input.patches) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
-        return std::make_unique<Paths>(tracing_, pass);
+        return std::make_unique<Paths>(tracing_, paths_.tracer, pass);
     }
-    std::vector<std::string> warnings() const override { return path_warnings(tracing_.scene); }
+    std::vector<std::string> warnings() const override { return paths_.warnings(); }
+    std::optional<PatchReport> patch_report() const override { return paths_.report(); }
 
   private:
     PictureTracing tracing_;
+    FlattenedPaths paths_;
 };
 
 }  // namespace

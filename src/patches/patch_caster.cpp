@@ -36,10 +36,11 @@ RTCRayHit16 unanswered(const RayPacket& packet) {
     return rays;
 }
 
-RTCIntersectContext coherent_context() {
+RTCIntersectContext context_for(Coherence coherence) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                                     : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     return context;
 }
 
@@ -113,9 +114,9 @@ PatchCaster::~PatchCaster() = default;
 const Patches& PatchCaster::patches() const { return implementation_->patches; }
 std::size_t PatchCaster::bytes() const { return static_cast<std::size_t>(implementation_->bytes.load()); }
 
-PatchHits PatchCaster::closest(RayPacket& packet, const LaneMask& lanes) const {
+PatchHits PatchCaster::closest(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
     RTCRayHit16 found = unanswered(packet);
-    RTCIntersectContext context = coherent_context();
+    RTCIntersectContext context = context_for(coherence);
     rtcIntersect16(lanes.data(), implementation_->scene, &context, &found);
     std::memcpy(packet.end.data(), found.ray.tfar, sizeof packet.end);
     PatchHits hits;
@@ -136,7 +137,7 @@ void PatchCaster::all(const RayPacket& packet, const LaneMask& lanes, PacketCros
     for (auto& of_lane : crossings) of_lane.clear();
     RTCRayHit16 rays = unanswered(packet);
     std::iota(std::begin(rays.ray.id), std::end(rays.ray.id), 0u);
-    CollectingContext context{coherent_context(), implementation_->patches, crossings};
+    CollectingContext context{context_for(Coherence::coherent), implementation_->patches, crossings};
     context.filter = collect;
     rtcIntersect16(lanes.data(), implementation_->scene, &context, &rays);
     for (auto& of_lane : crossings) std::ranges::sort(of_lane, std::less<>{});

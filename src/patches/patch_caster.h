@@ -46,9 +46,10 @@ class PatchCaster {
     PatchCaster& operator=(const PatchCaster&) = delete;
 
     /// For lanes that are set: what is met first between `start` and `end`; `end` becomes how far it is.
-    /// Coordinates are relative to Patches::center. Made for rays that are close together; Embree divides
-    /// packets where the processor has narrower vectors.
-    PatchHits closest(RayPacket& packet, const LaneMask& lanes) const;
+    /// Coordinates are relative to Patches::center. Embree divides packets where the processor has narrower
+    /// vectors.
+    PatchHits closest(RayPacket& packet, const LaneMask& lanes,
+                      Coherence coherence = Coherence::coherent) const;
 
     /// For lanes that are set: all that is met between `start` and `end`, by distance; other lanes have
     /// nothing. Takes the place of what was in `crossings`, whose memory can so be used again. A ray on the

@@ -44,6 +44,30 @@ void expect_illuminance(const Shape& shape, const exact::Receiver& receiver, dou
     EXPECT_LT(measured.standard_error, 0.01 * exact_lx);
 }
 
+/// What is made elsewhere is never chosen, and counts nothing where a path runs into it.
+TEST(IncidentLight, LeavesOutWhatIsMadeElsewhere) {
+    Scene scene;
+    add_area_light(scene, Rectangle{{0, 0, 3}, {0, 1, 0}, {1, 0, 0}}, kWhite);
+    add_area_light(scene, Rectangle{{2, 0, 3}, {0, 1, 0}, {1, 0, 0}}, kWhite);
+    const RayCaster caster(scene);
+    const LightSampler rest(scene, caster, {true, false}), none(scene, caster, {true, true});
+    const Vec3 from{1, 0.5, 0}, up{0, 0, 1};
+    for (std::uint64_t i = 0; i < 16; ++i) {
+        SampleStream stream(RandomKey{1}, i);
+        const auto light = rest.sample_one_light(from, up, stream);
+        ASSERT_TRUE(light);
+        EXPECT_GT(light->source_point.x, 2);
+        EXPECT_FALSE(none.sample_one_light(from, up, stream));
+    }
+    const auto left_out = caster.closest(from, normalized(Vec3{-0.5, 0, 3}));
+    const auto kept = caster.closest(from, normalized(Vec3{1.5, 0, 3}));
+    ASSERT_TRUE(left_out && kept);
+    EXPECT_TRUE(std::isinf(rest.pdf_per_sr(*left_out, from, up)));
+    const double kept_pdf = rest.pdf_per_sr(*kept, from, up);
+    EXPECT_GT(kept_pdf, 0);
+    EXPECT_EQ(kept_pdf, rest.pdf_of_its_light_per_sr(*kept, from));
+}
+
 TEST(IncidentLight, OfShapesIsThatOfConfigurationFactors) {
     const exact::Receiver receiver{{0.3, 0.2, 0}, normalized(Vec3{0.2, 0.3, 1})};
     const Rectangle rectangle{{-0.5, -0.4, 1}, {0, 1, 0.2}, {1.2, 0, 0.1}};

@@ -295,12 +295,33 @@ class MeasureTest(CommandLineTest):
 
     def test_patch_flags_of_other_methods(self):
         for method, flag, right in (("particles", "--window", "radiosity"), ("radiosity", "--directions", "ray-bundle"),
-                                    ("path", "--patch", "particles")):
+                                    ("path", "--directions", "ray-bundle"), ("path", "--patch", "--first-shot")):
             value = {"--window": "hemicube", "--directions": "pair", "--patch": "1"}[flag]
             result = run("measure", self.scene, "--method", method, flag, value)
             self.assertEqual(result.returncode, 2)
             for part in (flag, method, right):
                 self.assertIn(part, result.stderr)
+
+    def test_patches_and_lights_are_reported(self):
+        for method, options in (("ray-bundle", ()), ("radiosity", ("--window", "cube")), ("path", ("--first-shot", "auto"))):
+            def document(threads):
+                result = self.measure("--method", method, "--patch", "1", "--resolution", "32", *options,
+                                      *(() if method == "radiosity" else ("--paths", "2048")), "--threads", threads)
+                del result["elapsed_s"]
+                self.assertGreater(result.pop("first_shot_set_up_s"), 0)
+                return result
+
+            with self.subTest(method=method):
+                first = document(1)
+                self.assertEqual(document(2), first)
+                patches, shot = first["patches"], first["patches"]["first_shot"]
+                self.assertGreater(patches["count"], 10)
+                self.assertEqual((patches["size_m"], shot["variant"], shot["resolution"]), (1, "incoming", 32))
+                self.assertGreater(shot["bytes_per_patch"], 0)
+                self.assertEqual(shot["lights"], [{"name": "bulb", "replaced": True, "samples": 1, "reason": "a point"}])
+
+    def test_path_has_no_patches_unless_told(self):
+        self.assertNotIn("patches", self.measure("--method", "path", "--paths", "2048"))
 
     def test_csv_files_hold_the_readings(self):
         document = self.measure("--error", "5%", "--csv", self.folder / "tables")
