@@ -1,0 +1,97 @@
+// First shot: how long each variant takes to set up, what it stores, and how long one query takes, in a
+// furnished room with ten small lights, where all surfaces are diffuse or all are glossy. All processors set
+// up by rays; OpenGL takes whatever its driver does. Queries are one thread's.
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "base/error.h"
+#include "best_time.h"
+#include "estimators/first_shot_patches.h"
+#include "rooms.h"
+
+namespace stilb {
+namespace {
+
+constexpr std::size_t kQueries = 100'000;
+
+/// A panel and nine points, all of which are replaced.
+void light(Scene& scene) {
+    for (int i = 0; i < 8; ++i) {
+        scene.lights.push_back({"", PointLight{{0.5 + 0.4 * i, 3.4 - 0.3 * i, 2}, Spectrum::grey(40)}});
+    }
+    scene.objects.push_back(
+        {"panel", Rectangle{{1.8, 1.8, 2.98}, {0, 0.2, 0}, {0.2, 0, 0}}, {MaterialId{0}}});
+    const ObjectId panel{static_cast<std::uint32_t>(scene.objects.size() - 1)};
+    scene.lights.push_back({"", AreaLight{panel, Spectrum::grey(3000)}});
+}
+
+struct Query {
+    std::uint32_t side = 0;
+    Vec3 position, out;
+};
+
+std::vector<Query> queries(const Patches& patches) {
+    std::vector<Query> all;
+    for (std::uint64_t i = 0; i < kQueries; ++i) {
+        SampleStream stream(RandomKey{1}, i);
+        const double sides = 2 * static_cast<double>(patches.count());
+        const auto side = static_cast<std::uint32_t>(stream.next() * sides);
+        const auto [u1, u2] = stream.next_two();
+        const Vec3 local = sample_cosine_hemisphere(u1, u2).direction;
+        all.push_back({side, patches.middle(patches.patch_of(side)),
+                       Frame::around(patches.normal_of(side)).to_world(local)});
+    }
+    return all;
+}
+
+double query_us(const FirstShotPatches& patches) {
+    const std::vector<Query> all = queries(patches.patches);
+    Spectrum sum;
+    const double time_s = best_time_s(3, [&] {
+        for (const auto& [side, position, out] : all) {
+            sum += patches.first_shot.reflected(side, position, out);
+        }
+    });
+    return sum.is_finite() ? 1e6 * time_s / static_cast<double>(kQueries) : 0;
+}
+
+void report(const Scene& scene, double count, FirstShotVariant variant, BufferBackend backend) {
+    const RayCaster caster(scene);
+    PatchOptions options;
+    options.patch_m = patch_size_m(scene, count);
+    options.first_shot.variant = variant;
+    options.first_shot.shooting.backend = backend;
+    const FirstShotPatches patches(scene, caster, options);
+    const PatchReport report = patches.report();
+    fmt::print("{:22} {:>10} {:10} {:>10} {:>8} {:9.3f} {:9.1f} {:9.3f}\n", scene.name, name_of(variant),
+               report.count, report.resolution.value_or(0), name_of(backend), report.set_up_s,
+               report.bytes_per_patch, query_us(patches));
+}
+
+void report_all(Scene scene) {
+    light(scene);
+    for (const double count : {1e4, 1e5}) {
+        for (const BufferBackend backend : {BufferBackend::rays, BufferBackend::opengl}) {
+            for (const FirstShotVariant variant :
+                 {FirstShotVariant::classical, FirstShotVariant::diffuse, FirstShotVariant::incoming}) {
+                try {
+                    report(scene, count, variant, backend);
+                } catch (const InputError& error) {  // there is no OpenGL
+                    fmt::print("{}\n", error.what());
+                }
+            }
+        }
+        report(scene, count, FirstShotVariant::on_the_fly, BufferBackend::rays);
+    }
+}
+
+}  // namespace
+}  // namespace stilb
+
+int main() {
+    fmt::print("{:22} {:>10} {:>10} {:>10} {:>8} {:>9} {:>9} {:>9}\n", "", "variant", "patches", "resolution",
+               "by", "set-up s", "bytes", "query us");
+    for (const stilb::Scene& scene : {stilb::make_room(8), stilb::make_glossy_room(8)})
+        stilb::report_all(scene);
+}
