@@ -31,7 +31,9 @@ constexpr std::array kFigures{
     Figure{"polar", "light reflected more than once in Sobolev's problem, over its direction (figure 6)",
            "polar.csv, .svg and .png", reproduce_polar},
     Figure{"first-shot", "error of ray-bundle pictures with every first shot (the other paper's figure 6)",
-           "first-shot-*.csv, .svg and .png", reproduce_first_shot}};
+           "first-shot-*.csv, .svg and .png", reproduce_first_shot},
+    Figure{"directions", "error of ray bundles over rays, by the directions of a step",
+           "directions.csv, .svg and .png", reproduce_directions}};
 
 std::vector<Figure> chosen_figures(const std::string& name) {
     std::vector<std::string_view> known;

@@ -14,5 +14,7 @@ void reproduce_room(const std::filesystem::path& directory);
 void reproduce_polar(const std::filesystem::path& directory);
 /// [FirstShot], figure 6.
 void reproduce_first_shot(const std::filesystem::path& directory);
+/// No figure of a paper: why three directions make a step.
+void reproduce_directions(const std::filesystem::path& directory);
 
 }  // namespace stilb
