@@ -1,10 +1,12 @@
 #include "cli/first_shot_convergence.h"
 
+#include <tbb/parallel_for.h>
+
+#include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "estimators/bundle_iteration.h"
-#include "estimators/estimator.h"
 #include "estimators/patch_picture.h"
 #include "estimators/patch_place.h"
 #include "run/clock.h"
@@ -12,7 +14,8 @@
 namespace stilb {
 namespace {
 
-constexpr int kReferenceWalks = 8, kReferenceSteps = 2000;
+constexpr std::uint64_t kReferenceWalks = 8;
+constexpr int kReferenceSteps = 1000;
 enum Purpose : std::uint64_t { kReference, kWalk };
 
 /// Pixels that show each side.
@@ -41,18 +44,22 @@ double difference(const std::vector<Rgb>& sides, const std::vector<Rgb>& referen
     return sum / all;
 }
 
-std::vector<Rgb> reference_of(const PatchTransport& transport, const Vec3& eye) {
-    const SeenSides seen(transport, eye);
-    std::vector<Rgb> sums(seen.count());
-    for (std::uint64_t walk = 0; walk < kReferenceWalks; ++walk) {
+std::vector<Rgb> reference_of(const PatchTransport& transport, const SeenSides& seen) {
+    std::array<std::vector<Rgb>, kReferenceWalks> sums;
+    tbb::parallel_for(std::uint64_t{0}, kReferenceWalks, [&](std::uint64_t walk) {
+        sums[walk].resize(seen.count());
         BundleIteration iteration(transport, RandomKey{kReference}.derived(walk));
         for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
         for (int step = 0; step < kReferenceSteps; ++step) {
             iteration.step();
-            seen.add(iteration, sums);
+            seen.add(iteration, sums[walk]);
         }
+    });
+    for (std::size_t walk = 1; walk < sums.size(); ++walk) {
+        for (std::size_t side = 0; side < seen.count(); ++side)
+            add_to(sums[0][side], spectrum_of(sums[walk][side]));
     }
-    return seen.mean_cd_m2(sums, kReferenceWalks * kReferenceSteps);
+    return seen.mean_cd_m2(sums[0], double{kReferenceWalks} * kReferenceSteps);
 }
 
 /// 1, 2, 3, 5, 7, 10 ... and the last.
@@ -66,18 +73,18 @@ bool is_looked_at(int step, int last) {
 
 }  // namespace
 
-std::vector<ConvergenceCurve> converge(const Scene& scene, const RayCaster& caster, const Camera& camera,
+std::vector<ConvergenceCurve> converge(const PictureTracing& tracing,
                                        const std::vector<ConvergenceMethod>& methods, int steps,
-                                       double most_time_s) {
-    const PictureTracing tracing({scene, caster, camera, kUnlimited, RandomKey{1}});
-    const PatchTransport best(scene, caster, {});
+                                       double most_time_s,
+                                       const std::function<void(const ConvergenceState&)>& look) {
+    const PatchTransport best(tracing.scene, tracing.caster, {});
     const Vec3& eye = tracing.view.position();
     const std::vector<double> pixels = pixels_of_sides(tracing, best);
-    const std::vector<Rgb> reference = reference_of(best, eye);
+    const std::vector<Rgb> reference = reference_of(best, SeenSides(best, eye));
     std::vector<ConvergenceCurve> curves;
-    for (const auto& [name, options] : methods) {
-        ConvergenceCurve curve{name, {}};
-        const PatchTransport transport(scene, caster, options);
+    for (const ConvergenceMethod& method : methods) {
+        ConvergenceCurve curve{method.name, {}};
+        const PatchTransport transport(tracing.scene, tracing.caster, method.options);
         const Clock clock;
         BundleIteration iteration(transport, RandomKey{kWalk});
         const SeenSides seen(transport, eye);
@@ -88,9 +95,11 @@ std::vector<ConvergenceCurve> converge(const Scene& scene, const RayCaster& cast
             seen.add(iteration, sums);
             if (!is_looked_at(step, steps)) continue;
             const double elapsed_s = clock.elapsed_s() - looking_s;
+            const ConvergenceState state{method, transport, step, seen.mean_cd_m2(sums, step)};
             curve.points.push_back({static_cast<double>(step), transport.first_shot.set_up_s() + elapsed_s,
-                                    difference(seen.mean_cd_m2(sums, step), reference, pixels)});
+                                    difference(state.sides_cd_m2, reference, pixels)});
             if (elapsed_s > most_time_s) break;
+            look(state);
             looking_s = clock.elapsed_s() - elapsed_s;
         }
         curves.push_back(std::move(curve));

@@ -1,12 +1,13 @@
 // How fast pictures by ray bundles converge, with every first shot.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "estimators/patch_options.h"
-#include "scene/ray_caster.h"
-#include "sensors/camera.h"
+#include "estimators/patch_transport.h"
+#include "estimators/picture_tracing.h"
 
 namespace stilb {
 
@@ -26,13 +27,23 @@ struct ConvergenceCurve {
 struct ConvergenceMethod {
     std::string name;
     PatchOptions options;
+    bool is_shown = false;  ///< by pictures
+};
+
+/// What sides reflect towards the eye [cd/m2], as a mean over so many steps of a method.
+struct ConvergenceState {
+    const ConvergenceMethod& method;
+    const PatchTransport& transport;
+    int steps;
+    std::vector<Rgb> sides_cd_m2;
 };
 
 /// One walk for each method from darkness, no step left out, and the same number of steps for all but those
-/// that take longer than `most_time_s`. The reference is the mean of several longer walks by incoming first
-/// shot over the same patches.
-std::vector<ConvergenceCurve> converge(const Scene& scene, const RayCaster& caster, const Camera& camera,
+/// that take longer than `most_time_s`. The reference is the mean of several walks by incoming first shot
+/// over the same patches. `look` sees what has a point on the curve; its time is not counted.
+std::vector<ConvergenceCurve> converge(const PictureTracing& tracing,
                                        const std::vector<ConvergenceMethod>& methods, int steps,
-                                       double most_time_s);
+                                       double most_time_s,
+                                       const std::function<void(const ConvergenceState&)>& look);
 
 }  // namespace stilb

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "cli/first_shot_convergence.h"
 #include "cli/furnished_room.h"
-#include "cli/rendered_picture.h"
 #include "cli/reproduce.h"
+#include "estimators/estimator.h"
+#include "estimators/patch_picture.h"
 #include "files/picture_file.h"
 #include "files/plot.h"
 #include "files/scene_file.h"
@@ -19,6 +21,8 @@ namespace {
 
 constexpr int kSteps = 1000;
 constexpr double kMostTime_s = 60;
+constexpr std::array kShownSteps{10, 100, 1000};
+constexpr double kExposure = 0.03;  ///< of all pictures
 constexpr const char* kSceneFile = "scenes/paper/furnished.toml";
 
 /// With only the lights whose names begin so.
@@ -33,7 +37,9 @@ ConvergenceMethod method(const std::string& name, FirstShotVariant variant,
     PatchOptions options;
     options.first_shot.variant = variant;
     options.directions = directions;
-    return {name, options};
+    return {name, options,
+            directions == BundleDirections::frame &&
+                (variant == FirstShotVariant::incoming || variant == FirstShotVariant::none)};
 }
 
 /// Without first shot a point light lights nothing.
@@ -75,12 +81,40 @@ void write_curves(const std::vector<ConvergenceCurve>& curves, const std::filesy
     }
 }
 
+Picture picture_of(const PictureTracing& tracing, const ConvergenceState& state) {
+    constexpr std::uint64_t passes = 4;
+    const auto [width, height] = tracing.camera.resolution;
+    Picture picture;
+    picture.width = width, picture.height = height;
+    picture.rgb_cd_m2.resize(picture.pixel_count());
+    for (std::uint64_t i = 0; i < passes; ++i) {
+        const PatchPass pass(tracing, state.transport, {RandomKey{1}, i}, state.sides_cd_m2);
+        for (const PixelBlock& block : blocks_of(tracing.camera.resolution)) {
+            const std::vector<Pixel> places = pixels_of(block);
+            std::vector<Spectrum> values(places.size());
+            pass.sample(block, values);
+            for (std::size_t k = 0; k < places.size(); ++k) {
+                add_to(picture.rgb_cd_m2[static_cast<std::size_t>(places[k].y * width + places[k].x)],
+                       values[k] * (1. / passes));
+            }
+        }
+    }
+    return picture;
+}
+
 void reproduce_scene(std::string_view lights, const std::filesystem::path& directory) {
     const SceneFile file = furnished_room(lights);
     const RayCaster caster(file.scene);
-    const Camera& camera = file.sensors.front().camera;
-    const auto curves =
-        converge(file.scene, caster, camera, methods_for(lights == "point"), kSteps, kMostTime_s);
+    const PictureTracing tracing({file.scene, caster, file.sensors.front().camera, kUnlimited, RandomKey{1}});
+    const auto look = [&](const ConvergenceState& state) {
+        if (!state.method.is_shown || std::ranges::find(kShownSteps, state.steps) == kShownSteps.end())
+            return;
+        const std::string variant(name_of(state.method.options.first_shot.variant));
+        write_picture(picture_of(tracing, state),
+                      directory / fmt::format("first-shot-{}s-{}-{}.png", lights, variant, state.steps),
+                      {kExposure});
+    };
+    const auto curves = converge(tracing, methods_for(lights == "point"), kSteps, kMostTime_s, look);
     write_curves(curves, directory, std::string(lights) + "s");
 }
 

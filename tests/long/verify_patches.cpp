@@ -1,0 +1,152 @@
+// Methods that light patches against path tracing, as patches shrink: verify_patches [SCENE]. In closed
+// scenes of the agreement set means over readings come within 1 %, with every first shot and backend.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "agreement/scenes.h"
+#include "patches/backends.h"
+#include "run/run.h"
+
+namespace stilb {
+namespace {
+
+constexpr std::array kDiffuseScenes{"ClosedBox", "ColouredBox", "Corners"};
+constexpr std::array kPhongScenes{"BroadPhong", "NarrowPhong"};
+constexpr std::array kSizes_m{0.6, 0.3, 0.15};
+constexpr double kTolerance = 0.01;
+constexpr Vec3 kMiddle{2, 1.5, 1.3};
+
+Sensor floor_grid() {
+    Sensor sensor{"illuminance", SensorType::illuminance, {}};
+    for (int x = 0; x < 4; ++x) {
+        for (int y = 0; y < 3; ++y)
+            sensor.measurands.emplace_back(MeasuringPoint{{0.5 + x, 0.5 + y, 0.3}, {0, 0, 1}});
+    }
+    return sensor;
+}
+
+RunOptions options_of(std::string_view method, double error) {
+    RunOptions options;
+    options.method = method;
+    options.error = error;
+    return options;
+}
+
+/// All around, but not into lights: what is emitted is the same by all methods.
+Sensor sights(const Scene& scene) {
+    constexpr int count = 96;
+    Sensor all{"luminance", SensorType::luminance, {}};
+    for (int i = 0; i < count; ++i) {  // a spiral over the sphere
+        const double z = 1 - (2 * i + 1.0) / count, radius = std::sqrt(1 - z * z);
+        const double angle = 2 * std::numbers::pi * i / std::numbers::phi;
+        all.measurands.emplace_back(
+            LineOfSight{kMiddle, {radius * std::cos(angle), radius * std::sin(angle), z}});
+    }
+    RunOptions emission = options_of("path", 0.1);
+    emission.bounces = 0;
+    const RunResult emitted = run(scene, {&all, 1}, emission);
+    Sensor sensor{all.name, all.type, {}};
+    for (std::size_t i = 0; i < all.measurands.size(); ++i) {
+        if (emitted.sensors[0].readings[i].estimate.value == 0)
+            sensor.measurands.push_back(all.measurands[i]);
+    }
+    return sensor;
+}
+
+/// Of a sensor's readings; the standard error is as if all erred the same way.
+struct Mean {
+    double value = 0, standard_error = 0;
+};
+
+std::vector<Mean> means(const RunResult& result) {
+    std::vector<Mean> all;
+    for (const SensorResult& sensor : result.sensors) {
+        Mean mean;
+        const auto count = static_cast<double>(sensor.readings.size());
+        for (const Reading& reading : sensor.readings) {
+            mean.value += reading.estimate.value / count;
+            mean.standard_error += reading.estimate.standard_error / count;
+        }
+        all.push_back(mean);
+    }
+    return all;
+}
+
+struct Way {
+    std::string name;
+    RunOptions options;
+};
+
+std::vector<Way> ways(bool is_diffuse) {
+    std::vector<Way> all;
+    for (const BufferBackend backend : {BufferBackend::rays, BufferBackend::opengl}) {
+        if (backend == BufferBackend::opengl && missing_opengl()) {
+            fmt::print("No OpenGL here: {}\n", *missing_opengl());
+            continue;
+        }
+        for (const FirstShotVariant variant : {FirstShotVariant::incoming, FirstShotVariant::classical,
+                                               FirstShotVariant::diffuse, FirstShotVariant::on_the_fly}) {
+            Way way{fmt::format("ray-bundle {} {}", name_of(variant), name_of(backend)),
+                    options_of("ray-bundle", 0.02)};
+            way.options.patches.first_shot.variant = variant;
+            way.options.patches.first_shot.shooting.backend = backend;
+            all.push_back(way);
+        }
+    }
+    if (!is_diffuse) return all;
+    all.push_back({"radiosity", {}});
+    all.back().options.method = "radiosity";
+    all.push_back({"particles", options_of("particles", 0.02)});
+    return all;
+}
+
+bool verify(const AgreementScene& entry, bool is_diffuse) {
+    const Scene scene = entry.make();
+    const std::array sensors{floor_grid(), sights(scene)};
+    const auto expected = means(run(scene, sensors, options_of("path", 0.01)));
+    bool holds = true;
+    for (Way& way : ways(is_diffuse)) {
+        fmt::print("{:12} {:34}", entry.name, way.name);
+        for (const double size_m : kSizes_m) {
+            way.options.patches.patch_m = size_m;
+            const auto found = means(run(scene, sensors, way.options));
+            fmt::print(" | {:4} m", size_m);
+            for (std::size_t i = 0; i < found.size(); ++i) {
+                const double deviation = found[i].value / expected[i].value - 1;
+                const double error =
+                    std::isfinite(found[i].standard_error) ? found[i].standard_error / expected[i].value : 0;
+                fmt::print(" {:+6.2f} +- {:4.2f} %", 100 * deviation, 100 * error);
+                if (size_m == kSizes_m.back()) holds = holds && std::abs(deviation) < kTolerance;
+            }
+            std::fflush(stdout);
+        }
+        fmt::print("\n");
+    }
+    return holds;
+}
+
+}  // namespace
+}  // namespace stilb
+
+int main(int count, char** arguments) {
+    using namespace stilb;
+    const std::string_view only = count > 1 ? arguments[1] : "";
+    fmt::print("Mean illuminance near the floor and mean luminance around, against path tracing\n");
+    bool all_hold = true;
+    for (const AgreementScene& entry : agreement_scenes()) {
+        const auto is_one_of = [&](const auto& names) {
+            return std::ranges::find(names, entry.name) != names.end();
+        };
+        const bool is_diffuse = is_one_of(kDiffuseScenes);
+        if (!is_diffuse && !is_one_of(kPhongScenes)) continue;
+        if (!only.empty() && entry.name != only) continue;
+        all_hold = verify(entry, is_diffuse) && all_hold;
+    }
+    return all_hold ? 0 : 1;
+}
