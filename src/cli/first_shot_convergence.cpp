@@ -32,6 +32,14 @@ std::vector<double> pixels_of_sides(const PictureTracing& tracing, const PatchTr
     return pixels;
 }
 
+/// What first shot does not store, as from the patches' middles.
+void add_not_stored(const PatchTransport& transport, const Vec3& eye, std::vector<Rgb>& sides) {
+    for (std::uint32_t side = 0; side < sides.size(); ++side) {
+        const Vec3 middle = transport.patches.middle(transport.patches.patch_of(side));
+        add_to(sides[side], transport.first_reflected_at(side, middle, normalized(eye - middle)));
+    }
+}
+
 double difference(const std::vector<Rgb>& sides, const std::vector<Rgb>& reference,
                   const std::vector<double>& pixels) {
     double sum = 0, all = 0;
@@ -88,7 +96,8 @@ std::vector<ConvergenceCurve> converge(const PictureTracing& tracing,
         const Clock clock;
         BundleIteration iteration(transport, RandomKey{kWalk});
         const SeenSides seen(transport, eye);
-        std::vector<Rgb> sums(seen.count());
+        std::vector<Rgb> sums(seen.count()), not_stored(seen.count());
+        add_not_stored(transport, eye, not_stored);
         double looking_s = 0;
         for (int step = 1; step <= steps; ++step) {
             iteration.step();
@@ -96,8 +105,11 @@ std::vector<ConvergenceCurve> converge(const PictureTracing& tracing,
             if (!is_looked_at(step, steps)) continue;
             const double elapsed_s = clock.elapsed_s() - looking_s;
             const ConvergenceState state{method, transport, step, seen.mean_cd_m2(sums, step)};
+            std::vector<Rgb> sides = state.sides_cd_m2;
+            for (std::size_t side = 0; side < sides.size(); ++side)
+                add_to(sides[side], spectrum_of(not_stored[side]));
             curve.points.push_back({static_cast<double>(step), transport.first_shot.set_up_s() + elapsed_s,
-                                    difference(state.sides_cd_m2, reference, pixels)});
+                                    difference(sides, reference, pixels)});
             if (elapsed_s > most_time_s) break;
             look(state);
             looking_s = clock.elapsed_s() - elapsed_s;

@@ -109,7 +109,7 @@ void reproduce_scene(std::string_view lights, const std::filesystem::path& direc
     const auto look = [&](const ConvergenceState& state) {
         if (!state.method.is_shown || std::ranges::find(kShownSteps, state.steps) == kShownSteps.end())
             return;
-        const std::string variant(name_of(state.method.options.first_shot.variant));
+        const std::string variant(name_of(state.transport.first_shot.variant()));
         write_picture(picture_of(tracing, state),
                       directory / fmt::format("first-shot-{}s-{}-{}.png", lights, variant, state.steps),
                       {kExposure});
