@@ -40,10 +40,6 @@ std::uint64_t shuffled(std::uint64_t step, RandomKey key) {
     return block * kShuffled + order[step % kShuffled];
 }
 
-Vec3 axis_of(const Frame& frame, std::size_t axis) {
-    return axis == 0 ? frame.w : axis == 1 ? frame.u : frame.v;
-}
-
 /// With the axis as w.
 Frame frame_along(const Frame& frame, std::size_t axis) {
     if (axis == 0) return frame;
@@ -181,13 +177,9 @@ Spectrum BundleIteration::reflected(std::uint32_t side, const Vec3& out) const {
     const Frame frame = Frame::of_surface(transport_.patches.normal_of(side));
     const Vec3 local_out = frame.to_local(out);
     Spectrum luminance;
-    for (std::size_t axis = 0; axis < axes_; ++axis) {
-        const Spectrum received = spectrum_of(glossy_received_[glossy_index(side, glossy, axis)]);
-        if (!(received.max() > 0)) continue;
-        Vec3 in = frame.to_local(axis_of(received_along_, axis));
-        if (in.z < 0) in = -in;
-        luminance += evaluate_brdf_per_sr(material, in, local_out) * received * weight_;
-    }
+    for_each_arrival(side, [&](const Vec3& in, const Spectrum& illuminance_lx) {
+        luminance += evaluate_brdf_per_sr(material, frame.to_local(in), local_out) * illuminance_lx;
+    });
     return luminance;
 }
 

@@ -36,6 +36,12 @@ class BundleIteration final : public PatchLight {
     /// Of the light that was received in the last step.
     Spectrum reflected(std::uint32_t side, const Vec3& out) const override;
 
+    /// Calls `visit(in, illuminance_lx)` for the light that a side received in the last step, `in` being the
+    /// unit world direction that it came from. Of sides that reflect alike only the sum is known: once, with
+    /// their normal.
+    template <typename Visit>
+    void for_each_arrival(std::uint32_t side, const Visit& visit) const;
+
     std::uint64_t rays() const { return rays_; }
 
   private:
@@ -43,6 +49,9 @@ class BundleIteration final : public PatchLight {
     void radiate_glossy(const Vec3& axis);
     void transfer(std::size_t axis, const Bundle& bundle);
     void receive(std::uint32_t side, std::size_t axis, const Rgb& luminance, double ray_area_m2);
+    static const Vec3& axis_of(const Frame& frame, std::size_t axis) {
+        return axis == 0 ? frame.w : axis == 1 ? frame.u : frame.v;
+    }
     std::size_t glossy_index(std::uint32_t side, std::uint32_t number, std::size_t axis) const;
 
     const PatchTransport& transport_;
@@ -58,6 +67,19 @@ class BundleIteration final : public PatchLight {
     /// J of the other sides, for each axis by itself.
     std::vector<Rgb> glossy_received_, glossy_receiving_;
 };
+
+template <typename Visit>
+void BundleIteration::for_each_arrival(std::uint32_t side, const Visit& visit) const {
+    const std::uint32_t glossy = transport_.glossy_number[transport_.patches.patch_of(side)];
+    const Vec3 normal = transport_.patches.normal_of(side);
+    if (glossy == PatchTransport::kConstant) return visit(normal, spectrum_of(received_[side]) * weight_);
+    for (std::size_t axis = 0; axis < axes_; ++axis) {
+        const Spectrum received = spectrum_of(glossy_received_[glossy_index(side, glossy, axis)]);
+        if (!(received.max() > 0)) continue;
+        const Vec3& along = axis_of(received_along_, axis);
+        visit(dot(along, normal) < 0 ? -along : along, received * weight_);
+    }
+}
 
 /// Steps to leave out of a walk's mean: what they lack of the light is less than 1e-3 of it in a mean over
 /// as many more.

@@ -14,6 +14,12 @@ FirstShot::FirstShot(const Scene& scene, const RayCaster& caster, const LightSam
     set_up_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+FirstShot::FirstShot(const Scene& scene, const RayCaster& caster, const Patches& patches,
+                     FirstShotFactors factors)
+    : lights_(choose_first_shot_lights(scene, caster, patches.center)) {
+    stored_.emplace<IncomingFirstShot>(scene, patches, lights_, std::move(factors));
+}
+
 void FirstShot::set_up(const Scene& scene, const RayCaster& caster, const LightSampler& sampler,
                        const PatchCaster& patch_caster, const FirstShotOptions& options) {
     const FirstShotVariant variant = options.variant.value_or(kUsualFirstShot);

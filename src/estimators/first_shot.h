@@ -64,6 +64,8 @@ class FirstShot {
     /// is asked for and missing.
     FirstShot(const Scene& scene, const RayCaster& caster, const LightSampler& sampler,
               const PatchCaster& patch_caster, const FirstShotOptions& options);
+    /// Incoming first shot with factors of another one, of the same scene and patches.
+    FirstShot(const Scene& scene, const RayCaster& caster, const Patches& patches, FirstShotFactors factors);
     FirstShot(const FirstShot&) = delete;
     FirstShot& operator=(const FirstShot&) = delete;
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "estimators/first_shot_lights.h"
@@ -42,11 +43,17 @@ class FirstShotFactors {
     /// is none (ItemBufferLayout) and where OpenGL is missing.
     FirstShotFactors(const PatchCaster& caster, std::span<const LightSample> samples,
                      const ShootingOptions& options);
+    /// What rows() and all() gave: rows ascend from 0 to the number of factors.
+    FirstShotFactors(std::vector<std::uint32_t> rows, std::vector<Factor> factors)
+        : first_(std::move(rows)), factors_(std::move(factors)) {}
 
     /// In the order of the samples.
     std::span<const Factor> of(std::uint32_t side) const {
         return std::span(factors_).subspan(first_[side], first_[side + 1] - first_[side]);
     }
+    /// Where in all() the factors of each side begin, and their number.
+    std::span<const std::uint32_t> rows() const { return first_; }
+    std::span<const Factor> all() const { return factors_; }
     std::size_t bytes() const {
         return first_.size() * sizeof first_[0] + factors_.size() * sizeof factors_[0];
     }

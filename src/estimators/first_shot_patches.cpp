@@ -1,5 +1,9 @@
 #include "estimators/first_shot_patches.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace stilb {
 namespace {
 
@@ -7,6 +11,22 @@ FirstShotOptions first_shot_options(const PatchOptions& asked, const Patches& pa
     FirstShotOptions options = asked.first_shot;
     options.shooting.resolution = asked.resolution.value_or(first_shot_resolution(patches.count()));
     return options;
+}
+
+FirstShot first_shot_of(const FirstShotPatches& all, std::optional<FirstShotFactors> factors) {
+    if (factors) return {all.scene, all.caster, all.patches, std::move(*factors)};
+    return {all.scene, all.caster, all.lights, all.patch_caster, {FirstShotVariant::none}};
+}
+
+double longest_edge_m(const Patches& patches) {
+    double longest = 0;
+    for (const Triangle& corners : patches.corners) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 from(patches.vertices[corners[i]]), to(patches.vertices[corners[(i + 1) % 3]]);
+            longest = std::max(longest, squared_length(to - from));
+        }
+    }
+    return std::sqrt(longest);
 }
 
 }  // namespace
@@ -20,6 +40,16 @@ FirstShotPatches::FirstShotPatches(const Scene& all, const RayCaster& rays, cons
       patches(make_patches(scene, size_m)),
       patch_caster(patches),
       first_shot(scene, caster, lights, patch_caster, first_shot_options(options, patches)) {}
+
+FirstShotPatches::FirstShotPatches(const Scene& all, const RayCaster& rays, Patches made,
+                                   std::optional<FirstShotFactors> factors)
+    : scene(all),
+      caster(rays),
+      lights(scene, caster),
+      size_m(longest_edge_m(made)),
+      patches(std::move(made)),
+      patch_caster(patches),
+      first_shot(first_shot_of(*this, std::move(factors))) {}
 
 PatchReport FirstShotPatches::report() const {
     const auto decided = first_shot.lights();

@@ -11,6 +11,10 @@ namespace stilb {
 /// Keeps references to scene and caster. Immutable once made.
 struct FirstShotPatches {
     FirstShotPatches(const Scene& scene, const RayCaster& caster, const PatchOptions& options);
+    /// With what others of the same scene made: patches, and factors of incoming first shot; without factors
+    /// there is no first shot.
+    FirstShotPatches(const Scene& scene, const RayCaster& caster, Patches patches,
+                     std::optional<FirstShotFactors> factors);
 
     PatchReport report() const;
 

@@ -16,24 +16,6 @@ SeenSides::SeenSides(const PatchTransport& transport, const Vec3& eye)
     });
 }
 
-template <typename Visit>
-void SeenSides::for_each(const Visit& visit) const {
-    const Patches& patches = transport_.patches;
-    for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
-        const Vec3 normal = patches.normal_of(patch);
-        const std::uint32_t back = patches.other_side(patch);
-        if (transport_.reflects_alike(patch)) {
-            visit(patch, normal);
-            visit(back, -normal);
-            continue;
-        }
-        const Vec3 to_eye = normalized(eye_ - patches.middle(patch));
-        const bool front_is_seen = dot(to_eye, normal) > 0;
-        visit(front_is_seen ? patch : back, to_eye);
-        if (are_backs_seen_) visit(front_is_seen ? back : patch, front_is_seen ? -normal : normal);
-    }
-}
-
 void SeenSides::add(const PatchLight& light, std::vector<Rgb>& sums_cd_m2) const {
     for_each(
         [&](std::uint32_t side, const Vec3& out) { add_to(sums_cd_m2[side], light.reflected(side, out)); });

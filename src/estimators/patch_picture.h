@@ -23,16 +23,34 @@ class SeenSides {
 
     std::size_t count() const { return first_.size(); }
 
-  private:
     /// Calls `visit(side, out)` for every side that may be seen.
     template <typename Visit>
     void for_each(const Visit& visit) const;
 
+  private:
     const PatchTransport& transport_;
     Vec3 eye_;
     bool are_backs_seen_;
     std::vector<Rgb> first_;  ///< [cd/m2] by first shot
 };
+
+template <typename Visit>
+void SeenSides::for_each(const Visit& visit) const {
+    const Patches& patches = transport_.patches;
+    for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
+        const Vec3 normal = patches.normal_of(patch);
+        const std::uint32_t back = patches.other_side(patch);
+        if (transport_.reflects_alike(patch)) {
+            visit(patch, normal);
+            visit(back, -normal);
+            continue;
+        }
+        const Vec3 to_eye = normalized(eye_ - patches.middle(patch));
+        const bool front_is_seen = dot(to_eye, normal) > 0;
+        visit(front_is_seen ? patch : back, to_eye);
+        if (are_backs_seen_) visit(front_is_seen ? back : patch, front_is_seen ? -normal : normal);
+    }
+}
 
 /// A pass over pixels: emission and visibility are those of the true surfaces, what these reflect is
 /// interpolated between patches.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "patches/buffer_backend.h"
 
@@ -19,17 +20,27 @@ double area_m2(const Patches& patches) {
 }  // namespace
 
 PatchTransport::PatchTransport(const Scene& all, const RayCaster& rays, const PatchOptions& asked)
-    : FirstShotPatches(all, rays, asked),
-      interpolation(patches),
-      bundles(make_bundles(options.first_shot.shooting.backend, patch_caster)),
-      spacing_m(std::sqrt(area_m2(patches) / static_cast<double>(patches.count()) / kRaysPerPatch)),
-      glossy_number(patches.count(), kConstant),
-      constant_brdf(patches.count()),
-      first_reflection(2 * patches.count()),
-      emission(patches.count()) {
-    for (std::uint32_t patch = 0; patch < patches.count(); ++patch) add_reflection(patch);
+    : FirstShotPatches(all, rays, asked) {
+    describe_patches();
+}
+
+PatchTransport::PatchTransport(const Scene& all, const RayCaster& rays, Patches made,
+                               std::optional<FirstShotFactors> factors)
+    : FirstShotPatches(all, rays, std::move(made), std::move(factors)) {
+    describe_patches();
+}
+
+void PatchTransport::describe_patches() {
+    const std::size_t count = patches.count();
+    glossy_number.assign(count, kConstant);
+    constant_brdf.resize(count);
+    first_reflection.resize(2 * count);
+    emission.resize(count);
+    for (std::uint32_t patch = 0; patch < count; ++patch) add_reflection(patch);
     for (std::size_t light = 0; light < scene.lights.size(); ++light) add_emission(light);
-    mean_reflectance /= area_m2(patches);
+    const double all_m2 = area_m2(patches);
+    mean_reflectance /= all_m2;
+    spacing_m = std::sqrt(all_m2 / static_cast<double>(count) / kRaysPerPatch);
 }
 
 void PatchTransport::add_reflection(std::uint32_t patch) {

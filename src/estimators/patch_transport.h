@@ -8,6 +8,7 @@
 
 #include "estimators/first_shot_patches.h"
 #include "patches/bundle.h"
+#include "patches/buffer_backend.h"
 #include "patches/vertex_interpolation.h"
 
 namespace stilb {
@@ -26,7 +27,10 @@ inline void add_to(Rgb& sum, const Spectrum& value) {
 
 /// Keeps references to scene and caster. Immutable once made.
 struct PatchTransport : FirstShotPatches {
+    /// Both as FirstShotPatches.
     PatchTransport(const Scene& scene, const RayCaster& caster, const PatchOptions& options);
+    PatchTransport(const Scene& scene, const RayCaster& caster, Patches patches,
+                   std::optional<FirstShotFactors> factors);
 
     const Material& material_of(std::uint32_t patch) const {
         return scene.material(patches.materials[patch]);
@@ -44,9 +48,10 @@ struct PatchTransport : FirstShotPatches {
         return first_shot.needs_position(side) ? first_shot.reflected(side, position, out) : Spectrum{};
     }
 
-    VertexInterpolation interpolation;
-    std::unique_ptr<Bundles> bundles;
-    double spacing_m;  ///< of bundles' rays
+    VertexInterpolation interpolation{patches};
+    std::unique_ptr<Bundles> bundles =
+        make_bundles(options.first_shot.shooting.backend, patch_caster);
+    double spacing_m = 0;  ///< of bundles' rays
 
     static constexpr std::uint32_t kConstant = ~0u;
     /// Per patch: its place in `glossy_patches`, or kConstant: it reflects alike in all directions.
@@ -58,6 +63,7 @@ struct PatchTransport : FirstShotPatches {
     double mean_reflectance = 0;        ///< by area
 
   private:
+    void describe_patches();
     void add_reflection(std::uint32_t patch);
     void add_emission(std::size_t light);
 };

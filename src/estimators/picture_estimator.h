@@ -35,6 +35,7 @@ std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution,
 struct Pass {
     RandomKey key;
     std::uint64_t index = 0;
+    std::uint64_t replicate = 0;  ///< its number, for what was computed before
 };
 
 /// A pass with what its blocks have in common.

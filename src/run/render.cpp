@@ -1,21 +1,24 @@
 #include "run/render.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "base/error.h"
 #include "base/sample_stream.h"
 #include "estimators/estimator_list.h"
+#include "estimators/solution_picture.h"
 #include "run/clock.h"
+#include "run/remaining_time.h"
+#include "run/threads.h"
 #include "sensors/placement.h"
 #include "statistics/stopping.h"
 
@@ -119,9 +122,10 @@ double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
 /// One pass after another over all blocks.
 class Passes {
   public:
-    Passes(const PictureEstimator& estimator, const Camera& camera, std::uint64_t seed,
-           const std::atomic<bool>* interrupt)
+    Passes(const PictureEstimator& estimator, const Camera& camera, std::uint64_t replicates,
+           std::uint64_t seed, const std::atomic<bool>* interrupt)
         : estimator_(estimator),
+          replicates_(replicates),
           resolution_(camera.resolution),
           width_(static_cast<std::size_t>(camera.resolution[0])),
           key_(RandomKey{seed}.derived(kSamples)),
@@ -132,7 +136,7 @@ class Passes {
     /// The next pass; false where it was interrupted: then nothing is added.
     bool add_to(PictureSums& sums) {
         const std::uint64_t p = sums.passes();
-        const Pass pass{key_.derived(p % kReplicates), p / kReplicates};
+        const Pass pass{key_.derived(p % replicates_), p / replicates_, p % replicates_};
         const std::vector<PixelBlock> blocks = blocks_of(resolution_, offset_of(p));
         const auto started = estimator_.start(pass);
         tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
@@ -174,6 +178,7 @@ class Passes {
     }
 
     const PictureEstimator& estimator_;
+    std::uint64_t replicates_;
     std::array<int, 2> resolution_;
     std::size_t width_;
     RandomKey key_, offset_key_;
@@ -219,17 +224,10 @@ class PictureSchedule {
     void report(const PictureSums& sums) {
         if (!sink_) return;
         const double elapsed_s = clock_.elapsed_s();
-        double remaining_s = std::numeric_limits<double>::infinity();
-        if (options_.time_s) remaining_s = std::max(0.0, *options_.time_s - elapsed_s);
-        if (options_.paths) {
-            const double left = static_cast<double>(*options_.paths) / static_cast<double>(sums.passes()) - 1;
-            remaining_s = std::min(remaining_s, elapsed_s * left);
-        }
-        if (options_.error) {
-            const double ratio = last_look_ / *options_.error;
-            remaining_s = std::min(remaining_s, elapsed_s * std::max(0.0, ratio * ratio - 1));
-        }
-        sink_->report({elapsed_s, remaining_s, last_look_, sums.passes()});
+        const double all = options_.paths ? static_cast<double>(*options_.paths) : 1;
+        const double done = static_cast<double>(sums.passes()) / all;
+        sink_->report(
+            {elapsed_s, remaining_time_s(options_, elapsed_s, last_look_, done), last_look_, sums.passes()});
         if (sink_->wants_picture()) sink_->show(sums.pixels());
     }
 
@@ -289,46 +287,25 @@ RunOptions with_target(RunOptions options, const EstimatorEntry& method) {
     return options;
 }
 
-}  // namespace
-
-RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& asked_options,
-                    PictureSink* sink, const std::atomic<bool>* interrupt) {
-    require_valid(asked_options);
-    const EstimatorEntry& method = find_estimator(asked_options.method);
-    const RunOptions options = with_target(asked_options, method);
-    if (!method.measures_luminance()) {
-        throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
-                                     fmt::join(luminance_methods(), ", ")));
-    }
+/// Renders with the estimator that is made; 1 replicate: without errors.
+RenderResult render_by(const std::function<std::unique_ptr<PictureEstimator>(const PictureInput&)>& make,
+                       std::uint64_t replicates, const Scene& scene, const Sensor& sensor,
+                       const RunOptions& options, PictureSink* sink, const std::atomic<bool>* interrupt) {
     const Camera& camera = sensor.camera;
     const Clock clock;
     const RayCaster caster(scene);
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
-                                          static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
+    Threads threads(options.threads);
     const std::vector<bool> blind = blind_pixels(camera);
-    PictureSums sums(blind.size(), method.is_deterministic ? 1 : kReplicates);
+    PictureSums sums(blind.size(), replicates);
     RenderResult result;
-    arena.execute([&] {
-        const auto estimator =
-            method.make_picture({scene, caster, camera, options.bounces.value_or(kUnlimited),
-                                 RandomKey{options.seed}.derived(kPreparation), options.patches});
-        Passes passes(*estimator, camera, options.seed, interrupt);
+    threads.arena.execute([&] {
+        const auto estimator = make({scene, caster, camera, options.bounces.value_or(kUnlimited),
+                                     RandomKey{options.seed}.derived(kPreparation), options.patches});
+        Passes passes(*estimator, camera, replicates, options.seed, interrupt);
         result.stop_reason = PictureSchedule(options, clock, blind, sink).proceed(passes, sums);
         result.patches = estimator->patch_report();
         result.warnings = estimator->warnings();
     });
-    if (method.has_heavy_tails) {
-        result.warnings.push_back(fmt::format(
-            "method {} has infinite variance in corners: errors of pixels there do not hold. Use --method "
-            "auto.",
-            method.name));
-    }
-    if (method.is_deterministic && asked_options.error) {
-        result.warnings.push_back(fmt::format(
-            "method {} knows no statistical error: the error asked for is not looked at.", method.name));
-    }
     result.pixels = sums.pixels();
     add_means(sums, blind, result);
     add_geometry(camera, caster, result);
@@ -344,6 +321,44 @@ RenderResult render(const Scene& scene, const Sensor& sensor, const RunOptions& 
     }
     result.elapsed_s = clock.elapsed_s();
     return result;
+}
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& asked_options,
+                    PictureSink* sink, const std::atomic<bool>* interrupt) {
+    require_valid(asked_options);
+    const EstimatorEntry& method = find_estimator(asked_options.method);
+    const RunOptions options = with_target(asked_options, method);
+    if (!method.measures_luminance()) {
+        throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
+                                     fmt::join(luminance_methods(), ", ")));
+    }
+    RenderResult result = render_by(method.make_picture, method.is_deterministic ? 1 : kReplicates, scene,
+                                    camera, options, sink, interrupt);
+    if (method.has_heavy_tails) {
+        result.warnings.push_back(fmt::format(
+            "method {} has infinite variance in corners: errors of pixels there do not hold. Use --method "
+            "auto.",
+            method.name));
+    }
+    if (method.is_deterministic && asked_options.error) {
+        result.warnings.push_back(fmt::format(
+            "method {} knows no statistical error: the error asked for is not looked at.", method.name));
+    }
+    return result;
+}
+
+RenderResult render_solution(const Scene& scene, const Sensor& camera, PatchSolution solution, int threads,
+                             PictureSink* sink, const std::atomic<bool>* interrupt) {
+    const std::uint64_t replicates = solution.replicates.size();
+    RunOptions options;
+    options.method = "solution";
+    options.threads = threads;
+    options.paths = std::max(kSmoothingPasses / replicates, std::uint64_t{1}) * replicates;
+    return render_by(
+        [&](const PictureInput& input) { return make_solution_picture(input, std::move(solution)); },
+        replicates, scene, camera, options, sink, interrupt);
 }
 
 }  // namespace stilb

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "estimators/patch_solution.h"
 #include "run/options.h"
 #include "run/run.h"
 #include "scene/scene.h"
@@ -60,5 +61,11 @@ class PictureSink {
 /// run() does.
 RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& options,
                     PictureSink* sink = nullptr, const std::atomic<bool>* interrupt = nullptr);
+
+/// The same of light that is known: a few passes for smooth edges. Errors come from the solution's
+/// replicates. Throws InputError where the solution does not fit the scene.
+RenderResult render_solution(const Scene& scene, const Sensor& camera, PatchSolution solution,
+                             int threads = 0, PictureSink* sink = nullptr,
+                             const std::atomic<bool>* interrupt = nullptr);
 
 }  // namespace stilb

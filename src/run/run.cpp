@@ -1,10 +1,7 @@
 #include "run/run.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +14,8 @@
 #include "estimators/estimator_list.h"
 #include "estimators/line_of_sight.h"
 #include "run/clock.h"
+#include "run/remaining_time.h"
+#include "run/threads.h"
 #include "sensors/placement.h"
 #include "statistics/heavy_tail.h"
 #include "statistics/stopping.h"
@@ -142,16 +141,6 @@ void require_surfaces(std::span<const Sensor> sensors, const RayCaster& caster) 
     }
 }
 
-/// Samples after which to look next: 4, 6, 8, 12, 16 ... times the granularity, where Sobol' points are at
-/// their best and the overshoot is at most a half.
-std::uint64_t next_checkpoint(std::uint64_t samples, std::uint64_t granularity) {
-    std::uint64_t power = kLeastLook * granularity;
-    while (2 * power <= samples) power *= 2;
-    if (samples < power) return power;
-    const std::uint64_t half_more = power + power / 2;
-    return samples < half_more ? half_more : 2 * power;
-}
-
 double attained_error(const Campaign& campaign, std::span<const Sensor> sensors) {
     double worst = 0;
     std::size_t first = 0;
@@ -197,7 +186,7 @@ class Schedule {
                  RunResult& result) {
         for (;;) {
             const std::uint64_t checkpoint =
-                std::min(last_sample_, next_checkpoint(campaign.samples(), granularity_));
+                std::min(last_sample_, next_look(campaign.samples(), kLeastLook * granularity_));
             while (campaign.samples() < checkpoint) {
                 const std::uint64_t next = std::min(campaign.batch_size(), checkpoint - campaign.samples());
                 if (const auto reason = early_stop(campaign, next)) {
@@ -230,17 +219,8 @@ class Schedule {
 
     ProgressSink::Progress progress_of(const Campaign& campaign, double attained) const {
         const double elapsed_s = clock_.elapsed_s();
-        double remaining_s = std::numeric_limits<double>::infinity();
-        if (options_.error) {
-            const double ratio = attained / *options_.error;
-            remaining_s = std::min(remaining_s, elapsed_s * std::max(0.0, ratio * ratio - 1));
-        }
-        if (options_.time_s) remaining_s = std::min(remaining_s, std::max(0.0, *options_.time_s - elapsed_s));
-        if (options_.paths) {
-            const double done = static_cast<double>(campaign.samples()) / static_cast<double>(last_sample_);
-            remaining_s = std::min(remaining_s, elapsed_s * (1 / done - 1));
-        }
-        return {elapsed_s, remaining_s, attained, campaign.paths()};
+        const double done = static_cast<double>(campaign.samples()) / static_cast<double>(last_sample_);
+        return {elapsed_s, remaining_time_s(options_, elapsed_s, attained, done), attained, campaign.paths()};
     }
 
     const RunOptions& options_;
@@ -325,11 +305,8 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     const Clock clock;
     const RayCaster caster(scene);
     require_surfaces(sensors, caster);
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    const tbb::global_control parallelism(tbb::global_control::max_allowed_parallelism,
-                                          static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
-    const auto estimator = arena.execute([&] {
+    Threads threads(options.threads);
+    const auto estimator = threads.arena.execute([&] {
         return method.make({scene, caster, measurands, options.bounces.value_or(kUnlimited),
                             RandomKey{options.seed}.derived(kPreparation), weights, options.patches});
     });
@@ -338,7 +315,7 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     result.method = options.method;
     result.seed = options.seed;
     result.replicates = options.replicates;
-    arena.execute([&] {
+    threads.arena.execute([&] {
         if (method.is_deterministic) {
             campaign.advance(1);
             result.stop_reason = StopReason::solved;

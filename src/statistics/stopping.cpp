@@ -21,4 +21,12 @@ double attained_error_of(std::vector<double> half_widths, double share) {
     return *last;
 }
 
+std::uint64_t next_look(std::uint64_t done, std::uint64_t first) {
+    std::uint64_t look = first;
+    while (2 * look <= done) look *= 2;
+    if (done < look) return look;
+    const std::uint64_t half_more = look + look / 2;
+    return done < half_more ? half_more : 2 * look;
+}
+
 }  // namespace stilb

@@ -1,6 +1,7 @@
 // When a run is good enough: the stopping rule and how far a run has come.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,5 +21,9 @@ inline constexpr double kStoppedConfidence = 0.96;
 /// The relative half-width that this share of the readings is within; 0 without readings.
 double attained_error(std::span<const Estimate> readings, double share = kReadingShare);
 double attained_error_of(std::vector<double> relative_half_widths, double share = kReadingShare);
+
+/// How many samples there are at the next look at the errors, after `done`: `first`, then 1.5, 2, 3, 4, 6 ...
+/// times as many, where Sobol' points are at their best and the overshoot is at most a half.
+std::uint64_t next_look(std::uint64_t done, std::uint64_t first);
 
 }  // namespace stilb
