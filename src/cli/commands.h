@@ -17,6 +17,7 @@ inline constexpr int kExitStoppedEarly = 3;
 void set_examples(CLI::App& command, const std::string& examples);
 
 void add_measure(CLI::App& app, int& exit_code);
+void add_solve(CLI::App& app, int& exit_code);
 /// `command_line`: as typed, for the picture's header.
 void add_render(CLI::App& app, const std::string& command_line, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);

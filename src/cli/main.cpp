@@ -39,6 +39,7 @@ int main(int argument_count, char** arguments) {
     int exit_code = stilb::kExitDone;
     try {
         stilb::add_measure(app, exit_code);
+        stilb::add_solve(app, exit_code);
         stilb::add_render(app, command_line(argument_count, arguments), exit_code);
         stilb::add_info(app, exit_code);
         stilb::add_falsecolor(app, exit_code);

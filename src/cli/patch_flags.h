@@ -19,9 +19,10 @@ struct PatchFlags {
     void add_to(CLI::App& command);
     /// Throws InputError where one of them is given that means nothing to the method, or has no such value.
     PatchOptions options_for(const std::string& method) const;
+    /// What was typed.
+    std::vector<std::string_view> given() const;
 
   private:
-    std::vector<std::string_view> given() const;
     void require_known_to(const EstimatorEntry& method) const;
 };
 

@@ -37,7 +37,7 @@ void ProgressLine::show(double elapsed_s, const std::string& done, double attain
 }
 
 void TerminalProgress::report(const Progress& progress) {
-    line_.show(progress.elapsed_s, fmt::format("{} paths", progress.paths), progress.attained_error,
+    line_.show(progress.elapsed_s, fmt::format("{} {}", progress.paths, paths_), progress.attained_error,
                progress.remaining_s);
 }
 

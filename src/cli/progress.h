@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <string>
+#include <utility>
 
 #include "run/render.h"
 #include "run/run.h"
@@ -25,9 +26,12 @@ class ProgressLine {
 
 class TerminalProgress final : public ProgressSink {
   public:
+    /// `paths`: what they are called.
+    explicit TerminalProgress(std::string paths = "paths") : paths_(std::move(paths)) {}
     void report(const Progress& progress) override;
 
   private:
+    std::string paths_;
     ProgressLine line_;
 };
 

@@ -8,9 +8,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/ending.h"
 #include "cli/patch_text.h"
 #include "cli/progress.h"
 #include "cli/rendered_picture.h"
@@ -18,6 +21,7 @@
 #include "files/content_hash.h"
 #include "files/picture_file.h"
 #include "files/scene_file.h"
+#include "files/solution_file.h"
 
 namespace stilb {
 namespace {
@@ -25,7 +29,7 @@ namespace {
 constexpr double kPreviewEvery_s = 3;
 
 struct RenderRequest {
-    std::string scene, sensor, output, preview, command;
+    std::string scene, solution, sensor, output, preview, command;
     ToneOptions tone;
     RunFlags flags;
 };
@@ -81,22 +85,6 @@ class RenderProgress final : public TerminalPictureProgress {
     double elapsed_s_ = 0, shown_s_ = 0;
 };
 
-std::string ending(const RenderResult& result) {
-    switch (result.stop_reason) {
-        case StopReason::target_reached:
-            return "the error asked for is reached";
-        case StopReason::paths_done:
-            return "all passes done";
-        case StopReason::time_over:
-            return "the time is over";
-        case StopReason::interrupted:
-            return "interrupted";
-        case StopReason::solved:
-            break;  // pictures are never
-    }
-    return "";
-}
-
 void print_summary(const RenderResult& result, const Sensor& sensor) {
     const auto& [width, height] = sensor.camera.resolution;
     fmt::print("{}: {} x {} pixels, mean luminance {:.4g} cd/m²\n", sensor.name, width, height,
@@ -109,29 +97,80 @@ void print_summary(const RenderResult& result, const Sensor& sensor) {
                    100 * result.attained_error);
     }
     fmt::print("{}, {} passes in {:.1f} s: {}\n", result.method, result.passes, result.elapsed_s,
-               ending(result));
+               ending(result.stop_reason, "passes"));
     if (result.patches) fmt::print("{}", patch_text(*result.patches));
 }
 
-int run_render(const RenderRequest& request) {
-    const SceneFile file = read_scene_file(request.scene);
-    const Sensor sensor = chosen_camera(file, request);
+/// What is computed otherwise than from a solution would not be in the picture.
+void require_no_run_flags(const RunFlags& flags) {
+    const std::vector<std::string_view> given = flags.given();
+    if (given.empty()) return;
+    throw InputError(fmt::format(
+        "{} means nothing with --from, where the light is known. `stilb solve` takes such flags, but for "
+        "--method and --bounces.",
+        given.front()));
+}
+
+/// The solution that --from names; its scene becomes that of the request, unless one is given.
+StoredSolution read_solution_for(RenderRequest& request) {
+    require_no_run_flags(request.flags);
+    StoredSolution stored = read_solution_file(request.solution);
+    if (!request.scene.empty()) return stored;
+    const auto scene = std::filesystem::path(request.solution).parent_path() / stored.scene;
+    if (!std::filesystem::exists(scene)) {
+        throw InputError(fmt::format("there is no scene '{}', which was solved. Where it is now, say with "
+                                     "stilb render SCENE --from FILE.",
+                                     scene.string()),
+                         {request.solution});
+    }
+    request.scene = scene.string();
+    return stored;
+}
+
+void require_same_light(const StoredSolution& stored, const SceneFile& file, const RenderRequest& request) {
+    if (light_hash(file.sources) == stored.light_hash) return;
+    throw InputError(fmt::format("materials, objects or lights of '{0}', or files that it refers to, changed "
+                                 "since it was solved (sensors may). Solve it again: stilb solve {0} -o {1}",
+                                 request.scene, request.solution),
+                     {request.solution});
+}
+
+/// Everything between the request and the picture: the light is computed, or known where there is `stored`.
+RenderResult rendered(const RenderRequest& request, const SceneFile& file, const Sensor& sensor,
+                      std::optional<StoredSolution> stored, PictureOrigin& origin) {
+    if (stored) {
+        origin.method = "solution";
+        origin.seed = stored->seed;
+        const int threads = request.flags.threads.value_or(file.run.threads);
+        RenderProgress progress(request, sensor.camera, origin);
+        return render_solution(file.scene, sensor, std::move(stored->solution), threads, &progress,
+                               &watch_for_interrupt());
+    }
     const RunOptions options = request.flags.over(file.run);
+    origin.method = options.method;
+    origin.seed = options.seed;
+    RenderProgress progress(request, sensor.camera, origin);
+    return render(file.scene, sensor, options, &progress, &watch_for_interrupt());
+}
+
+int run_render(RenderRequest request) {
+    std::optional<StoredSolution> stored;
+    if (!request.solution.empty()) stored = read_solution_for(request);
+    if (request.scene.empty()) {
+        throw InputError("which scene? stilb render SCENE -o FILE, or a solution: --from FILE.");
+    }
+    const SceneFile file = read_scene_file(request.scene);
+    if (stored) require_same_light(*stored, file, request);
+    const Sensor sensor = chosen_camera(file, request);
     require_luminance_picture_path(request.output);
     if (!request.preview.empty()) require_luminance_picture_path(request.preview);
     PictureOrigin origin;
     origin.scene = request.scene;
     origin.scene_hash = content_hash(file.sources);
     origin.sensor = sensor.name;
-    origin.method = options.method;
     origin.command = request.command;
     origin.version = STILB_VERSION;
-    origin.seed = options.seed;
-    RenderResult result;
-    {
-        RenderProgress progress(request, sensor.camera, origin);
-        result = render(file.scene, sensor, options, &progress, &watch_for_interrupt());
-    }
+    RenderResult result = rendered(request, file, sensor, std::move(stored), origin);
     result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
     if (!request.flags.quiet) {
         for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -152,10 +191,15 @@ void add_render(CLI::App& app, const std::string& command_line, int& exit_code) 
     set_examples(*command,
                  "  stilb render office.toml -o office.exr\n"
                  "  stilb render office.toml -o office.png --time 20 --sensor desk\n"
-                 "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n");
+                 "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n"
+                 "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<RenderRequest>();
     request->command = command_line;
-    command->add_option("SCENE", request->scene, "Scene file (TOML)")->required();
+    command->add_option("SCENE", request->scene, "Scene file (TOML); with --from only where it has moved");
+    command
+        ->add_option("--from", request->solution,
+                     "A solution that `stilb solve` wrote: nothing is computed but what the eye sees of it")
+        ->type_name("FILE");
     command->add_option("-o,--output", request->output, "Picture to write: .exr, .hdr or .png")
         ->required()
         ->type_name("FILE");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/ending.h"
 #include "cli/patch_text.h"
 #include "cli/place_text.h"
 
@@ -118,21 +119,13 @@ std::string title_of(std::span<const Sensor> sensors) {
     return luminances < std::ssize(sensors) ? "Illuminance and luminance" : "Luminance";
 }
 
-std::string ending(const RunResult& result) {
+std::string ending_with_error(const RunResult& result) {
+    const std::string ended = ending(result.stop_reason, "paths");
+    if (result.stop_reason == StopReason::solved)
+        return ended + "; the error by the size of the patches is not known";
     const std::string attained = fmt::format("{:.2g} %", 100 * result.attained_error);
-    switch (result.stop_reason) {
-        case StopReason::target_reached:
-            return fmt::format("the error asked for is reached ({})", attained);
-        case StopReason::paths_done:
-            return fmt::format("all paths done; error {}", attained);
-        case StopReason::time_over:
-            return fmt::format("the time is over; error {}", attained);
-        case StopReason::interrupted:
-            return fmt::format("interrupted; error {}", attained);
-        case StopReason::solved:
-            return "solved; the error by the size of the patches is not known";
-    }
-    return "";
+    if (result.stop_reason == StopReason::target_reached) return fmt::format("{} ({})", ended, attained);
+    return fmt::format("{}; error {}", ended, attained);
 }
 
 }  // namespace
@@ -149,7 +142,8 @@ std::string to_table(const RunResult& result, std::span<const Sensor> sensors) {
         title_of(sensors) + (has_intervals ? ", with 95 % intervals\n\n" : ", without intervals\n\n");
     for (std::size_t s = 0; s < sensors.size(); ++s) text += sensor_table(result.sensors[s], sensors[s]);
     const std::string paths = has_intervals ? fmt::format(", {} paths", result.paths) : "";
-    text += fmt::format("\n{}{} in {:.2f} s: {}\n", result.method, paths, result.elapsed_s, ending(result));
+    text += fmt::format("\n{}{} in {:.2f} s: {}\n", result.method, paths, result.elapsed_s,
+                        ending_with_error(result));
     return result.patches ? text + patch_text(*result.patches) : text;
 }
 

@@ -25,6 +25,13 @@ void RunFlags::add_to(CLI::App& command) {
     }
     command.add_option("--method", method, methods)->type_name("NAME");
     command
+        .add_option("--bounces", bounces, "At most this many reflections (default: no limit, without bias)")
+        ->type_name("N");
+    add_those_of_one_method(command);
+}
+
+void RunFlags::add_those_of_one_method(CLI::App& command) {
+    command
         .add_option(
             "--error", error,
             "Stop when 95 % of each sensor's readings have a 95 % interval within this share of their "
@@ -35,9 +42,6 @@ void RunFlags::add_to(CLI::App& command) {
         .add_option("--paths", paths, "Stop after this many light chains (method path: paths per reading)")
         ->check(CLI::Range(std::int64_t{1}, kMostPaths))
         ->type_name("N");
-    command
-        .add_option("--bounces", bounces, "At most this many reflections (default: no limit, without bias)")
-        ->type_name("N");
     command.add_option("--seed", seed, "Another seed gives an independent result")
         ->check(CLI::Range(std::int64_t{0}, kGreatestSeed))
         ->type_name("N");
@@ -47,6 +51,20 @@ void RunFlags::add_to(CLI::App& command) {
         ->type_name("N");
     command.add_flag("--quiet", quiet, "No progress, no warnings on stderr");
     patches.add_to(command);
+}
+
+std::vector<std::string_view> RunFlags::given() const {
+    std::vector<std::string_view> names = patches.given();
+    const auto add = [&](std::string_view name, bool is_given) {
+        if (is_given) names.push_back(name);
+    };
+    add("--method", method.has_value());
+    add("--error", error.has_value());
+    add("--time", time_s.has_value());
+    add("--paths", paths.has_value());
+    add("--bounces", bounces.has_value());
+    add("--seed", seed.has_value());
+    return names;
 }
 
 RunOptions RunFlags::over(RunOptions options) const {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/patch_flags.h"
@@ -21,6 +22,10 @@ struct RunFlags {
     PatchFlags patches;
 
     void add_to(CLI::App& command);
+    /// All but --method and --bounces.
+    void add_those_of_one_method(CLI::App& command);
+    /// What was typed of all but --threads and --quiet.
+    std::vector<std::string_view> given() const;
     /// --paths alone drops the file's error and time: so many paths are done, no fewer.
     RunOptions over(RunOptions options) const;
 };

@@ -1,0 +1,14 @@
+// How a run ended, for people.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "run/run.h"
+
+namespace stilb {
+
+/// `all`: what was done where a number of it was asked for, such as "passes".
+std::string ending(StopReason reason, std::string_view all);
+
+}  // namespace stilb

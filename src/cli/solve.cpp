@@ -1,0 +1,102 @@
+// stilb solve: the light of a scene for all eyes at once, as a file.
+#include "run/solve.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "base/zernike.h"
+#include "cli/commands.h"
+#include "cli/ending.h"
+#include "cli/progress.h"
+#include "cli/run_flags.h"
+#include "files/content_hash.h"
+#include "files/scene_file.h"
+#include "files/solution_file.h"
+#include "files/write_file.h"
+
+namespace stilb {
+namespace {
+
+struct SolveRequest {
+    std::string scene, output;
+    int degree = kDefaultDegree;
+    RunFlags flags;
+};
+
+StoredSolution stored(SolveResult& result, const SceneFile& file, const SolveRequest& request) {
+    StoredSolution stored;
+    stored.version = STILB_VERSION;
+    const auto folder = std::filesystem::absolute(request.output).parent_path();
+    stored.scene = std::filesystem::proximate(request.scene, folder).generic_string();
+    stored.light_hash = light_hash(file.sources);
+    stored.seed = result.seed;
+    stored.steps = result.steps;
+    stored.attained_error = result.attained_error;
+    stored.solution = std::move(result.solution);
+    return stored;
+}
+
+void print_summary(const SolveResult& result, const StoredSolution& stored, const std::string& output) {
+    fmt::print("{}: {} patches, {} sides with light, {:.1f} MB\n", output, stored.solution.patches.count(),
+               stored.solution.lit_sides.size(),
+               1e-6 * static_cast<double>(std::filesystem::file_size(output)));
+    fmt::print("95 % of these sides have a 95 % interval within {:.2g} % of their illuminance\n",
+               100 * result.attained_error);
+    fmt::print("ray-bundle, {} steps in {:.1f} s: {}\n", result.steps, result.elapsed_s,
+               ending(result.stop_reason, "steps"));
+}
+
+int run_solve(const SolveRequest& request) {
+    SceneFile file = read_scene_file(request.scene);
+    file.run.method = "ray-bundle";
+    const RunOptions options = request.flags.over(file.run);
+    require_folder_of(request.output);
+    SolveResult result;
+    {
+        TerminalProgress progress("steps");
+        result = solve(file.scene, options, request.degree, request.flags.quiet ? nullptr : &progress,
+                       &watch_for_interrupt());
+    }
+    result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
+    if (!request.flags.quiet) {
+        for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    }
+    const StoredSolution solution = stored(result, file, request);
+    write_solution_file(solution, request.output);
+    print_summary(result, solution, request.output);
+    return result.converged ? kExitDone : kExitStoppedEarly;
+}
+
+}  // namespace
+
+void add_solve(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand(
+        "solve", "The light of a scene for all eyes at once, as a file that render --from makes pictures of");
+    set_examples(*command,
+                 "  stilb solve office.toml -o office.solution\n"
+                 "  stilb solve office.toml -o office.solution --error 0.5% --patch 0.1\n"
+                 "  stilb render --from office.solution --sensor door -o door.png\n");
+    auto request = std::make_shared<SolveRequest>();
+    command->add_option("SCENE", request->scene, "Scene file (TOML)")->required();
+    command->add_option("-o,--output", request->output, "Solution to write")->required()->type_name("FILE");
+    command
+        ->add_option("--degree", request->degree,
+                     fmt::format("Of the functions that keep the light of glossy surfaces (default: {}): "
+                                 "more are sharper, and take more room",
+                                 kDefaultDegree))
+        ->check(CLI::Range(0, ZernikeBasis::kMostDegree))
+        ->type_name("N");
+    request->flags.add_those_of_one_method(*command);
+    command->get_option("--error")->description(
+        "Stop when 95 % of the lit sides of patches have a 95 % interval within this share of their "
+        "illuminance: 1% or 0.01");
+    command->get_option("--paths")->description("Stop after this many steps of ray-bundle iteration");
+    command->get_option("--first-shot")
+        ->description("What stands for small lights: incoming (default), none");
+    command->callback([request, &exit_code] { exit_code = run_solve(*request); });
+}
+
+}  // namespace stilb
