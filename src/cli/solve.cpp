@@ -43,7 +43,7 @@ void print_summary(const SolveResult& result, const StoredSolution& stored, cons
     fmt::print("{}: {} patches, {} sides with light, {:.1f} MB\n", output, stored.solution.patches.count(),
                stored.solution.lit_sides.size(),
                1e-6 * static_cast<double>(std::filesystem::file_size(output)));
-    fmt::print("95 % of these sides have a 95 % interval within {:.2g} % of their illuminance\n",
+    fmt::print("95 % of the light falls on sides with a 95 % interval within {:.2g} % of their illuminance\n",
                100 * result.attained_error);
     fmt::print("ray-bundle, {} steps in {:.1f} s: {}\n", result.steps, result.elapsed_s,
                ending(result.stop_reason, "steps"));
@@ -91,7 +91,8 @@ void add_solve(CLI::App& app, int& exit_code) {
         ->type_name("N");
     request->flags.add_those_of_one_method(*command);
     command->get_option("--error")->description(
-        "Stop when 95 % of the lit sides of patches have a 95 % interval within this share of their "
+        "Stop when 95 % of the light falls on sides of patches with a 95 % interval within this share of "
+        "their "
         "illuminance: 1% or 0.01");
     command->get_option("--paths")->description("Stop after this many steps of ray-bundle iteration");
     command->get_option("--first-shot")

@@ -16,7 +16,7 @@ struct StoredSolution {
     std::string light_hash;  ///< of the scene (content_hash.h)
     std::uint64_t seed = 0;
     std::uint64_t steps = 0;    ///< of all walks together
-    double attained_error = 0;  ///< relative half-width that the illuminances of 95 % of the lit sides keep
+    double attained_error = 0;  ///< as SolveResult has it
     PatchSolution solution;
 };
 

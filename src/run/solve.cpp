@@ -61,7 +61,8 @@ class Walks {
         return sides;
     }
 
-    /// Of the sides' illuminances, first shot included.
+    /// Of the sides' illuminances, first shot included, by how much of the flux they get: sides that hardly
+    /// any light comes to, in cracks and where things touch, must not decide.
     double attained_error() const {
         const std::vector<std::uint32_t> sides = lit_sides();
         if (sides.empty()) return 0;
@@ -74,7 +75,13 @@ class Walks {
                 means.push_back(illuminance_lx.luminance());
             }
         }
-        return stilb::attained_error(estimate_readings({means, sides.size()}, kStoppedConfidence));
+        const std::vector<Estimate> estimates = estimate_readings({means, sides.size()}, kStoppedConfidence);
+        std::vector<double> flux_lm;
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            const std::uint32_t patch = transport_.patches.patch_of(sides[i]);
+            flux_lm.push_back(estimates[i].value * double{transport_.patches.areas_m2[patch]});
+        }
+        return stilb::attained_error(estimates, flux_lm);
     }
 
     /// The terms of the sides, replicate by replicate.

@@ -24,7 +24,7 @@ struct SolveResult {
     double elapsed_s = 0;
     StopReason stop_reason = StopReason::paths_done;
     bool converged = true;      ///< false where an error was asked for and is not met
-    double attained_error = 0;  ///< relative half-width that the illuminances of 95 % of the lit sides keep
+    double attained_error = 0;  ///< relative half-width that the sides keep which get 95 % of the flux
     std::vector<std::string> warnings;
 };
 

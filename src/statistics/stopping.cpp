@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stilb {
 
@@ -19,6 +20,22 @@ double attained_error_of(std::vector<double> half_widths, double share) {
         half_widths.begin() + std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(needed) - 1, 0);
     std::nth_element(half_widths.begin(), last, half_widths.end());
     return *last;
+}
+
+double attained_error(std::span<const Estimate> readings, std::span<const double> weights, double share) {
+    std::vector<std::pair<double, double>> half_widths;  // with their weights
+    double needed = 0;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        half_widths.emplace_back(relative_half_width(readings[i]), weights[i]);
+        needed += share * weights[i];
+    }
+    std::sort(half_widths.begin(), half_widths.end());
+    double reached = 0;
+    for (const auto& [half_width, weight] : half_widths) {
+        reached += weight;
+        if (reached >= needed) return half_width;
+    }
+    return half_widths.empty() ? 0 : half_widths.back().first;
 }
 
 std::uint64_t next_look(std::uint64_t done, std::uint64_t first) {

@@ -21,6 +21,9 @@ inline constexpr double kStoppedConfidence = 0.96;
 /// The relative half-width that this share of the readings is within; 0 without readings.
 double attained_error(std::span<const Estimate> readings, double share = kReadingShare);
 double attained_error_of(std::vector<double> relative_half_widths, double share = kReadingShare);
+/// That readings with this share of all weight are within; weights are not negative, one for each reading.
+double attained_error(std::span<const Estimate> readings, std::span<const double> weights,
+                      double share = kReadingShare);
 
 /// How many samples there are at the next look at the errors, after `done`: `first`, then 1.5, 2, 3, 4, 6 ...
 /// times as many, where Sobol' points are at their best and the overshoot is at most a half.

@@ -78,6 +78,25 @@ class StoppedRun {
     std::mt19937_64 random_{17};
 };
 
+/// The dim tenth has wide intervals: it decides by its number, but not by its weight.
+TEST(Stopping, WeightsSayWhoDecides) {
+    std::vector<Estimate> readings(9, {100, 1, 98, 102});
+    readings.push_back({1, 1, 0, 2});
+    std::vector<double> weights;
+    for (const Estimate& reading : readings) weights.push_back(reading.value);
+    EXPECT_DOUBLE_EQ(attained_error(readings), 1);
+    EXPECT_DOUBLE_EQ(attained_error(readings, weights), 0.02);
+    EXPECT_DOUBLE_EQ(attained_error(readings, std::vector<double>(10, 1.0)), 1);
+    EXPECT_EQ(attained_error({}, {}, 0.95), 0);
+}
+
+TEST(Stopping, LooksAtPowersOfTwoAndBetween) {
+    std::vector<std::uint64_t> looks;
+    for (std::uint64_t done = 0; done < 256; done = looks.back()) looks.push_back(next_look(done, 32));
+    EXPECT_EQ(looks, (std::vector<std::uint64_t>{32, 48, 64, 96, 128, 192, 256}));
+    EXPECT_EQ(next_look(33, 32), 48u);
+}
+
 TEST(Stopping, IntervalsHoldThoughTheRunStopsWhereTheyAreNarrow) {
     const auto normal = [](std::mt19937_64& random) {
         return std::normal_distribution<double>(1, 1)(random);
