@@ -10,6 +10,7 @@
 #include "base/zernike.h"
 #include "cli/commands.h"
 #include "cli/ending.h"
+#include "cli/patch_text.h"
 #include "cli/progress.h"
 #include "cli/run_flags.h"
 #include "files/content_hash.h"
@@ -40,13 +41,13 @@ StoredSolution stored(SolveResult& result, const SceneFile& file, const SolveReq
 }
 
 void print_summary(const SolveResult& result, const StoredSolution& stored, const std::string& output) {
-    fmt::print("{}: {} patches, {} sides with light, {:.1f} MB\n", output, stored.solution.patches.count(),
-               stored.solution.lit_sides.size(),
+    fmt::print("{}: {} sides with light, {:.1f} MB\n", output, stored.solution.lit_sides.size(),
                1e-6 * static_cast<double>(std::filesystem::file_size(output)));
     fmt::print("95 % of the light falls on sides with a 95 % interval within {:.2g} % of their illuminance\n",
                100 * result.attained_error);
     fmt::print("ray-bundle, {} steps in {:.1f} s: {}\n", result.steps, result.elapsed_s,
                ending(result.stop_reason, "steps"));
+    fmt::print("{}", patch_text(result.patches));
 }
 
 int run_solve(const SolveRequest& request) {

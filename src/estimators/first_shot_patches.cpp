@@ -15,7 +15,7 @@ FirstShotOptions first_shot_options(const PatchOptions& asked, const Patches& pa
 
 FirstShot first_shot_of(const FirstShotPatches& all, std::optional<FirstShotFactors> factors) {
     if (factors) return {all.scene, all.caster, all.patches, std::move(*factors)};
-    return {all.scene, all.caster, all.lights, all.patch_caster, {FirstShotVariant::none}};
+    return {all.scene, all.caster, all.lights, all.patch_caster, {FirstShotVariant::none, {}}};
 }
 
 double longest_edge_m(const Patches& patches) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "estimators/first_shot_patches.h"
-#include "patches/bundle.h"
 #include "patches/buffer_backend.h"
+#include "patches/bundle.h"
 #include "patches/vertex_interpolation.h"
 
 namespace stilb {
@@ -49,8 +49,7 @@ struct PatchTransport : FirstShotPatches {
     }
 
     VertexInterpolation interpolation{patches};
-    std::unique_ptr<Bundles> bundles =
-        make_bundles(options.first_shot.shooting.backend, patch_caster);
+    std::unique_ptr<Bundles> bundles = make_bundles(options.first_shot.shooting.backend, patch_caster);
     double spacing_m = 0;  ///< of bundles' rays
 
     static constexpr std::uint32_t kConstant = ~0u;

@@ -180,7 +180,7 @@ void require_storable(const RunOptions& options, int degree) {
     if (degree < 0 || degree > ZernikeBasis::kMostDegree) {
         throw InputError(fmt::format("degree {}: from 0 to {} is needed", degree, ZernikeBasis::kMostDegree));
     }
-    const FirstShotVariant variant = options.patches.first_shot.variant;
+    const FirstShotVariant variant = options.patches.first_shot.variant.value_or(kUsualFirstShot);
     if (variant == FirstShotVariant::incoming || variant == FirstShotVariant::none) return;
     throw InputError(fmt::format(
         "--first-shot {}: a solution is for all eyes, and keeps what arrives. Allowed: incoming, none.",
@@ -204,6 +204,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
         Walks walks(transport, layout, options.seed);
         SolveSchedule(options, clock, progress, interrupt).proceed(walks, result);
         result.steps = walks.steps() * kReplicates;
+        result.patches = transport.report();
         PatchSolution& solution = result.solution;
         solution.patches = transport.patches;
         if (const auto* incoming = transport.first_shot.incoming()) solution.factors = incoming->factors();

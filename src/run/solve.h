@@ -19,6 +19,7 @@ inline constexpr int kDefaultDegree = 6;
 
 struct SolveResult {
     PatchSolution solution;
+    PatchReport patches;
     std::uint64_t seed = 0;
     std::uint64_t steps = 0;  ///< of all walks together, without the first ones of each
     double elapsed_s = 0;
