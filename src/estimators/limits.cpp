@@ -61,6 +61,17 @@ void require_diffuse(const Scene& scene, std::string_view method) {
     }
 }
 
+void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::string_view method) {
+    if (has_first_shot) return;
+    for (const Light& light : scene.lights) {
+        if (std::holds_alternative<AreaLight>(light.source)) continue;
+        throw InputError(fmt::format(
+            "method {} cannot do with --first-shot none here: light \"{}\" is no surface, and would "
+            "light nothing. Use incoming.",
+            method, light.name));
+    }
+}
+
 void require_all_reflections(int max_reflections, std::string_view method) {
     if (max_reflections == kUnlimited) return;
     throw InputError(

@@ -21,6 +21,9 @@ std::vector<std::string> patch_warnings(const Scene& scene, std::string_view met
 /// Throws InputError, which names object and material, where something reflects neither diffusely nor not at
 /// all.
 void require_diffuse(const Scene& scene, std::string_view method);
+/// Throws InputError where there are lights that are no surfaces and no first shot: nothing else brings them
+/// to patches.
+void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::string_view method);
 /// Throws InputError where reflections are limited.
 void require_all_reflections(int max_reflections, std::string_view method);
 

@@ -28,6 +28,8 @@ class BundlePicture final : public PictureEstimator {
           transport_(input.scene, input.caster, input.patches),
           seen_(transport_, tracing_.view.position()) {
         require_all_reflections(input.max_reflections, "ray-bundle");
+        require_first_shot_of_points(input.scene, transport_.first_shot.variant() != FirstShotVariant::none,
+                                     "ray-bundle");
     }
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {

@@ -21,16 +21,12 @@ namespace {
 
 constexpr std::string_view kName = "radiosity";
 
-bool is_area_light(const Light& light) { return std::holds_alternative<AreaLight>(light.source); }
-
-/// Lights that are no surfaces come to the patches by what first shot stores, or not at all.
-void require_light_on_patches(const Scene& scene, FirstShotVariant variant) {
-    const bool needs_none = std::ranges::all_of(scene.lights, is_area_light);
-    if (variant == FirstShotVariant::on_the_fly || (variant == FirstShotVariant::none && !needs_none)) {
+void require_known_first_shot(const Scene& scene, FirstShotVariant variant) {
+    require_first_shot_of_points(scene, variant != FirstShotVariant::none, kName);
+    if (variant == FirstShotVariant::on_the_fly) {
         throw InputError(
-            fmt::format("method radiosity cannot do with --first-shot {} here: it needs the light of small "
-                        "lights as means over patches. Use incoming.",
-                        name_of(variant)));
+            "method radiosity cannot do with --first-shot on-the-fly: it needs the light of small lights as "
+            "means over patches. Use incoming.");
     }
 }
 
@@ -47,7 +43,7 @@ struct LitPatches {
     static const Scene& checked(const Scene& scene, const PatchOptions& options, int max_reflections) {
         require_diffuse(scene, kName);
         require_all_reflections(max_reflections, kName);
-        require_light_on_patches(scene, options.first_shot.variant.value_or(kUsualFirstShot));
+        require_known_first_shot(scene, options.first_shot.variant.value_or(kUsualFirstShot));
         return scene;
     }
 };

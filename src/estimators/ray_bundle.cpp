@@ -19,6 +19,8 @@ class RayBundle final : public Estimator {
     explicit RayBundle(const EstimatorInput& input)
         : transport_(input.scene, input.caster, input.patches), readings_(transport_, input.measurands) {
         require_all_reflections(input.max_reflections, "ray-bundle");
+        require_first_shot_of_points(input.scene, transport_.first_shot.variant() != FirstShotVariant::none,
+                                     "ray-bundle");
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {

@@ -175,12 +175,13 @@ RunOptions with_target(RunOptions options) {
     return options;
 }
 
-void require_storable(const RunOptions& options, int degree) {
+void require_storable(const Scene& scene, const RunOptions& options, int degree) {
     require_all_reflections(options.bounces.value_or(kUnlimited), "ray-bundle");
     if (degree < 0 || degree > ZernikeBasis::kMostDegree) {
         throw InputError(fmt::format("degree {}: from 0 to {} is needed", degree, ZernikeBasis::kMostDegree));
     }
     const FirstShotVariant variant = options.patches.first_shot.variant.value_or(kUsualFirstShot);
+    require_first_shot_of_points(scene, variant != FirstShotVariant::none, "ray-bundle");
     if (variant == FirstShotVariant::incoming || variant == FirstShotVariant::none) return;
     throw InputError(fmt::format(
         "--first-shot {}: a solution is for all eyes, and keeps what arrives. Allowed: incoming, none.",
@@ -192,7 +193,7 @@ void require_storable(const RunOptions& options, int degree) {
 SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degree, ProgressSink* progress,
                   const std::atomic<bool>* interrupt) {
     require_valid(asked_options);
-    require_storable(asked_options, degree);
+    require_storable(scene, asked_options, degree);
     const RunOptions options = with_target(asked_options);
     const Clock clock;
     const RayCaster caster(scene);

@@ -160,5 +160,12 @@ TEST(RayBundle, RefusesToLimitReflections) {
     EXPECT_THROW(run(lamp_in_cube(0.5), {&floor, 1}, options), InputError);
 }
 
+TEST(RayBundle, RefusesPointsThatNothingBringsToPatches) {
+    RunOptions options = bundle_options(1, 16);
+    options.patches.first_shot.variant = FirstShotVariant::none;
+    const Sensor floor = points({{{1, 1.3, 0}, kUp}});
+    EXPECT_THROW(run(lamp_in_cube(0.5), {&floor, 1}, options), InputError);
+}
+
 }  // namespace
 }  // namespace stilb
