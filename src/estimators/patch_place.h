@@ -21,8 +21,9 @@ struct SeenPoint {
     Vec3 outgoing;
 };
 
-/// The places on patches that stand for points; nothing where the patches of a curved surface leave one out,
-/// at its outline. `coherence`: of the ways that neighbouring points are seen along.
+/// The places on patches that stand for points. Where the patches of a curved surface leave one out, at its
+/// outline, what is behind stands for it; nothing where there is nothing. `coherence`: of the ways that
+/// neighbouring points are seen along.
 std::vector<std::optional<PatchPlace>> find_places(const PatchCaster& caster,
                                                    std::span<const SeenPoint> points,
                                                    Coherence coherence = Coherence::coherent);
