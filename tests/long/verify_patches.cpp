@@ -20,7 +20,7 @@ constexpr std::array kDiffuseScenes{"ClosedBox", "ColouredBox", "Corners"};
 constexpr std::array kPhongScenes{"BroadPhong", "NarrowPhong"};
 constexpr std::array kSizes_m{0.6, 0.3, 0.15};
 constexpr double kTolerance = 0.01;
-constexpr double kError = 0.035;  ///< of single readings; their means are better
+constexpr std::uint64_t kSteps = 2048, kParticles = 1 << 22;
 constexpr Vec3 kMiddle{2, 1.5, 1.3};
 
 Sensor floor_grid() {
@@ -84,10 +84,17 @@ struct Way {
     RunOptions options;
 };
 
+Way way_of(std::string_view method, std::uint64_t paths) {
+    Way way{std::string(method), {}};
+    way.options.method = method;
+    way.options.paths = paths;
+    way.options.replicates = 8;  // walks begin with steps that do not count
+    return way;
+}
+
 Way bundle_way(FirstShotVariant variant, BufferBackend backend) {
-    Way way{fmt::format("ray-bundle {} {}", name_of(variant), name_of(backend)),
-            options_of("ray-bundle", kError)};
-    way.options.replicates = 8;  // each begins with steps that do not count
+    Way way = way_of("ray-bundle", kSteps);
+    way.name += fmt::format(" {} {}", name_of(variant), name_of(backend));
     way.options.patches.first_shot.variant = variant;
     way.options.patches.first_shot.shooting.backend = backend;
     return way;
@@ -108,9 +115,8 @@ std::vector<Way> ways(bool is_diffuse) {
         all.push_back(bundle_way(incoming, BufferBackend::opengl));
     }
     if (!is_diffuse) return all;
-    all.push_back({"radiosity", {}});
-    all.back().options.method = "radiosity";
-    all.push_back({"particles", options_of("particles", kError)});
+    all.push_back(way_of("radiosity", 1));
+    all.push_back(way_of("particles", kParticles));
     return all;
 }
 
