@@ -20,7 +20,7 @@ constexpr std::array kDiffuseScenes{"ClosedBox", "ColouredBox", "Corners"};
 constexpr std::array kPhongScenes{"BroadPhong", "NarrowPhong"};
 constexpr std::array kSizes_m{0.6, 0.3, 0.15};
 constexpr double kTolerance = 0.01;
-constexpr std::uint64_t kSteps = 2048, kParticles = 1 << 22;
+constexpr std::uint64_t kSteps = 2048, kFewSteps = 512, kParticles = 1 << 22;
 constexpr Vec3 kMiddle{2, 1.5, 1.3};
 
 Sensor floor_grid() {
@@ -93,7 +93,9 @@ Way way_of(std::string_view method, std::uint64_t paths) {
 }
 
 Way bundle_way(FirstShotVariant variant, BufferBackend backend) {
-    Way way = way_of("ray-bundle", kSteps);
+    // Shadow rays from every crossing, and bundles in software, take their time.
+    const bool is_slow = variant == FirstShotVariant::on_the_fly || backend == BufferBackend::opengl;
+    Way way = way_of("ray-bundle", is_slow ? kFewSteps : kSteps);
     way.name += fmt::format(" {} {}", name_of(variant), name_of(backend));
     way.options.patches.first_shot.variant = variant;
     way.options.patches.first_shot.shooting.backend = backend;
