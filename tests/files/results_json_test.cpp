@@ -30,7 +30,9 @@ TEST(ResultsJson, LuminancesSayWhereTheLightComesFrom) {
 TEST(ResultsJson, UnknownSubPointsAreNull) {
     HandMade made = luminance_results();
     made.result.sensors[0].sub_points.clear();
-    for (const Json& value : json_of(made)[0]["values"]) EXPECT_TRUE(value.at("hit").is_null());
+    const Json values = json_of(made)[0]["values"];
+    ASSERT_FALSE(values.empty());
+    for (const Json& value : values) EXPECT_TRUE(value.at("hit").is_null());
 }
 
 TEST(ResultsJson, GoniometersHaveAngles) {
