@@ -1,0 +1,63 @@
+// Real orthonormal spherical harmonics, and functions on the sphere as series of them.
+//
+//     Y_lm = sqrt(2) N_lm P_lm(cos theta) cos(m phi)      m > 0
+//     Y_l0 =         N_l0 P_l0(cos theta)
+//     Y_lm = sqrt(2) N_l|m| P_l|m|(cos theta) sin(|m| phi)  m < 0
+//
+// without the Condon-Shortley sign, theta from +z, phi from +x; the integral of Y_lm^2 over the sphere is 1.
+// Number l^2 + l + m. As P_lm = sin^m(theta) times a polynomial in cos(theta), and sin^m(theta) (cos, sin)(m
+// phi) are polynomials in x and y, all is polynomial in x, y and z of the unit direction: no pole is special.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace stilb {
+
+inline constexpr int kMostHarmonicDegree = 128;
+
+constexpr std::size_t harmonic_count(int degree) {
+    return static_cast<std::size_t>(degree + 1) * static_cast<std::size_t>(degree + 1);
+}
+constexpr std::size_t harmonic_number(int l, int m) { return static_cast<std::size_t>(l * l + l + m); }
+
+/// Writes the harmonic_count(degree) values [1/sqrt(sr)] at a unit direction; degree from 0 to
+/// kMostHarmonicDegree.
+void evaluate_harmonics(const Vec3& direction, int degree, std::span<double> values);
+
+/// f = sum of a_lm Y_lm. T is float or double: of the coefficients and the arithmetic.
+template <typename T>
+class HarmonicSeries {
+  public:
+    /// By harmonic_number(). Throws std::invalid_argument where their number is no harmonic_count() of a
+    /// degree up to kMostHarmonicDegree.
+    explicit HarmonicSeries(std::span<const double> coefficients);
+
+    int degree() const { return degree_; }
+
+    struct Value {
+        T value = 0;
+        /// Tangential to the sphere: the change of the value per radian.
+        Vec3 gradient;
+    };
+    /// At unit directions.
+    T at(const Vec3& direction) const;
+    Value with_gradient(const Vec3& direction) const;
+
+  private:
+    /// Coefficients of cos(m phi) and sin(m phi).
+    struct Pair {
+        T cosine = 0, sine = 0;
+    };
+
+    int degree_ = 0;
+    std::vector<Pair> pairs_;  ///< m by m, each for l = m, m + 1 ... degree
+};
+
+extern template class HarmonicSeries<float>;
+extern template class HarmonicSeries<double>;
+
+}  // namespace stilb
