@@ -1,5 +1,6 @@
 #include "base/spherical_harmonics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -89,27 +90,56 @@ HarmonicSeries<T>::HarmonicSeries(std::span<const double> coefficients)
 }
 
 template <typename T>
-T HarmonicSeries<T>::at(const Vec3& direction) const {
+template <typename Visit>
+void HarmonicSeries<T>::for_each_order(T z, const Visit& visit) const {
     const Recurrences& all = recurrences();
-    const T z = static_cast<T>(direction.z);
-    Turns<T> turns{static_cast<T>(direction.x), static_cast<T>(direction.y)};
     const Pair* pair = pairs_.data();
-    T sum = 0;
-    for (int m = 0; m <= degree_; ++m, turns.advance()) {
+    for (int m = 0; m <= degree_; ++m) {
         const std::size_t order = static_cast<std::size_t>(m);
         const Step* step = all.steps.data() + all.first_step[order];
         T before = 0, q = static_cast<T>(all.first[order]);
-        Pair own;
+        Pair sum;
         for (int l = m; l <= degree_; ++l, ++pair) {
-            own.cosine += pair->cosine * q;
-            own.sine += pair->sine * q;
+            sum.cosine += pair->cosine * q;
+            sum.sine += pair->sine * q;
             if (l == degree_) continue;
             const T next = static_cast<T>(step->a) * z * q - static_cast<T>(step->b) * before;
             before = q, q = next, ++step;
         }
-        sum += own.cosine * turns.cosine + own.sine * turns.sine;
+        visit(order, sum);
     }
-    return sum;
+}
+
+template <typename T>
+T HarmonicSeries<T>::at(const Vec3& direction) const {
+    Turns<T> turns{static_cast<T>(direction.x), static_cast<T>(direction.y)};
+    T value = 0;
+    for_each_order(static_cast<T>(direction.z), [&](std::size_t, const Pair& sum) {
+        value += sum.cosine * turns.cosine + sum.sine * turns.sine;
+        turns.advance();
+    });
+    return value;
+}
+
+template <typename T>
+std::vector<T> HarmonicSeries<T>::on_parallel(double z, std::size_t count) const {
+    std::vector<T> cosines, sines, values(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const double phi = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
+        cosines.push_back(static_cast<T>(std::cos(phi)));
+        sines.push_back(static_cast<T>(std::sin(phi)));
+    }
+    const T radius = static_cast<T>(std::sqrt(std::max(0.0, 1 - z * z)));
+    T power = 1;
+    for_each_order(static_cast<T>(z), [&](std::size_t m, const Pair& sum) {
+        std::size_t turn = 0;  // m k modulo count
+        for (T& value : values) {
+            value += power * (sum.cosine * cosines[turn] + sum.sine * sines[turn]);
+            turn = (turn + m) % count;
+        }
+        power *= radius;
+    });
+    return values;
 }
 
 /// The gradient of the polynomial in x, y and z, projected onto the sphere's tangent plane.

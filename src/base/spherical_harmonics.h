@@ -46,12 +46,17 @@ class HarmonicSeries {
     /// At unit directions.
     T at(const Vec3& direction) const;
     Value with_gradient(const Vec3& direction) const;
+    /// On the parallel z = cos(theta), at phi = 2 pi k / count, k = 0, 1 ... count - 1.
+    std::vector<T> on_parallel(double z, std::size_t count) const;
 
   private:
     /// Coefficients of cos(m phi) and sin(m phi).
     struct Pair {
         T cosine = 0, sine = 0;
     };
+    /// Calls `visit(m, sum)`: sums over l without sin^m(theta).
+    template <typename Visit>
+    void for_each_order(T z, const Visit& visit) const;
 
     int degree_ = 0;
     std::vector<Pair> pairs_;  ///< m by m, each for l = m, m + 1 ... degree

@@ -138,6 +138,20 @@ TEST(HarmonicSeries, SumsItsHarmonics) {
     }
 }
 
+TEST(HarmonicSeries, IsTheSameOnParallels) {
+    const HarmonicSeries<double> series(random_coefficients(20));
+    for (const double z : {-1.0, -0.6, 0.0, 0.99, 1.0}) {
+        for (const std::size_t count : {1u, 7u, 60u}) {
+            const std::vector<double> values = series.on_parallel(z, count);
+            ASSERT_EQ(values.size(), count);
+            for (std::size_t k = 0; k < count; ++k) {
+                const double phi = 2 * kPi * static_cast<double>(k) / static_cast<double>(count);
+                EXPECT_NEAR(values[k], series.at(direction_at(std::acos(z), phi)), 1e-11) << z << ' ' << k;
+            }
+        }
+    }
+}
+
 /// Differences along great circles, on both sides: wrong by their square.
 TEST(HarmonicSeries, HasTheGradientOfItsValues) {
     for (const int degree : {1, 8, 32, 128}) {

@@ -1,0 +1,146 @@
+#include "scene/harmonic_surface.h"
+
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "base/error.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kNarrowest = 1e-9;  ///< interval [rad] that is not divided any more
+constexpr int kDigits = std::numeric_limits<double>::digits - 4;
+
+/// The root of a monotone function between two places where it has different signs; `f` gives value and
+/// slope.
+template <typename Function>
+double root_between(double low, double high, const Function& f) {
+    return boost::math::tools::newton_raphson_iterate(f, 0.5 * (low + high), low, high, kDigits);
+}
+
+}  // namespace
+
+/// A ray about the origin.
+struct HarmonicSurface::Line {
+    Vec3 direction;
+    Vec3 towards;        ///< unit, from the origin to the closest point, across `direction`
+    double closest = 0;  ///< distance along the ray where it is closest to the origin
+    double offset = 0;   ///< of that point from the origin
+
+    Line(const Vec3& origin, const Vec3& along) : direction(along), closest(-dot(origin, along)) {
+        const Vec3 point = origin + closest * along;
+        offset = length(point);
+        towards = offset > 0 ? point / offset : Frame::around(along).u;
+    }
+
+    /// At a distance from the closest point.
+    Vec3 position(double beyond) const { return offset * towards + beyond * direction; }
+    Vec3 direction_at(double angle) const { return std::cos(angle) * towards + std::sin(angle) * direction; }
+    HarmonicCrossing crossing(double beyond, bool is_entered) const {
+        return {closest + beyond, normalized(position(beyond)), is_entered};
+    }
+};
+
+HarmonicSurface::HarmonicSurface(HarmonicSeries<double> radius) : radius_(std::move(radius)) {
+    find_bounds();
+}
+
+/// Along any great circle R'' is at most L^2 max R [Bernstein], and where R is largest or least R' = 0: so a
+/// point of a grid that is no farther than e has a value that differs by L^2 e^2 max R / 2 at most.
+void HarmonicSurface::find_bounds() {
+    constexpr double part = 0.03;
+    const double degree = radius_.degree();
+    const double spacing = degree > 0 ? std::sqrt(2 * part) / degree * std::numbers::sqrt2 : 1;
+    const auto parallels = static_cast<std::size_t>(std::ceil(std::numbers::pi / spacing)) + 1;
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    for (std::size_t k = 0; k < parallels; ++k) {
+        const double theta =
+            std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(parallels);
+        for (const double value : radius_.on_parallel(std::cos(theta), 2 * parallels)) {
+            least = std::min(least, value);
+            greatest = std::max(greatest, value);
+        }
+    }
+    greatest_radius_ = greatest / (1 - part);
+    least_radius_ = least - part * greatest_radius_;
+    if (!(least_radius_ > 0)) {
+        throw InputError(
+            "the radius of a surface by spherical harmonics comes to 0 or nearly so (its least value is "
+            "below 3 % "
+            "of the greatest): it must be above 0 in all directions");
+    }
+}
+
+Vec3 HarmonicSurface::normal_at(const Vec3& direction) const {
+    const auto [value, gradient] = radius_.with_gradient(direction);
+    return normalized(direction - gradient / value);
+}
+
+std::optional<HarmonicCrossing> HarmonicSurface::first_crossing(const Vec3& origin, const Vec3& direction,
+                                                                double start, double end) const {
+    const Line line(origin, direction);
+    if (line.offset >= greatest_radius_) return std::nullopt;
+    const auto reach = [&](double radius) {
+        return std::sqrt(std::max(0.0, radius * radius - line.offset * line.offset));
+    };
+    const double outer = reach(greatest_radius_), inner = reach(least_radius_);
+    const double low = std::max(start - line.closest, -outer), high = std::min(end - line.closest, outer);
+    if (const auto found = crossing_between(line, low, std::min(high, -inner))) return found;
+    return crossing_between(line, std::max(low, inner), high);
+}
+
+/// On one arm of the ray, between distances from the closest point.
+std::optional<HarmonicCrossing> HarmonicSurface::crossing_between(const Line& line, double low,
+                                                                  double high) const {
+    if (!(low < high)) return std::nullopt;
+    // R changes along the ray by at most L max R times the angle's change, which is offset / |x|^2.
+    const double slope = radius_.degree() * greatest_radius_ * line.offset / (least_radius_ * least_radius_);
+    const double outwards = std::sqrt(1 - std::min(1.0, std::pow(line.offset / least_radius_, 2)));
+    return slope < 0.5 * outwards ? crossing_of_arm(line, low, high) : crossing_of_arc(line, low, high);
+}
+
+/// Close to the origin: |x| - R is monotone on each arm.
+std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arm(const Line& line, double low,
+                                                                 double high) const {
+    const auto excess = [&](double beyond) {
+        const Vec3 position = line.position(beyond);
+        const double distance = length(position);
+        const Vec3 outwards = position / distance;
+        const auto [value, gradient] = radius_.with_gradient(outwards);
+        const Vec3 turn = (line.direction - dot(line.direction, outwards) * outwards) / distance;
+        return std::pair(distance - value, dot(line.direction, outwards) - dot(gradient, turn));
+    };
+    const bool starts_outside = excess(low).first > 0;
+    if (starts_outside == (excess(high).first > 0)) return std::nullopt;
+    return line.crossing(root_between(low, high, excess), starts_outside);
+}
+
+std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arc(const Line& line, double low,
+                                                                 double high) const {
+    const double order = radius_.degree() + 1.0, curvature = order * order * greatest_radius_;
+    const auto depth = [&](double angle) {
+        const double cosine = std::cos(angle), sine = std::sin(angle);
+        const auto [value, gradient] = radius_.with_gradient(line.direction_at(angle));
+        const Vec3 turn = cosine * line.direction - sine * line.towards;
+        return std::pair(value * cosine - line.offset, dot(gradient, turn) * cosine - value * sine);
+    };
+    const auto search = [&](const auto& self, double from, double to) -> std::optional<HarmonicCrossing> {
+        const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+        const auto [value, slope] = depth(middle);
+        if (std::abs(value) > (std::abs(slope) + 0.5 * curvature * half) * half) return std::nullopt;
+        if (std::abs(slope) > curvature * half || half < kNarrowest) {
+            const bool starts_outside = depth(from).first < 0;
+            if (starts_outside == (depth(to).first < 0)) return std::nullopt;
+            return line.crossing(line.offset * std::tan(root_between(from, to, depth)), starts_outside);
+        }
+        if (const auto found = self(self, from, middle)) return found;
+        return self(self, middle, to);
+    };
+    return search(search, std::atan(low / line.offset), std::atan(high / line.offset));
+}
+
+}  // namespace stilb
