@@ -1,26 +1,18 @@
 #include "scene/harmonic_surface.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "base/error.h"
+#include "scene/first_root.h"
 
 namespace stilb {
 namespace {
 
 constexpr double kNarrowest = 1e-9;  ///< interval [rad] that is not divided any more
-constexpr int kDigits = std::numeric_limits<double>::digits - 4;
-
-/// The root of a monotone function between two places where it has different signs; `f` gives value and
-/// slope.
-template <typename Function>
-double root_between(double low, double high, const Function& f) {
-    return boost::math::tools::newton_raphson_iterate(f, 0.5 * (low + high), low, high, kDigits);
-}
 
 }  // namespace
 
@@ -114,9 +106,9 @@ std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arm(const Line& lin
         const Vec3 turn = (line.direction - dot(line.direction, outwards) * outwards) / distance;
         return std::pair(distance - value, dot(line.direction, outwards) - dot(gradient, turn));
     };
-    const bool starts_outside = excess(low).first > 0;
-    if (starts_outside == (excess(high).first > 0)) return std::nullopt;
-    return line.crossing(root_between(low, high, excess), starts_outside);
+    const auto beyond = root_of_monotone(excess, low, high);
+    if (!beyond) return std::nullopt;
+    return line.crossing(*beyond, excess(low).first > 0);
 }
 
 std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arc(const Line& line, double low,
@@ -128,19 +120,10 @@ std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arc(const Line& lin
         const Vec3 turn = cosine * line.direction - sine * line.towards;
         return std::pair(value * cosine - line.offset, dot(gradient, turn) * cosine - value * sine);
     };
-    const auto search = [&](const auto& self, double from, double to) -> std::optional<HarmonicCrossing> {
-        const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-        const auto [value, slope] = depth(middle);
-        if (std::abs(value) > (std::abs(slope) + 0.5 * curvature * half) * half) return std::nullopt;
-        if (std::abs(slope) > curvature * half || half < kNarrowest) {
-            const bool starts_outside = depth(from).first < 0;
-            if (starts_outside == (depth(to).first < 0)) return std::nullopt;
-            return line.crossing(line.offset * std::tan(root_between(from, to, depth)), starts_outside);
-        }
-        if (const auto found = self(self, from, middle)) return found;
-        return self(self, middle, to);
-    };
-    return search(search, std::atan(low / line.offset), std::atan(high / line.offset));
+    const double from = std::atan(low / line.offset), to = std::atan(high / line.offset);
+    const auto angle = first_root(depth, curvature, kNarrowest, from, to);
+    if (!angle) return std::nullopt;
+    return line.crossing(line.offset * std::tan(*angle), depth(from).first < 0);
 }
 
 }  // namespace stilb
