@@ -1,0 +1,91 @@
+#include "scene/harmonic_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/random.h"
+#include "base/sampling.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Numbers {
+  public:
+    explicit Numbers(std::uint64_t seed) : key_{seed} {}
+    double next() { return unit_interval(random_block(key_, index_++, 0)[0]); }
+    Vec3 direction() {
+        const double u = next();
+        return sample_sphere(u, next()).direction;
+    }
+
+  private:
+    RandomKey key_;
+    std::uint64_t index_ = 0;
+};
+
+HarmonicSurface rough_surface(int degree) {
+    Numbers numbers(static_cast<std::uint64_t>(degree));
+    std::vector<double> coefficients(harmonic_count(degree));
+    for (double& c : coefficients) c = (numbers.next() - 0.5) * 1.6 / (degree + 1);
+    coefficients[0] = std::sqrt(4 * std::numbers::pi);
+    return HarmonicSurface(HarmonicSeries<double>(coefficients));
+}
+
+std::optional<double> first_of_all(const HarmonicCells& cells, const Vec3& origin, const Vec3& direction) {
+    std::optional<double> first;
+    for (std::size_t i = 0; i < cells.count(); ++i) {
+        const auto found = cells.crossing(i, origin, direction, 0, first.value_or(kInfinity));
+        if (found) first = found;
+    }
+    return first;
+}
+
+/// Rays from outside and inside, aimed at the surface's surroundings.
+TEST(HarmonicCells, AreCrossedWhereTheSurfaceIs) {
+    for (const int degree : {0, 3, 12, 24}) {
+        const HarmonicSurface surface = rough_surface(degree);
+        const HarmonicCells cells(surface);
+        EXPECT_LE(cells.error(), 1e-7);
+        Numbers numbers(5);
+        for (int i = 0; i < 1500; ++i) {
+            const Vec3 origin = (i % 4 == 0 ? 0.5 * numbers.next() : 3.) * numbers.direction();
+            const Vec3 direction = normalized((1.3 * numbers.next()) * numbers.direction() - origin);
+            const auto found = first_of_all(cells, origin, direction);
+            const auto expected = surface.first_crossing(origin, direction, 0, kInfinity);
+            ASSERT_EQ(found.has_value(), expected.has_value()) << degree << ' ' << i;
+            if (!found) continue;
+            const Vec3 normal = surface.normal_at(expected->direction);
+            const double allowed = 5e-7 / std::abs(dot(normal, direction));
+            EXPECT_NEAR(*found, expected->distance, allowed) << degree << ' ' << i;
+        }
+    }
+}
+
+TEST(HarmonicCells, LieWithinTheirBounds) {
+    const HarmonicSurface surface = rough_surface(12);
+    const HarmonicCells cells(surface);
+    Numbers numbers(6);
+    for (int i = 0; i < 500; ++i) {
+        const Vec3 direction = numbers.direction();
+        const Vec3 point = surface.radius().at(direction) * direction;
+        bool is_in_one = false;
+        for (std::size_t cell = 0; cell < cells.count(); ++cell) {
+            if (!cells.crossing(cell, Vec3{}, direction, 0, kInfinity)) continue;
+            const Bounds bounds = cells.bounds_of(cell);
+            is_in_one = true;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                EXPECT_GE(point[axis], bounds.min[axis] - 1e-6);
+                EXPECT_LE(point[axis], bounds.max[axis] + 1e-6);
+            }
+        }
+        EXPECT_TRUE(is_in_one) << i;
+    }
+}
+
+}  // namespace
+}  // namespace stilb
