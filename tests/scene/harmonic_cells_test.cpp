@@ -6,35 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "base/random.h"
-#include "base/sampling.h"
+#include "support/harmonic_shapes.h"
 
 namespace stilb {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-class Numbers {
-  public:
-    explicit Numbers(std::uint64_t seed) : key_{seed} {}
-    double next() { return unit_interval(random_block(key_, index_++, 0)[0]); }
-    Vec3 direction() {
-        const double u = next();
-        return sample_sphere(u, next()).direction;
-    }
-
-  private:
-    RandomKey key_;
-    std::uint64_t index_ = 0;
-};
-
-HarmonicSurface rough_surface(int degree) {
-    Numbers numbers(static_cast<std::uint64_t>(degree));
-    std::vector<double> coefficients(harmonic_count(degree));
-    for (double& c : coefficients) c = (numbers.next() - 0.5) * 1.6 / (degree + 1);
-    coefficients[0] = std::sqrt(4 * std::numbers::pi);
-    return HarmonicSurface(HarmonicSeries<double>(coefficients));
-}
 
 std::optional<double> first_of_all(const HarmonicCells& cells, const Vec3& origin, const Vec3& direction) {
     std::optional<double> first;
@@ -48,7 +25,7 @@ std::optional<double> first_of_all(const HarmonicCells& cells, const Vec3& origi
 /// Rays from outside and inside, aimed at the surface's surroundings.
 TEST(HarmonicCells, AreCrossedWhereTheSurfaceIs) {
     for (const int degree : {0, 3, 12, 24}) {
-        const HarmonicSurface surface = rough_surface(degree);
+        const HarmonicSurface surface = rough_surface(degree, 1);
         const HarmonicCells cells(surface);
         EXPECT_LE(cells.error(), 1e-7);
         Numbers numbers(5);
@@ -67,7 +44,7 @@ TEST(HarmonicCells, AreCrossedWhereTheSurfaceIs) {
 }
 
 TEST(HarmonicCells, LieWithinTheirBounds) {
-    const HarmonicSurface surface = rough_surface(12);
+    const HarmonicSurface surface = rough_surface(12, 1);
     const HarmonicCells cells(surface);
     Numbers numbers(6);
     for (int i = 0; i < 500; ++i) {

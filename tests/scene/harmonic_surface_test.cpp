@@ -9,39 +9,13 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/random.h"
-#include "base/sampling.h"
+#include "support/harmonic_shapes.h"
 
 namespace stilb {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const double kConstant = std::sqrt(4 * std::numbers::pi);  ///< coefficient of R = 1
-
-class Numbers {
-  public:
-    explicit Numbers(std::uint64_t seed) : key_{seed} {}
-    double next() { return unit_interval(random_block(key_, index_++, 0)[0]); }
-    Vec3 direction() {
-        const double u = next();
-        return sample_sphere(u, next()).direction;
-    }
-
-  private:
-    RandomKey key_;
-    std::uint64_t index_ = 0;
-};
-
-/// About 1, with a relief of some 15 % in all degrees.
-HarmonicSurface rough_surface(int degree, std::uint64_t seed) {
-    Numbers numbers(seed);
-    std::vector<double> coefficients(harmonic_count(degree));
-    for (double& c : coefficients) c = (numbers.next() - 0.5) * 1.6 / (degree + 1);
-    coefficients[0] = kConstant;
-    return HarmonicSurface(HarmonicSeries<double>(coefficients));
-}
-
-HarmonicSurface unit_sphere() { return HarmonicSurface(HarmonicSeries<double>(std::vector{kConstant})); }
+HarmonicSurface unit_sphere() { return HarmonicSurface(HarmonicSeries<double>(std::vector{kUnitSphere})); }
 
 /// How far a point is outside, in terms of its distance from the origin.
 double excess(const HarmonicSurface& surface, const Vec3& point) {
@@ -181,7 +155,7 @@ TEST(HarmonicSurface, HasSafeBounds) {
 }
 
 TEST(HarmonicSurface, RefusesARadiusThatComesTo0) {
-    EXPECT_THROW(HarmonicSurface(HarmonicSeries<double>(std::vector{kConstant, 0., 3.5, 0.})), InputError);
+    EXPECT_THROW(HarmonicSurface(HarmonicSeries<double>(std::vector{kUnitSphere, 0., 3.5, 0.})), InputError);
 }
 
 }  // namespace

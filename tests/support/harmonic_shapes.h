@@ -1,0 +1,42 @@
+// Surfaces by spherical harmonics for tests, and random numbers to aim at them with.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "base/random.h"
+#include "base/sampling.h"
+#include "scene/harmonic_surface.h"
+
+namespace stilb {
+
+class Numbers {
+  public:
+    explicit Numbers(std::uint64_t seed) : key_{seed} {}
+
+    double next() { return unit_interval(random_block(key_, index_++, 0)[0]); }
+    Vec3 direction() {
+        const double u = next();
+        return sample_sphere(u, next()).direction;
+    }
+
+  private:
+    RandomKey key_;
+    std::uint64_t index_ = 0;
+};
+
+/// The coefficient of a sphere of radius 1.
+inline const double kUnitSphere = std::sqrt(4 * std::numbers::pi);
+
+/// About 1, with a relief of some 15 % in all degrees.
+inline HarmonicSurface rough_surface(int degree, std::uint64_t seed) {
+    Numbers numbers(seed);
+    std::vector<double> coefficients(harmonic_count(degree));
+    for (double& c : coefficients) c = (numbers.next() - 0.5) * 1.6 / (degree + 1);
+    coefficients[0] = kUnitSphere;
+    return HarmonicSurface(HarmonicSeries<double>(coefficients));
+}
+
+}  // namespace stilb
