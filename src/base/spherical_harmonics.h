@@ -22,7 +22,10 @@ inline constexpr int kMostHarmonicDegree = 128;
 constexpr std::size_t harmonic_count(int degree) {
     return static_cast<std::size_t>(degree + 1) * static_cast<std::size_t>(degree + 1);
 }
-constexpr std::size_t harmonic_number(int l, int m) { return static_cast<std::size_t>(l * l + l + m); }
+constexpr std::size_t harmonic_number(int l, int m) {
+    const int number = l * l + l + m;
+    return static_cast<std::size_t>(number);
+}
 
 /// Writes the harmonic_count(degree) values [1/sqrt(sr)] at a unit direction; degree from 0 to
 /// kMostHarmonicDegree.

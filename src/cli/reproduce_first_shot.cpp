@@ -87,6 +87,7 @@ Picture picture_of(const PictureTracing& tracing, const ConvergenceState& state)
     Picture picture;
     picture.width = width, picture.height = height;
     picture.rgb_cd_m2.resize(picture.pixel_count());
+    const auto row = static_cast<std::size_t>(width);
     for (std::uint64_t i = 0; i < passes; ++i) {
         const PatchPass pass(tracing, state.transport, {RandomKey{1}, i}, state.sides_cd_m2);
         for (const PixelBlock& block : blocks_of(tracing.camera.resolution)) {
@@ -94,8 +95,9 @@ Picture picture_of(const PictureTracing& tracing, const ConvergenceState& state)
             std::vector<Spectrum> values(places.size());
             pass.sample(block, values);
             for (std::size_t k = 0; k < places.size(); ++k) {
-                add_to(picture.rgb_cd_m2[static_cast<std::size_t>(places[k].y * width + places[k].x)],
-                       values[k] * (1. / passes));
+                const std::size_t pixel =
+                    static_cast<std::size_t>(places[k].y) * row + static_cast<std::size_t>(places[k].x);
+                add_to(picture.rgb_cd_m2[pixel], values[k] * (1. / passes));
             }
         }
     }

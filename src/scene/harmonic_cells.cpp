@@ -108,8 +108,9 @@ double inverse_height(const HarmonicSurface& surface, const Face& face, double s
 }  // namespace
 
 HarmonicCells::HarmonicCells(const HarmonicSurface& surface, double tolerance) {
-    const auto least = static_cast<std::size_t>(2 + surface.radius().degree() / 4);
-    for (std::size_t on_edge = least; !divide(surface, on_edge, tolerance); on_edge += (on_edge + 3) / 4) {
+    const int least = 2 + surface.radius().degree() / 4;
+    for (auto on_edge = static_cast<std::size_t>(least); !divide(surface, on_edge, tolerance);
+         on_edge += (on_edge + 3) / 4) {
     }
 }
 
