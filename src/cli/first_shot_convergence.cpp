@@ -63,10 +63,7 @@ std::vector<Rgb> reference_of(const PatchTransport& transport, const SeenSides& 
             seen.add(iteration, sums[walk]);
         }
     });
-    for (std::size_t walk = 1; walk < sums.size(); ++walk) {
-        for (std::size_t side = 0; side < seen.count(); ++side)
-            add_to(sums[0][side], spectrum_of(sums[walk][side]));
-    }
+    for (std::size_t walk = 1; walk < sums.size(); ++walk) add_to(sums[0], sums[walk]);
     return seen.mean_cd_m2(sums[0], double{kReferenceWalks} * kReferenceSteps);
 }
 
@@ -106,8 +103,7 @@ std::vector<ConvergenceCurve> converge(const PictureTracing& tracing,
             const double elapsed_s = clock.elapsed_s() - looking_s;
             const ConvergenceState state{method, transport, step, seen.mean_cd_m2(sums, step)};
             std::vector<Rgb> sides = state.sides_cd_m2;
-            for (std::size_t side = 0; side < sides.size(); ++side)
-                add_to(sides[side], spectrum_of(not_stored[side]));
+            add_to(sides, not_stored);
             curve.points.push_back({static_cast<double>(step), transport.first_shot.set_up_s() + elapsed_s,
                                     difference(sides, reference, pixels)});
             if (elapsed_s > most_time_s) break;

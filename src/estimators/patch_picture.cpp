@@ -41,8 +41,8 @@ PatchPass::PatchPass(const PictureTracing& tracing, const PatchTransport& transp
 }
 
 std::uint64_t PatchPass::sample(const PixelBlock& block, std::span<Spectrum> pixels) const {
-    std::ranges::fill(pixels, Spectrum{});
-    auto [paths, numbers] = tracing_.start_paths(pixels_of(block), pass_);
+    CameraPaths started = tracing_.start_paths(pixels_of(block), pass_);
+    std::vector<Path>& paths = started.paths;
     std::vector<std::size_t> standing;
     std::vector<SeenPoint> points;
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -55,16 +55,7 @@ std::uint64_t PatchPass::sample(const PixelBlock& block, std::span<Spectrum> pix
         Path& path = paths[standing[i]];
         if (places[i]) path.luminance_cd_m2 += path.throughput * reflected(path, *places[i]);
     }
-    std::uint64_t invalid = 0;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        const Spectrum& luminance = paths[i].luminance_cd_m2;
-        if (luminance.is_finite()) {
-            pixels[numbers[i]] = luminance;
-        } else {
-            ++invalid;
-        }
-    }
-    return invalid;
+    return started.write_to(pixels);
 }
 
 Spectrum PatchPass::reflected(const Path& path, const PatchPlace& seen) const {

@@ -25,6 +25,11 @@ inline void add_to(Rgb& sum, const Spectrum& value) {
     for (std::size_t b = 0; b < kBands; ++b) sum[b] += static_cast<float>(value[b]);
 }
 
+/// Of as many sides.
+inline void add_to(std::vector<Rgb>& sums, const std::vector<Rgb>& others) {
+    for (std::size_t side = 0; side < sums.size(); ++side) add_to(sums[side], spectrum_of(others[side]));
+}
+
 /// Keeps references to scene and caster. Immutable once made.
 struct PatchTransport : FirstShotPatches {
     /// Both as FirstShotPatches.

@@ -54,10 +54,7 @@ class BundlePicture final : public PictureEstimator {
                 seen_.add(iteration, sums[walk]);
             }
         });
-        for (std::size_t walk = 1; walk < kWalks; ++walk) {
-            for (std::size_t side = 0; side < seen_.count(); ++side)
-                add_to(sums[0][side], spectrum_of(sums[walk][side]));
-        }
+        for (std::size_t walk = 1; walk < kWalks; ++walk) add_to(sums[0], sums[walk]);
         return seen_.mean_cd_m2(sums[0], static_cast<double>(kWalks * steps));
     }
 

@@ -2,8 +2,6 @@
 // (path_tracer.h). The naive twin of the other methods.
 #include "estimators/picture_path.h"
 
-#include <algorithm>
-
 #include "estimators/flattened_paths.h"
 #include "estimators/picture_tracing.h"
 
@@ -16,19 +14,9 @@ class Paths final : public PicturePass {
         : tracing_(tracing), tracer_(tracer), pass_(pass) {}
 
     std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
-        std::ranges::fill(pixels, Spectrum{});
-        auto [paths, numbers] = tracing_.start_paths(pixels_of(block), pass_);
-        tracer_.trace(paths, Coherence::coherent);
-        std::uint64_t invalid = 0;
-        for (std::size_t i = 0; i < paths.size(); ++i) {
-            const Spectrum& luminance = paths[i].luminance_cd_m2;
-            if (luminance.is_finite()) {
-                pixels[numbers[i]] = luminance;
-            } else {
-                ++invalid;
-            }
-        }
-        return invalid;
+        CameraPaths started = tracing_.start_paths(pixels_of(block), pass_);
+        tracer_.trace(started.paths, Coherence::coherent);
+        return started.write_to(pixels);
     }
 
   private:

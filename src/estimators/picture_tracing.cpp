@@ -1,5 +1,6 @@
 #include "estimators/picture_tracing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -63,6 +64,20 @@ CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pas
         started.pixels.push_back(pixel_of_ray[i]);
     }
     return started;
+}
+
+std::uint64_t CameraPaths::write_to(std::span<Spectrum> luminances_cd_m2) const {
+    std::ranges::fill(luminances_cd_m2, Spectrum{});
+    std::uint64_t invalid = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const Spectrum& luminance = paths[i].luminance_cd_m2;
+        if (luminance.is_finite()) {
+            luminances_cd_m2[pixels[i]] = luminance;
+        } else {
+            ++invalid;
+        }
+    }
+    return invalid;
 }
 
 std::vector<Pixel> pixels_of(const PixelBlock& block) {

@@ -20,6 +20,10 @@ struct Pixel {
 struct CameraPaths {
     std::vector<Path> paths;
     std::vector<std::size_t> pixels;  ///< of each path: which of the pixels asked for
+
+    /// Writes what the paths have gathered, and 0 for the others of `luminances_cd_m2`, one for each pixel
+    /// asked for. Returns the number that were not finite: these are 0.
+    std::uint64_t write_to(std::span<Spectrum> luminances_cd_m2) const;
 };
 
 /// Keeps references to the scene and its ray caster. Immutable.

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "scene/embree_context.h"
+
 namespace stilb {
 namespace {
 
@@ -34,14 +36,6 @@ RTCRayHit16 unanswered(const RayPacket& packet) {
     std::memcpy(&rays.ray, &packet, sizeof packet);
     std::ranges::fill(rays.hit.geomID, RTC_INVALID_GEOMETRY_ID);
     return rays;
-}
-
-RTCIntersectContext context_for(Coherence coherence) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                                     : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
 }
 
 struct CollectingContext : RTCIntersectContext {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/analytic_shapes.h"
+#include "scene/embree_context.h"
 
 namespace stilb {
 namespace {
@@ -174,14 +175,6 @@ void occlude_in_parts(RayPacket& packet, const LaneMask& lanes, Occlude occlude)
         occlude(valid.data(), &rays);
         std::copy_n(rays.tfar, width, packet.end.data() + first);
     }
-}
-
-RTCIntersectContext context_for(Coherence coherence) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                                     : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
 }
 
 }  // namespace

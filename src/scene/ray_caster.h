@@ -1,4 +1,5 @@
-// Ray queries: closest hit, occlusion, and packets of both. The only place that sees Embree.
+// Ray queries: closest hit, occlusion, and packets of both. Embree is behind it, and behind
+// patches/patch_caster.h; nothing else sees it.
 //
 // Offsets. Embree works in single precision on coordinates relative to the scene's centre. Rays start from,
 // and connections end at, points that are lifted off their surface along its geometric normal by offset_m() =
