@@ -25,6 +25,11 @@ Vec3 lifted_off(const Scene& scene, const Patches& patches, const RayCaster& cas
         place = sphere->center + sphere->radius * outwards;
         normal = patches.is_front(side) ? outwards : -outwards;
     }
+    if (const auto* harmonics = std::get_if<Harmonics>(&scene.object(object).shape)) {
+        const Vec3 direction = position - harmonics->center, outwards = harmonics->normal_towards(direction);
+        place = harmonics->point_towards(direction);
+        normal = patches.is_front(side) ? outwards : -outwards;
+    }
     return place + caster.offset_m(place, caster.half_extent_m()) * normal;
 }
 

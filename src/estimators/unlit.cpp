@@ -64,6 +64,11 @@ Place place_on(const Sphere& sphere, SampleStream& stream) {
     const Vec3 normal = sample_sphere(u1, u2).direction;
     return {sphere.center + sphere.radius * normal, normal};
 }
+Place place_on(const Harmonics& harmonics, SampleStream& stream) {
+    const auto [u1, u2] = stream.next_two();
+    const Vec3 direction = sample_sphere(u1, u2).direction;
+    return {harmonics.point_towards(direction), harmonics.normal_towards(direction)};
+}
 Place place_on(const Disk& disk, SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
     const DiskPoint p = sample_unit_disk(u1, u2);

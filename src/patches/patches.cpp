@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "patches/refinement.h"
 #include "patches/smooth_vertices.h"
+#include "scene/harmonic_surface.h"
 #include "scene/mesh_edges.h"
 
 namespace stilb {
@@ -41,6 +42,14 @@ Division division_of(const Sphere& sphere, double longest_edge_m) {
             [sphere](const Vec3& a, const Vec3& b) {
                 const Vec3 outwards = (a - sphere.center) + (b - sphere.center);
                 return sphere.center + sphere.radius * normalized(outwards);
+            }};
+}
+
+Division division_of(const Harmonics& harmonics, double longest_edge_m) {
+    const double radius_m = harmonics.scale * harmonics.surface->greatest_radius();
+    return {inscribed_icosahedron(harmonics), std::min(longest_edge_m, kLongestCurvedEdge * radius_m),
+            [harmonics](const Vec3& a, const Vec3& b) {
+                return harmonics.point_towards((a - harmonics.center) + (b - harmonics.center));
             }};
 }
 

@@ -68,7 +68,7 @@ FlatTriangle flattened(const std::array<Vec3, 3>& corners, double size_m) {
     return flat;
 }
 
-/// Triangles of flat shapes; spheres and disks are left out.
+/// Triangles of flat shapes; curved ones and disks are left out.
 Mesh mesh_of(const Shape& shape) {
     if (const auto* mesh = std::get_if<Mesh>(&shape)) return *mesh;
     if (const auto* rectangle = std::get_if<Rectangle>(&shape)) return triangulated(*rectangle);

@@ -1,6 +1,10 @@
 #include "scene/shape.h"
 
 #include <numbers>
+#include <utility>
+
+#include "scene/harmonic_area.h"
+#include "scene/harmonic_surface.h"
 
 namespace stilb {
 namespace {
@@ -24,6 +28,8 @@ double area(const Box& box) {
 double area(const Sphere& s) { return 4 * std::numbers::pi * s.radius * s.radius; }
 
 double area(const Disk& d) { return std::numbers::pi * d.radius * d.radius; }
+
+double area(const Harmonics& h) { return h.scale * h.scale * h.area->total(); }
 
 }  // namespace
 
@@ -74,6 +80,25 @@ Mesh inscribed_icosahedron(const Sphere& sphere) {
                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
                       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     return mesh;
+}
+
+Mesh inscribed_icosahedron(const Harmonics& harmonics) {
+    Mesh mesh = inscribed_icosahedron(Sphere{});
+    for (Vec3& vertex : mesh.vertices) vertex = harmonics.point_towards(harmonics.axes.to_world(vertex));
+    return mesh;
+}
+
+Harmonics::Harmonics(HarmonicSurface own)
+    : surface(std::make_shared<const HarmonicSurface>(std::move(own))),
+      area(std::make_shared<const HarmonicArea>(surface)) {}
+
+Vec3 Harmonics::point_towards(const Vec3& direction) const {
+    const Vec3 own = normalized(axes.to_local(direction));
+    return to_world(surface->radius().at(own) * own);
+}
+
+Vec3 Harmonics::normal_towards(const Vec3& direction) const {
+    return axes.to_world(surface->normal_at(normalized(axes.to_local(direction))));
 }
 
 }  // namespace stilb

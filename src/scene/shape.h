@@ -3,12 +3,16 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
 #include "base/vec.h"
 
 namespace stilb {
+
+class HarmonicArea;
+class HarmonicSurface;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -40,7 +44,34 @@ struct Disk {
     double radius = 1;
 };
 
-using Shape = std::variant<Mesh, Rectangle, Box, Sphere, Disk>;
+/// How rays find a surface by harmonics.
+enum class HarmonicMethod {
+    cells,  ///< polynomials in small cells: harmonic_cells.h
+    roots,  ///< the roots of a trigonometric polynomial: HarmonicSurface::first_crossing
+    march   ///< fixed steps and bisection, which miss thin parts: harmonic_march.h
+};
+
+/// center + scale (x u + y v + z w) of the surface's points (x, y, z); u, v and w, the axes, are orthonormal,
+/// left-handed where the object is mirrored. Its front is the outside.
+struct Harmonics {
+    std::shared_ptr<const HarmonicSurface> surface;  ///< not null; shared by copies, as is what follows
+    std::shared_ptr<const HarmonicArea> area;        ///< of the surface
+    Vec3 center;
+    double scale = 1;
+    Frame axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    HarmonicMethod method = HarmonicMethod::cells;
+
+    Vec3 to_world(const Vec3& own) const { return center + scale * axes.to_world(own); }
+    Vec3 to_own(const Vec3& world) const { return axes.to_local(world - center) / scale; }
+    explicit Harmonics(HarmonicSurface surface);
+
+    /// The point in a direction from the centre, not necessarily a unit vector.
+    Vec3 point_towards(const Vec3& direction) const;
+    /// Unit, outwards, there.
+    Vec3 normal_towards(const Vec3& direction) const;
+};
+
+using Shape = std::variant<Mesh, Rectangle, Box, Sphere, Disk, Harmonics>;
 
 /// m2, one side.
 double area_m2(const Shape& shape);
@@ -50,5 +81,7 @@ Mesh triangulated(const Rectangle& rectangle);
 Mesh triangulated(const Box& box);
 /// The inscribed icosahedron with the sphere's front: twenty triangles, all vertices on the sphere.
 Mesh inscribed_icosahedron(const Sphere& sphere);
+/// The same of a surface by harmonics.
+Mesh inscribed_icosahedron(const Harmonics& harmonics);
 
 }  // namespace stilb

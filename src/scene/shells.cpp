@@ -34,6 +34,7 @@ Shells find_shells(const Shape& shape) {
         Shells operator()(const Rectangle& rectangle) const { return find_shells(triangulated(rectangle)); }
         Shells operator()(const Box& box) const { return find_shells(triangulated(box)); }
         Shells operator()(const Sphere&) const { return {{0}, {0}, 0}; }
+        Shells operator()(const Harmonics&) const { return {{0}, {0}, 0}; }
         Shells operator()(const Disk&) const { return {{0}, {1}, 0}; }
     };
     return std::visit(Finder{}, shape);

@@ -44,6 +44,10 @@ struct OutlooksOfShape {
         const Vec3 up{0, 0, 1};
         return {outlook_off(sphere.center + sphere.radius * up, up, sphere.radius, caster)};
     }
+    std::vector<Outlook> operator()(const Harmonics& harmonics) const {
+        const Vec3 up{0, 0, 1}, top = harmonics.point_towards(up);
+        return {outlook_off(top, harmonics.normal_towards(up), length(top - harmonics.center), caster)};
+    }
     std::vector<Outlook> operator()(const Disk& disk) const {
         return {outlook_off(disk.center, disk.normal, disk.radius, caster)};
     }

@@ -46,6 +46,16 @@ Shape moved(const Disk& d, const Transform& t) {
     return Disk{t.point(d.center), normalized(t.direction(d.normal)), d.radius * similarity_scale(t)};
 }
 
+Shape moved(const Harmonics& h, const Transform& t) {
+    const double scale = similarity_scale(t);
+    const auto turned = [&](const Vec3& axis) { return t.direction(axis) / scale; };
+    Harmonics result = h;
+    result.center = t.point(h.center);
+    result.scale *= scale;
+    result.axes = {turned(h.axes.u), turned(h.axes.v), turned(h.axes.w)};
+    return result;
+}
+
 }  // namespace
 
 Transform Transform::scaling(double factor) { return {{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}, {}}; }

@@ -30,7 +30,7 @@ struct Transform {
 Transform compose(const Transform& second, const Transform& first);
 
 /// The transformed shape; mirrored transforms keep fronts in front. Boxes become meshes unless their axes
-/// stay put. For spheres and disks the caller makes sure that the transform is a similarity.
+/// stay put. For spheres, disks and harmonics the caller makes sure that the transform is a similarity.
 Shape transformed(const Shape& shape, const Transform& transform);
 
 }  // namespace stilb
