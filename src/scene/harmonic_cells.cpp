@@ -223,4 +223,16 @@ std::optional<double> HarmonicCells::crossing(std::size_t number, const Vec3& or
     return (rest * from.distance + share * to.distance) / (rest + share);
 }
 
+/// z W(x / z, y / z) is 1 on the surface and more outside; its gradient is (W_s, W_t, W - s W_s - t W_t).
+HarmonicCells::Place HarmonicCells::place_at(std::size_t number, const Vec3& near_by) const {
+    const Cell& cell = cells_[number];
+    const Face face(cell.face);
+    const Vec3 x = face.to_local(near_by);
+    const double s = x.x / x.z, t = x.y / x.z;
+    const Value w = evaluate(cell.polynomial, (s - cell.s) / half_, (t - cell.t) / half_);
+    const double along_s = w.along_a / half_, along_t = w.along_b / half_;
+    const Vec3 outwards{along_s, along_t, w.value - s * along_s - t * along_t};
+    return {face.to_world(Vec3{s, t, 1} / w.value), normalized(face.to_world(outwards))};
+}
+
 }  // namespace stilb

@@ -21,7 +21,8 @@
 
 namespace stilb {
 
-/// Immutable. Rays have unit directions; lengths are in units of the series' values.
+/// Immutable. Lengths are in units of the series' values. Directions of rays may have any length but 0;
+/// distances along a ray are in units of it.
 class HarmonicCells {
   public:
     /// As many cells as make the polynomials differ from the surface by `tolerance` of R at most, at points
@@ -37,6 +38,15 @@ class HarmonicCells {
     /// The distance of the first crossing in a cell.
     std::optional<double> crossing(std::size_t cell, const Vec3& origin, const Vec3& direction, double start,
                                    double end) const;
+
+    struct Place {
+        Vec3 position;
+        Vec3 normal;  ///< unit, outwards
+    };
+    /// The surface's point on the line from the origin through `near_by`, which is in or near a cell. By the
+    /// cell's polynomial: at the default tolerance the normal is within about 1e-5 rad of
+    /// HarmonicSurface::normal_at().
+    Place place_at(std::size_t cell, const Vec3& near_by) const;
 
   private:
     static constexpr std::size_t kNodes = 7;  ///< along an edge

@@ -64,5 +64,41 @@ TEST(HarmonicCells, LieWithinTheirBounds) {
     }
 }
 
+/// A cell in which a ray from the origin leaves the surface.
+std::size_t cell_of(const HarmonicCells& cells, const Vec3& direction) {
+    std::size_t cell = 0;
+    while (cell + 1 < cells.count() && !cells.crossing(cell, Vec3{}, direction, 0, kInfinity)) ++cell;
+    return cell;
+}
+
+TEST(HarmonicCells, HaveTheSurfacesPointsAndNormals) {
+    for (const int degree : {0, 5, 24}) {
+        const HarmonicSurface surface = rough_surface(degree, 2);
+        const HarmonicCells cells(surface);
+        Numbers numbers(7);
+        for (int i = 0; i < 500; ++i) {
+            const Vec3 direction = numbers.direction();
+            const Vec3 point = surface.radius().at(direction) * direction;
+            const auto place = cells.place_at(cell_of(cells, direction), (1 + 1e-4 * numbers.next()) * point);
+            EXPECT_NEAR(length(place.position - point), 0, 2e-7) << degree;
+            EXPECT_NEAR(length(place.normal - surface.normal_at(direction)), 0, 1e-5) << degree;
+        }
+    }
+}
+
+TEST(HarmonicCells, TakeDirectionsOfAnyLength) {
+    const HarmonicCells cells(rough_surface(5, 2));
+    Numbers numbers(8);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 origin = 3 * numbers.direction();
+        const Vec3 direction = normalized(0.5 * numbers.direction() - origin);
+        const auto expected = first_of_all(cells, origin, direction);
+        ASSERT_TRUE(expected);
+        for (const double length : {1e-3, 4.0}) {
+            EXPECT_NEAR(*first_of_all(cells, origin, length * direction) * length, *expected, 1e-12);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace stilb
