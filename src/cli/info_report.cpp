@@ -6,8 +6,8 @@
 #include "estimators/unlit.h"
 #include "files/mesh_file.h"
 #include "files/photometry_file.h"
-#include "scene/analytic_shapes.h"
 #include "scene/bounds.h"
+#include "scene/harmonic_surface.h"
 #include "scene/holes.h"
 #include "scene/overlaps.h"
 #include "sensors/placement.h"
@@ -82,23 +82,22 @@ struct ShapeReport {
         return of_triangles("rectangle", triangulated(rectangle));
     }
     Json operator()(const Box& box) const { return of_triangles("box", triangulated(box)); }
-    Json operator()(const Sphere& sphere) const { return of_surface("sphere", sphere); }
-    Json operator()(const Disk& disk) const { return of_surface("disk", disk); }
+    Json operator()(const Sphere&) const { return {{"shape", "sphere"}, {"triangles", 0}}; }
+    Json operator()(const Disk&) const { return {{"shape", "disk"}, {"triangles", 0}}; }
+    Json operator()(const Harmonics& harmonics) const {
+        return {{"shape", "harmonics"}, {"triangles", 0}, {"degree", harmonics.surface->radius().degree()}};
+    }
 
   private:
     static Json of_triangles(const char* name, const Mesh& mesh) {
-        Bounds bounds;
-        for (const Vec3& vertex : mesh.vertices) bounds.include(vertex);
-        return {{"shape", name}, {"triangles", mesh.triangles.size()}, {"extent", extent_json(bounds)}};
-    }
-    static Json of_surface(const char* name, const AnalyticShape& shape) {
-        return {{"shape", name}, {"triangles", 0}, {"extent", extent_json(bounds_of(shape))}};
+        return {{"shape", name}, {"triangles", mesh.triangles.size()}};
     }
 };
 
 Json shape_json(const std::string& name, const Shape& shape, const Shells& shells) {
     Json json{{"name", name}};
     json.update(std::visit(ShapeReport{}, shape));
+    json["extent"] = extent_json(bounds_of(shape));
     json["area_m2"] = area_m2(shape);
     json["parts"] = shells.count();
     json["open_edges"] = shells.total_open_edges();

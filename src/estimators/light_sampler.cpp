@@ -5,108 +5,15 @@
 #include <numbers>
 #include <utility>
 
+#include "base/sampling.h"
 #include "scene/bounds.h"
-#include "scene/solid_angle_sampling.h"
 
 namespace stilb {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// What leaves a luminaire against `direction`, in the frame of its solid.
 Vec3 in_solid(const PhotometryLight& luminaire, const Vec3& direction) {
     return {-dot(direction, luminaire.c0), -dot(direction, luminaire.c90), -dot(direction, luminaire.nadir)};
-}
-
-double area(const Rectangle& r) { return length(cross(r.edge_u, r.edge_v)); }
-double area(const std::array<Vec3, 3>& t) { return length(cross(t[1] - t[0], t[2] - t[0])) / 2; }
-double area(const Sphere& s) { return 4 * kPi * s.radius * s.radius; }
-double area(const Disk& d) { return kPi * d.radius * d.radius; }
-
-double size(const Rectangle& r) { return std::max(length(r.edge_u), length(r.edge_v)); }
-double size(const std::array<Vec3, 3>& t) { return std::max(length(t[1] - t[0]), length(t[2] - t[0])); }
-double size(const Sphere& s) { return s.radius; }
-double size(const Disk& d) { return d.radius; }
-
-Vec3 front_normal(const Rectangle& r, const Vec3&) { return normalized(cross(r.edge_u, r.edge_v)); }
-Vec3 front_normal(const std::array<Vec3, 3>& t, const Vec3&) {
-    return normalized(cross(t[1] - t[0], t[2] - t[0]));
-}
-Vec3 front_normal(const Sphere& s, const Vec3& position) { return normalized(position - s.center); }
-Vec3 front_normal(const Disk& d, const Vec3&) { return d.normal; }
-
-Vec3 point_by_area(const Rectangle& r, double u1, double u2) {
-    return r.corner + u1 * r.edge_u + u2 * r.edge_v;
-}
-Vec3 point_by_area(const std::array<Vec3, 3>& t, double u1, double u2) {
-    const Barycentric b = sample_triangle(u1, u2);
-    return b.b0 * t[0] + b.b1 * t[1] + b.b2 * t[2];
-}
-Vec3 point_by_area(const Sphere& s, double u1, double u2) {
-    return s.center + s.radius * sample_sphere(u1, u2).direction;
-}
-Vec3 point_by_area(const Disk& d, double u1, double u2) {
-    const Frame frame = Frame::around(d.normal);
-    const DiskPoint p = sample_unit_disk(u1, u2);
-    return d.center + d.radius * (p.x * frame.u + p.y * frame.v);
-}
-
-Vec3 middle(const Rectangle& r) { return r.corner + 0.5 * (r.edge_u + r.edge_v); }
-Vec3 middle(const std::array<Vec3, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }
-Vec3 middle(const Disk& d) { return d.center; }
-
-template <typename Flat>
-EmitterElement element_of(const Flat& shape) {
-    const double size_m = size(shape);
-    return {shape, middle(shape), front_normal(shape, {}), size_m, area(shape), 9 * size_m * size_m};
-}
-/// Seen from anywhere, a quarter of its surface counts.
-EmitterElement element_of(const Sphere& sphere) {
-    return {sphere,       sphere.center,    std::nullopt,
-            size(sphere), area(sphere) / 4, std::numeric_limits<double>::infinity()};
-}
-
-/// The density of the direction `way` to a point of a flat element that is drawn by area.
-double area_pdf_per_sr(const EmitterElement& element, const Vec3& way) {
-    const double squared_distance = squared_length(way);
-    return squared_distance * std::sqrt(squared_distance) /
-           (std::abs(dot(way, *element.normal)) * element.area_m2);
-}
-
-/// A point of a flat element by area, or of any by solid angle.
-std::optional<SolidAngleSample> sample_element(const EmitterElement& element, const Vec3& from, double u1,
-                                               double u2) {
-    if (squared_length(element.middle - from) <= element.squared_far_m2) {
-        return std::visit([&](const auto& shape) { return sample_by_solid_angle(shape, from, u1, u2); },
-                          element.shape);
-    }
-    const Vec3 point =
-        std::visit([&](const auto& shape) { return point_by_area(shape, u1, u2); }, element.shape);
-    return SolidAngleSample{point, area_pdf_per_sr(element, point - from)};
-}
-
-/// About the density of the direction to a point of an element by sample_element(): for weighing, so that
-/// what it says of one direction is all that counts, and how near it is to the truth matters little.
-double rough_pdf_per_sr(const EmitterElement& element, const Vec3& point, const Vec3& from) {
-    const Vec3 towards = element.middle - from;
-    const double squared_distance = squared_length(towards);
-    if (squared_distance > element.squared_far_m2) return area_pdf_per_sr(element, point - from);
-    double cosine = 1;
-    if (element.normal) {
-        // Edge-on this is far from the truth, as it is from close by; it must only be the same for all.
-        constexpr double least = 0.05;
-        cosine = std::max(std::abs(dot(towards, *element.normal)) / std::sqrt(squared_distance), least);
-    }
-    const double projected_m2 = element.area_m2 * cosine;
-    return (squared_distance + projected_m2 / (2 * kPi)) / projected_m2;
-}
-
-/// In the order of the mesh's triangles: hits tell which one they met.
-void add_mesh(const Mesh& mesh, std::vector<EmitterElement>& elements) {
-    for (const Triangle& t : mesh.triangles) {
-        elements.push_back(
-            element_of(std::array<Vec3, 3>{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}));
-    }
 }
 
 }  // namespace
@@ -124,14 +31,7 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster, std::vec
         luminous_flux.push_back(flux_lm_.back().luminance());
         Emitter emitter;
         if (const auto* area_light = std::get_if<AreaLight>(&light.source)) {
-            const Shape& shape = scene.object(area_light->object).shape;
-            if (const auto* mesh = std::get_if<Mesh>(&shape)) add_mesh(*mesh, emitter.elements);
-            if (const auto* box = std::get_if<Box>(&shape)) add_mesh(triangulated(*box), emitter.elements);
-            if (const auto* rectangle = std::get_if<Rectangle>(&shape))
-                emitter.elements.push_back(element_of(*rectangle));
-            if (const auto* sphere = std::get_if<Sphere>(&shape))
-                emitter.elements.push_back(element_of(*sphere));
-            if (const auto* disk = std::get_if<Disk>(&shape)) emitter.elements.push_back(element_of(*disk));
+            emitter.elements = emitter_elements(scene.object(area_light->object).shape);
             std::vector<double> areas;
             Bounds bounds;
             for (const EmitterElement& element : emitter.elements) {
@@ -139,8 +39,7 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster, std::vec
                 // The points of these four parameters span every kind of element well enough for a rough
                 // size.
                 for (const auto& u : {std::pair{0.01, 0.01}, {0.99, 0.01}, {0.01, 0.99}, {0.99, 0.99}}) {
-                    bounds.include(std::visit(
-                        [&](const auto& e) { return point_by_area(e, u.first, u.second); }, element.shape));
+                    bounds.include(sample_by_area(element, {u.first, u.second}).position);
                 }
             }
             emitter.by_area = DiscreteDistribution(areas);
@@ -166,7 +65,7 @@ bool LightSampler::is_point_like(std::size_t light) const { return emitters_[lig
 EmittedParticle LightSampler::sample_emission(SampleStream& stream) const {
     const auto choice = by_flux_.choose(stream.next());
     EmittedParticle particle = emit(choice.index, stream);
-    particle.flux_lm = flux_lm_[choice.index] * (1 / choice.probability);
+    particle.flux_lm *= flux_lm_[choice.index] * (1 / choice.probability);
     particle.from_point = is_point_like(choice.index);
     return particle;
 }
@@ -175,25 +74,22 @@ EmittedParticle LightSampler::emit(std::size_t light, SampleStream& stream) cons
     const std::array<double, 2> u = stream.next_two();
     const Vec3& middle = emitters_[light].middle;
     if (std::holds_alternative<PointLight>(lights_[light]->source)) {
-        return {middle, sample_sphere(u[0], u[1]).direction, {}};
+        return {middle, sample_sphere(u[0], u[1]).direction, Spectrum::grey(1)};
     }
     if (const auto* luminaire = std::get_if<PhotometryLight>(&lights_[light]->source)) {
         const Vec3 local = scene_.solid(luminaire->solid).sample_direction(u[0], u[1]);
         return {middle,
                 normalized(local.x * luminaire->c0 + local.y * luminaire->c90 + local.z * luminaire->nadir),
-                {}};
+                Spectrum::grey(1)};
     }
     const auto choice = emitters_[light].by_area.choose(u[0]);
     const std::array<double, 2> v = stream.next_two();
-    return std::visit(
-        [&](const auto& element) -> EmittedParticle {
-            const Vec3 position = point_by_area(element, choice.remainder, u[1]);
-            const Vec3 normal = front_normal(element, position);
-            const Vec3 direction =
-                Frame::around(normal).to_world(sample_cosine_hemisphere(v[0], v[1]).direction);
-            return {position + caster_.offset_m(position, size(element)) * normal, direction, {}};
-        },
-        emitters_[light].elements[choice.index].shape);
+    const EmitterElement& element = emitters_[light].elements[choice.index];
+    const EmitterPoint point = sample_by_area(element, {choice.remainder, u[1]});
+    const Vec3 direction =
+        Frame::around(point.normal).to_world(sample_cosine_hemisphere(v[0], v[1]).direction);
+    return {point.position + caster_.offset_m(point.position, element.size_m) * point.normal, direction,
+            Spectrum::grey(point.weight)};
 }
 
 std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const Vec3& from,
@@ -225,17 +121,16 @@ std::optional<IncidentLight> LightSampler::sample_area_light(std::size_t light, 
                                                              const std::array<double, 2>& u) const {
     const auto choice = emitters_[light].by_area.choose(u[0]);
     const EmitterElement& element = emitters_[light].elements[choice.index];
-    const auto sample = sample_element(element, from, choice.remainder, u[1]);
+    const auto sample = sample_seen(element, from, {choice.remainder, u[1]});
     if (!sample) return std::nullopt;
-    const Vec3 normal =
-        element.normal ? *element.normal : front_normal(std::get<Sphere>(element.shape), sample->point);
-    const Vec3 direction = normalized(sample->point - from);
+    const auto& [position, normal, pdf_per_sr] = *sample;
+    const Vec3 direction = normalized(position - from);
     // Not >=: where `from` is the sampled point itself, there is no direction to compare.
     if (!(dot(normal, direction) < 0)) return std::nullopt;
     const Spectrum& luminance = std::get<AreaLight>(lights_[light]->source).luminance_cd_m2;
-    return IncidentLight{sample->point + caster_.offset_m(sample->point, element.size_m) * normal, direction,
-                         luminance * (1 / (sample->pdf_per_sr * choice.probability)),
-                         choice.probability * rough_pdf_per_sr(element, sample->point, from)};
+    return IncidentLight{position + caster_.offset_m(position, element.size_m) * normal, direction,
+                         luminance * (1 / (pdf_per_sr * choice.probability)),
+                         choice.probability * rough_pdf_per_sr(element, position, normal, from)};
 }
 
 double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const {
@@ -291,7 +186,7 @@ double LightSampler::pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) c
     const Emitter& emitter = emitters_[light];
     const std::size_t element = emitter.elements.size() == 1 ? 0 : hit.triangle;
     return emitter.by_area.probability(element) *
-           rough_pdf_per_sr(emitter.elements[element], hit.position, from);
+           rough_pdf_per_sr(emitter.elements[element], hit.position, hit.normal, from);
 }
 
 double LightSampler::pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const {

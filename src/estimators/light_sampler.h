@@ -4,11 +4,11 @@
 #include <array>
 #include <optional>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "base/discrete.h"
 #include "base/sample_stream.h"
+#include "estimators/emitter_elements.h"
 #include "scene/ray_caster.h"
 #include "scene/scene.h"
 
@@ -32,18 +32,6 @@ struct IncidentLight {
     /// About the density of `direction`, as LightSampler::pdf_per_sr() has it: for weighing samples of lights
     /// against others. Infinite for point sources.
     double pdf_per_sr = 0;
-};
-
-/// A part of an area light, with what makes it quick to sample.
-struct EmitterElement {
-    std::variant<Rectangle, std::array<Vec3, 3>, Sphere, Disk> shape;
-    Vec3 middle;
-    std::optional<Vec3> normal{};  ///< of flat ones
-    double size_m = 0;
-    double area_m2 = 0;  ///< that is seen: of a sphere its disk's
-    /// From farther away, points by area are as good as by solid angle (the density varies by some per cent),
-    /// and made in a fraction of the time. Infinite for spheres.
-    double squared_far_m2 = 0;
 };
 
 /// All lights of a scene. Keeps references to both arguments. Immutable.

@@ -17,8 +17,8 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-constexpr std::array<std::string_view, 6> kShapes{"mesh", "rectangle", "box", "sphere", "disk", "polygons"};
-constexpr std::array<std::string_view, 1> kLaterShapes{"harmonics"};
+constexpr std::array<std::string_view, 7> kShapes{"mesh", "rectangle", "box",      "sphere",
+                                                  "disk", "polygons",  "harmonics"};
 
 /// The keys of the shape, and those that every object has.
 void expect_object_keys(TomlTable& table, std::string_view shape, Names keys) {
@@ -192,23 +192,39 @@ Shape read_simple_shape(TomlTable& table, std::string_view shape, SceneFile& fil
 }
 
 Object read_untransformed(TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
-    const std::string_view shape = table.choose("shape", kShapes, kLaterShapes);
+    const std::string_view shape = table.choose("shape", kShapes);
     if (shape == "mesh") {
         expect_object_keys(table, shape, {"file", "materials"});
         return read_mesh_object(table, directory, file);
     }
-    Shape geometry = read_simple_shape(table, shape, file);
-    return {"", std::move(geometry), {read_material(table.at("material"), file.scene)}};
+    const auto of_one_material = [&](Shape geometry) {
+        return Object{"", std::move(geometry), {read_material(table.at("material"), file.scene)}};
+    };
+    if (shape == "harmonics") {
+        expect_object_keys(table, shape, {"file", "coefficients", "center", "degree", "intersection"});
+        return of_one_material(read_harmonics(table, directory, file));
+    }
+    return of_one_material(read_simple_shape(table, shape, file));
 }
 
 void expect_possible(const Transform& transform, const Shape& shape, const TomlTable& table) {
     const bool is_round = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Disk>(shape);
-    if (is_round && !transform.is_similarity()) {
+    const bool is_harmonic = std::holds_alternative<Harmonics>(shape);
+    if ((is_round || is_harmonic) && !transform.is_similarity()) {
         table.at("transform")
             .fail(
-                "stretches or shears a round shape. Allowed for spheres and disks: what keeps "
-                "them round (moves, turns, mirrors, one scale for all axes).");
+                "stretches or shears a curved shape. Allowed for spheres, disks and harmonics: what keeps "
+                "angles (moves, turns, mirrors, one scale for all axes).");
     }
+}
+
+/// A series with a centre is scaled and turned about it.
+Transform transform_of(const Shape& shape, const TomlTable& table) {
+    Transform transform = read_transform(table);
+    if (std::holds_alternative<Harmonics>(shape)) {
+        if (const auto center = table.find("center")) transform.translation += center->vector();
+    }
+    return transform;
 }
 
 }  // namespace
@@ -217,7 +233,7 @@ void read_objects(const TomlTable& section, const std::filesystem::path& directo
     for (auto& [name, table] : named_tables(section)) {
         Object object = read_untransformed(table, directory, file);
         object.name = name;
-        const Transform transform = read_transform(table);
+        const Transform transform = transform_of(object.shape, table);
         expect_possible(transform, object.shape, table);
         if (transform != Transform{}) object.shape = transformed(object.shape, transform);
         file.scene.objects.push_back(std::move(object));

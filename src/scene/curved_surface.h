@@ -37,7 +37,4 @@ class CurvedSurface {
 /// The surface of a shape relative to `origin`; null where it is made of triangles.
 std::unique_ptr<CurvedSurface> curved_surface(const Shape& shape, const Vec3& origin);
 
-/// Of a curved shape; empty of others.
-Bounds bounds_of_curved(const Shape& shape);
-
 }  // namespace stilb

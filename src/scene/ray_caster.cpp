@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
-#include <type_traits>
 #include <vector>
 
-#include "scene/analytic_shapes.h"
+#include "scene/bounds.h"
 #include "scene/embree_context.h"
+#include "scene/embree_geometry.h"
 
 namespace stilb {
 namespace {
@@ -27,90 +27,16 @@ constexpr double kRelativeOffset = 0x1p-19;
 constexpr double kEdgeMargin = 8;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-struct Float3 {
-    float x, y, z;
-};
-
-/// One Embree geometry: a mesh in single precision, or a shape of which rays are intersected analytically.
-struct Geometry {
-    const Float3* vertices = nullptr;  ///< owned by Embree; null for analytic shapes
-    const Triangle* triangles = nullptr;
-    AnalyticShape analytic;
-};
-
 void throw_error(void*, RTCError, const char* message) {
     throw std::runtime_error(fmt::format("Embree: {}", message));
-}
-
-/// What the callbacks of an analytic shape share for N rays, of which lane i is looked at.
-RayInterval interval_of(RTCRayN* rays, unsigned width, unsigned lane) {
-    return {{RTCRayN_org_x(rays, width, lane), RTCRayN_org_y(rays, width, lane),
-             RTCRayN_org_z(rays, width, lane)},
-            {RTCRayN_dir_x(rays, width, lane), RTCRayN_dir_y(rays, width, lane),
-             RTCRayN_dir_z(rays, width, lane)},
-            RTCRayN_tnear(rays, width, lane),
-            RTCRayN_tfar(rays, width, lane)};
-}
-
-void analytic_bounds(const RTCBoundsFunctionArguments* args) {
-    const Bounds bounds = bounds_of(static_cast<const Geometry*>(args->geometryUserPtr)->analytic);
-    // Rounded outwards, so that the box in single precision holds the shape.
-    const auto below = [](double v) { return std::nextafter(static_cast<float>(v), -kInfinity); };
-    const auto above = [](double v) { return std::nextafter(static_cast<float>(v), kInfinity); };
-    RTCBounds& out = *args->bounds_o;
-    out.lower_x = below(bounds.min.x), out.upper_x = above(bounds.max.x);
-    out.lower_y = below(bounds.min.y), out.upper_y = above(bounds.max.y);
-    out.lower_z = below(bounds.min.z), out.upper_z = above(bounds.max.z);
-}
-
-void analytic_intersect(const RTCIntersectFunctionNArguments* args) {
-    const auto& shape = static_cast<const Geometry*>(args->geometryUserPtr)->analytic;
-    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
-    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
-    for (unsigned lane = 0; lane < args->N; ++lane) {
-        if (args->valid[lane] == 0) continue;
-        const RayInterval ray = interval_of(rays, args->N, lane);
-        const auto t = intersect(shape, ray);
-        if (!t) continue;
-        const Vec3 normal = nearest_surface_point(shape, ray.origin + *t * ray.direction).normal;
-        RTCRayN_tfar(rays, args->N, lane) = static_cast<float>(*t);
-        RTCHitN_Ng_x(hits, args->N, lane) = static_cast<float>(normal.x);
-        RTCHitN_Ng_y(hits, args->N, lane) = static_cast<float>(normal.y);
-        RTCHitN_Ng_z(hits, args->N, lane) = static_cast<float>(normal.z);
-        RTCHitN_geomID(hits, args->N, lane) = args->geomID;
-        RTCHitN_primID(hits, args->N, lane) = args->primID;
-        RTCHitN_instID(hits, args->N, lane, 0) = RTC_INVALID_GEOMETRY_ID;
-    }
-}
-
-void analytic_occluded(const RTCOccludedFunctionNArguments* args) {
-    const auto& shape = static_cast<const Geometry*>(args->geometryUserPtr)->analytic;
-    for (unsigned lane = 0; lane < args->N; ++lane) {
-        if (args->valid[lane] == 0) continue;
-        if (intersect(shape, interval_of(args->ray, args->N, lane))) {
-            RTCRayN_tfar(args->ray, args->N, lane) = -kInfinity;
-        }
-    }
 }
 
 Bounds bounds_of_scene(const Scene& scene) {
     Bounds all;
     for (const Object& object : scene.objects) {
-        std::visit(
-            [&](const auto& shape) {
-                using T = std::decay_t<decltype(shape)>;
-                if constexpr (std::is_same_v<T, Mesh>) {
-                    for (const Vec3& vertex : shape.vertices) all.include(vertex);
-                } else if constexpr (std::is_same_v<T, Rectangle>) {
-                    for (const Vec3& vertex : triangulated(shape).vertices) all.include(vertex);
-                } else if constexpr (std::is_same_v<T, Box>) {
-                    all.include(shape.min), all.include(shape.max);
-                } else {
-                    const Bounds b = bounds_of(AnalyticShape{shape});
-                    all.include(b.min), all.include(b.max);
-                }
-            },
-            object.shape);
+        const Bounds own = bounds_of(object.shape);
+        if (own.is_empty()) continue;
+        all.include(own.min), all.include(own.max);
     }
     for (const Light& light : scene.lights) {
         if (const auto* point = std::get_if<PointLight>(&light.source)) all.include(point->position);
@@ -187,8 +113,8 @@ struct RayCaster::Implementation {
     bool has_panes = false;
     RTCDevice device = nullptr;
     RTCScene embree_scene = nullptr;
-    int packet_width = 4;                               ///< widest that the processor takes natively
-    std::vector<std::unique_ptr<Geometry>> geometries;  ///< by object
+    int packet_width = 4;                                     ///< widest that the processor takes natively
+    std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
 
     explicit Implementation(const Scene& s) : scene(s), bounds(bounds_of_scene(s)) {
         center = 0.5 * (bounds.min + bounds.max);
@@ -218,59 +144,18 @@ struct RayCaster::Implementation {
     Implementation& operator=(const Implementation&) = delete;
 
     void add(const Object& object) {
-        geometries.push_back(std::make_unique<Geometry>());
-        Geometry& geometry = *geometries.back();
-        const RTCGeometry embree_geometry = std::visit(
-            [&](const auto& shape) {
-                using T = std::decay_t<decltype(shape)>;
-                if constexpr (std::is_same_v<T, Mesh>) {
-                    return new_mesh(shape, geometry);
-                } else if constexpr (std::is_same_v<T, Rectangle> || std::is_same_v<T, Box>) {
-                    return new_mesh(triangulated(shape), geometry);
-                } else {
-                    return new_analytic(shape, geometry);
-                }
-            },
-            object.shape);
+        geometries.push_back(std::make_unique<EmbreeGeometry>());
+        const RTCGeometry embree_geometry = new_geometry(device, object.shape, center, *geometries.back());
         rtcCommitGeometry(embree_geometry);
         rtcAttachGeometryByID(embree_scene, embree_geometry, static_cast<unsigned>(geometries.size() - 1));
         rtcReleaseGeometry(embree_geometry);
-    }
-
-    RTCGeometry new_mesh(const Mesh& mesh, Geometry& geometry) const {
-        const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* vertices = static_cast<Float3*>(rtcSetNewGeometryBuffer(
-            handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Float3), mesh.vertices.size()));
-        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-            const Vec3 p = mesh.vertices[i] - center;
-            vertices[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-        }
-        auto* triangles = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
-            handle, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), mesh.triangles.size()));
-        std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
-        geometry.vertices = vertices;
-        geometry.triangles = triangles;
-        return handle;
-    }
-
-    template <typename AnyAnalyticShape>
-    RTCGeometry new_analytic(AnyAnalyticShape shape, Geometry& geometry) const {
-        shape.center -= center;
-        geometry.analytic = shape;
-        const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(handle, 1);
-        rtcSetGeometryUserData(handle, &geometry);
-        rtcSetGeometryBoundsFunction(handle, analytic_bounds, nullptr);
-        rtcSetGeometryIntersectFunction(handle, analytic_intersect);
-        rtcSetGeometryOccludedFunction(handle, analytic_occluded);
-        return handle;
     }
 
     Hit hit_of(const RTCRayHit& found) const {
         const auto& [ray, met] = found;
         const Vec3 origin{ray.org_x, ray.org_y, ray.org_z}, direction{ray.dir_x, ray.dir_y, ray.dir_z};
         const double u = met.u, v = met.v;
-        const Geometry& geometry = *geometries[met.geomID];
+        const EmbreeGeometry& geometry = *geometries[met.geomID];
         Hit hit;
         double size = 0;
         bool at_edge = false;
@@ -279,8 +164,8 @@ struct RayCaster::Implementation {
             const Triangle& t = geometry.triangles[met.primID];
             std::array<Vec3, 3> p;
             for (std::size_t i = 0; i < 3; ++i) {
-                const Float3& f = geometry.vertices[t[i]];
-                p[i] = {f.x, f.y, f.z};
+                const auto& [x, y, z] = geometry.vertices[t[i]];
+                p[i] = {x, y, z};
                 size = std::max(
                     {size, std::abs(p[i].x - p[0].x), std::abs(p[i].y - p[0].y), std::abs(p[i].z - p[0].z)});
             }
@@ -297,7 +182,7 @@ struct RayCaster::Implementation {
             }
         } else {
             const Vec3 near_by = origin + ray.tfar * direction;
-            const SurfacePoint point = nearest_surface_point(geometry.analytic, near_by);
+            const SurfacePoint point = geometry.curved->nearest_point(met.primID, near_by);
             hit.position = inner_position = point.position;
             hit.normal = point.normal;
             size = point.size_m;
@@ -324,7 +209,7 @@ struct RayCaster::Implementation {
         hit.position += center;
         hit.distance_m = ray.tfar;
         hit.object = ObjectId{met.geomID};
-        hit.triangle = met.primID;
+        hit.triangle = geometry.curved ? 0 : met.primID;
         hit.material = material_of(met.geomID, met.primID);
         return hit;
     }

@@ -1,8 +1,10 @@
 #include "scene/shape.h"
 
+#include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "scene/bounds.h"
 #include "scene/harmonic_area.h"
 #include "scene/harmonic_surface.h"
 
@@ -31,7 +33,42 @@ double area(const Disk& d) { return std::numbers::pi * d.radius * d.radius; }
 
 double area(const Harmonics& h) { return h.scale * h.scale * h.area->total(); }
 
+Bounds bounds(const Mesh& mesh) {
+    Bounds all;
+    for (const Vec3& vertex : mesh.vertices) all.include(vertex);
+    return all;
+}
+Bounds bounds(const Rectangle& r) { return bounds(triangulated(r)); }
+Bounds bounds(const Box& box) { return {box.min, box.max}; }
+Bounds bounds(const Sphere& s) {
+    const Vec3 r{s.radius, s.radius, s.radius};
+    return {s.center - r, s.center + r};
+}
+
+Bounds bounds(const Disk& d) {
+    // The extent of a circle along an axis is its radius times the sine of the angle between axis and normal.
+    const auto extent = [&](double n) { return d.radius * std::sqrt(std::max(0.0, 1 - n * n)); };
+    const Vec3 e{extent(d.normal.x), extent(d.normal.y), extent(d.normal.z)};
+    return {d.center - e, d.center + e};
+}
+
+/// Of points so close together that it is little smaller than the true one.
+Bounds bounds(const Harmonics& h) {
+    constexpr int count = 4096;
+    Bounds all;
+    for (int i = 0; i < count; ++i) {  // a spiral over the sphere
+        const double z = 1 - (2 * i + 1.0) / count, radius = std::sqrt(1 - z * z);
+        const double angle = 2 * std::numbers::pi * i / std::numbers::phi;
+        all.include(h.point_towards({radius * std::cos(angle), radius * std::sin(angle), z}));
+    }
+    return all;
+}
+
 }  // namespace
+
+Bounds bounds_of(const Shape& shape) {
+    return std::visit([](const auto& s) { return bounds(s); }, shape);
+}
 
 double area_m2(const Shape& shape) {
     return std::visit([](const auto& s) { return area(s); }, shape);

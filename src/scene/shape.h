@@ -11,6 +11,7 @@
 
 namespace stilb {
 
+struct Bounds;
 class HarmonicArea;
 class HarmonicSurface;
 
@@ -73,6 +74,8 @@ struct Harmonics {
 
 using Shape = std::variant<Mesh, Rectangle, Box, Sphere, Disk, Harmonics>;
 
+/// Axis-parallel.
+Bounds bounds_of(const Shape& shape);
 /// m2, one side.
 double area_m2(const Shape& shape);
 /// Two triangles with the rectangle's front.

@@ -1,5 +1,6 @@
 #include "agreement/scenes.h"
 
+#include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 
 namespace stilb {
@@ -201,6 +202,46 @@ Scene room_with_glass_and_point_light() {
     return scene;
 }
 
+/// A lumpy body of about `radius_m` by harmonics.
+Harmonics body(const Vec3& center, double radius_m, int degree, std::uint64_t seed) {
+    Harmonics harmonics(rough_surface(degree, seed));
+    harmonics.center = center;
+    harmonics.scale = radius_m;
+    return harmonics;
+}
+
+std::array<Harmonics, 3> three_bodies() {
+    return {body({1, 1, 0.5}, 0.35, 6, 1), body({3.2, 1, 0.6}, 0.4, 10, 2), body({2, 2.4, 1.1}, 0.4, 8, 3)};
+}
+
+Scene room_with_bodies(const std::array<Shape, 3>& shapes) {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_object(scene, shapes[0], Diffuse{rgb(0.8, 0.5, 0.3)});
+    add_object(scene, shapes[1], phong(0.3, 0.4, 20));
+    add_object(scene, shapes[2], mirror(0.9));
+    add_area_light(scene, large_panel(), 500 * kWhite, diffuse(0.5));
+    return scene;
+}
+Scene harmonic_bodies() {
+    const auto [a, b, c] = three_bodies();
+    return room_with_bodies({a, b, c});
+}
+Scene harmonic_bodies_as_meshes() {
+    const auto [a, b, c] = three_bodies();
+    return room_with_bodies({fine_mesh(a), fine_mesh(b), fine_mesh(c)});
+}
+
+Harmonics lamp() { return body({2.2, 1.4, 2}, 0.25, 7, 4); }
+Scene room_with_lamp(const Shape& shape) {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_area_light(scene, shape, 400 * kWhite, diffuse(0.4));
+    return scene;
+}
+Scene harmonic_lamp() { return room_with_lamp(lamp()); }
+Scene harmonic_lamp_as_mesh() { return room_with_lamp(fine_mesh(lamp())); }
+
 /// Everything at once, for paths of few reflections.
 Scene mixed_room() {
     Scene scene;
@@ -211,6 +252,12 @@ Scene mixed_room() {
 }
 
 }  // namespace
+
+std::span<const MeshTwin> mesh_twins() {
+    static const std::vector<MeshTwin> twins{{"HarmonicBodies", harmonic_bodies_as_meshes},
+                                             {"HarmonicLamp", harmonic_lamp_as_mesh}};
+    return twins;
+}
 
 Scene closed_box() {
     Scene scene;
@@ -271,6 +318,10 @@ std::span<const AgreementScene> agreement_scenes() {
         LineOfSight{{1, 1, 1.2}, normalized(Vec3{-1, 0.3, -0.2})},
         LineOfSight{{1, 1.3, 1.2}, normalized(Vec3{1, 0.05, 0})},
         LineOfSight{{2.6, 1.4, 1.2}, normalized(Vec3{-1, -0.05, 0})}};
+    static const std::vector<Measurand> at_bodies{
+        LineOfSight{{2, 0.6, 1.2}, normalized(Vec3{-1, 0.4, -0.6})},
+        LineOfSight{{2, 0.6, 1.2}, normalized(Vec3{1.2, 0.4, -0.5})},
+        LineOfSight{{2, 0.6, 1.2}, normalized(Vec3{0, 1.8, 0})}};
     static const std::vector<AgreementScene> scenes{
         {"ClosedBox", nothing, {}, closed_box, inside, {}},
         {"ColouredBox", nothing, {}, coloured_box, inside, {}},
@@ -324,6 +375,9 @@ std::span<const AgreementScene> agreement_scenes() {
         {"LuminanceOfOneReflection", nothing, 1, mixed_room, inside, around},
         {"LuminanceOfTwoReflections", nothing, 2, mixed_room, inside, around},
         {"LuminanceOfThreeReflections", nothing, 3, mixed_room, inside, around},
+        {"HarmonicBodies", nothing, {}, harmonic_bodies, inside, at_bodies},
+        {"HarmonicBodiesOneReflection", nothing, 1, harmonic_bodies, inside, at_bodies},
+        {"HarmonicLamp", nothing, {}, harmonic_lamp, inside, around},
     };
     return scenes;
 }

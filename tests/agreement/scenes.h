@@ -29,6 +29,13 @@ struct AgreementScene {
 
 std::span<const AgreementScene> agreement_scenes();
 
+/// A scene in which fine meshes stand for bodies by harmonics.
+struct MeshTwin {
+    std::string_view of;  ///< name of the scene
+    Scene (*make)();
+};
+std::span<const MeshTwin> mesh_twins();
+
 /// A room of 4 x 3 x 2.8 m with a point source, off its middle.
 Scene closed_box();
 

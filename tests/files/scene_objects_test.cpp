@@ -75,8 +75,8 @@ TEST(SceneObjects, RefusesWrongTransforms) {
     EXPECT_REFUSAL(
         object("shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"wall\"\n"
                "transform = [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]"),
-        "s.toml:10: objects.a.transform: stretches or shears a round shape. Allowed for spheres and disks: "
-        "what keeps them round (moves, turns, mirrors, one scale for all axes).");
+        "s.toml:10: objects.a.transform: stretches or shears a curved shape. Allowed for spheres, disks and "
+        "harmonics: what keeps angles (moves, turns, mirrors, one scale for all axes).");
 }
 
 TEST(SceneObjects, RefusesUnknownShapesAndKeys) {

@@ -5,7 +5,10 @@
 #include <limits>
 #include <tuple>
 
+#include "scene/harmonic_surface.h"
+#include "scene/transform.h"
 #include "support/closed_meshes.h"
+#include "support/harmonic_shapes.h"
 
 namespace stilb {
 namespace {
@@ -54,6 +57,13 @@ void meet(const Disk& d, const Vec3& origin, const Vec3& direction, std::size_t 
     if (t <= 0 || t >= hit.distance || length(origin + t * direction - d.center) > d.radius) return;
     hit = {t, object, 0, d.normal};
 }
+/// By the other method than the caster's own.
+void meet(const Harmonics& h, const Vec3& origin, const Vec3& direction, std::size_t object, ExactHit& hit) {
+    const auto found =
+        h.surface->first_crossing(h.to_own(origin), h.axes.to_local(direction), 0, hit.distance / h.scale);
+    if (!found) return;
+    hit = {found->distance * h.scale, object, 0, h.axes.to_world(h.surface->normal_at(found->direction))};
+}
 
 ExactHit exact_closest(const Scene& scene, const Vec3& origin, const Vec3& direction) {
     ExactHit hit;
@@ -94,6 +104,10 @@ class Clutter : public testing::Test {
             add_object(scene_, Rectangle{place(random_point(random)), {0.5, 0.1, 0}, {0.1, 0.2, 0.4}},
                        Black{});
         }
+        // Turned, mirrored and small.
+        const Transform turned = Transform::rotation(normalized(Vec3{1, 2, 3}), 130);
+        const Transform mirrored{{0, 0.4, 0}, {0.4, 0, 0}, {0, 0, 0.4}, place({1.2, 2.7, 3.1})};
+        add_object(scene_, transformed(Harmonics(rough_surface(9, 3)), compose(mirrored, turned)), Black{});
     }
     static Vec3 place(const Vec3& p) { return p + Vec3{100, -200, 50}; }
 

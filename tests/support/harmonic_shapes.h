@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "base/sampling.h"
 #include "scene/harmonic_surface.h"
+#include "support/scene_builder.h"
 
 namespace stilb {
 
@@ -37,6 +38,13 @@ inline HarmonicSurface rough_surface(int degree, std::uint64_t seed) {
     for (double& c : coefficients) c = (numbers.next() - 0.5) * 1.6 / (degree + 1);
     coefficients[0] = kUnitSphere;
     return HarmonicSurface(HarmonicSeries<double>(coefficients));
+}
+
+/// Of 81,920 triangles, fronts outside.
+inline Mesh fine_mesh(const Harmonics& harmonics) {
+    Mesh mesh = icosphere({{}, 1}, 6);
+    for (Vec3& vertex : mesh.vertices) vertex = harmonics.point_towards(vertex);
+    return mesh;
 }
 
 }  // namespace stilb

@@ -1,0 +1,64 @@
+// shape = "harmonics" of an object
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "base/error.h"
+#include "files/scene_sections.h"
+#include "scene/harmonic_surface.h"
+
+namespace stilb {
+namespace {
+
+constexpr Range kCoefficient{-1e9, 1e9, "a number from -1e9 to 1e9"};
+constexpr std::array<std::string_view, 3> kMethods{"cells", "roots", "march"};
+
+struct Series {
+    std::vector<double> coefficients;
+    Vec3 center;
+};
+
+int degree_of(const TomlItem& item, std::size_t count) {
+    for (int degree = 0; degree <= kMostHarmonicDegree; ++degree) {
+        if (harmonic_count(degree) == count) return degree;
+    }
+    item.fail(
+        fmt::format("found {} coefficients. Allowed: (degree + 1)^2 of them for a degree from 0 to {}: "
+                    "1, 4, 9, 16 ...",
+                    count, kMostHarmonicDegree));
+}
+
+Series read_series(const TomlTable& table, const std::filesystem::path&, SceneFile&) {
+    const TomlItem item = table.at("coefficients");
+    Series series;
+    for (const TomlItem& element : item.elements())
+        series.coefficients.push_back(element.number(kCoefficient));
+    degree_of(item, series.coefficients.size());
+    return series;
+}
+
+void truncate(const TomlTable& table, std::vector<double>& coefficients) {
+    const auto item = table.find("degree");
+    if (!item) return;
+    const auto largest = degree_of(*item, coefficients.size());
+    coefficients.resize(harmonic_count(static_cast<int>(item->integer(0, largest))));
+}
+
+}  // namespace
+
+Harmonics read_harmonics(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
+    Series series = read_series(table, directory, file);
+    truncate(table, series.coefficients);
+    try {
+        Harmonics harmonics(HarmonicSurface(HarmonicSeries<double>(series.coefficients)));
+        harmonics.center = series.center;
+        if (const auto method = table.find("intersection"))
+            harmonics.method = static_cast<HarmonicMethod>(method->index_in(kMethods, "intersection"));
+        return harmonics;
+    } catch (const InputError& error) {
+        table.fail(error.what());
+    }
+}
+
+}  // namespace stilb
