@@ -34,8 +34,9 @@ HarmonicArea::HarmonicArea(std::shared_ptr<const HarmonicSurface> surface)
         const double s = half_ * static_cast<double>(2 * (cell % cells_on_edge_) + 1) - 1;
         const double t = half_ * static_cast<double>(2 * (cell / cells_on_edge_ % cells_on_edge_) + 1) - 1;
         areas.push_back(half_ * half_ * Rule::integrate([&](double a) {
-                            return Rule::integrate(
-                                [&](double b) { return element_at(face, s + half_ * a, t + half_ * b).area; });
+                            return Rule::integrate([&](double b) {
+                                return element_at(face, s + half_ * a, t + half_ * b).area;
+                            });
                         }));
     }
     by_area_ = DiscreteDistribution(areas);

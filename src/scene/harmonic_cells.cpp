@@ -1,9 +1,12 @@
 #include "scene/harmonic_cells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "scene/first_root.h"
@@ -12,8 +15,12 @@ namespace stilb {
 namespace {
 
 constexpr double kNarrowest = 1e-9;
-/// Cells reach a little beyond their edges, so that rounding leaves nothing between them.
-constexpr double kOverlap = 1e-12;
+/// Cells reach a little beyond their edges in s and t, so that rounding leaves nothing between them.
+constexpr double kOverlap = 1e-9;
+/// What bounds get on top, for rounding and the overlap: a share, and of W.
+constexpr double kSlack = 1e-4, kLeastSlack = 1e-12;
+/// Where differences from the surface are largest: between nodes, in the middle of the cell.
+constexpr std::array kChecked{-0.7, 0.26, 0.7};
 
 /// The axes (i, j, k) of a face and the sign of x_k.
 struct Face {
@@ -32,57 +39,6 @@ struct Face {
     }
 };
 
-template <std::size_t N>
-using Matrix = std::array<std::array<double, N>, N>;
-
-template <std::size_t N>
-std::array<double, N> lobatto_nodes() {
-    std::array<double, N> nodes{};
-    for (std::size_t k = 0; k < N; ++k) {
-        nodes[k] = -std::cos(std::numbers::pi * static_cast<double>(k) / static_cast<double>(N - 1));
-    }
-    return nodes;
-}
-
-/// From values at nodes to coefficients of powers: row p, column node, by Lagrange's polynomials multiplied
-/// out.
-template <std::size_t N>
-Matrix<N> power_matrix(const std::array<double, N>& nodes) {
-    Matrix<N> matrix{};
-    for (std::size_t node = 0; node < N; ++node) {
-        std::array<double, N> powers{1};
-        for (std::size_t other = 0; other < N; ++other) {
-            if (other == node) continue;
-            const double scale = 1 / (nodes[node] - nodes[other]);
-            for (std::size_t p = N; p-- > 0;) {
-                powers[p] = scale * ((p > 0 ? powers[p - 1] : 0) - nodes[other] * powers[p]);
-            }
-        }
-        for (std::size_t p = 0; p < N; ++p) matrix[p][node] = powers[p];
-    }
-    return matrix;
-}
-
-struct Value {
-    double value = 0, along_a = 0, along_b = 0;
-};
-
-template <std::size_t N>
-Value evaluate(const Matrix<N>& c, double a, double b) {
-    Value sum;
-    for (std::size_t p = N; p-- > 0;) {
-        double row = 0, slope = 0;
-        for (std::size_t q = N; q-- > 0;) {
-            slope = slope * b + row;
-            row = row * b + c[p][q];
-        }
-        sum.along_a = sum.along_a * a + sum.value;
-        sum.value = sum.value * a + row;
-        sum.along_b = sum.along_b * a + slope;
-    }
-    return sum;
-}
-
 /// The part of a ray where linear functions of the distance are not below 0.
 struct Stretch {
     double low, high;
@@ -99,138 +55,263 @@ struct Stretch {
     bool is_empty() const { return !(low < high); }
 };
 
-/// w in a direction given by s and t.
-double inverse_height(const HarmonicSurface& surface, const Face& face, double s, double t) {
-    const double length = std::sqrt(1 + s * s + t * t);
-    return length / surface.radius().at(face.to_world({s / length, t / length, 1 / length}));
+/// W at all (s, t), row by row, each with the same t.
+std::vector<double> inverse_heights(const MeridianSeries& series, double sign, std::span<const double> at) {
+    std::vector<double> w(at.size() * at.size());
+    for (std::size_t row = 0; row < at.size(); ++row) {
+        const std::span values(w.data() + row * at.size(), at.size());
+        series.evaluate(at, at[row], sign, values);
+        for (std::size_t n = 0; n < at.size(); ++n) {
+            values[n] = std::sqrt(1 + at[n] * at[n] + at[row] * at[row]) / values[n];
+        }
+    }
+    return w;
 }
+
+template <std::size_t N>
+Matrix<N> bernstein_form(const Matrix<N>& powers) {
+    static const auto matrix = bernstein_matrix<N>();
+    return transformed(matrix, powers);
+}
+
+/// Bounds by Bernstein's coefficients b.
+template <std::size_t N>
+struct Largest {
+    double value = 0, along_a = 0, along_b = 0, aa = 0, ab = 0, bb = 0;
+
+    explicit Largest(const Matrix<N>& b) {
+        constexpr double n = N - 1;
+        const auto include = [](double& largest, double x) { largest = std::max(largest, std::abs(x)); };
+        for (std::size_t i = 0; i < N; ++i) {
+            for (std::size_t j = 0; j < N; ++j) {
+                const bool is_in_i = i + 1 < N, is_in_j = j + 1 < N;
+                include(value, b[i][j]);
+                if (is_in_i) include(along_a, n / 2 * (b[i + 1][j] - b[i][j]));
+                if (is_in_j) include(along_b, n / 2 * (b[i][j + 1] - b[i][j]));
+                if (is_in_i && is_in_j) {
+                    include(ab, n * n / 4 * (b[i + 1][j + 1] - b[i + 1][j] - b[i][j + 1] + b[i][j]));
+                }
+                const double second = n * (n - 1) / 4;
+                if (i + 2 < N) include(aa, second * (b[i + 2][j] - 2 * b[i + 1][j] + b[i][j]));
+                if (j + 2 < N) include(bb, second * (b[i][j + 2] - 2 * b[i][j + 1] + b[i][j]));
+            }
+        }
+    }
+};
 
 }  // namespace
 
 HarmonicCells::HarmonicCells(const HarmonicSurface& surface, double tolerance) {
-    const int least = 2 + surface.radius().degree() / 4;
-    for (auto on_edge = static_cast<std::size_t>(least); !divide(surface, on_edge, tolerance);
-         on_edge += (on_edge + 3) / 4) {
+    if (!(tolerance >= 1e-11)) throw std::invalid_argument("a tolerance of cells near rounding's, or below");
+    const HarmonicSeries<double>& radius = surface.radius();
+    const std::array series{MeridianSeries(radius, 0), MeridianSeries(radius, 1), MeridianSeries(radius, 2)};
+    auto on_edge = static_cast<double>(2 + radius.degree() / 4);
+    while (!divide(series, static_cast<std::size_t>(on_edge), tolerance)) {
+        // The error falls with the power kNodes of a cell's size, once cells are small.
+        const double missing = 1.03 * std::pow(error_ / tolerance, 1. / kNodes);
+        on_edge = std::ceil(on_edge * std::clamp(missing, 1.0, 2.0)) + 1;
     }
+    outlines_.reserve(polynomials_.size());
+    for (std::size_t cell = 0; cell < polynomials_.size(); ++cell) outlines_.push_back(outline_of(cell));
 }
 
 /// False where a polynomial is not good enough.
-bool HarmonicCells::divide(const HarmonicSurface& surface, std::size_t cells_on_edge, double tolerance) {
-    cells_.clear();
+bool HarmonicCells::divide(const std::array<MeridianSeries, 3>& series, std::size_t on_edge,
+                           double tolerance) {
+    const auto edge = [&](std::size_t n) {
+        const double turn = 2 * static_cast<double>(n) / static_cast<double>(on_edge) - 1;
+        return std::abs(turn) == 1 ? turn : std::tan(std::numbers::pi / 4 * turn);
+    };
+    spans_.clear();
+    for (std::size_t n = 0; n < on_edge; ++n) {
+        spans_.push_back({0.5 * (edge(n) + edge(n + 1)), 0.5 * (edge(n + 1) - edge(n))});
+    }
+    polynomials_.clear();
+    polynomials_.reserve(6 * on_edge * on_edge);
     error_ = 0;
-    half_ = 1 / static_cast<double>(cells_on_edge);
-    const auto middle = [&](std::size_t n) { return half_ * (2 * static_cast<double>(n) + 1) - 1; };
-    for (std::size_t face = 0; face < 6; ++face) {
-        for (std::size_t m = 0; m < cells_on_edge; ++m) {
-            for (std::size_t n = 0; n < cells_on_edge; ++n) {
-                cells_.push_back(make_cell(surface, face, middle(m), middle(n)));
-                error_ = std::max(error_, error_of(surface, cells_.back()));
-                if (error_ > tolerance) return false;
-            }
-        }
+    for (std::size_t number = 0; number < 6; ++number) {
+        const Face face(number);
+        const std::size_t first_cell = polynomials_.size();
+        fill_face(series[face.i], face.sign);
+        error_ = std::max(error_, error_of_face(series[face.i], face.sign, first_cell));
+        if (error_ > tolerance) return false;
     }
     return true;
 }
 
-HarmonicCells::Cell HarmonicCells::make_cell(const HarmonicSurface& surface, std::size_t face, double s,
-                                             double t) const {
+/// Cells row by row.
+void HarmonicCells::fill_face(const MeridianSeries& series, double sign) {
     static const auto nodes = lobatto_nodes<kNodes>();
     static const auto powers = power_matrix(nodes);
-    Cell cell{face, s, t, {}};
-    Coefficients half_way{};  // powers of a, nodes of b
-    for (std::size_t m = 0; m < kNodes; ++m) {
-        for (std::size_t n = 0; n < kNodes; ++n) {
-            const double w = inverse_height(surface, Face(face), s + half_ * nodes[m], t + half_ * nodes[n]);
-            for (std::size_t p = 0; p < kNodes; ++p) half_way[p][n] += powers[p][m] * w;
+    constexpr std::size_t steps = kNodes - 1;
+    std::vector<double> at;
+    for (const Span& span : spans_) {
+        for (std::size_t n = 0; n < steps; ++n) at.push_back(span.middle + span.half * nodes[n]);
+    }
+    at.push_back(1);
+    const std::vector<double> w = inverse_heights(series, sign, at);
+    for (std::size_t row = 0; row < spans_.size(); ++row) {
+        for (std::size_t column = 0; column < spans_.size(); ++column) {
+            const double* first = w.data() + row * steps * at.size() + column * steps;
+            Polynomial values;
+            for (std::size_t m = 0; m < kNodes; ++m) {
+                for (std::size_t n = 0; n < kNodes; ++n) values[m][n] = first[n * at.size() + m];
+            }
+            polynomials_.push_back(transformed(powers, values));
         }
     }
-    double varying = 0;
-    for (std::size_t p = 0; p < kNodes; ++p) {
-        for (std::size_t q = 0; q < kNodes; ++q) {
-            double& c = cell.polynomial[p][q];
-            for (std::size_t n = 0; n < kNodes; ++n) c += powers[q][n] * half_way[p][n];
-            const double size = std::abs(c);
-            if (p + q > 0) varying += size;
-            cell.curvature_aa += size * static_cast<double>(p * (p - (p > 0)));
-            cell.curvature_ab += size * static_cast<double>(p * q);
-            cell.curvature_bb += size * static_cast<double>(q * (q - (q > 0)));
-        }
-    }
-    const double middle = cell.polynomial[0][0];
-    cell.low = 1 / (middle + varying);
-    cell.high = middle > varying ? 1 / (middle - varying) : surface.greatest_radius();
-    return cell;
 }
 
-double HarmonicCells::error_of(const HarmonicSurface& surface, const Cell& cell) const {
+double HarmonicCells::error_of_face(const MeridianSeries& series, double sign, std::size_t first_cell) const {
+    std::vector<double> at;
+    for (const Span& span : spans_) {
+        for (const double x : kChecked) at.push_back(span.middle + span.half * x);
+    }
+    const std::vector<double> w = inverse_heights(series, sign, at);
     double worst = 0;
-    for (const double a : {-0.95, -0.2, 0.65}) {
-        for (const double b : {-0.65, 0.2, 0.95}) {
-            const double w = inverse_height(surface, Face(cell.face), cell.s + half_ * a, cell.t + half_ * b);
-            worst = std::max(worst, std::abs(evaluate(cell.polynomial, a, b).value / w - 1));
-        }
+    for (std::size_t n = 0; n < w.size(); ++n) {
+        const std::size_t row = n / at.size(), column = n % at.size(), parts = kChecked.size();
+        const std::size_t cell = first_cell + row / parts * spans_.size() + column / parts;
+        const double found =
+            evaluate(polynomials_[cell], kChecked[column % parts], kChecked[row % parts]).value;
+        worst = std::max(worst, found > 0 ? std::abs(w[n] / found - 1) : 1);
     }
     return worst;
 }
 
+HarmonicCells::Outline HarmonicCells::outline_of(std::size_t cell) const {
+    const Polynomial& whole = polynomials_[cell];
+    const std::size_t on_edge = spans_.size(), on_face = cell % (on_edge * on_edge);
+    Outline outline;
+    outline.face = static_cast<std::uint16_t>(cell / (on_edge * on_edge));
+    outline.row = static_cast<std::uint16_t>(on_face / on_edge);
+    outline.column = static_cast<std::uint16_t>(on_face % on_edge);
+
+    const Polynomial b = bernstein_form(whole);
+    double least = b[0][0], greatest = b[0][0];
+    for (const auto& row : b) {
+        least = std::min(least, std::ranges::min(row));
+        greatest = std::max(greatest, std::ranges::max(row));
+    }
+    outline.low = static_cast<float>((1 - kSlack) / greatest);
+    outline.high = static_cast<float>((1 + kSlack) / least);
+
+    const Quadratic q = outline.quadratic = quadratic_part(whole);
+    Polynomial rest = whole;
+    rest[0][0] -= double{q[0]}, rest[1][0] -= double{q[1]}, rest[0][1] -= double{q[2]};
+    rest[2][0] -= double{q[3]}, rest[1][1] -= double{q[4]}, rest[0][2] -= double{q[5]};
+    const Largest<kNodes> largest(bernstein_form(rest));
+    const auto bound = [&](double x) {
+        return static_cast<float>((1 + kSlack) * x + kLeastSlack * greatest);
+    };
+    outline.rest = bound(largest.value);
+    outline.rest_a = bound(largest.along_a), outline.rest_b = bound(largest.along_b);
+    outline.rest_aa = bound(largest.aa), outline.rest_ab = bound(largest.ab);
+    outline.rest_bb = bound(largest.bb);
+    return outline;
+}
+
+/// A patch with weights b and control points (s_i, t_j, 1) / b_ij, which enclose it.
 Bounds HarmonicCells::bounds_of(std::size_t number) const {
-    const Cell& cell = cells_[number];
+    const Outline& cell = outlines_[number];
+    const Polynomial b = bernstein_form(polynomials_[number]);
+    const Face face(cell.face);
+    const auto at = [](const Span& span, std::size_t n) {
+        return span.middle + span.half * (2 * static_cast<double>(n) / (kNodes - 1) - 1);
+    };
     Bounds bounds;
-    for (const double z : {cell.low, cell.high}) {
-        for (const double s : {cell.s - half_, cell.s + half_}) {
-            for (const double t : {cell.t - half_, cell.t + half_}) {
-                bounds.include(Face(cell.face).to_world({s * z, t * z, z}));
-            }
+    for (std::size_t m = 0; m < kNodes; ++m) {
+        for (std::size_t n = 0; n < kNodes; ++n) {
+            const Vec3 control{at(spans_[cell.column], m), at(spans_[cell.row], n), 1};
+            bounds.include(face.to_world(control / b[m][n]));
         }
     }
     return bounds;
 }
 
+/// The part of a ray over a cell: a, b and w are linear in x from 0 to 1.
+struct HarmonicCells::Line {
+    double a, b, w;
+    double da, db, dw;
+};
+
+/// x of the first root of W - w.
+std::optional<double> HarmonicCells::root_on(const Line& line, std::size_t number) const {
+    const Outline& cell = outlines_[number];
+    const auto [a, b, w, da, db, dw] = line;
+    const double c0 = double{cell.quadratic[0]}, c1 = double{cell.quadratic[1]},
+                 c2 = double{cell.quadratic[2]};
+    const double c3 = double{cell.quadratic[3]}, c4 = double{cell.quadratic[4]},
+                 c5 = double{cell.quadratic[5]};
+    // The quadratic along the ray: first + slope x + bend x^2.
+    const double first = c0 + (c1 + c3 * a + c4 * b) * a + (c2 + c5 * b) * b - w;
+    const double slope = (c1 + 2 * c3 * a + c4 * b) * da + (c2 + c4 * a + 2 * c5 * b) * db - dw;
+    const double bend = c3 * da * da + c4 * da * db + c5 * db * db;
+    const double last = first + slope + bend, last_slope = slope + 2 * bend;
+    double least = std::min(first, last), greatest = std::max(first, last);
+    if (slope * last_slope < 0) {
+        const double turning = first - slope * slope / (4 * bend);
+        least = std::min(least, turning), greatest = std::max(greatest, turning);
+    }
+    const double rest = double{cell.rest};
+    if (least > rest || greatest < -rest) return std::nullopt;
+    const auto depth = [&](double x) {
+        const ValueAndSlopes at = evaluate(polynomials_[number], a + x * da, b + x * db);
+        return std::pair(at.value - (w + x * dw), at.along_a * da + at.along_b * db - dw);
+    };
+    const double rest_slope = double{cell.rest_a} * std::abs(da) + double{cell.rest_b} * std::abs(db);
+    if (slope * last_slope > 0 && std::min(std::abs(slope), std::abs(last_slope)) > rest_slope) {
+        const auto is_negative_at = [&](double x, double quadratic) {
+            return (std::abs(quadratic) > rest ? quadratic : depth(x).first) < 0;
+        };
+        const bool starts_negative = is_negative_at(0, first);
+        if (starts_negative == is_negative_at(1, last)) return std::nullopt;
+        const double root = std::sqrt(std::max(0.0, slope * slope - 4 * bend * first));
+        const double guess = -2 * first / (slope + std::copysign(root, slope));
+        return root_between(depth, 0, 1, starts_negative, std::clamp(guess, 0.0, 1.0));
+    }
+    const double curvature = 2 * std::abs(bend) + double{cell.rest_aa} * da * da +
+                             2 * double{cell.rest_ab} * std::abs(da * db) + double{cell.rest_bb} * db * db;
+    return first_root(depth, curvature, kNarrowest, 0, 1);
+}
+
 std::optional<double> HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec3& direction,
                                               double start, double end) const {
-    const Cell& cell = cells_[number];
-    const Vec3 o = Face(cell.face).to_local(origin), d = Face(cell.face).to_local(direction);
+    const Outline& cell = outlines_[number];
+    const Face face(cell.face);
+    const Span s = spans_[cell.column], t = spans_[cell.row];
+    const Vec3 o = face.to_local(origin), d = face.to_local(direction);
     Stretch stretch{start, end};
     const auto keep = [&](const Vec3& plane, double offset) {
         stretch.keep(dot(plane, o) + offset, dot(plane, d));
     };
-    const double half = half_ + kOverlap;
-    keep({0, 0, 1}, -cell.low);
-    keep({0, 0, -1}, cell.high);
-    keep({1, 0, half - cell.s}, 0);
-    keep({-1, 0, half + cell.s}, 0);
-    keep({0, 1, half - cell.t}, 0);
-    keep({0, -1, half + cell.t}, 0);
+    keep({0, 0, 1}, -double{cell.low});
+    keep({0, 0, -1}, double{cell.high});
+    keep({1, 0, s.half + kOverlap - s.middle}, 0);
+    keep({-1, 0, s.half + kOverlap + s.middle}, 0);
+    keep({0, 1, t.half + kOverlap - t.middle}, 0);
+    keep({0, -1, t.half + kOverlap + t.middle}, 0);
     if (stretch.is_empty()) return std::nullopt;
-    struct End {
-        double distance, w, a, b;
-    };
-    const auto end_at = [&](double distance) {
-        const Vec3 x = o + distance * d;
-        return End{distance, 1 / x.z, (x.x / x.z - cell.s) / half_, (x.y / x.z - cell.t) / half_};
-    };
-    const End from = end_at(stretch.low), to = end_at(stretch.high);
-    const double da = to.a - from.a, db = to.b - from.b, dw = to.w - from.w;
-    const auto depth = [&](double x) {
-        const Value at = evaluate(cell.polynomial, from.a + x * da, from.b + x * db);
-        return std::pair(at.value - (from.w + x * dw), at.along_a * da + at.along_b * db - dw);
-    };
-    const double curvature =
-        cell.curvature_aa * da * da + 2 * cell.curvature_ab * std::abs(da * db) + cell.curvature_bb * db * db;
-    const auto root = first_root(depth, curvature, kNarrowest, 0, 1);
+    const Vec3 from = o + stretch.low * d, to = o + stretch.high * d;
+    const double w = 1 / from.z, last_w = 1 / to.z;
+    const double a = (from.x * w - s.middle) / s.half, b = (from.y * w - t.middle) / t.half;
+    const double last_a = (to.x * last_w - s.middle) / s.half, last_b = (to.y * last_w - t.middle) / t.half;
+    const auto root = root_on({a, b, w, last_a - a, last_b - b, last_w - w}, number);
     if (!root) return std::nullopt;
-    const double share = *root * to.w, rest = (1 - *root) * from.w;  // affine in 1 / x_k
-    return (rest * from.distance + share * to.distance) / (rest + share);
+    const double share = *root * last_w, rest = (1 - *root) * w;  // affine in 1 / x_k
+    return (rest * stretch.low + share * stretch.high) / (rest + share);
 }
 
 /// z W(x / z, y / z) is 1 on the surface and more outside; its gradient is (W_s, W_t, W - s W_s - t W_t).
 HarmonicCells::Place HarmonicCells::place_at(std::size_t number, const Vec3& near_by) const {
-    const Cell& cell = cells_[number];
+    const Outline& cell = outlines_[number];
     const Face face(cell.face);
+    const Span column = spans_[cell.column], row = spans_[cell.row];
     const Vec3 x = face.to_local(near_by);
     const double s = x.x / x.z, t = x.y / x.z;
-    const Value w = evaluate(cell.polynomial, (s - cell.s) / half_, (t - cell.t) / half_);
-    const double along_s = w.along_a / half_, along_t = w.along_b / half_;
+    const ValueAndSlopes w =
+        evaluate(polynomials_[number], (s - column.middle) / column.half, (t - row.middle) / row.half);
+    const double along_s = w.along_a / column.half, along_t = w.along_b / row.half;
     const Vec3 outwards{along_s, along_t, w.value - s * along_s - t * along_t};
     return {face.to_world(Vec3{s, t, 1} / w.value), normalized(face.to_world(outwards))};
 }

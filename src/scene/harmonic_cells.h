@@ -5,19 +5,23 @@
 //
 //     w = W(s, t) = sqrt(1 + s^2 + t^2) / R,    w = 1 / x_k.
 //
-// (s, t, w) is a projective map, so a ray is a straight line there, too: in a square cell, where W is a
-// polynomial of s and t, W - w along a ray is a polynomial of one variable with a known bound of its second
-// derivative, and its first root is certain (first_root.h). Cells interpolate W at Chebyshev's points with
-// the ends (Lobatto), so that neighbours agree on their edge: the surface has no gaps.
+// (s, t, w) is a projective map, so a ray is a straight line there, too: in a cell, a rectangle where W is a
+// polynomial of s and t, W - w along a ray is a polynomial of one variable. A quadratic with bounds of what
+// it leaves out tells most rays that pass by, and where there is one root at most; else the bound of the
+// second derivative makes the first root certain (first_root.h). Cells interpolate W at Chebyshev's points
+// with the ends (Lobatto), so that neighbours agree on their edge: the surface has no gaps.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "scene/bounds.h"
+#include "scene/cell_polynomial.h"
 #include "scene/harmonic_surface.h"
+#include "scene/meridian_series.h"
 
 namespace stilb {
 
@@ -25,15 +29,16 @@ namespace stilb {
 /// distances along a ray are in units of it.
 class HarmonicCells {
   public:
-    /// As many cells as make the polynomials differ from the surface by `tolerance` of R at most, at points
-    /// between those that are interpolated.
+    /// As many cells, nearly equal in angle, as make the polynomials differ from the surface by `tolerance`
+    /// of R at most, at points between those that are interpolated. Throws std::invalid_argument where the
+    /// tolerance is below 1e-11.
     explicit HarmonicCells(const HarmonicSurface& surface, double tolerance = 1e-7);
 
-    std::size_t count() const { return cells_.size(); }
+    std::size_t count() const { return outlines_.size(); }
     /// The largest difference that was found, as a share of R.
     double error() const { return error_; }
     Bounds bounds_of(std::size_t cell) const;
-    std::size_t bytes() const { return cells_.size() * sizeof(Cell); }
+    std::size_t bytes() const { return count() * (sizeof(Outline) + sizeof(Polynomial)); }
 
     /// The distance of the first crossing in a cell.
     std::optional<double> crossing(std::size_t cell, const Vec3& origin, const Vec3& direction, double start,
@@ -50,22 +55,32 @@ class HarmonicCells {
 
   private:
     static constexpr std::size_t kNodes = 7;  ///< along an edge
-    using Coefficients = std::array<std::array<double, kNodes>, kNodes>;
+    using Polynomial = Matrix<kNodes>;        ///< of a and b, which go from -1 to 1 over the cell
 
-    struct Cell {
-        std::size_t face = 0;      ///< 2 k, and 1 more where x_k < 0
-        double s = 0, t = 0;       ///< of the middle
-        Coefficients polynomial;   ///< of a and b, which go from -1 to 1 over the cell: a^p b^q
-        double low = 0, high = 0;  ///< bounds of x_k
-        double curvature_aa = 0, curvature_ab = 0, curvature_bb = 0;  ///< bounds of second derivatives
+    /// Of a row or column of cells, in s or t.
+    struct Span {
+        double middle = 0, half = 0;
     };
+    /// What is needed to reject a ray: one cache line.
+    struct alignas(64) Outline {
+        float low = 0, high = 0;  ///< bounds of x_k
+        Quadratic quadratic{};    ///< about W
+        float rest = 0;           ///< bounds of W - quadratic and of its derivatives
+        float rest_a = 0, rest_b = 0, rest_aa = 0, rest_ab = 0, rest_bb = 0;
+        std::uint16_t face = 0;  ///< 2 k, and 1 more where x_k < 0
+        std::uint16_t column = 0, row = 0;
+    };
+    struct Line;
 
-    bool divide(const HarmonicSurface& surface, std::size_t cells_on_edge, double tolerance);
-    Cell make_cell(const HarmonicSurface& surface, std::size_t face, double s, double t) const;
-    double error_of(const HarmonicSurface& surface, const Cell& cell) const;
+    bool divide(const std::array<MeridianSeries, 3>& series, std::size_t on_edge, double tolerance);
+    void fill_face(const MeridianSeries& series, double sign);
+    double error_of_face(const MeridianSeries& series, double sign, std::size_t first_cell) const;
+    Outline outline_of(std::size_t cell) const;
+    std::optional<double> root_on(const Line& line, std::size_t cell) const;
 
-    std::vector<Cell> cells_;
-    double half_ = 0;  ///< of a cell's edge, in s and t
+    std::vector<Span> spans_;
+    std::vector<Outline> outlines_;
+    std::vector<Polynomial> polynomials_;  ///< coefficients of a^p b^q
     double error_ = 0;
 };
 

@@ -47,4 +47,23 @@ inline Mesh fine_mesh(const Harmonics& harmonics) {
     return mesh;
 }
 
+/// A rounded ellipsoid with a relief that falls off as a head's does: variances of coefficients like l^-5.
+/// The radius' deviation is some 15 % in all.
+inline HarmonicSurface head_like_surface(int degree, std::uint64_t seed) {
+    Numbers numbers(seed);
+    std::vector<double> coefficients(harmonic_count(degree));
+    double power = 0;
+    for (int l = 1; l <= degree; ++l) {
+        for (int m = -l; m <= l; ++m) {
+            double& c = coefficients[harmonic_number(l, m)];
+            c = (numbers.next() - 0.5) * std::pow(l, -2.5);
+            if (l == 2 && m == 0) c = 0.3;
+            power += c * c;
+        }
+    }
+    for (double& c : coefficients) c *= 0.15 * kUnitSphere / std::sqrt(power);
+    coefficients[0] = kUnitSphere;
+    return HarmonicSurface(HarmonicSeries<double>(coefficients));
+}
+
 }  // namespace stilb
