@@ -251,11 +251,27 @@ Scene mixed_room() {
     return scene;
 }
 
+/// From one place to the surroundings of several.
+std::vector<Measurand> fan_of_sights(const Vec3& from, const std::vector<Vec3>& targets) {
+    std::vector<Measurand> sights;
+    for (const Vec3& target : targets) {
+        for (int x = -4; x <= 4; ++x) {
+            for (int z = -4; z <= 4; ++z) {
+                const Vec3 to = target + Vec3{0.06 * x, 0.02 * x, 0.06 * z};
+                sights.emplace_back(LineOfSight{from, normalized(to - from)});
+            }
+        }
+    }
+    return sights;
+}
+
 }  // namespace
 
 std::span<const MeshTwin> mesh_twins() {
-    static const std::vector<MeshTwin> twins{{"HarmonicBodies", harmonic_bodies_as_meshes},
-                                             {"HarmonicLamp", harmonic_lamp_as_mesh}};
+    static const std::vector<MeshTwin> twins{
+        {"HarmonicBodies", harmonic_bodies_as_meshes,
+         fan_of_sights({2, 0.6, 1.2}, {{1, 1, 0.5}, {3.2, 1, 0.6}, {2, 2.4, 1.1}})},
+        {"HarmonicLamp", harmonic_lamp_as_mesh, fan_of_sights({1, 0.5, 1}, {{2.2, 1.4, 2}, {2, 2, 0}})}};
     return twins;
 }
 

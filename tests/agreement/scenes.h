@@ -33,6 +33,7 @@ std::span<const AgreementScene> agreement_scenes();
 struct MeshTwin {
     std::string_view of;  ///< name of the scene
     Scene (*make)();
+    std::vector<Measurand> many_sights;
 };
 std::span<const MeshTwin> mesh_twins();
 
