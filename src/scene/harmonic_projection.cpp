@@ -129,8 +129,10 @@ void fill_holes(const ParallelGrid& grid, std::span<double> values) {
         std::vector<std::pair<std::size_t, double>> filled;
         for (const std::size_t place : open) {
             const auto mean = mean_of_neighbours(grid, values, place);
-            if (mean) filled.emplace_back(place, *mean);
-            else still_open.push_back(place);
+            if (mean)
+                filled.emplace_back(place, *mean);
+            else
+                still_open.push_back(place);
         }
         for (const auto& [place, mean] : filled) values[place] = mean;
         open = std::move(still_open);

@@ -17,10 +17,10 @@ std::string worst_text(const StarSurvey& survey, double size) {
     std::string text;
     for (const Fold& fold : survey.worst_folds) {
         text += fmt::format("\n    {}: {:.2g} % of the size between the outermost surface and the innermost",
-                            direction_text(fold.direction), 100 * fold.depth / size);
+                            named_direction(fold.direction), 100 * fold.depth / size);
     }
     for (const Vec3& miss : survey.misses) {
-        text += fmt::format("\n    {}: no surface", direction_text(miss));
+        text += fmt::format("\n    {}: no surface", named_direction(miss));
     }
     return text;
 }
@@ -63,8 +63,7 @@ void require_positive_radius(const MeshFit& fit, const std::string& name) {
     }
 }
 
-void set_center(const Mesh& mesh, const RadialCaster& caster, const MeshFitOptions& options,
-                MeshFit& fit) {
+void set_center(const Mesh& mesh, const RadialCaster& caster, const MeshFitOptions& options, MeshFit& fit) {
     if (options.center) {
         fit.center = *options.center;
         return;

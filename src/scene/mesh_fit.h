@@ -16,15 +16,15 @@ enum class NotStarShaped { refuse, take_outermost };
 
 struct MeshFitOptions {
     int degree = 32;
-    std::optional<Vec3> center{};     ///< searched where absent
+    std::optional<Vec3> center{};    ///< searched where absent
     double tolerated_share = 0.005;  ///< of directions
     NotStarShaped otherwise = NotStarShaped::refuse;
 };
 
 struct MeshFit {
     Vec3 center;
-    std::optional<double> margin;  ///< StarCenter's, where the centre was searched
-    double size = 0;               ///< the longest edge of the bounding box
+    std::optional<double> margin;                       ///< StarCenter's, where the centre was searched
+    double size = 0;                                    ///< the longest edge of the bounding box
     std::size_t turned = 0, open_edges = 0, parts = 0;  ///< OutwardMesh's
     int parallels = 0;                                  ///< of the fit's gauss_grid()
     StarSurvey survey;

@@ -73,8 +73,8 @@ double volume_of(const Mesh& mesh, const std::vector<std::uint32_t>& part, const
     double volume = 0;
     for (const std::uint32_t t : part) {
         const auto [a, b, c] = mesh.triangles[t];
-        const double own = dot(mesh.vertices[a] - middle,
-                               cross(mesh.vertices[b] - middle, mesh.vertices[c] - middle));
+        const double own =
+            dot(mesh.vertices[a] - middle, cross(mesh.vertices[b] - middle, mesh.vertices[c] - middle));
         volume += turner.is_turned(t) ? -own : own;
     }
     return volume;

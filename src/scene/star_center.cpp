@@ -128,12 +128,12 @@ double superfluous_crossings(const Mesh& mesh, const Vec3& from) {
 StarCenter find_star_center(const Mesh& mesh, const RadialCaster& caster) {
     const Bounds bounds = bounds_of(mesh);
     const Vec3 origin = 0.5 * (bounds.min + bounds.max);
-    const InnerBall ball =
-        largest_ball(walls_of(mesh, bounds, origin), 1.01 * length(bounds.max - origin));
+    const InnerBall ball = largest_ball(walls_of(mesh, bounds, origin), 1.01 * length(bounds.max - origin));
     const Vec3 middle = origin + ball.center;
     if (ball.radius > 0) return {middle, ball.radius};
     const Search search(mesh, caster, 2 * bounds.half_extent());
-    const Candidate from_volume = search.from(middle_of_volume(mesh, bounds)), from_ball = search.from(middle);
+    const Candidate from_volume = search.from(middle_of_volume(mesh, bounds)),
+                    from_ball = search.from(middle);
     return {(from_volume.cost <= from_ball.cost ? from_volume : from_ball).center, ball.radius};
 }
 

@@ -60,10 +60,10 @@ Angles angles_of(const Vec3& direction) {
     return {std::acos(std::clamp(direction.z, -1.0, 1.0)) * degrees, phi < 0 ? phi + 360 : phi};
 }
 
-std::string direction_text(const Vec3& direction) {
+std::string named_direction(const Vec3& direction) {
     const Angles angles = angles_of(direction);
-    return fmt::format("({:.3f}, {:.3f}, {:.3f}), theta {:.1f}, phi {:.1f} degrees", direction.x,
-                       direction.y, direction.z, angles.theta_deg, angles.phi_deg);
+    return fmt::format("({:.3f}, {:.3f}, {:.3f}), theta {:.1f}, phi {:.1f} degrees", direction.x, direction.y,
+                       direction.z, angles.theta_deg, angles.phi_deg);
 }
 
 }  // namespace stilb

@@ -28,7 +28,7 @@ struct StarSurvey {
     double share() const { return folded_share + missed_share; }
 };
 
-inline constexpr std::size_t kMostNamed = 5;
+inline constexpr std::size_t kMostNamed = 3;
 
 /// Looks in some 200,000 directions, none of them on a gauss_grid(). A direction counts as folded where
 /// outermost and innermost surface are more than 1e-5 of `size` apart, so that doubled faces do not.
@@ -41,6 +41,6 @@ struct Angles {
 Angles angles_of(const Vec3& direction);
 
 /// "(0.1, 0.2, 0.97), theta 12.9, phi 63.4 degrees"
-std::string direction_text(const Vec3& direction);
+std::string named_direction(const Vec3& direction);
 
 }  // namespace stilb
