@@ -13,7 +13,7 @@ namespace stilb {
 namespace {
 
 /// Steps of the search, as parts of the size.
-constexpr double kFirstStep = 0.1, kLastStep = 0.002;
+constexpr double kFirstStep = 0.25, kLastStep = 0.002;
 /// What the centre should be away from the surface, as a part of the size.
 constexpr double kClearance = 0.1;
 
@@ -61,8 +61,12 @@ struct Candidate {
 /// Along the axes, by steps that are halved where none of them is better.
 class Search {
   public:
-    Search(const Mesh& mesh, const RadialCaster& caster, double size)
-        : mesh_(mesh), caster_(caster), size_(size), directions_(even_grid(kParallels).directions()) {}
+    Search(const Mesh& mesh, const RadialCaster& caster, const Bounds& bounds)
+        : mesh_(mesh),
+          caster_(caster),
+          bounds_(bounds),
+          size_(2 * bounds.half_extent()),
+          directions_(even_grid(kParallels).directions()) {}
 
     Candidate from(const Vec3& start) const {
         Candidate best{start, cost_at(start)};
@@ -81,8 +85,12 @@ class Search {
   private:
     static constexpr int kParallels = 24;
 
-    /// Close to the surface there are few crossings behind it, and a radius that comes to nearly 0.
+    /// Outside the box the search would go on without end. Close to the surface there are few crossings
+    /// behind it, and a radius that comes to nearly 0.
     double cost_at(const Vec3& center) const {
+        Bounds extended = bounds_;
+        extended.include(center);
+        if (extended.min != bounds_.min || extended.max != bounds_.max) return INFINITY;
         double nearest = kClearance * size_;
         for (const double distance : caster_.innermost(center, directions_)) {
             nearest = std::fmin(nearest, distance);  // which leaves NaN out
@@ -92,6 +100,7 @@ class Search {
 
     const Mesh& mesh_;
     const RadialCaster& caster_;
+    Bounds bounds_;
     double size_;
     std::vector<Vec3> directions_;
 };
@@ -131,7 +140,7 @@ StarCenter find_star_center(const Mesh& mesh, const RadialCaster& caster) {
     const InnerBall ball = largest_ball(walls_of(mesh, bounds, origin), 1.01 * length(bounds.max - origin));
     const Vec3 middle = origin + ball.center;
     if (ball.radius > 0) return {middle, ball.radius};
-    const Search search(mesh, caster, 2 * bounds.half_extent());
+    const Search search(mesh, caster, bounds);
     const Candidate from_volume = search.from(middle_of_volume(mesh, bounds)),
                     from_ball = search.from(middle);
     return {(from_volume.cost <= from_ball.cost ? from_volume : from_ball).center, ball.radius};
