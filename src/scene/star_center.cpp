@@ -16,6 +16,9 @@ namespace {
 constexpr double kFirstStep = 0.25, kLastStep = 0.002;
 /// What the centre should be away from the surface, as a part of the size.
 constexpr double kClearance = 0.1;
+/// Superfluous crossings that do not matter: where there are no more, the centre that is farthest from the
+/// surface is best, as the radius varies least about it.
+constexpr double kFewCrossings = 1e-3;
 
 constexpr std::array<Vec3, 6> kAxes{Vec3{1, 0, 0},  Vec3{-1, 0, 0}, Vec3{0, 1, 0},
                                     Vec3{0, -1, 0}, Vec3{0, 0, 1},  Vec3{0, 0, -1}};
@@ -91,11 +94,13 @@ class Search {
         Bounds extended = bounds_;
         extended.include(center);
         if (extended.min != bounds_.min || extended.max != bounds_.max) return INFINITY;
-        double nearest = kClearance * size_;
+        double nearest = size_;
         for (const double distance : caster_.innermost(center, directions_)) {
             nearest = std::fmin(nearest, distance);  // which leaves NaN out
         }
-        return superfluous_crossings(mesh_, center) + 1 - nearest / (kClearance * size_);
+        const double clearance = nearest / size_;
+        return std::max(superfluous_crossings(mesh_, center), kFewCrossings) - kFewCrossings * clearance +
+               std::max(0.0, 1 - clearance / kClearance);
     }
 
     const Mesh& mesh_;

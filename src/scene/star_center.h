@@ -23,8 +23,9 @@ double superfluous_crossings(const Mesh& mesh, const Vec3& from);
 
 /// The middle of the largest ball of points that see all faces from their front (the kernel, if the mesh is
 /// closed and of one part). Where there is no such point, the one with the fewest superfluous crossings, at
-/// least a tenth of the size away from the surface, that a search within the bounding box finds; it begins at
-/// the middle of the volume and at the ball's. Fronts are outside; `caster` is that of the same mesh.
+/// least a tenth of the size away from the surface; among those with a thousandth of a crossing or less, the
+/// one that is farthest from the surface. It is searched within the bounding box, from the middle of the
+/// volume and from that of the ball. Fronts are outside; `caster` is that of the same mesh.
 StarCenter find_star_center(const Mesh& mesh, const RadialCaster& caster);
 
 }  // namespace stilb
