@@ -154,7 +154,7 @@ std::string to_text(const HarmonicsFile& file) {
     text += fmt::format("\"degree\": {},\n\"center\": [{}, {}, {}],\n\"coefficients\": [\n", degree,
                         shortest(file.center.x), shortest(file.center.y), shortest(file.center.z));
     for (int l = 0; l <= degree; ++l) {
-        const auto first = harmonic_number(l, -l), count = static_cast<std::size_t>(2 * l + 1);
+        const std::size_t first = harmonic_number(l, -l), count = harmonic_number(l, l) + 1 - first;
         text += fmt::format("{}{}\n", list_text(std::span(file.coefficients).subspan(first, count)),
                             l < degree ? "," : "");
     }

@@ -35,7 +35,7 @@ struct MeshFit {
 };
 
 /// Gauss-Legendre parallels for a degree: four times what is needed, so that of the mesh's higher degrees
-/// only those beyond seven times the degree (and beyond 240) are mistaken for lower ones.
+/// only those beyond seven times the degree (and beyond 220) are mistaken for lower ones.
 int parallels_for(int degree);
 
 /// Throws InputError with `name` where the mesh is not star-shaped enough, meets no ray from the centre, or
