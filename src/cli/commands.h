@@ -20,6 +20,7 @@ void add_measure(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 /// `command_line`: as typed, for the picture's header.
 void add_render(CLI::App& app, const std::string& command_line, int& exit_code);
+void add_fit(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_falsecolor(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);

@@ -41,6 +41,7 @@ int main(int argument_count, char** arguments) {
         stilb::add_measure(app, exit_code);
         stilb::add_solve(app, exit_code);
         stilb::add_render(app, command_line(argument_count, arguments), exit_code);
+        stilb::add_fit(app, exit_code);
         stilb::add_info(app, exit_code);
         stilb::add_falsecolor(app, exit_code);
         stilb::add_verify(app, exit_code);

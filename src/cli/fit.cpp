@@ -1,0 +1,130 @@
+// stilb fit: a star-shaped mesh as a surface by spherical harmonics.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/fit_report.h"
+#include "files/canvas.h"
+#include "files/harmonics_file.h"
+#include "files/mesh_file.h"
+#include "files/text.h"
+#include "files/write_file.h"
+#include "run/clock.h"
+#include "run/relative_error.h"
+
+namespace stilb {
+namespace {
+
+struct FitRequest {
+    std::string mesh, output, plot;
+    std::string center = "auto", tolerance = "0.5%";
+    int degree = 0;
+    bool force = false, json = false, quiet = false;
+};
+
+std::optional<Vec3> center_of(const FitRequest& request) {
+    if (request.center == "auto") return std::nullopt;
+    const std::string& text = request.center;
+    const std::size_t first = text.find(','), second = text.find(',', first + 1);
+    if (second != std::string::npos) {
+        const auto x = parse_number(text.substr(0, first));
+        const auto y = parse_number(text.substr(first + 1, second - first - 1));
+        const auto z = parse_number(text.substr(second + 1));
+        if (x && y && z) return Vec3{*x, *y, *z};
+    }
+    throw InputError(fmt::format(
+        "--center {} is no point. Write x,y,z (0.1,0,2.5), or auto to have it searched.", in_quotes(text)));
+}
+
+double tolerance_of(const FitRequest& request) {
+    if (request.tolerance == "0") return 0;
+    if (const auto share = parse_relative_error(request.tolerance)) return *share;
+    throw InputError(
+        fmt::format("--tolerance {} is no share of directions. Write 0.5% or 0.005; it is below 1.",
+                    in_quotes(request.tolerance)));
+}
+
+MeshFitOptions options_of(const FitRequest& request) {
+    return {request.degree, center_of(request), tolerance_of(request),
+            request.force ? NotStarShaped::take_outermost : NotStarShaped::refuse};
+}
+
+void check_outputs(const FitRequest& request) {
+    require_folder_of(request.output);
+    if (request.plot.empty()) return;
+    require_picture_path(request.plot);
+    if (request.degree == 0)
+        throw InputError("--plot shows errors from degree 1 on, and this is --degree 0. Leave it out.");
+}
+
+int run_fit(const FitRequest& request) {
+    const MeshFitOptions options = options_of(request);
+    check_outputs(request);
+    const MeshFile file = read_mesh_file(request.mesh);
+    const Clock clock;
+    FitReport report;
+    report.mesh = request.mesh;
+    report.output = request.output;
+    report.fit = fit_mesh(file.mesh, options, request.mesh);
+    report.elapsed_s = clock.elapsed_s();
+    report.faces = file.mesh.triangles.size();
+    report.vertices = file.mesh.vertices.size();
+    report.tolerated_share = options.tolerated_share;
+    const MeshFit& fit = report.fit;
+    write_harmonics({fit.coefficients, fit.center, std::filesystem::path(request.mesh).filename().string(),
+                     fit.errors.back().rms / fit.size},
+                    request.output);
+    report.mesh_bytes = std::filesystem::file_size(request.mesh);
+    report.output_bytes = std::filesystem::file_size(request.output);
+    if (!request.plot.empty()) draw_plot(error_plot(report), request.plot);
+    if (!request.quiet) {
+        for (const std::string& warning : warnings_of(report)) fmt::print(stderr, "warning: {}\n", warning);
+    }
+    fmt::print("{}", request.json ? to_json(report) : to_text(report));
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app, int& exit_code) {
+    CLI::App* command =
+        app.add_subcommand("fit", "A star-shaped mesh as a surface by spherical harmonics, in a small file");
+    set_examples(*command,
+                 "  stilb fit head.ply -o head.json --degree 32\n"
+                 "  stilb fit head.ply -o head.json --degree 64 --plot error.svg\n"
+                 "  stilb fit vase.obj -o vase.json --degree 16 --center 0,0,0.4 --tolerance 2%\n"
+                 "  stilb fit monkey.obj -o monkey.json --degree 32 --force\n");
+    auto request = std::make_shared<FitRequest>();
+    command->add_option("MESH", request->mesh, "Mesh (.obj, .ply)")->required();
+    command->add_option("-o,--output", request->output, "Series to write (JSON)")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("--degree", request->degree, "Of the harmonics: (degree + 1)^2 coefficients")
+        ->required()
+        ->check(CLI::Range(0, kMostHarmonicDegree))
+        ->type_name("N");
+    command
+        ->add_option("--center", request->center,
+                     "Point that the radius counts from: x,y,z; auto (default) searches one that all of the "
+                     "surface is seen from")
+        ->type_name("X,Y,Z");
+    command
+        ->add_option(
+            "--tolerance", request->tolerance,
+            "Refuse the mesh if it is not met exactly once in more than this share of the directions "
+            "from the centre: 0.5% (default) or 0.005")
+        ->type_name("SHARE");
+    command->add_flag("--force", request->force,
+                      "Do not refuse: take the outermost surface, close holes by what is next to them");
+    command->add_option("--plot", request->plot, "Draw errors over degrees: .svg or .png")->type_name("FILE");
+    command->add_flag("--json", request->json, "One JSON document instead of the table (docs/fit.md)");
+    command->add_flag("--quiet", request->quiet, "No warnings on stderr");
+    command->callback([request, &exit_code] { exit_code = run_fit(*request); });
+}
+
+}  // namespace stilb

@@ -1,0 +1,35 @@
+// What `stilb fit` says of a fit: for people, as JSON, as a plot.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "files/plot.h"
+#include "scene/mesh_fit.h"
+
+namespace stilb {
+
+struct FitReport {
+    std::string mesh, output;  ///< files as typed
+    std::size_t faces = 0, vertices = 0;
+    std::uintmax_t mesh_bytes = 0, output_bytes = 0;
+    double tolerated_share = 0;
+    double elapsed_s = 0;  ///< from the mesh that is read to its series
+    MeshFit fit;
+
+    int degree() const { return static_cast<int>(fit.errors.size()) - 1; }
+    /// As single-precision coordinates and 32-bit corners.
+    std::uintmax_t bare_mesh_bytes() const { return 12 * vertices + 12 * faces; }
+};
+
+/// What was found odd and what is lost, a sentence each.
+std::vector<std::string> warnings_of(const FitReport& report);
+
+std::string to_text(const FitReport& report);
+/// docs/fit.md has the keys.
+std::string to_json(const FitReport& report);
+/// Errors over degrees 1 to the fit's, which is 1 or more.
+Plot error_plot(const FitReport& report);
+
+}  // namespace stilb
