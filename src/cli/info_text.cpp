@@ -63,6 +63,7 @@ std::string object_text(const Json& object) {
     std::string line = fmt::format("{:16} {:9} {:.4g} m2", text(object, "name"), text(object, "shape"),
                                    number(object, "area_m2"));
     if (triangles > 0) line += fmt::format(", {} triangles", triangles);
+    if (object.contains("degree")) line += fmt::format(", degree {}", count(object, "degree"));
     if (object.contains("vertices")) line += fmt::format(", {} vertices", count(object, "vertices"));
     if (parts > 1) line += fmt::format(", {} parts", parts);
     line += open == 0 ? ", closed" : fmt::format(", {} open edge{}", open, open == 1 ? "" : "s");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "files/harmonics_file.h"
 #include "files/scene_sections.h"
 #include "scene/harmonic_surface.h"
 
@@ -13,11 +14,6 @@ namespace {
 
 constexpr Range kCoefficient{-1e9, 1e9, "a number from -1e9 to 1e9"};
 constexpr std::array<std::string_view, 3> kMethods{"cells", "roots", "march"};
-
-struct Series {
-    std::vector<double> coefficients;
-    Vec3 center;
-};
 
 int degree_of(const TomlItem& item, std::size_t count) {
     for (int degree = 0; degree <= kMostHarmonicDegree; ++degree) {
@@ -29,9 +25,13 @@ int degree_of(const TomlItem& item, std::size_t count) {
                     count, kMostHarmonicDegree));
 }
 
-Series read_series(const TomlTable& table, const std::filesystem::path&, SceneFile&) {
-    const TomlItem item = table.at("coefficients");
-    Series series;
+HarmonicsFile read_series(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
+    const auto [key, item] = table.one_of({"file", "coefficients"});
+    if (key == "file") {
+        file.sources.push_back(item.existing_file(directory));
+        return read_harmonics(file.sources.back());
+    }
+    HarmonicsFile series;
     for (const TomlItem& element : item.elements())
         series.coefficients.push_back(element.number(kCoefficient));
     degree_of(item, series.coefficients.size());
@@ -47,8 +47,9 @@ void truncate(const TomlTable& table, std::vector<double>& coefficients) {
 
 }  // namespace
 
-Harmonics read_harmonics(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
-    Series series = read_series(table, directory, file);
+Harmonics read_harmonic_shape(const TomlTable& table, const std::filesystem::path& directory,
+                              SceneFile& file) {
+    HarmonicsFile series = read_series(table, directory, file);
     truncate(table, series.coefficients);
     try {
         Harmonics harmonics(HarmonicSurface(HarmonicSeries<double>(series.coefficients)));

@@ -202,7 +202,7 @@ Object read_untransformed(TomlTable& table, const std::filesystem::path& directo
     };
     if (shape == "harmonics") {
         expect_object_keys(table, shape, {"file", "coefficients", "center", "degree", "intersection"});
-        return of_one_material(read_harmonics(table, directory, file));
+        return of_one_material(read_harmonic_shape(table, directory, file));
     }
     return of_one_material(read_simple_shape(table, shape, file));
 }
