@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::Range<std::size_t>(0, agree
                          name_of);
 
 /// By path tracing: the surface is the question, not the method. Where a mesh is looked at, facets show, each
-/// in one luminance: means over many sights are compared.
+/// in one luminance: means over many sights are compared, of meshes so fine that this averages out.
 TEST(HarmonicBodies, AreAsFineMeshes) {
     for (const MeshTwin& twin : mesh_twins()) {
         AgreementScene points = *std::ranges::find(agreement_scenes(), twin.of, &AgreementScene::name);
@@ -179,7 +179,7 @@ TEST(HarmonicBodies, AreAsFineMeshes) {
         sights.points.clear();
         sights.sights = twin.many_sights;
         const auto measure_means = [&](const Scene& scene, std::uint64_t seed) {
-            Measured measured = measure(scene, points, "path", seed, kReplicates << 12);
+            Measured measured = measure(scene, points, "path", seed, kReplicates << 11);
             measured.estimates.push_back(
                 measure(scene, sights, "path", seed + 1, kReplicates << 7).estimates.back());
             EXPECT_LT(largest_relative_error(measured.estimates), 2 * kLargestError) << twin.of;

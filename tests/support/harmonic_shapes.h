@@ -40,9 +40,9 @@ inline HarmonicSurface rough_surface(int degree, std::uint64_t seed) {
     return HarmonicSurface(HarmonicSeries<double>(coefficients));
 }
 
-/// Of 81,920 triangles, fronts outside.
+/// Of 1,310,720 triangles, fronts outside.
 inline Mesh fine_mesh(const Harmonics& harmonics) {
-    Mesh mesh = icosphere({{}, 1}, 6);
+    Mesh mesh = icosphere({{}, 1}, 8);
     for (Vec3& vertex : mesh.vertices) vertex = harmonics.point_towards(vertex);
     return mesh;
 }
