@@ -252,9 +252,9 @@ struct RayCaster::Implementation {
             packet.ray.org_x[i] = static_cast<float>(origin.x);
             packet.ray.org_y[i] = static_cast<float>(origin.y);
             packet.ray.org_z[i] = static_cast<float>(origin.z);
-            packet.ray.dir_x[i] = static_cast<float>(direction.x);
-            packet.ray.dir_y[i] = static_cast<float>(direction.y);
-            packet.ray.dir_z[i] = static_cast<float>(direction.z);
+            packet.ray.dir_x[i] = packet_direction(direction.x);
+            packet.ray.dir_y[i] = packet_direction(direction.y);
+            packet.ray.dir_z[i] = packet_direction(direction.z);
             packet.ray.tnear[i] = packet.ray.time[i] = 0;
             packet.ray.tfar[i] = kInfinity;
             packet.ray.mask[i] = ~0u;

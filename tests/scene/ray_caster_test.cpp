@@ -269,5 +269,26 @@ TEST(RayCaster, SpheresDoNotShadowThemselves) {
     }
 }
 
+/// Directions about right angles, as rotations make them: components of either sign, next to nothing.
+TEST(RayCaster, LosesNoPacketsAlongAxes) {
+    Scene scene;
+    add_object(scene, icosphere({{0.01, 0.02, 0.03}, 1}, 5), Black{});
+    const RayCaster caster(scene);
+    RandomPairs random(5);
+    for (int i = 0; i < 6000; ++i) {
+        const double small = std::pow(10, -20 * random.next());
+        const Vec3 origin = 0.02 * random_point(random);
+        std::vector<Ray> rays;
+        for (int k = 0; k < kPacketWidth; ++k) {
+            const auto [u1, u2] = random.next_pair();
+            const Vec3 direction = normalized(Vec3{small * (2 * u1 - 1), 1, 1e-2 * u2});
+            rays.push_back({origin, i % 2 == 0 ? direction : Vec3{direction.y, direction.z, direction.x}});
+        }
+        std::vector<std::optional<Hit>> hits(rays.size());
+        caster.closest(rays, Coherence::coherent, hits);
+        for (const auto& hit : hits) ASSERT_TRUE(hit.has_value()) << small;
+    }
+}
+
 }  // namespace
 }  // namespace stilb
