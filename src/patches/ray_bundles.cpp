@@ -15,9 +15,9 @@ static_assert(kTile * kTile == kPacketWidth);
 class GridRays {
   public:
     GridRays(const LineGrid& grid, const Vec3& direction) : grid_(grid) {
-        template_.direction_x.fill(static_cast<float>(direction.x));
-        template_.direction_y.fill(static_cast<float>(direction.y));
-        template_.direction_z.fill(static_cast<float>(direction.z));
+        template_.direction_x.fill(packet_direction(direction.x));
+        template_.direction_y.fill(packet_direction(direction.y));
+        template_.direction_z.fill(packet_direction(direction.z));
         template_.end.fill(std::numeric_limits<float>::infinity());
     }
 

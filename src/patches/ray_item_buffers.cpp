@@ -35,9 +35,9 @@ class FaceRays {
         RayPacket rays = template_;
         for (int lane = 0; lane < kPacketWidth; ++lane) {
             const int x = x0 + lane % kTile, y = y0 + lane / kTile;
-            rays.direction_x[lane] = static_cast<float>(first_.x + x * step_x_.x + y * step_y_.x);
-            rays.direction_y[lane] = static_cast<float>(first_.y + x * step_x_.y + y * step_y_.y);
-            rays.direction_z[lane] = static_cast<float>(first_.z + x * step_x_.z + y * step_y_.z);
+            rays.direction_x[lane] = packet_direction(first_.x + x * step_x_.x + y * step_y_.x);
+            rays.direction_y[lane] = packet_direction(first_.y + x * step_x_.y + y * step_y_.y);
+            rays.direction_z[lane] = packet_direction(first_.z + x * step_x_.z + y * step_y_.z);
         }
         return rays;
     }
