@@ -86,16 +86,18 @@ struct ValueAndSlopes {
 /// sum of c[p][q] a^p b^q.
 template <std::size_t N>
 ValueAndSlopes evaluate(const Matrix<N>& c, double a, double b) {
-    ValueAndSlopes sum;
+    std::array<double, N> rows{}, slopes{};  // sums over p, and their derivatives
     for (std::size_t p = N; p-- > 0;) {
-        double row = 0, slope = 0;
-        for (std::size_t q = N; q-- > 0;) {
-            slope = slope * b + row;
-            row = row * b + c[p][q];
+        for (std::size_t q = 0; q < N; ++q) {
+            slopes[q] = slopes[q] * a + rows[q];
+            rows[q] = rows[q] * a + c[p][q];
         }
-        sum.along_a = sum.along_a * a + sum.value;
-        sum.value = sum.value * a + row;
-        sum.along_b = sum.along_b * a + slope;
+    }
+    ValueAndSlopes sum;
+    for (std::size_t q = N; q-- > 0;) {
+        sum.along_b = sum.along_b * b + sum.value;
+        sum.value = sum.value * b + rows[q];
+        sum.along_a = sum.along_a * b + slopes[q];
     }
     return sum;
 }

@@ -2,19 +2,39 @@
 // sign changes.
 #pragma once
 
-#include <boost/math/tools/roots.hpp>
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace stilb {
 
+/// Of a monotone function between `low` and `high`, where the signs differ; `guess` lies there, too. By
+/// Newton's steps, or halves where those lead out or hardly on. The last of Newton's steps is at most 1e-9 of
+/// the interval, so what is left of the value is of rounding's order.
+template <typename Function>
+double root_between(const Function& f, double low, double high, bool is_negative_at_low, double guess) {
+    const double enough = 1e-9 * (high - low);
+    double x = guess, before = high - low;
+    while (true) {
+        const auto [value, slope] = f(x);
+        if (value == 0) return x;
+        ((value < 0) == is_negative_at_low ? low : high) = x;
+        const double step = -value / slope, middle = 0.5 * (low + high);
+        if (std::abs(step) <= enough || middle == low || middle == high) {
+            return std::clamp(x + step, low, high);
+        }
+        const bool leads_on = low < x + step && x + step < high && std::abs(step) < 0.5 * before;
+        before = leads_on ? std::abs(step) : high - low;
+        x = leads_on ? x + step : middle;
+    }
+}
+
 /// The root of a monotone function, if it has one between `low` and `high`.
 template <typename Function>
 std::optional<double> root_of_monotone(const Function& f, double low, double high) {
-    if ((f(low).first < 0) == (f(high).first < 0)) return std::nullopt;
-    constexpr int digits = std::numeric_limits<double>::digits - 4;
-    return boost::math::tools::newton_raphson_iterate(f, 0.5 * (low + high), low, high, digits);
+    const bool is_negative = f(low).first < 0;
+    if (is_negative == (f(high).first < 0)) return std::nullopt;
+    return root_between(f, low, high, is_negative, 0.5 * (low + high));
 }
 
 /// The first root of a function whose second derivative is nowhere larger than `curvature`. Intervals

@@ -253,14 +253,22 @@ std::optional<double> HarmonicCells::root_on(const Line& line, std::size_t numbe
         const double turning = first - slope * slope / (4 * bend);
         least = std::min(least, turning), greatest = std::max(greatest, turning);
     }
-    if (least > double{cell.rest} || greatest < -double{cell.rest}) return std::nullopt;
+    const double rest = double{cell.rest};
+    if (least > rest || greatest < -rest) return std::nullopt;
     const auto depth = [&](double x) {
         const ValueAndSlopes at = evaluate(polynomials_[number], a + x * da, b + x * db);
         return std::pair(at.value - (w + x * dw), at.along_a * da + at.along_b * db - dw);
     };
     const double rest_slope = double{cell.rest_a} * std::abs(da) + double{cell.rest_b} * std::abs(db);
     if (slope * last_slope > 0 && std::min(std::abs(slope), std::abs(last_slope)) > rest_slope) {
-        return root_of_monotone(depth, 0, 1);
+        const auto is_negative_at = [&](double x, double quadratic) {
+            return (std::abs(quadratic) > rest ? quadratic : depth(x).first) < 0;
+        };
+        const bool starts_negative = is_negative_at(0, first);
+        if (starts_negative == is_negative_at(1, last)) return std::nullopt;
+        const double root = std::sqrt(std::max(0.0, slope * slope - 4 * bend * first));
+        const double guess = -2 * first / (slope + std::copysign(root, slope));
+        return root_between(depth, 0, 1, starts_negative, std::clamp(guess, 0.0, 1.0));
     }
     const double curvature = 2 * std::abs(bend) + double{cell.rest_aa} * da * da +
                              2 * double{cell.rest_ab} * std::abs(da * db) + double{cell.rest_bb} * db * db;

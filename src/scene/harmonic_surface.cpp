@@ -113,7 +113,8 @@ std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arm(const Line& lin
 
 std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arc(const Line& line, double low,
                                                                  double high) const {
-    const double order = radius_.degree() + 1.0, curvature = order * order * greatest_radius_;
+    const double order = radius_.degree() + 1.0, middle = 0.5 * (greatest_radius_ + least_radius_);
+    const double curvature = middle + order * order * (greatest_radius_ - middle);
     const auto depth = [&](double angle) {
         const double cosine = std::cos(angle), sine = std::sin(angle);
         const auto [value, gradient] = radius_.with_gradient(line.direction_at(angle));

@@ -35,9 +35,10 @@ class HarmonicSurface {
     /// surface.
     ///
     /// The ray and the origin span a plane, in which the ray is |x| = d / cos(a), where d is its distance
-    /// from the origin and a the angle from its closest point. R cos(a) is a trigonometric polynomial of
-    /// degree N = L + 1 there, so its derivatives are at most N and N^2 times its maximum [Bernstein]:
-    /// intervals without a root of R cos(a) - d (T.5), and such with one, are known for certain.
+    /// from the origin and a the angle from its closest point. With M between the bounds of R, (R - M) cos(a)
+    /// is a trigonometric polynomial of degree N = L + 1 there, so its second derivative is at most N^2 times
+    /// its maximum [Bernstein], and that of M cos(a) at most M: intervals without a root of R cos(a) - d
+    /// (T.5), and such with one, are known for certain.
     std::optional<HarmonicCrossing> first_crossing(const Vec3& origin, const Vec3& direction, double start,
                                                    double end) const;
 
