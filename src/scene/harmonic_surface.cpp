@@ -24,9 +24,10 @@ struct HarmonicSurface::Line {
     double offset = 0;   ///< of that point from the origin
 
     Line(const Vec3& origin, const Vec3& along) : direction(along), closest(-dot(origin, along)) {
-        const Vec3 point = origin + closest * along;
-        offset = length(point);
-        towards = offset > 0 ? point / offset : Frame::around(along).u;
+        const Frame frame = Frame::around(along);
+        const double u = dot(origin, frame.u), v = dot(origin, frame.v);
+        offset = std::hypot(u, v);
+        towards = offset > 0 ? (u * frame.u + v * frame.v) / offset : frame.u;
     }
 
     /// At a distance from the closest point.

@@ -58,4 +58,27 @@ inline HarmonicSurface head_like_surface(int degree, std::uint64_t seed) {
     return HarmonicSurface(HarmonicSeries<double>(coefficients));
 }
 
+/// With a relief so strong that its least radius is only `ratio` of the greatest: `falloff` 0 has all degrees
+/// alike, and variances of coefficients fall like l^(-2 falloff) else.
+inline HarmonicSurface strong_surface(int degree, double falloff, double ratio, std::uint64_t seed) {
+    Numbers numbers(seed);
+    std::vector<double> coefficients(harmonic_count(degree));
+    for (int l = 1; l <= degree; ++l) {
+        for (int m = -l; m <= l; ++m) {
+            coefficients[harmonic_number(l, m)] = (numbers.next() - 0.5) * std::pow(l, -falloff);
+        }
+    }
+    const HarmonicSeries<double> relief(coefficients);
+    double least = 0, greatest = 0;
+    for (int n = 0; n < 2000 + 40 * degree * degree; ++n) {
+        const double value = relief.at(numbers.direction());
+        least = std::min(least, value), greatest = std::max(greatest, value);
+    }
+    // 1 + scale least = ratio (1 + scale greatest)
+    const double scale = (1 - ratio) / (ratio * greatest - least);
+    for (double& c : coefficients) c *= scale;
+    coefficients[0] = kUnitSphere;
+    return HarmonicSurface(HarmonicSeries<double>(coefficients));
+}
+
 }  // namespace stilb
