@@ -37,18 +37,24 @@ std::optional<double> root_of_monotone(const Function& f, double low, double hig
     return root_between(f, low, high, is_negative, 0.5 * (low + high));
 }
 
-/// The first root of a function whose second derivative is nowhere larger than `curvature`. Intervals
-/// narrower than 2 `narrowest` count by their ends alone: a pair of roots in one, where the function touches
-/// 0, is left out.
+/// The first change of sign between `low`, where it is known, and `high`, of a function whose second
+/// derivative is nowhere larger than `curvature`. Intervals narrower than 2 `narrowest` count by their ends
+/// alone: a pair of roots in one, where the function touches 0, is left out. Rounding loses no change: where
+/// a sign is not what the last one leads to expect, the change is there.
 template <typename Function>
 std::optional<double> first_root(const Function& f, double curvature, double narrowest, double low,
-                                 double high) {
+                                 double high, bool is_negative_at_low) {
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
     const auto [value, slope] = f(middle);
-    if (std::abs(value) > (std::abs(slope) + 0.5 * curvature * half) * half) return std::nullopt;
-    if (std::abs(slope) > curvature * half || half < narrowest) return root_of_monotone(f, low, high);
-    if (const auto found = first_root(f, curvature, narrowest, low, middle)) return found;
-    return first_root(f, curvature, narrowest, middle, high);
+    if (std::abs(value) > (std::abs(slope) + 0.5 * curvature * half) * half) {
+        return (value < 0) == is_negative_at_low ? std::nullopt : std::optional(low);
+    }
+    if (std::abs(slope) > curvature * half || half < narrowest) {
+        if ((f(high).first < 0) == is_negative_at_low) return std::nullopt;
+        return root_between(f, low, high, is_negative_at_low, middle);
+    }
+    const auto found = first_root(f, curvature, narrowest, low, middle, is_negative_at_low);
+    return found ? found : first_root(f, curvature, narrowest, middle, high, is_negative_at_low);
 }
 
 }  // namespace stilb

@@ -259,12 +259,12 @@ std::optional<double> HarmonicCells::root_on(const Line& line, std::size_t numbe
         const ValueAndSlopes at = evaluate(polynomials_[number], a + x * da, b + x * db);
         return std::pair(at.value - (w + x * dw), at.along_a * da + at.along_b * db - dw);
     };
+    const auto is_negative_at = [&](double x, double quadratic) {
+        return (std::abs(quadratic) > rest ? quadratic : depth(x).first) < 0;
+    };
+    const bool starts_negative = is_negative_at(0, first);
     const double rest_slope = double{cell.rest_a} * std::abs(da) + double{cell.rest_b} * std::abs(db);
     if (slope * last_slope > 0 && std::min(std::abs(slope), std::abs(last_slope)) > rest_slope) {
-        const auto is_negative_at = [&](double x, double quadratic) {
-            return (std::abs(quadratic) > rest ? quadratic : depth(x).first) < 0;
-        };
-        const bool starts_negative = is_negative_at(0, first);
         if (starts_negative == is_negative_at(1, last)) return std::nullopt;
         const double root = std::sqrt(std::max(0.0, slope * slope - 4 * bend * first));
         const double guess = -2 * first / (slope + std::copysign(root, slope));
@@ -272,7 +272,7 @@ std::optional<double> HarmonicCells::root_on(const Line& line, std::size_t numbe
     }
     const double curvature = 2 * std::abs(bend) + double{cell.rest_aa} * da * da +
                              2 * double{cell.rest_ab} * std::abs(da * db) + double{cell.rest_bb} * db * db;
-    return first_root(depth, curvature, kNarrowest, 0, 1);
+    return first_root(depth, curvature, kNarrowest, 0, 1, starts_negative);
 }
 
 std::optional<double> HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec3& direction,

@@ -123,9 +123,10 @@ std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arc(const Line& lin
         return std::pair(value * cosine - line.offset, dot(gradient, turn) * cosine - value * sine);
     };
     const double from = std::atan(low / line.offset), to = std::atan(high / line.offset);
-    const auto angle = first_root(depth, curvature, kNarrowest, from, to);
+    const bool is_outside = depth(from).first < 0;
+    const auto angle = first_root(depth, curvature, kNarrowest, from, to, is_outside);
     if (!angle) return std::nullopt;
-    return line.crossing(line.offset * std::tan(*angle), depth(from).first < 0);
+    return line.crossing(line.offset * std::tan(*angle), is_outside);
 }
 
 }  // namespace stilb
