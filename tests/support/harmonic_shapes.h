@@ -81,4 +81,27 @@ inline HarmonicSurface strong_surface(int degree, double falloff, double ratio, 
     return HarmonicSurface(HarmonicSeries<double>(coefficients));
 }
 
+/// The series of a function of directions, which must have no more than `degree` for it to be exact: by
+/// Fejer's first rule in the polar angle, and equal steps about the pole.
+template <typename Function>
+HarmonicSeries<double> harmonic_projection(const Function& function, int degree) {
+    const int parallels = 2 * degree + 2, meridians = 2 * degree + 2;
+    std::vector<double> coefficients(harmonic_count(degree)), values(harmonic_count(degree));
+    for (int k = 0; k < parallels; ++k) {
+        const double theta = std::numbers::pi * (k + 0.5) / parallels;
+        double sum = 1;
+        for (int n = 1; 2 * n < parallels; ++n) sum -= 2 * std::cos(2 * n * theta) / (4. * n * n - 1);
+        const double weight = 2 * sum / parallels * 2 * std::numbers::pi / meridians;
+        for (int m = 0; m < meridians; ++m) {
+            const double phi = 2 * std::numbers::pi * m / meridians;
+            const Vec3 direction{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                 std::cos(theta)};
+            evaluate_harmonics(direction, degree, values);
+            const double value = weight * function(direction);
+            for (std::size_t n = 0; n < values.size(); ++n) coefficients[n] += value * values[n];
+        }
+    }
+    return HarmonicSeries<double>(coefficients);
+}
+
 }  // namespace stilb
