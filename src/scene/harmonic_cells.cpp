@@ -127,7 +127,7 @@ HarmonicCells::HarmonicCells(const HarmonicSurface& surface, double tolerance) {
     if (!(tolerance >= 1e-11)) throw std::invalid_argument("a tolerance of cells near rounding's, or below");
     const HarmonicSeries<double>& radius = surface.radius();
     const std::array series{MeridianSeries(radius, 0), MeridianSeries(radius, 1), MeridianSeries(radius, 2)};
-    auto on_edge = static_cast<double>(2 + radius.degree() / 4);
+    double on_edge = 2 + 0.25 * radius.degree();
     while (!divide(series, static_cast<std::size_t>(on_edge), tolerance)) {
         // The error falls with the power kNodes of a cell's size, once cells are small.
         const double missing = 1.03 * std::pow(error_ / tolerance, 1. / kNodes);
