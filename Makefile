@@ -35,11 +35,12 @@ test: setup ## build everything and run all tests
 	@cmake --build --preset release
 	@ctest --preset release -j $(JOBS)
 
-verify-long: build ## all exact solutions at 0.2 %, closed meshes with 1e8 rays each, patches as they shrink
+verify-long: build ## all exact solutions at 0.2 %, closed meshes with 1e8 rays each, patches as they shrink, harmonics
 	$(RELEASE)/stilb verify --error 0.2%
-	@cmake --build --preset release --target verify_watertight verify_patches
+	@cmake --build --preset release --target verify_watertight verify_patches verify_harmonics
 	$(RELEASE)/verify_watertight 100000000
 	$(RELEASE)/verify_patches
+	$(RELEASE)/verify_harmonics
 
 bench: setup ## the benchmarks
 	@$(call configure,release)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -87,6 +88,19 @@ HarmonicSeries<T>::HarmonicSeries(std::span<const double> coefficients)
             pairs_.push_back({static_cast<T>(coefficients[harmonic_number(l, m)]), static_cast<T>(sine)});
         }
     }
+}
+
+template <typename T>
+HarmonicSeries<T> HarmonicSeries<T>::part(int low, int high) const {
+    HarmonicSeries result;
+    result.degree_ = high;
+    const Pair* pair = pairs_.data();
+    for (int m = 0; m <= degree_; ++m) {
+        for (int l = m; l <= degree_; ++l, ++pair) {
+            if (l <= high) result.pairs_.push_back(l >= low ? *pair : Pair{});
+        }
+    }
+    return result;
 }
 
 template <typename T>
@@ -176,5 +190,25 @@ typename HarmonicSeries<T>::Value HarmonicSeries<T>::with_gradient(const Vec3& d
 
 template class HarmonicSeries<float>;
 template class HarmonicSeries<double>;
+
+/// Along any great circle f'' is at most L^2 max |f| [Bernstein], and where f is largest or least f' = 0: so a
+/// point of a grid that is no farther than e has a value that differs by L^2 e^2 max |f| / 2 at most.
+HarmonicRange range_of(const HarmonicSeries<double>& series) {
+    constexpr double part = 0.03;
+    const double degree = series.degree();
+    const double spacing = degree > 0 ? std::sqrt(2 * part) / degree * std::numbers::sqrt2 : 1;
+    const auto parallels = static_cast<std::size_t>(std::ceil(std::numbers::pi / spacing)) + 1;
+    HarmonicRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (std::size_t k = 0; k < parallels; ++k) {
+        const double theta =
+            std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(parallels);
+        for (const double value : series.on_parallel(std::cos(theta), 2 * parallels)) {
+            range.least = std::min(range.least, value);
+            range.greatest = std::max(range.greatest, value);
+        }
+    }
+    const double margin = part / (1 - part) * std::max(std::abs(range.least), std::abs(range.greatest));
+    return {range.least - margin, range.greatest + margin};
+}
 
 }  // namespace stilb

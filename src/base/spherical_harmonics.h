@@ -40,6 +40,8 @@ class HarmonicSeries {
     explicit HarmonicSeries(std::span<const double> coefficients);
 
     int degree() const { return degree_; }
+    /// The terms of degrees `low` to `high`, 0 <= low <= high <= degree(), as a series of degree `high`.
+    HarmonicSeries part(int low, int high) const;
 
     struct Value {
         T value = 0;
@@ -53,6 +55,8 @@ class HarmonicSeries {
     std::vector<T> on_parallel(double z, std::size_t count) const;
 
   private:
+    HarmonicSeries() = default;
+
     /// Coefficients of cos(m phi) and sin(m phi).
     struct Pair {
         T cosine = 0, sine = 0;
@@ -67,5 +71,11 @@ class HarmonicSeries {
 
 extern template class HarmonicSeries<float>;
 extern template class HarmonicSeries<double>;
+
+/// Bounds of a series over the sphere: safe ones, off by 4 % of the largest magnitude at most.
+struct HarmonicRange {
+    double least = 0, greatest = 0;
+};
+HarmonicRange range_of(const HarmonicSeries<double>& series);
 
 }  // namespace stilb

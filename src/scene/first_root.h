@@ -2,30 +2,30 @@
 // sign changes.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 namespace stilb {
 
 /// Of a monotone function between `low` and `high`, where the signs differ; `guess` lies there, too. By
-/// Newton's steps, or halves where those lead out or hardly on. The last step is at most 1e-9 of the
-/// interval, so what is left of the value is of rounding's order.
+/// Newton's steps, or halves where those lead out or hardly on. The last of Newton's steps is at most 1e-9 of
+/// the interval, so what is left of the value is of rounding's order.
 template <typename Function>
 double root_between(const Function& f, double low, double high, bool is_negative_at_low, double guess) {
     const double enough = 1e-9 * (high - low);
-    double x = guess, step = high - low;
+    double x = guess, before = high - low;
     while (true) {
         const auto [value, slope] = f(x);
         if (value == 0) return x;
         ((value < 0) == is_negative_at_low ? low : high) = x;
-        const double before = step;
-        double next = x - value / slope;
-        if (!(low < next && next < high && std::abs(next - x) < 0.5 * std::abs(before))) {
-            next = 0.5 * (low + high);
+        const double step = -value / slope, middle = 0.5 * (low + high);
+        if (std::abs(step) <= enough || middle == low || middle == high) {
+            return std::clamp(x + step, low, high);
         }
-        step = next - x;
-        x = next;
-        if (std::abs(step) <= enough) return x;
+        const bool leads_on = low < x + step && x + step < high && std::abs(step) < 0.5 * before;
+        before = leads_on ? std::abs(step) : high - low;
+        x = leads_on ? x + step : middle;
     }
 }
 
@@ -37,18 +37,24 @@ std::optional<double> root_of_monotone(const Function& f, double low, double hig
     return root_between(f, low, high, is_negative, 0.5 * (low + high));
 }
 
-/// The first root of a function whose second derivative is nowhere larger than `curvature`. Intervals
-/// narrower than 2 `narrowest` count by their ends alone: a pair of roots in one, where the function touches
-/// 0, is left out.
+/// The first change of sign between `low`, where it is known, and `high`, of a function whose second
+/// derivative is nowhere larger than `curvature`. Intervals narrower than 2 `narrowest` count by their ends
+/// alone: a pair of roots in one, where the function touches 0, is left out. Rounding loses no change: where
+/// a sign is not what the last one leads to expect, the change is there.
 template <typename Function>
 std::optional<double> first_root(const Function& f, double curvature, double narrowest, double low,
-                                 double high) {
+                                 double high, bool is_negative_at_low) {
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
     const auto [value, slope] = f(middle);
-    if (std::abs(value) > (std::abs(slope) + 0.5 * curvature * half) * half) return std::nullopt;
-    if (std::abs(slope) > curvature * half || half < narrowest) return root_of_monotone(f, low, high);
-    if (const auto found = first_root(f, curvature, narrowest, low, middle)) return found;
-    return first_root(f, curvature, narrowest, middle, high);
+    if (std::abs(value) > (std::abs(slope) + 0.5 * curvature * half) * half) {
+        return (value < 0) == is_negative_at_low ? std::nullopt : std::optional(low);
+    }
+    if (std::abs(slope) > curvature * half || half < narrowest) {
+        if ((f(high).first < 0) == is_negative_at_low) return std::nullopt;
+        return root_between(f, low, high, is_negative_at_low, middle);
+    }
+    const auto found = first_root(f, curvature, narrowest, low, middle, is_negative_at_low);
+    return found ? found : first_root(f, curvature, narrowest, middle, high, is_negative_at_low);
 }
 
 }  // namespace stilb

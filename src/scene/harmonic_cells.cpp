@@ -19,6 +19,7 @@ constexpr double kNarrowest = 1e-9;
 constexpr double kOverlap = 1e-9;
 /// What bounds get on top, for rounding and the overlap: a share, and of W.
 constexpr double kSlack = 1e-4, kLeastSlack = 1e-12;
+constexpr double kMargin = 1e-5;  ///< of boxes
 /// Where differences from the surface are largest: between nodes, in the middle of the cell.
 constexpr std::array kChecked{-0.7, 0.26, 0.7};
 
@@ -53,6 +54,27 @@ struct Stretch {
         }
     }
     bool is_empty() const { return !(low < high); }
+};
+
+/// first + slope x + bend x^2, x from 0 to 1.
+struct Parabola {
+    double first, slope, bend;
+
+    double last() const { return first + slope + bend; }
+    double last_slope() const { return slope + 2 * bend; }
+    /// Where it turns, or its first value where it does not.
+    double turning() const { return slope * last_slope() < 0 ? first - slope * slope / (4 * bend) : first; }
+    double least() const { return std::min({first, last(), turning()}); }
+    double greatest() const { return std::max({first, last(), turning()}); }
+    /// The least amount of its slope; 0 where it turns.
+    double least_slope() const {
+        return slope * last_slope() > 0 ? std::min(std::abs(slope), std::abs(last_slope())) : 0;
+    }
+    /// Of one that does not turn.
+    double root() const {
+        const double squared = slope * slope - 4 * bend * first;
+        return -2 * first / (slope + std::copysign(std::sqrt(std::max(0.0, squared)), slope));
+    }
 };
 
 /// W at all (s, t), row by row, each with the same t.
@@ -105,7 +127,7 @@ HarmonicCells::HarmonicCells(const HarmonicSurface& surface, double tolerance) {
     if (!(tolerance >= 1e-11)) throw std::invalid_argument("a tolerance of cells near rounding's, or below");
     const HarmonicSeries<double>& radius = surface.radius();
     const std::array series{MeridianSeries(radius, 0), MeridianSeries(radius, 1), MeridianSeries(radius, 2)};
-    auto on_edge = static_cast<double>(2 + radius.degree() / 4);
+    double on_edge = 2 + 0.25 * radius.degree();
     while (!divide(series, static_cast<std::size_t>(on_edge), tolerance)) {
         // The error falls with the power kNodes of a cell's size, once cells are small.
         const double missing = 1.03 * std::pow(error_ / tolerance, 1. / kNodes);
@@ -211,7 +233,8 @@ HarmonicCells::Outline HarmonicCells::outline_of(std::size_t cell) const {
     return outline;
 }
 
-/// A patch with weights b and control points (s_i, t_j, 1) / b_ij, which enclose it.
+/// A patch with weights b and control points (s_i, t_j, 1) / b_ij, which enclose it; larger by a share that
+/// is more than the overlap.
 Bounds HarmonicCells::bounds_of(std::size_t number) const {
     const Outline& cell = outlines_[number];
     const Polynomial b = bernstein_form(polynomials_[number]);
@@ -226,6 +249,9 @@ Bounds HarmonicCells::bounds_of(std::size_t number) const {
             bounds.include(face.to_world(control / b[m][n]));
         }
     }
+    const Vec3 extent = bounds.max - bounds.min;
+    bounds.include(bounds.min - kMargin * extent);
+    bounds.include(bounds.max + kMargin * extent);
     return bounds;
 }
 
@@ -233,46 +259,39 @@ Bounds HarmonicCells::bounds_of(std::size_t number) const {
 struct HarmonicCells::Line {
     double a, b, w;
     double da, db, dw;
+
+    Parabola excess_of(const Quadratic& quadratic) const {
+        std::array<double, 6> c{};
+        std::ranges::copy(quadratic, c.begin());
+        return {c[0] + (c[1] + c[3] * a + c[4] * b) * a + (c[2] + c[5] * b) * b - w,
+                (c[1] + 2 * c[3] * a + c[4] * b) * da + (c[2] + c[4] * a + 2 * c[5] * b) * db - dw,
+                c[3] * da * da + c[4] * da * db + c[5] * db * db};
+    }
+    /// Of W - w and its slope, at x.
+    std::pair<double, double> excess_of(const Polynomial& polynomial, double x) const {
+        const ValueAndSlopes at = evaluate(polynomial, a + x * da, b + x * db);
+        return {at.value - (w + x * dw), at.along_a * da + at.along_b * db - dw};
+    }
 };
 
 /// x of the first root of W - w.
 std::optional<double> HarmonicCells::root_on(const Line& line, std::size_t number) const {
     const Outline& cell = outlines_[number];
-    const auto [a, b, w, da, db, dw] = line;
-    const double c0 = double{cell.quadratic[0]}, c1 = double{cell.quadratic[1]},
-                 c2 = double{cell.quadratic[2]};
-    const double c3 = double{cell.quadratic[3]}, c4 = double{cell.quadratic[4]},
-                 c5 = double{cell.quadratic[5]};
-    // The quadratic along the ray: first + slope x + bend x^2.
-    const double first = c0 + (c1 + c3 * a + c4 * b) * a + (c2 + c5 * b) * b - w;
-    const double slope = (c1 + 2 * c3 * a + c4 * b) * da + (c2 + c4 * a + 2 * c5 * b) * db - dw;
-    const double bend = c3 * da * da + c4 * da * db + c5 * db * db;
-    const double last = first + slope + bend, last_slope = slope + 2 * bend;
-    double least = std::min(first, last), greatest = std::max(first, last);
-    if (slope * last_slope < 0) {
-        const double turning = first - slope * slope / (4 * bend);
-        least = std::min(least, turning), greatest = std::max(greatest, turning);
-    }
-    const double rest = double{cell.rest};
-    if (least > rest || greatest < -rest) return std::nullopt;
-    const auto depth = [&](double x) {
-        const ValueAndSlopes at = evaluate(polynomials_[number], a + x * da, b + x * db);
-        return std::pair(at.value - (w + x * dw), at.along_a * da + at.along_b * db - dw);
+    const Parabola parabola = line.excess_of(cell.quadratic);
+    const double rest = double{cell.rest}, da = std::abs(line.da), db = std::abs(line.db);
+    if (parabola.least() > rest || parabola.greatest() < -rest) return std::nullopt;
+    const auto excess = [&](double x) { return line.excess_of(polynomials_[number], x); };
+    const auto is_negative_at = [&](double x, double about) {
+        return (std::abs(about) > rest ? about : excess(x).first) < 0;
     };
-    const double rest_slope = double{cell.rest_a} * std::abs(da) + double{cell.rest_b} * std::abs(db);
-    if (slope * last_slope > 0 && std::min(std::abs(slope), std::abs(last_slope)) > rest_slope) {
-        const auto is_negative_at = [&](double x, double quadratic) {
-            return (std::abs(quadratic) > rest ? quadratic : depth(x).first) < 0;
-        };
-        const bool starts_negative = is_negative_at(0, first);
-        if (starts_negative == is_negative_at(1, last)) return std::nullopt;
-        const double root = std::sqrt(std::max(0.0, slope * slope - 4 * bend * first));
-        const double guess = -2 * first / (slope + std::copysign(root, slope));
-        return root_between(depth, 0, 1, starts_negative, std::clamp(guess, 0.0, 1.0));
+    const bool starts_negative = is_negative_at(0, parabola.first);
+    if (parabola.least_slope() > double{cell.rest_a} * da + double{cell.rest_b} * db) {
+        if (starts_negative == is_negative_at(1, parabola.last())) return std::nullopt;
+        return root_between(excess, 0, 1, starts_negative, std::clamp(parabola.root(), 0.0, 1.0));
     }
-    const double curvature = 2 * std::abs(bend) + double{cell.rest_aa} * da * da +
-                             2 * double{cell.rest_ab} * std::abs(da * db) + double{cell.rest_bb} * db * db;
-    return first_root(depth, curvature, kNarrowest, 0, 1);
+    const double curvature = 2 * std::abs(parabola.bend) + double{cell.rest_aa} * da * da +
+                             2 * double{cell.rest_ab} * da * db + double{cell.rest_bb} * db * db;
+    return first_root(excess, curvature, kNarrowest, 0, 1, starts_negative);
 }
 
 std::optional<double> HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec3& direction,

@@ -24,9 +24,10 @@ struct HarmonicSurface::Line {
     double offset = 0;   ///< of that point from the origin
 
     Line(const Vec3& origin, const Vec3& along) : direction(along), closest(-dot(origin, along)) {
-        const Vec3 point = origin + closest * along;
-        offset = length(point);
-        towards = offset > 0 ? point / offset : Frame::around(along).u;
+        const Frame frame = Frame::around(along);
+        const double u = dot(origin, frame.u), v = dot(origin, frame.v);
+        offset = std::hypot(u, v);
+        towards = offset > 0 ? (u * frame.u + v * frame.v) / offset : frame.u;
     }
 
     /// At a distance from the closest point.
@@ -38,32 +39,12 @@ struct HarmonicSurface::Line {
 };
 
 HarmonicSurface::HarmonicSurface(HarmonicSeries<double> radius) : radius_(std::move(radius)) {
-    find_bounds();
-}
-
-/// Along any great circle R'' is at most L^2 max R [Bernstein], and where R is largest or least R' = 0: so a
-/// point of a grid that is no farther than e has a value that differs by L^2 e^2 max R / 2 at most.
-void HarmonicSurface::find_bounds() {
-    constexpr double part = 0.03;
-    const double degree = radius_.degree();
-    const double spacing = degree > 0 ? std::sqrt(2 * part) / degree * std::numbers::sqrt2 : 1;
-    const auto parallels = static_cast<std::size_t>(std::ceil(std::numbers::pi / spacing)) + 1;
-    double least = std::numeric_limits<double>::infinity(), greatest = -least;
-    for (std::size_t k = 0; k < parallels; ++k) {
-        const double theta =
-            std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(parallels);
-        for (const double value : radius_.on_parallel(std::cos(theta), 2 * parallels)) {
-            least = std::min(least, value);
-            greatest = std::max(greatest, value);
-        }
-    }
-    greatest_radius_ = greatest / (1 - part);
-    least_radius_ = least - part * greatest_radius_;
+    const HarmonicRange range = range_of(radius_);
+    least_radius_ = range.least, greatest_radius_ = range.greatest;
     if (!(least_radius_ > 0)) {
         throw InputError(
             "the radius of a surface by spherical harmonics comes to 0 or nearly so (its least value is "
-            "below 3 % "
-            "of the greatest): it must be above 0 in all directions");
+            "below 3 % of the greatest): it must be above 0 in all directions");
     }
 }
 
@@ -122,9 +103,10 @@ std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arc(const Line& lin
         return std::pair(value * cosine - line.offset, dot(gradient, turn) * cosine - value * sine);
     };
     const double from = std::atan(low / line.offset), to = std::atan(high / line.offset);
-    const auto angle = first_root(depth, curvature, kNarrowest, from, to);
+    const bool is_outside = depth(from).first < 0;
+    const auto angle = first_root(depth, curvature, kNarrowest, from, to, is_outside);
     if (!angle) return std::nullopt;
-    return line.crossing(line.offset * std::tan(*angle), depth(from).first < 0);
+    return line.crossing(line.offset * std::tan(*angle), is_outside);
 }
 
 }  // namespace stilb

@@ -45,7 +45,6 @@ class HarmonicSurface {
   private:
     struct Line;
 
-    void find_bounds();
     std::optional<HarmonicCrossing> crossing_between(const Line& line, double low, double high) const;
     std::optional<HarmonicCrossing> crossing_of_arm(const Line& line, double low, double high) const;
     std::optional<HarmonicCrossing> crossing_of_arc(const Line& line, double low, double high) const;

@@ -61,6 +61,8 @@ struct Harmonics {
     double scale = 1;
     Frame axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     HarmonicMethod method = HarmonicMethod::cells;
+    /// Whether fewer harmonics may do where the object is small in a picture (run/level_of_detail.h).
+    bool has_levels_of_detail = false;
 
     Vec3 to_world(const Vec3& own) const { return center + scale * axes.to_world(own); }
     Vec3 to_own(const Vec3& world) const { return axes.to_local(world - center) / scale; }

@@ -66,4 +66,50 @@ inline HarmonicSurface head_like_surface(int degree, std::uint64_t seed) {
     return HarmonicSurface(HarmonicSeries<double>(coefficients));
 }
 
+/// With a relief so strong that its least radius is only `ratio` of the greatest: `falloff` 0 has all degrees
+/// alike, and variances of coefficients fall like l^(-2 falloff) else.
+inline HarmonicSurface strong_surface(int degree, double falloff, double ratio, std::uint64_t seed) {
+    Numbers numbers(seed);
+    std::vector<double> coefficients(harmonic_count(degree));
+    for (int l = 1; l <= degree; ++l) {
+        for (int m = -l; m <= l; ++m) {
+            coefficients[harmonic_number(l, m)] = (numbers.next() - 0.5) * std::pow(l, -falloff);
+        }
+    }
+    const HarmonicSeries<double> relief(coefficients);
+    double least = 0, greatest = 0;
+    for (int n = 0; n < 2000 + 40 * degree * degree; ++n) {
+        const double value = relief.at(numbers.direction());
+        least = std::min(least, value), greatest = std::max(greatest, value);
+    }
+    // 1 + scale least = ratio (1 + scale greatest)
+    const double scale = (1 - ratio) / (ratio * greatest - least);
+    for (double& c : coefficients) c *= scale;
+    coefficients[0] = kUnitSphere;
+    return HarmonicSurface(HarmonicSeries<double>(coefficients));
+}
+
+/// The series of a function of directions, which must have no more than `degree` for it to be exact: by
+/// Fejer's first rule in the polar angle, and equal steps about the pole.
+template <typename Function>
+HarmonicSeries<double> harmonic_projection(const Function& function, int degree) {
+    const int parallels = 2 * degree + 2, meridians = 2 * degree + 2;
+    std::vector<double> coefficients(harmonic_count(degree)), values(harmonic_count(degree));
+    for (int k = 0; k < parallels; ++k) {
+        const double theta = std::numbers::pi * (k + 0.5) / parallels;
+        double sum = 1;
+        for (int n = 1; 2 * n < parallels; ++n) sum -= 2 * std::cos(2 * n * theta) / (4. * n * n - 1);
+        const double weight = 2 * sum / parallels * 2 * std::numbers::pi / meridians;
+        for (int m = 0; m < meridians; ++m) {
+            const double phi = 2 * std::numbers::pi * m / meridians;
+            const Vec3 direction{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                 std::cos(theta)};
+            evaluate_harmonics(direction, degree, values);
+            const double value = weight * function(direction);
+            for (std::size_t n = 0; n < values.size(); ++n) coefficients[n] += value * values[n];
+        }
+    }
+    return HarmonicSeries<double>(coefficients);
+}
+
 }  // namespace stilb

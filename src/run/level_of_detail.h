@@ -1,0 +1,35 @@
+// Objects by harmonics with as many as their sensors can tell.
+//
+// A surface of degree d instead of L lies within max |R - R_d| of the full one, for which there is a safe bound
+// (range_of()). The degree is the lowest for which that is half a footprint at most, at the least distance
+// from any sensor to the object: the footprint of a camera is a pixel in the middle of its picture, that of
+// other sensors 1 mrad. So outlines, and shadows on the object itself, stay where they are but for half a
+// footprint. Normals are those of the smoother surface; mirrors and lamps near the object may show more.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "sensors/sensor.h"
+
+namespace stilb {
+
+/// What an object was given.
+struct LevelOfDetail {
+    std::string object;
+    int degree = 0, full_degree = 0;
+    double error_m = 0;    ///< bound of the distance between both surfaces, along rays from the centre
+    double allowed_m = 0;  ///< half the footprint
+};
+
+struct DetailedScene {
+    Scene scene;
+    std::vector<LevelOfDetail> levels;  ///< of the objects that ask for it
+};
+
+bool has_levels_of_detail(const Scene& scene);
+DetailedScene with_levels_of_detail(Scene scene, std::span<const Sensor> sensors);
+
+}  // namespace stilb
