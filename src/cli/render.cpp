@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/detail_text.h"
 #include "cli/ending.h"
 #include "cli/patch_text.h"
 #include "cli/progress.h"
@@ -98,6 +99,7 @@ void print_summary(const RenderResult& result, const Sensor& sensor) {
     }
     fmt::print("{}, {} passes in {:.1f} s: {}\n", result.method, result.passes, result.elapsed_s,
                ending(result.stop_reason, "passes"));
+    fmt::print("{}", detail_text(result.levels_of_detail));
     if (result.patches) fmt::print("{}", patch_text(*result.patches));
 }
 

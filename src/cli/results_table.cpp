@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/detail_text.h"
 #include "cli/ending.h"
 #include "cli/patch_text.h"
 #include "cli/place_text.h"
@@ -144,6 +145,7 @@ std::string to_table(const RunResult& result, std::span<const Sensor> sensors) {
     const std::string paths = has_intervals ? fmt::format(", {} paths", result.paths) : "";
     text += fmt::format("\n{}{} in {:.2f} s: {}\n", result.method, paths, result.elapsed_s,
                         ending_with_error(result));
+    text += detail_text(result.levels_of_detail);
     return result.patches ? text + patch_text(*result.patches) : text;
 }
 

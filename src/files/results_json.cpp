@@ -111,6 +111,13 @@ std::string to_json(const RunResult& result, std::span<const Sensor> sensors, co
         json["first_shot_set_up_s"] = result.patches->set_up_s;
         json["patches"] = patches_json(*result.patches);
     }
+    for (const LevelOfDetail& level : result.levels_of_detail) {
+        json["levels_of_detail"].push_back({{"object", level.object},
+                                            {"degree", level.degree},
+                                            {"full_degree", level.full_degree},
+                                            {"error_m", level.error_m},
+                                            {"allowed_m", level.allowed_m}});
+    }
     Json list = Json::array();
     for (std::size_t s = 0; s < sensors.size(); ++s)
         list.push_back(sensor_json(result.sensors[s], sensors[s]));

@@ -56,6 +56,7 @@ Harmonics read_harmonic_shape(const TomlTable& table, const std::filesystem::pat
         harmonics.center = series.center;
         if (const auto method = table.find("intersection"))
             harmonics.method = static_cast<HarmonicMethod>(method->index_in(kMethods, "intersection"));
+        if (const auto detail = table.find("lod")) harmonics.has_levels_of_detail = detail->boolean();
         return harmonics;
     } catch (const InputError& error) {
         table.fail(error.what());

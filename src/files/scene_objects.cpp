@@ -201,7 +201,7 @@ Object read_untransformed(TomlTable& table, const std::filesystem::path& directo
         return Object{"", std::move(geometry), {read_material(table.at("material"), file.scene)}};
     };
     if (shape == "harmonics") {
-        expect_object_keys(table, shape, {"file", "coefficients", "center", "degree", "intersection"});
+        expect_object_keys(table, shape, {"file", "coefficients", "center", "degree", "intersection", "lod"});
         return of_one_material(read_harmonic_shape(table, directory, file));
     }
     return of_one_material(read_simple_shape(table, shape, file));

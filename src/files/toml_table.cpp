@@ -82,6 +82,12 @@ std::int64_t TomlItem::integer(std::int64_t min, std::int64_t max) const {
     fail(fmt::format("found {}. Allowed: a whole number from {} to {}.", described(*value_), min, max));
 }
 
+bool TomlItem::boolean() const {
+    const auto* truth = std::get_if<bool>(&value_->content);
+    if (truth == nullptr) fail_type("true or false");
+    return *truth;
+}
+
 const std::string& TomlItem::text() const {
     if (const auto* text = std::get_if<std::string>(&value_->content)) return *text;
     fail_type("a text in quotation marks");

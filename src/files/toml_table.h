@@ -41,6 +41,8 @@ class TomlItem {
     /// A whole number; 1e6 will do for 1000000.
     std::int64_t integer(std::int64_t min, std::int64_t max) const;
     const std::string& text() const;
+    /// true or false.
+    bool boolean() const;
     /// [r, g, b], or one number for a grey triple.
     Spectrum spectrum(const Range& range) const;
     /// [x, y, z].

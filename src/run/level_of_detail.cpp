@@ -52,6 +52,7 @@ int least_degree(const HarmonicSeries<double>& radius, double allowed) {
 
 LevelOfDetail reduce(Object& object, std::span<const Sensor> sensors) {
     auto& harmonics = std::get<Harmonics>(object.shape);
+    harmonics.has_levels_of_detail = false;  // done, once and for all
     const HarmonicSeries<double>& radius = harmonics.surface->radius();
     LevelOfDetail level{object.name, radius.degree(), radius.degree(), 0, allowed_m(harmonics, sensors)};
     const double allowed =

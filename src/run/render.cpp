@@ -327,6 +327,12 @@ RenderResult render_by(const std::function<std::unique_ptr<PictureEstimator>(con
 
 RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& asked_options,
                     PictureSink* sink, const std::atomic<bool>* interrupt) {
+    if (has_levels_of_detail(scene)) {
+        DetailedScene detailed = with_levels_of_detail(scene, {&camera, 1});
+        RenderResult result = render(detailed.scene, camera, asked_options, sink, interrupt);
+        result.levels_of_detail = std::move(detailed.levels);
+        return result;
+    }
     require_valid(asked_options);
     const EstimatorEntry& method = find_estimator(asked_options.method);
     const RunOptions options = with_target(asked_options, method);

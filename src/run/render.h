@@ -37,6 +37,7 @@ struct RenderResult {
     double mean_luminance_cd_m2 = 0;
     double mean_standard_error_cd_m2 = 0;  ///< of single pixels
     std::optional<PatchReport> patches;    ///< where the method lights patches
+    std::vector<LevelOfDetail> levels_of_detail;
     std::vector<std::string> warnings;
 };
 

@@ -287,6 +287,12 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
 
 RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked_options,
               ProgressSink* progress, const std::atomic<bool>* interrupt) {
+    if (has_levels_of_detail(scene)) {
+        DetailedScene detailed = with_levels_of_detail(scene, sensors);
+        RunResult result = run(detailed.scene, sensors, asked_options, progress, interrupt);
+        result.levels_of_detail = std::move(detailed.levels);
+        return result;
+    }
     std::vector<Measurand> measurands;
     std::vector<double> weights;  // a run stops when each sensor as a whole is exact enough
     for (const Sensor& sensor : sensors) {

@@ -10,6 +10,7 @@
 
 #include "base/spectrum.h"
 #include "estimators/patch_report.h"
+#include "run/level_of_detail.h"
 #include "run/options.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
@@ -47,6 +48,7 @@ struct RunResult {
     double attained_error = 0;           ///< the worst sensor's
     std::vector<SensorResult> sensors;   ///< in the order asked for
     std::optional<PatchReport> patches;  ///< where the method lights patches
+    std::vector<LevelOfDetail> levels_of_detail;
     std::vector<std::string> warnings;
 };
 

@@ -1,0 +1,14 @@
+// Which objects were given fewer harmonics than they have, as text for people.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "run/level_of_detail.h"
+
+namespace stilb {
+
+/// A line for each.
+std::string detail_text(std::span<const LevelOfDetail> levels);
+
+}  // namespace stilb
