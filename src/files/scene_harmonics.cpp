@@ -45,22 +45,26 @@ void truncate(const TomlTable& table, std::vector<double>& coefficients) {
     coefficients.resize(harmonic_count(static_cast<int>(item->integer(0, largest))));
 }
 
+Harmonics harmonics_of(const HarmonicsFile& series, const TomlTable& table) {
+    try {
+        return Harmonics(HarmonicSurface(HarmonicSeries<double>(series.coefficients)));
+    } catch (const InputError& error) {
+        table.fail(error.what());
+    }
+}
+
 }  // namespace
 
 Harmonics read_harmonic_shape(const TomlTable& table, const std::filesystem::path& directory,
                               SceneFile& file) {
     HarmonicsFile series = read_series(table, directory, file);
     truncate(table, series.coefficients);
-    try {
-        Harmonics harmonics(HarmonicSurface(HarmonicSeries<double>(series.coefficients)));
-        harmonics.center = series.center;
-        if (const auto method = table.find("intersection"))
-            harmonics.method = static_cast<HarmonicMethod>(method->index_in(kMethods, "intersection"));
-        if (const auto detail = table.find("lod")) harmonics.has_levels_of_detail = detail->boolean();
-        return harmonics;
-    } catch (const InputError& error) {
-        table.fail(error.what());
-    }
+    Harmonics harmonics = harmonics_of(series, table);
+    if (!table.has("center")) harmonics.center = series.center;
+    if (const auto method = table.find("intersection"))
+        harmonics.method = static_cast<HarmonicMethod>(method->index_in(kMethods, "intersection"));
+    if (const auto detail = table.find("lod")) harmonics.has_levels_of_detail = detail->boolean();
+    return harmonics;
 }
 
 }  // namespace stilb

@@ -31,7 +31,8 @@ Transform read_transform(const TomlTable& object);
 
 /// A direction made a unit vector, with a warning where it was far from one.
 Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings);
-/// The keys file or coefficients, degree, intersection, lod. The centre is the file's.
+/// The keys file or coefficients, degree, intersection, lod. The centre is the file's, or the
+/// origin where there is a key for it.
 Harmonics read_harmonic_shape(const TomlTable& table, const std::filesystem::path& directory,
                               SceneFile& file);
 /// The keys corner, edge_u, edge_v.

@@ -83,11 +83,7 @@ TEST(SceneObjects, RefusesUnknownShapesAndKeys) {
     EXPECT_REFUSAL(
         object("shape = \"spere\""),
         "s.toml:6: objects.a.shape: unknown shape \"spere\". Did you mean \"sphere\"? Allowed: mesh, "
-        "rectangle, box, sphere, disk, polygons.");
-    EXPECT_REFUSAL(
-        object("shape = \"harmonics\""),
-        "s.toml:6: objects.a.shape: shape \"harmonics\" is not supported yet. Allowed: mesh, rectangle, box, "
-        "sphere, disk, polygons.");
+        "rectangle, box, sphere, disk, polygons, harmonics.");
     EXPECT_REFUSAL(object("shape = \"box\"\nmax = [1, 1, 1]\nmni = [0, 0, 0]"),
                    "s.toml:8: objects.a: unknown key \"mni\" for shape \"box\". Did you mean \"min\"? "
                    "Allowed: min, max, "

@@ -120,7 +120,7 @@ bool verify(const AgreementScene& entry, bool is_diffuse) {
         for (const double size_m : kSizes_m) {
             way.options.patches.patch_m = size_m;
             // Bins of directions are part of what classical first shot divides.
-            way.options.patches.first_shot.bin_rings = static_cast<int>(2.4 / size_m);
+            way.options.patches.first_shot.bin_rings = static_cast<int>(4.8 / size_m);
             const auto found = means(run(scene, sensors, way.options));
             fmt::print(" | {:4} m", size_m);
             for (std::size_t i = 0; i < found.size(); ++i) {

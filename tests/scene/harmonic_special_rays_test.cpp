@@ -51,9 +51,7 @@ struct Both {
 constexpr Vec3 kAxes{1, 1.2, 0.9};
 constexpr Vec3 divided(const Vec3& x) { return {x.x / kAxes.x, x.y / kAxes.y, x.z / kAxes.z}; }
 
-Both ellipsoid() {
-    return {HarmonicSurface(harmonic_projection([](const Vec3& d) { return 1 / length(divided(d)); }, 30))};
-}
+Both ellipsoid() { return {ellipsoid_surface(kAxes, 30)}; }
 
 /// Where a ray meets the ellipsoid: 0 or 2 distances.
 std::vector<double> ellipsoid_crossings(const Vec3& origin, const Vec3& direction) {

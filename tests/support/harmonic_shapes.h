@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "base/sampling.h"
+#include "scene/harmonic_projection.h"
 #include "scene/harmonic_surface.h"
 #include "support/scene_builder.h"
 
@@ -38,6 +39,24 @@ inline HarmonicSurface rough_surface(int degree, std::uint64_t seed) {
     for (double& c : coefficients) c = (numbers.next() - 0.5) * 1.6 / (degree + 1);
     coefficients[0] = kUnitSphere;
     return HarmonicSurface(HarmonicSeries<double>(coefficients));
+}
+
+/// A radius by direction, projected.
+template <typename Radius>
+HarmonicSurface surface_of(const Radius& radius, int degree) {
+    const ParallelGrid grid = gauss_grid(2 * (degree + 1));
+    std::vector<double> radii;
+    for (const Vec3& direction : grid.directions()) radii.push_back(radius(direction));
+    return HarmonicSurface(HarmonicSeries<double>(project(grid, radii, degree)));
+}
+
+/// Half axes along x, y and z, where the series has converged at that degree.
+inline HarmonicSurface ellipsoid_surface(const Vec3& axes, int degree) {
+    return surface_of(
+        [&](const Vec3& d) {
+            return 1 / length(Vec3{d.x / axes.x, d.y / axes.y, d.z / axes.z});
+        },
+        degree);
 }
 
 /// Of 1,310,720 triangles, fronts outside.
@@ -87,29 +106,6 @@ inline HarmonicSurface strong_surface(int degree, double falloff, double ratio, 
     for (double& c : coefficients) c *= scale;
     coefficients[0] = kUnitSphere;
     return HarmonicSurface(HarmonicSeries<double>(coefficients));
-}
-
-/// The series of a function of directions, which must have no more than `degree` for it to be exact: by
-/// Fejer's first rule in the polar angle, and equal steps about the pole.
-template <typename Function>
-HarmonicSeries<double> harmonic_projection(const Function& function, int degree) {
-    const int parallels = 2 * degree + 2, meridians = 2 * degree + 2;
-    std::vector<double> coefficients(harmonic_count(degree)), values(harmonic_count(degree));
-    for (int k = 0; k < parallels; ++k) {
-        const double theta = std::numbers::pi * (k + 0.5) / parallels;
-        double sum = 1;
-        for (int n = 1; 2 * n < parallels; ++n) sum -= 2 * std::cos(2 * n * theta) / (4. * n * n - 1);
-        const double weight = 2 * sum / parallels * 2 * std::numbers::pi / meridians;
-        for (int m = 0; m < meridians; ++m) {
-            const double phi = 2 * std::numbers::pi * m / meridians;
-            const Vec3 direction{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                                 std::cos(theta)};
-            evaluate_harmonics(direction, degree, values);
-            const double value = weight * function(direction);
-            for (std::size_t n = 0; n < values.size(); ++n) coefficients[n] += value * values[n];
-        }
-    }
-    return HarmonicSeries<double>(coefficients);
 }
 
 }  // namespace stilb
