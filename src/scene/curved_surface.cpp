@@ -100,11 +100,11 @@ class WholeHarmonics final : public CurvedSurface {
 
 class HarmonicsInCells final : public CurvedSurface {
   public:
-    explicit HarmonicsInCells(Harmonics shape) : shape_(std::move(shape)), cells_(*shape_.surface) {}
+    explicit HarmonicsInCells(Harmonics shape) : shape_(std::move(shape)) {}
 
-    std::size_t part_count() const override { return cells_.count(); }
+    std::size_t part_count() const override { return shape_.cells->count(); }
     Bounds bounds_of(std::size_t part) const override {
-        const Bounds own = cells_.bounds_of(part);
+        const Bounds own = shape_.cells->bounds_of(part);
         Bounds bounds;
         for (unsigned corner = 0; corner < 8; ++corner) {
             bounds.include(
@@ -114,17 +114,16 @@ class HarmonicsInCells final : public CurvedSurface {
         return bounds;
     }
     std::optional<double> intersect(std::size_t part, const RayInterval& ray) const override {
-        return cells_.crossing(part, shape_.to_own(ray.origin),
-                               shape_.axes.to_local(ray.direction) / shape_.scale, ray.start, ray.end);
+        return shape_.cells->crossing(part, shape_.to_own(ray.origin),
+                                      shape_.axes.to_local(ray.direction) / shape_.scale, ray.start, ray.end);
     }
     SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const override {
-        const auto [position, normal] = cells_.place_at(part, shape_.to_own(near_by));
+        const auto [position, normal] = shape_.cells->place_at(part, shape_.to_own(near_by));
         return {shape_.to_world(position), shape_.axes.to_world(normal), shape_.scale * length(position)};
     }
 
   private:
     Harmonics shape_;
-    HarmonicCells cells_;
 };
 
 struct Maker {

@@ -321,18 +321,26 @@ std::optional<double> HarmonicCells::crossing(std::size_t number, const Vec3& or
     return (rest * stretch.low + share * stretch.high) / (rest + share);
 }
 
-/// z W(x / z, y / z) is 1 on the surface and more outside; its gradient is (W_s, W_t, W - s W_s - t W_t).
 HarmonicCells::Place HarmonicCells::place_at(std::size_t number, const Vec3& near_by) const {
+    const Outline& cell = outlines_[number];
+    const Span s = spans_[cell.column], t = spans_[cell.row];
+    const Vec3 x = Face(cell.face).to_local(near_by);
+    return element_at(number, (x.x / x.z - s.middle) / s.half, (x.y / x.z - t.middle) / t.half);
+}
+
+/// z W(x / z, y / z) is 1 on the surface and more outside; its gradient g is (W_s, W_t, W - s W_s - t W_t),
+/// and the area |g| / W^3 by s and t.
+HarmonicCells::Element HarmonicCells::element_at(std::size_t number, double a, double b) const {
     const Outline& cell = outlines_[number];
     const Face face(cell.face);
     const Span column = spans_[cell.column], row = spans_[cell.row];
-    const Vec3 x = face.to_local(near_by);
-    const double s = x.x / x.z, t = x.y / x.z;
-    const ValueAndSlopes w =
-        evaluate(polynomials_[number], (s - column.middle) / column.half, (t - row.middle) / row.half);
+    const double s = column.middle + a * column.half, t = row.middle + b * row.half;
+    const ValueAndSlopes w = evaluate(polynomials_[number], a, b);
     const double along_s = w.along_a / column.half, along_t = w.along_b / row.half;
     const Vec3 outwards{along_s, along_t, w.value - s * along_s - t * along_t};
-    return {face.to_world(Vec3{s, t, 1} / w.value), normalized(face.to_world(outwards))};
+    const double size = length(outwards);
+    return {{face.to_world(Vec3{s, t, 1} / w.value), face.to_world(outwards / size)},
+            size / (w.value * w.value * w.value) * column.half * row.half};
 }
 
 }  // namespace stilb

@@ -44,14 +44,20 @@ class HarmonicCells {
     std::optional<double> crossing(std::size_t cell, const Vec3& origin, const Vec3& direction, double start,
                                    double end) const;
 
+    /// By the cell's polynomial: at the default tolerance the normal is within about 2e-5 rad of
+    /// HarmonicSurface::normal_at(), mostly within 3e-6.
     struct Place {
         Vec3 position;
         Vec3 normal;  ///< unit, outwards
     };
-    /// The surface's point on the line from the origin through `near_by`, which is in or near a cell. By the
-    /// cell's polynomial: at the default tolerance the normal is within about 2e-5 rad of
-    /// HarmonicSurface::normal_at(), mostly within 3e-6.
+    /// The surface's point on the line from the origin through `near_by`, which is in or near a cell.
     Place place_at(std::size_t cell, const Vec3& near_by) const;
+
+    struct Element : Place {
+        double area = 0;  ///< by a and b: of a square in which they change by 1
+    };
+    /// At a and b from -1 to 1 over a cell.
+    Element element_at(std::size_t cell, double a, double b) const;
 
   private:
     static constexpr std::size_t kNodes = 7;  ///< along an edge

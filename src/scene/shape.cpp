@@ -6,6 +6,7 @@
 
 #include "scene/bounds.h"
 #include "scene/harmonic_area.h"
+#include "scene/harmonic_cells.h"
 #include "scene/harmonic_surface.h"
 
 namespace stilb {
@@ -127,7 +128,8 @@ Mesh inscribed_icosahedron(const Harmonics& harmonics) {
 
 Harmonics::Harmonics(HarmonicSurface own)
     : surface(std::make_shared<const HarmonicSurface>(std::move(own))),
-      area(std::make_shared<const HarmonicArea>(surface)) {}
+      cells(std::make_shared<const HarmonicCells>(*surface)),
+      area(std::make_shared<const HarmonicArea>(cells)) {}
 
 Vec3 Harmonics::point_towards(const Vec3& direction) const {
     const Vec3 own = normalized(axes.to_local(direction));

@@ -13,6 +13,7 @@ namespace stilb {
 
 struct Bounds;
 class HarmonicArea;
+class HarmonicCells;
 class HarmonicSurface;
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -56,7 +57,8 @@ enum class HarmonicMethod {
 /// left-handed where the object is mirrored. Its front is the outside.
 struct Harmonics {
     std::shared_ptr<const HarmonicSurface> surface;  ///< not null; shared by copies, as is what follows
-    std::shared_ptr<const HarmonicArea> area;        ///< of the surface
+    std::shared_ptr<const HarmonicCells> cells;      ///< of the surface
+    std::shared_ptr<const HarmonicArea> area;        ///< of the cells
     Vec3 center;
     double scale = 1;
     Frame axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
