@@ -1,0 +1,58 @@
+// A head as a mesh and as series of spherical harmonics fitted to it: how far off the series are, how large,
+// and how long their pictures take.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/fit_report.h"
+#include "run/render.h"
+#include "scene/scene.h"
+
+namespace stilb {
+
+struct HeadStudyOptions {
+    std::vector<int> degrees{4, 8, 16, 32, 64};  ///< growing
+    std::array<int, 2> resolution{200, 240};
+    std::uint64_t passes = 12;  ///< of each picture
+    /// A round is a picture of the mesh and one of each series, with the same seed; even.
+    int rounds = 4;
+};
+
+/// The pictures of a shape, one for each round.
+struct RenderedHead {
+    std::vector<RenderResult> rounds;
+    /// The shortest of the rounds' times, and of the ray caster's set-up, which is part of them.
+    double elapsed_s = 0, set_up_s = 0;
+};
+
+struct HeadSeries {
+    int degree = 0;
+    RenderedHead rendered;
+    /// Mean absolute difference of the luminances from those of the mesh, as a share of their mean: over the
+    /// pixels that show the mesh. Noise is what of it chance alone would make.
+    double luminance_difference = 0, noise = 0;
+    /// Root mean square in these pixels: between the series' normals and the mesh's smooth ones.
+    double normal_error_rad = 0;
+};
+
+struct HeadStudy {
+    FitReport report;  ///< of the highest degree; the lower ones are the same series, cut off
+    RenderedHead mesh;
+    std::vector<HeadSeries> series;
+    double head_share = 0;  ///< of the pixels
+
+    double time_ratio(const HeadSeries& one) const { return one.rendered.elapsed_s / mesh.elapsed_s; }
+};
+
+/// In the room of head_in_room.h. A mesh that is not star-shaped is taken by its outermost surface. Throws
+/// InputError with `name` where a series is no surface.
+HeadStudy study_head(const Mesh& head, const std::string& name, const HeadStudyOptions& options,
+                     PictureSink* progress = nullptr);
+
+/// The series cut off at a degree. Throws InputError with `name` where it is no surface.
+Harmonics series_of(const MeshFit& fit, int degree, const std::string& name);
+
+}  // namespace stilb
