@@ -10,10 +10,10 @@
 namespace stilb {
 namespace {
 
-constexpr double kSize_m = 1.1;
-constexpr Vec3 kMiddle_m{2, 3.9, 1.25};  // of the head's box
-constexpr Vec3 kEye_m{0.9, 1.9, 1.35};
-constexpr double kFov_deg = 24;
+constexpr double kSize_m = 1.2;
+constexpr Vec3 kMiddle_m{2, 4.2, 1.35};  // of the head's box
+constexpr Vec3 kEye_m{0.9, 2.1, 1.45};
+constexpr double kFov_deg = 26;
 constexpr double kReflectance = 0.6;
 
 SceneFile paper_room() { return read_scene(kPaperRoom, "scenes/paper/room.toml", {}); }

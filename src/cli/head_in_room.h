@@ -11,7 +11,7 @@
 namespace stilb {
 
 /// Puts a mesh, y up and its face along z as most files have it, into the room: upright, with the face to
-/// the wall behind the camera, and the longest edge of its box 1.1 m whatever its size was.
+/// the wall behind the camera, and the longest edge of its box 1.2 m whatever its size was.
 Mesh placed_in_room(Mesh head);
 
 /// The head is the last object, of grey clay. It touches nothing.

@@ -58,10 +58,14 @@ std::string to_text(const HeadStudy& study) {
     text += fmt::format(
         "luminances and normals over the {:.0f} % of the pixels that show the head; noise is part of the "
         "difference\n"
-        "the mesh's picture takes {:.2f} s, {:.2f} s of it for the ray caster's set-up; the series' set-ups:",
-        kPercent * study.head_share, study.mesh.elapsed_s, study.mesh.set_up_s);
+        "the mesh's picture takes {:.2f} s of processor time, {:.2f} s of it for the ray caster's set-up; "
+        "the series' set-ups:",
+        kPercent * study.head_share, study.mesh.processor_s, study.mesh.set_up_s);
     for (const HeadSeries& one : study.series) text += fmt::format(" {:.2f}", one.rendered.set_up_s);
-    return text + " s\n";
+    return text + fmt::format(
+                      " s\n"
+                      "in the view of the whole room, degree {} takes {:.3g} times the mesh's time\n",
+                      study.room_degree, study.room_time_ratio());
 }
 
 std::vector<Column> columns_of(const HeadStudy& study) {
@@ -81,8 +85,8 @@ std::vector<Column> columns_of(const HeadStudy& study) {
         column("luminance_difference", [](const HeadSeries& one) { return one.luminance_difference; }),
         column("noise", [](const HeadSeries& one) { return one.noise; }),
         column("normal_error_deg", [](const HeadSeries& one) { return kDegrees * one.normal_error_rad; }),
-        column("time_s", [](const HeadSeries& one) { return one.rendered.elapsed_s; }),
-        column("mesh_time_s", [&](const HeadSeries&) { return study.mesh.elapsed_s; }),
+        column("time_s", [](const HeadSeries& one) { return one.rendered.processor_s; }),
+        column("mesh_time_s", [&](const HeadSeries&) { return study.mesh.processor_s; }),
         column("time_ratio", [&](const HeadSeries& one) { return study.time_ratio(one); }),
         column("set_up_s", [](const HeadSeries& one) { return one.rendered.set_up_s; }),
         column("mesh_set_up_s", [&](const HeadSeries&) { return study.mesh.set_up_s; })};

@@ -15,17 +15,19 @@ namespace stilb {
 
 struct HeadStudyOptions {
     std::vector<int> degrees{4, 8, 16, 32, 64};  ///< growing
-    std::array<int, 2> resolution{200, 240};
+    std::array<int, 2> resolution{160, 192};     ///< of the pictures of the head
+    std::array<int, 2> room_resolution{320, 240};
     std::uint64_t passes = 12;  ///< of each picture
     /// A round is a picture of the mesh and one of each series, with the same seed; even.
     int rounds = 4;
 };
 
-/// The pictures of a shape, one for each round.
+/// The pictures of a scene, one for each round.
 struct RenderedHead {
-    std::vector<RenderResult> rounds;
-    /// The shortest of the rounds' times, and of the ray caster's set-up, which is part of them.
-    double elapsed_s = 0, set_up_s = 0;
+    Sensor view;
+    std::vector<RenderResult> rounds{};
+    /// The least of the rounds' processor times, and of the ray caster's set-up, which is part of them.
+    double processor_s = 0, set_up_s = 0;
 };
 
 struct HeadSeries {
@@ -43,16 +45,17 @@ struct HeadStudy {
     RenderedHead mesh;
     std::vector<HeadSeries> series;
     double head_share = 0;  ///< of the pixels
+    /// The whole room with the mesh, and with the series of the paper's degree (or the highest below).
+    RenderedHead room_with_mesh, room_with_series;
+    int room_degree = 0;
 
-    double time_ratio(const HeadSeries& one) const { return one.rendered.elapsed_s / mesh.elapsed_s; }
+    double time_ratio(const HeadSeries& one) const { return one.rendered.processor_s / mesh.processor_s; }
+    double room_time_ratio() const { return room_with_series.processor_s / room_with_mesh.processor_s; }
 };
 
 /// In the room of head_in_room.h. A mesh that is not star-shaped is taken by its outermost surface. Throws
 /// InputError with `name` where a series is no surface.
 HeadStudy study_head(const Mesh& head, const std::string& name, const HeadStudyOptions& options,
                      PictureSink* progress = nullptr);
-
-/// The series cut off at a degree. Throws InputError with `name` where it is no surface.
-Harmonics series_of(const MeshFit& fit, int degree, const std::string& name);
 
 }  // namespace stilb

@@ -25,26 +25,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPaperDegree = 32;
-constexpr std::array kRoomResolution{400, 300};
-constexpr std::uint64_t kRoomPasses = 24;
 constexpr std::size_t kColumns = 3;  // of the sheet
-
-Picture picture_of(const RenderResult& result, const Sensor& view, const std::string& head) {
-    PictureOrigin origin;
-    origin.scene = "scenes/paper/room.toml with " + head;
-    origin.sensor = view.name;
-    origin.method = result.method;
-    origin.command = "stilb reproduce harmonics";
-    origin.version = STILB_VERSION;
-    return picture_of(result, view.camera, origin);
-}
 
 /// The mean of the rounds.
 Picture picture_of(const RenderedHead& head, const std::string& name) {
     const RenderResult& first = head.rounds.front();
-    const HeadStudyOptions options;
-    Picture mean = picture_of(first, view_of_head(options.resolution), name);
+    PictureOrigin origin;
+    origin.scene = "scenes/paper/room.toml with " + name;
+    origin.sensor = head.view.name;
+    origin.method = first.method;
+    origin.command = "stilb reproduce harmonics";
+    origin.version = STILB_VERSION;
+    Picture mean = picture_of(first, head.view.camera, origin);
     const auto rounds = static_cast<float>(head.rounds.size());
     for (std::size_t i = 0; i < mean.pixel_count(); ++i) {
         std::array<float, 3> sum{};
@@ -61,6 +53,13 @@ Picture picture_of(const RenderedHead& head, const std::string& name) {
     return mean;
 }
 
+void write_both(const Picture& picture, const fs::path& directory, const std::string& name,
+                const ToneOptions& tone) {
+    for (const char* extension : {"exr", "png"}) {
+        write_picture(picture, directory / fmt::format("harmonics-{}.{}", name, extension), tone);
+    }
+}
+
 /// All by one exposure: the mesh's.
 void write_pictures(const HeadStudy& study, const fs::path& directory) {
     std::vector<LabelledPicture> pictures{
@@ -73,24 +72,9 @@ void write_pictures(const HeadStudy& study, const fs::path& directory) {
     }
     const double exposure = automatic_exposure(pictures.front().picture);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        for (const char* extension : {"exr", "png"}) {
-            write_picture(pictures[i].picture,
-                          directory / fmt::format("harmonics-{}.{}", names[i], extension), {exposure});
-        }
+        write_both(pictures[i].picture, directory, names[i], {exposure});
     }
     draw_picture_sheet(pictures, kColumns, ToneCurve(exposure), directory / "harmonics-degrees.png");
-}
-
-void write_room(const HeadStudy& study, const fs::path& directory) {
-    RunOptions run;
-    run.paths = kRoomPasses;
-    const Sensor view = view_of_room(kRoomResolution);
-    TerminalPictureProgress progress;
-    const Scene scene = room_with(series_of(study.report.fit, kPaperDegree, study.report.mesh));
-    const Picture picture = picture_of(render(scene, view, run, &progress), view,
-                                       fmt::format("a series of degree {}", kPaperDegree));
-    for (const char* extension : {"exr", "png"})
-        write_picture(picture, directory / fmt::format("harmonics-room.{}", extension));
 }
 
 /// The mesh and its name.
@@ -114,7 +98,8 @@ void reproduce_harmonics(const fs::path& directory, const std::string& mesh_file
     for (const char* extension : {"svg", "png"})
         draw_plot(plot_of(study), directory / fmt::format("harmonics.{}", extension));
     write_pictures(study, directory);
-    write_room(study, directory);
+    write_both(picture_of(study.room_with_series, fmt::format("a series of degree {}", study.room_degree)),
+               directory, "room", {});
 }
 
 }  // namespace stilb
