@@ -1,5 +1,6 @@
 #include "cli/head_shape.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -10,8 +10,8 @@ namespace stilb {
 /// looks along z. Above 0 everywhere, so the head is star-shaped about the origin.
 double head_radius(const Vec3& direction);
 
-/// Its points on 107 parallels about y with 154 meridians: 32 648 faces, as nearly as parallels allow the
-/// 32 654 of [LocalEstimation 6]; closed, fronts outside.
+/// Its points where 154 meridians meet 106 parallels about y, and its poles: 32 648 faces, where
+/// [LocalEstimation 6] has 32 654; closed, fronts outside.
 Mesh head_mesh();
 
 }  // namespace stilb

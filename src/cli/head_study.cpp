@@ -46,7 +46,7 @@ Harmonics series_of(const MeshFit& fit, int degree, const std::string& name) {
     }
 }
 
-/// Of all threads: unlike the time that passes, it does not depend on what else the machine does.
+/// Of all threads: unlike the time that passes, it hardly depends on what else the machine does.
 double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double set_up_s(const Scene& scene) {

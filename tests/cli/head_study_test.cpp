@@ -32,7 +32,8 @@ std::vector<double> cells(const HeadStudy& study, const std::string& name) {
 }
 
 TEST(HeadInRoom, StandsUprightAndLooksAtTheCamera) {
-    const Mesh spike{{{0, 0, 0}, {1, 0, 0}, {0, 5, 0}, {0, 0, 3}}, {{0, 1, 2}, {0, 2, 3}}};  // 5 up, 3 to the front
+    const Mesh spike{{{0, 0, 0}, {1, 0, 0}, {0, 5, 0}, {0, 0, 3}},
+                     {{0, 1, 2}, {0, 2, 3}}};  // 5 up, 3 to the front
     const Mesh placed = placed_in_room(spike);
     EXPECT_NEAR(2 * bounds_of(placed).half_extent(), 1.2, 1e-12);
     const Vec3 up = placed.vertices[2] - placed.vertices[0], front = placed.vertices[3] - placed.vertices[0];

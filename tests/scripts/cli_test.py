@@ -193,9 +193,10 @@ class ReproduceTest(CommandLineTest):
         self.assertEqual(len(rows), 101)
         self.assertLessEqual(len(missed), 12)
 
-    def test_the_room_is_read_without_warnings(self):
-        result = run("info", ROOT / "scenes/paper/room.toml", "--json")
-        self.assertEqual(json.loads(result.stdout)["warnings"], [])
+    def test_the_rooms_are_read_without_warnings(self):
+        for scene in ("scenes/paper/room.toml", "scenes/head/head.toml"):
+            result = run("info", ROOT / scene, "--json")
+            self.assertEqual(json.loads(result.stdout)["warnings"], [])
 
 
 class HelpTest(CommandLineTest):
