@@ -19,15 +19,6 @@ std::vector<int> degrees_of(const FitReport& report) {
     return degrees;
 }
 
-std::uintmax_t bare_bytes(int degree) { return 4 * harmonic_count(degree); }
-
-double rms_of_size(const FitReport& report, int degree) {
-    return report.fit.errors[static_cast<std::size_t>(degree)].rms / report.fit.size;
-}
-double maximum_of_size(const FitReport& report, int degree) {
-    return report.fit.errors[static_cast<std::size_t>(degree)].maximum / report.fit.size;
-}
-
 double ratio(std::uintmax_t a, std::uintmax_t b) { return static_cast<double>(a) / static_cast<double>(b); }
 
 std::string center_text(const MeshFit& fit) {
@@ -79,8 +70,8 @@ Json errors_json(const FitReport& report) {
     for (int degree = 0; degree <= report.degree(); ++degree) {
         errors.push_back({{"degree", degree},
                           {"coefficients", harmonic_count(degree)},
-                          {"rms", rms_of_size(report, degree)},
-                          {"maximum", maximum_of_size(report, degree)}});
+                          {"rms", report.rms_error(degree)},
+                          {"maximum", report.largest_error(degree)}});
     }
     return errors;
 }
@@ -124,10 +115,9 @@ std::string to_text(const FitReport& report) {
     text += center_text(fit) + "\n" + star_text(fit);
     text += "\ndegree  coefficients     bytes    mesh / series    rms error   largest error\n";
     for (const int degree : degrees_of(report)) {
-        text +=
-            fmt::format("{:6} {:13} {:9} {:16.4g} {:10.3g} % {:13.3g} %\n", degree, harmonic_count(degree),
-                        bare_bytes(degree), ratio(report.bare_mesh_bytes(), bare_bytes(degree)),
-                        100 * rms_of_size(report, degree), 100 * maximum_of_size(report, degree));
+        text += fmt::format("{:6} {:13} {:9} {:16.4g} {:10.3g} % {:13.3g} %\n", degree,
+                            harmonic_count(degree), FitReport::bare_bytes(degree), report.bare_ratio(degree),
+                            100 * report.rms_error(degree), 100 * report.largest_error(degree));
     }
     text += fmt::format(
         "errors along rays from the centre, in {} directions, as shares of the size\n"
@@ -156,9 +146,9 @@ std::string to_json(const FitReport& report) {
                       {"degree", report.degree()},
                       {"coefficients", fit.coefficients.size()},
                       {"bytes", report.output_bytes},
-                      {"bare_bytes", bare_bytes(report.degree())},
+                      {"bare_bytes", FitReport::bare_bytes(report.degree())},
                       {"ratio", ratio(report.mesh_bytes, report.output_bytes)},
-                      {"bare_ratio", ratio(report.bare_mesh_bytes(), bare_bytes(report.degree()))}};
+                      {"bare_ratio", report.bare_ratio(report.degree())}};
     json["errors"] = errors_json(report);
     json["grid"] = {fit.parallels, 2 * fit.parallels};
     json["elapsed_s"] = report.elapsed_s;
@@ -170,9 +160,9 @@ Plot error_plot(const FitReport& report) {
     Series rms{"root mean square", {}, {}}, maximum{"largest", {}, {}};
     for (int degree = 1; degree <= report.degree(); ++degree) {
         rms.x.push_back(degree);
-        rms.y.push_back(100 * rms_of_size(report, degree));
+        rms.y.push_back(100 * report.rms_error(degree));
         maximum.x.push_back(degree);
-        maximum.y.push_back(100 * maximum_of_size(report, degree));
+        maximum.y.push_back(100 * report.largest_error(degree));
     }
     Plot plot{fmt::format("Error of the series, {}", report.mesh.substr(report.mesh.find_last_of('/') + 1)),
               {"degree", ScaleType::logarithmic},

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/spherical_harmonics.h"
 #include "files/plot.h"
 #include "scene/mesh_fit.h"
 
@@ -21,6 +22,18 @@ struct FitReport {
     int degree() const { return static_cast<int>(fit.errors.size()) - 1; }
     /// As single-precision coordinates and 32-bit corners.
     std::uintmax_t bare_mesh_bytes() const { return 12 * vertices + 12 * faces; }
+    /// Of the series if it ends with a degree, as shares of the size.
+    double rms_error(int of_degree) const { return error(of_degree).rms / fit.size; }
+    double largest_error(int of_degree) const { return error(of_degree).maximum / fit.size; }
+    /// Of the mesh's bare bytes to the coefficients' up to a degree.
+    double bare_ratio(int of_degree) const {
+        return static_cast<double>(bare_mesh_bytes()) / static_cast<double>(bare_bytes(of_degree));
+    }
+    /// In single precision.
+    static std::uintmax_t bare_bytes(int degree) { return 4 * harmonic_count(degree); }
+
+  private:
+    const DegreeError& error(int of_degree) const { return fit.errors[static_cast<std::size_t>(of_degree)]; }
 };
 
 /// What was found odd and what is lost, a sentence each.

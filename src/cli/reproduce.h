@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace stilb {
 
@@ -12,6 +13,9 @@ void reproduce_sobolev(const std::filesystem::path& directory);
 void reproduce_room(const std::filesystem::path& directory);
 /// [LocalEstimation], figure 6.
 void reproduce_polar(const std::filesystem::path& directory);
+/// [LocalEstimation], figure 5, with the head as series of spherical harmonics, and what they cost. `mesh` is
+/// an OBJ or PLY file of another head; empty: the program's own.
+void reproduce_harmonics(const std::filesystem::path& directory, const std::string& mesh);
 /// [FirstShot], figure 6.
 void reproduce_first_shot(const std::filesystem::path& directory);
 /// No figure of a paper: why three directions make a step.

@@ -31,6 +31,9 @@ MeshFile read_mesh_file(const std::filesystem::path& path);
 MeshFile read_obj(std::string_view content, const std::string& name);
 MeshFile read_ply(std::string_view content, const std::string& name);
 
+/// The content of an OBJ file, with seven digits of each coordinate.
+std::string to_obj(const Mesh& mesh);
+
 /// Triangles (indices into `polygon`) of a simple planar polygon, convex or not, in its own orientation.
 std::vector<Triangle> triangulate_polygon(const std::vector<Vec3>& polygon);
 

@@ -24,6 +24,13 @@ TEST(ObjFile, triangle) {
     EXPECT_EQ(file.group_names, std::vector<std::string>{""});
 }
 
+TEST(ObjFile, what_is_written_is_read) {
+    const Mesh mesh{{{0, 0, 0}, {1.25, 0, 0}, {0, -3e-7, 1}, {1, 123456, 1}}, {{0, 1, 2}, {3, 2, 1}}};
+    const MeshFile file = read(to_obj(mesh));
+    EXPECT_EQ(file.mesh.vertices, mesh.vertices);
+    EXPECT_EQ(file.mesh.triangles, mesh.triangles);
+}
+
 TEST(ObjFile, all_forms_of_corners) {
     for (const std::string face : {"1 2 3", "1/7 2/8 3/9", "1//7 2//8 3//9", "1/7/1 2/8/1 3/9/1", "-4 -3 -2",
                                    "1/ 2/ 3/", "-4/-1/-1 2 3", "1 2 3 # the floor"}) {

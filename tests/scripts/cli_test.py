@@ -171,6 +171,15 @@ class ReproduceTest(CommandLineTest):
     def test_unknown_figure(self):
         self.expect_wrong_input(["reproduce", "sobolew", "-o", self.folder], 'Did you mean "sobolev"?', "room", "polar")
 
+    def test_another_head(self):
+        mesh, folder = self.write("head.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n"), self.folder / "figures"
+        head = ["reproduce", "harmonics", "-o", folder, "--mesh"]
+        self.expect_wrong_input([*head, self.folder / "none.ply"], "none.ply", "cannot be read")
+        self.expect_wrong_input([*head, mesh], "head.obj:3")
+        self.expect_wrong_input([*head, self.scene], "room.toml", ".obj or .ply")
+        for figure in (["room"], []):
+            self.expect_wrong_input(["reproduce", *figure, "-o", folder, "--mesh", mesh], "--mesh", "harmonics")
+
     def test_sobolevs_problem(self):
         result = run("reproduce", "sobolev", "-o", self.folder / "figures")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
@@ -184,9 +193,10 @@ class ReproduceTest(CommandLineTest):
         self.assertEqual(len(rows), 101)
         self.assertLessEqual(len(missed), 12)
 
-    def test_the_room_is_read_without_warnings(self):
-        result = run("info", ROOT / "scenes/paper/room.toml", "--json")
-        self.assertEqual(json.loads(result.stdout)["warnings"], [])
+    def test_the_rooms_are_read_without_warnings(self):
+        for scene in ("scenes/paper/room.toml", "scenes/head/head.toml"):
+            result = run("info", ROOT / scene, "--json")
+            self.assertEqual(json.loads(result.stdout)["warnings"], [])
 
 
 class HelpTest(CommandLineTest):
