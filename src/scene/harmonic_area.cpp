@@ -1,19 +1,24 @@
 #include "scene/harmonic_area.h"
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <utility>
 #include <vector>
 
+#include "base/gauss_legendre.h"
 #include "scene/harmonic_cells.h"
 
 namespace stilb {
 namespace {
 
 double area_of_cell(const HarmonicCells& cells, std::size_t cell) {
-    using Rule = boost::math::quadrature::gauss<double, 7>;
-    return Rule::integrate([&](double a) {
-        return Rule::integrate([&](double b) { return cells.element_at(cell, a, b).area; });
-    });
+    static const GaussLegendre rule = gauss_legendre(7);
+    double area = 0;
+    for (std::size_t m = 0; m < rule.nodes.size(); ++m) {
+        for (std::size_t n = 0; n < rule.nodes.size(); ++n) {
+            area += rule.weights[m] * rule.weights[n] *
+                    cells.element_at(cell, rule.nodes[m], rule.nodes[n]).area;
+        }
+    }
+    return area;
 }
 
 }  // namespace
