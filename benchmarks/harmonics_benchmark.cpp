@@ -74,7 +74,7 @@ Walk walk(const HarmonicCells& cells, const std::vector<Ray>& rays) {
                              for (const auto& [distance, cell] : ray.cells) {
                                  if (distance > end) break;
                                  ++result.calls;
-                                 end = cells.crossing(cell, ray.origin, ray.direction, 0, end).value_or(end);
+                                 end = std::min(end, cells.crossing(cell, ray.origin, ray.direction, 0, end));
                              }
                              result.hits += end < kInfinity;
                          }

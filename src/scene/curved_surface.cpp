@@ -1,6 +1,8 @@
 #include "scene/curved_surface.h"
 
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "scene/harmonic_cells.h"
@@ -9,6 +11,8 @@
 
 namespace stilb {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::optional<double> intersect_shape(const Sphere& s, const RayInterval& ray) {
     const Vec3 to_origin = ray.origin - s.center;
@@ -55,8 +59,8 @@ class RoundSurface final : public CurvedSurface {
 
     std::size_t part_count() const override { return 1; }
     Bounds bounds_of(std::size_t) const override { return stilb::bounds_of(Shape{shape_}); }
-    std::optional<double> intersect(std::size_t, const RayInterval& ray) const override {
-        return intersect_shape(shape_, ray);
+    double intersect(std::size_t, const RayInterval& ray) const override {
+        return intersect_shape(shape_, ray).value_or(kInfinity);
     }
     SurfacePoint nearest_point(std::size_t, const Vec3& near_by) const override {
         return stilb::nearest_point(shape_, near_by);
@@ -76,7 +80,7 @@ class WholeHarmonics final : public CurvedSurface {
         return stilb::bounds_of(
             Shape{Sphere{shape_.center, shape_.scale * shape_.surface->greatest_radius()}});
     }
-    std::optional<double> intersect(std::size_t, const RayInterval& ray) const override {
+    double intersect(std::size_t, const RayInterval& ray) const override {
         // Distances in the surface's own units, of a unit direction.
         const double length_of_unit = shape_.scale / length(ray.direction);
         const Vec3 origin = shape_.to_own(ray.origin);
@@ -86,7 +90,7 @@ class WholeHarmonics final : public CurvedSurface {
                                   ? march_crossing(*shape_.surface, origin, direction, start, end,
                                                    kMarchedShare * shape_.surface->greatest_radius())
                                   : shape_.surface->first_crossing(origin, direction, start, end);
-        if (!crossing) return std::nullopt;
+        if (!crossing) return kInfinity;
         return crossing->distance * length_of_unit;
     }
     SurfacePoint nearest_point(std::size_t, const Vec3& near_by) const override {
@@ -100,11 +104,14 @@ class WholeHarmonics final : public CurvedSurface {
 
 class HarmonicsInCells final : public CurvedSurface {
   public:
-    explicit HarmonicsInCells(Harmonics shape) : shape_(std::move(shape)) {}
+    explicit HarmonicsInCells(Harmonics shape) : shape_(std::move(shape)), cells_(*shape_.cells) {
+        const double per_unit = 1 / shape_.scale;
+        to_own_ = {per_unit * shape_.axes.u, per_unit * shape_.axes.v, per_unit * shape_.axes.w};
+    }
 
-    std::size_t part_count() const override { return shape_.cells->count(); }
+    std::size_t part_count() const override { return cells_.count(); }
     Bounds bounds_of(std::size_t part) const override {
-        const Bounds own = shape_.cells->bounds_of(part);
+        const Bounds own = cells_.bounds_of(part);
         Bounds bounds;
         for (unsigned corner = 0; corner < 8; ++corner) {
             bounds.include(
@@ -113,17 +120,19 @@ class HarmonicsInCells final : public CurvedSurface {
         }
         return bounds;
     }
-    std::optional<double> intersect(std::size_t part, const RayInterval& ray) const override {
-        return shape_.cells->crossing(part, shape_.to_own(ray.origin),
-                                      shape_.axes.to_local(ray.direction) / shape_.scale, ray.start, ray.end);
+    double intersect(std::size_t part, const RayInterval& ray) const override {
+        return cells_.crossing(part, to_own_.to_local(ray.origin - shape_.center),
+                               to_own_.to_local(ray.direction), ray.start, ray.end);
     }
     SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const override {
-        const auto [position, normal] = shape_.cells->place_at(part, shape_.to_own(near_by));
+        const auto [position, normal] = cells_.place_at(part, shape_.to_own(near_by));
         return {shape_.to_world(position), shape_.axes.to_world(normal), shape_.scale * length(position)};
     }
 
   private:
     Harmonics shape_;
+    const HarmonicCells& cells_;  ///< the shape's
+    Frame to_own_;                ///< axes over scale
 };
 
 struct Maker {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 
 #include "scene/bounds.h"
 #include "scene/shape.h"
@@ -28,8 +27,9 @@ class CurvedSurface {
     virtual ~CurvedSurface() = default;
     virtual std::size_t part_count() const = 0;
     virtual Bounds bounds_of(std::size_t part) const = 0;
-    /// Smallest t in the interval at which the ray meets the part, from either side.
-    virtual std::optional<double> intersect(std::size_t part, const RayInterval& ray) const = 0;
+    /// Smallest t in the interval at which the ray meets the part, from either side; infinite where it does
+    /// not.
+    virtual double intersect(std::size_t part, const RayInterval& ray) const = 0;
     /// `near_by` (a hit with the rounding error of single precision) projected onto the part.
     virtual SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
 };

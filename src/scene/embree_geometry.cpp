@@ -42,9 +42,9 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
-        const auto t = surface.intersect(args->primID, interval_of(rays, args->N, lane));
-        if (!t) continue;
-        RTCRayN_tfar(rays, args->N, lane) = static_cast<float>(*t);
+        const double t = surface.intersect(args->primID, interval_of(rays, args->N, lane));
+        if (t == std::numeric_limits<double>::infinity()) continue;
+        RTCRayN_tfar(rays, args->N, lane) = static_cast<float>(t);
         RTCHitN_geomID(hits, args->N, lane) = args->geomID;
         RTCHitN_primID(hits, args->N, lane) = args->primID;
         RTCHitN_instID(hits, args->N, lane, 0) = RTC_INVALID_GEOMETRY_ID;
@@ -55,7 +55,8 @@ void curved_occluded(const RTCOccludedFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
-        if (surface.intersect(args->primID, interval_of(args->ray, args->N, lane)))
+        if (surface.intersect(args->primID, interval_of(args->ray, args->N, lane)) <
+            std::numeric_limits<double>::infinity())
             RTCRayN_tfar(args->ray, args->N, lane) = -kInfinity;
     }
 }

@@ -4,23 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace stilb {
 
 /// Of a monotone function between `low` and `high`, where the signs differ; `guess` lies there, too. By
 /// Newton's steps, or halves where those lead out or hardly on. The last of Newton's steps is at most 1e-9 of
-/// the interval, so what is left of the value is of rounding's order.
+/// the interval, or leaves 1e-12 of it at most, as a second derivative of `curvature` at most tells.
 template <typename Function>
-double root_between(const Function& f, double low, double high, bool is_negative_at_low, double guess) {
-    const double enough = 1e-9 * (high - low);
+double root_between(const Function& f, double curvature, double low, double high, bool is_negative_at_low,
+                    double guess) {
+    const double enough = 1e-9 * (high - low), exact = 1e-12 * (high - low);
     double x = guess, before = high - low;
     while (true) {
         const auto [value, slope] = f(x);
         if (value == 0) return x;
         ((value < 0) == is_negative_at_low ? low : high) = x;
         const double step = -value / slope, middle = 0.5 * (low + high);
-        if (std::abs(step) <= enough || middle == low || middle == high) {
+        // Within |step| of the root the slope is half of this one at least, if the step is as small as that.
+        const bool is_last = 4 * curvature * step * step <= exact * std::abs(slope);
+        if (std::abs(step) <= enough || is_last || middle == low || middle == high) {
             return std::clamp(x + step, low, high);
         }
         const bool leads_on = low < x + step && x + step < high && std::abs(step) < 0.5 * before;
@@ -29,12 +33,14 @@ double root_between(const Function& f, double low, double high, bool is_negative
     }
 }
 
-/// The root of a monotone function, if it has one between `low` and `high`.
+/// The root of a monotone function without bounds of its second derivative, if it has one between `low` and
+/// `high`.
 template <typename Function>
 std::optional<double> root_of_monotone(const Function& f, double low, double high) {
     const bool is_negative = f(low).first < 0;
     if (is_negative == (f(high).first < 0)) return std::nullopt;
-    return root_between(f, low, high, is_negative, 0.5 * (low + high));
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    return root_between(f, unknown, low, high, is_negative, 0.5 * (low + high));
 }
 
 /// The first change of sign between `low`, where it is known, and `high`, of a function whose second
@@ -51,7 +57,7 @@ std::optional<double> first_root(const Function& f, double curvature, double nar
     }
     if (std::abs(slope) > curvature * half || half < narrowest) {
         if ((f(high).first < 0) == is_negative_at_low) return std::nullopt;
-        return root_between(f, low, high, is_negative_at_low, middle);
+        return root_between(f, curvature, low, high, is_negative_at_low, middle);
     }
     const auto found = first_root(f, curvature, narrowest, low, middle, is_negative_at_low);
     return found ? found : first_root(f, curvature, narrowest, middle, high, is_negative_at_low);

@@ -14,6 +14,7 @@
 namespace stilb {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNarrowest = 1e-9;
 /// Cells reach a little beyond their edges in s and t, so that rounding leaves nothing between them.
 constexpr double kOverlap = 1e-9;
@@ -40,20 +41,30 @@ struct Face {
     }
 };
 
-/// The part of a ray where linear functions of the distance are not below 0.
-struct Stretch {
-    double low, high;
+/// The part of a ray where linear functions of the distance are not below 0. Its ends are fractions with
+/// denominators above 0, as most are replaced before anybody needs their values.
+class Stretch {
+  public:
+    Stretch(double low, double high) : low_{low, 1}, high_{high, 1} {}
 
     void keep(double at_0, double slope) {
         if (slope > 0) {
-            low = std::max(low, -at_0 / slope);
+            if (-at_0 * low_.divisor > low_.dividend * slope) low_ = {-at_0, slope};
         } else if (slope < 0) {
-            high = std::min(high, -at_0 / slope);
+            if (at_0 * high_.divisor < -high_.dividend * slope) high_ = {at_0, -slope};
         } else if (at_0 < 0) {
-            high = -std::numeric_limits<double>::infinity();
+            high_ = {-kInfinity, 1};
         }
     }
-    bool is_empty() const { return !(low < high); }
+    bool is_empty() const { return !(low_.dividend * high_.divisor < high_.dividend * low_.divisor); }
+    double low() const { return low_.dividend / low_.divisor; }
+    double high() const { return high_.dividend / high_.divisor; }
+
+  private:
+    struct Fraction {
+        double dividend, divisor;
+    };
+    Fraction low_, high_;
 };
 
 /// first + slope x + bend x^2, x from 0 to 1.
@@ -274,33 +285,33 @@ struct HarmonicCells::Line {
     }
 };
 
-/// x of the first root of W - w.
-std::optional<double> HarmonicCells::root_on(const Line& line, std::size_t number) const {
+/// x of the first root of W - w; infinite where there is none.
+double HarmonicCells::root_on(const Line& line, std::size_t number) const {
     const Outline& cell = outlines_[number];
     const Parabola parabola = line.excess_of(cell.quadratic);
     const double rest = double{cell.rest}, da = std::abs(line.da), db = std::abs(line.db);
-    if (parabola.least() > rest || parabola.greatest() < -rest) return std::nullopt;
+    if (parabola.least() > rest || parabola.greatest() < -rest) return kInfinity;
     const auto excess = [&](double x) { return line.excess_of(polynomials_[number], x); };
     const auto is_negative_at = [&](double x, double about) {
         return (std::abs(about) > rest ? about : excess(x).first) < 0;
     };
     const bool starts_negative = is_negative_at(0, parabola.first);
-    if (parabola.least_slope() > double{cell.rest_a} * da + double{cell.rest_b} * db) {
-        if (starts_negative == is_negative_at(1, parabola.last())) return std::nullopt;
-        return root_between(excess, 0, 1, starts_negative, std::clamp(parabola.root(), 0.0, 1.0));
-    }
     const double curvature = 2 * std::abs(parabola.bend) + double{cell.rest_aa} * da * da +
                              2 * double{cell.rest_ab} * da * db + double{cell.rest_bb} * db * db;
-    return first_root(excess, curvature, kNarrowest, 0, 1, starts_negative);
+    if (parabola.least_slope() > double{cell.rest_a} * da + double{cell.rest_b} * db) {
+        if (starts_negative == is_negative_at(1, parabola.last())) return kInfinity;
+        return root_between(excess, curvature, 0, 1, starts_negative, std::clamp(parabola.root(), 0.0, 1.0));
+    }
+    return first_root(excess, curvature, kNarrowest, 0, 1, starts_negative).value_or(kInfinity);
 }
 
-std::optional<double> HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec3& direction,
-                                              double start, double end) const {
+double HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec3& direction, double start,
+                               double end) const {
     const Outline& cell = outlines_[number];
     const Face face(cell.face);
     const Span s = spans_[cell.column], t = spans_[cell.row];
     const Vec3 o = face.to_local(origin), d = face.to_local(direction);
-    Stretch stretch{start, end};
+    Stretch stretch(start, end);
     const auto keep = [&](const Vec3& plane, double offset) {
         stretch.keep(dot(plane, o) + offset, dot(plane, d));
     };
@@ -310,15 +321,16 @@ std::optional<double> HarmonicCells::crossing(std::size_t number, const Vec3& or
     keep({-1, 0, s.half + kOverlap + s.middle}, 0);
     keep({0, 1, t.half + kOverlap - t.middle}, 0);
     keep({0, -1, t.half + kOverlap + t.middle}, 0);
-    if (stretch.is_empty()) return std::nullopt;
-    const Vec3 from = o + stretch.low * d, to = o + stretch.high * d;
+    if (stretch.is_empty()) return kInfinity;
+    const double low = stretch.low(), high = stretch.high();
+    const Vec3 from = o + low * d, to = o + high * d;
     const double w = 1 / from.z, last_w = 1 / to.z;
     const double a = (from.x * w - s.middle) / s.half, b = (from.y * w - t.middle) / t.half;
     const double last_a = (to.x * last_w - s.middle) / s.half, last_b = (to.y * last_w - t.middle) / t.half;
-    const auto root = root_on({a, b, w, last_a - a, last_b - b, last_w - w}, number);
-    if (!root) return std::nullopt;
-    const double share = *root * last_w, rest = (1 - *root) * w;  // affine in 1 / x_k
-    return (rest * stretch.low + share * stretch.high) / (rest + share);
+    const double root = root_on({a, b, w, last_a - a, last_b - b, last_w - w}, number);
+    if (root == kInfinity) return kInfinity;
+    const double share = root * last_w, rest = (1 - root) * w;  // affine in 1 / x_k
+    return (rest * low + share * high) / (rest + share);
 }
 
 HarmonicCells::Place HarmonicCells::place_at(std::size_t number, const Vec3& near_by) const {

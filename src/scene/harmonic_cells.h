@@ -15,7 +15,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "scene/bounds.h"
@@ -40,9 +39,9 @@ class HarmonicCells {
     Bounds bounds_of(std::size_t cell) const;
     std::size_t bytes() const { return count() * (sizeof(Outline) + sizeof(Polynomial)); }
 
-    /// The distance of the first crossing in a cell.
-    std::optional<double> crossing(std::size_t cell, const Vec3& origin, const Vec3& direction, double start,
-                                   double end) const;
+    /// The distance of the first crossing in a cell; infinite where there is none.
+    double crossing(std::size_t cell, const Vec3& origin, const Vec3& direction, double start,
+                    double end) const;
 
     /// By the cell's polynomial: at the default tolerance the normal is within about 2e-5 rad of
     /// HarmonicSurface::normal_at(), mostly within 3e-6.
@@ -82,7 +81,7 @@ class HarmonicCells {
     void fill_face(const MeridianSeries& series, double sign);
     double error_of_face(const MeridianSeries& series, double sign, std::size_t first_cell) const;
     Outline outline_of(std::size_t cell) const;
-    std::optional<double> root_on(const Line& line, std::size_t cell) const;
+    double root_on(const Line& line, std::size_t cell) const;
 
     std::vector<Span> spans_;
     std::vector<Outline> outlines_;

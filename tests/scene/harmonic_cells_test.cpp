@@ -16,8 +16,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 std::optional<double> first_of_all(const HarmonicCells& cells, const Vec3& origin, const Vec3& direction) {
     std::optional<double> first;
     for (std::size_t i = 0; i < cells.count(); ++i) {
-        const auto found = cells.crossing(i, origin, direction, 0, first.value_or(kInfinity));
-        if (found) first = found;
+        const double found = cells.crossing(i, origin, direction, 0, first.value_or(kInfinity));
+        if (found < kInfinity) first = found;
     }
     return first;
 }
@@ -52,7 +52,7 @@ TEST(HarmonicCells, LieWithinTheirBounds) {
         const Vec3 point = surface.radius().at(direction) * direction;
         bool is_in_one = false;
         for (std::size_t cell = 0; cell < cells.count(); ++cell) {
-            if (!cells.crossing(cell, Vec3{}, direction, 0, kInfinity)) continue;
+            if (cells.crossing(cell, Vec3{}, direction, 0, kInfinity) == kInfinity) continue;
             const Bounds bounds = cells.bounds_of(cell);
             is_in_one = true;
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -67,7 +67,8 @@ TEST(HarmonicCells, LieWithinTheirBounds) {
 /// A cell in which a ray from the origin leaves the surface.
 std::size_t cell_of(const HarmonicCells& cells, const Vec3& direction) {
     std::size_t cell = 0;
-    while (cell + 1 < cells.count() && !cells.crossing(cell, Vec3{}, direction, 0, kInfinity)) ++cell;
+    while (cell + 1 < cells.count() && cells.crossing(cell, Vec3{}, direction, 0, kInfinity) == kInfinity)
+        ++cell;
     return cell;
 }
 

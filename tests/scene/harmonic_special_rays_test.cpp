@@ -26,8 +26,8 @@ struct Both {
     std::optional<double> by_cells(const Vec3& origin, const Vec3& direction, double start = 0) const {
         std::optional<double> first;
         for (std::size_t cell = 0; cell < cells.count(); ++cell) {
-            const auto found = cells.crossing(cell, origin, direction, start, first.value_or(kInfinity));
-            if (found) first = found;
+            const double found = cells.crossing(cell, origin, direction, start, first.value_or(kInfinity));
+            if (found < kInfinity) first = found;
         }
         return first;
     }

@@ -82,7 +82,7 @@ class BoxTree {
         const Node& node = nodes_[number];
         if (node.right == 0) {
             for (std::size_t n = node.first; n < node.last; ++n) {
-                end = std::min(end, crossing(order_[n], start, end).value_or(end));
+                end = std::min(end, crossing(order_[n], start, end));
             }
             return;
         }
