@@ -191,8 +191,8 @@ typename HarmonicSeries<T>::Value HarmonicSeries<T>::with_gradient(const Vec3& d
 template class HarmonicSeries<float>;
 template class HarmonicSeries<double>;
 
-/// Along any great circle f'' is at most L^2 max |f| [Bernstein], and where f is largest or least f' = 0: so a
-/// point of a grid that is no farther than e has a value that differs by L^2 e^2 max |f| / 2 at most.
+/// Along any great circle f'' is at most L^2 max |f| [Bernstein], and where f is largest or least f' = 0: so
+/// a point of a grid that is no farther than e has a value that differs by L^2 e^2 max |f| / 2 at most.
 HarmonicRange range_of(const HarmonicSeries<double>& series) {
     constexpr double part = 0.03;
     const double degree = series.degree();

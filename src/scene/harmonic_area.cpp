@@ -14,8 +14,8 @@ double area_of_cell(const HarmonicCells& cells, std::size_t cell) {
     double area = 0;
     for (std::size_t m = 0; m < rule.nodes.size(); ++m) {
         for (std::size_t n = 0; n < rule.nodes.size(); ++n) {
-            area += rule.weights[m] * rule.weights[n] *
-                    cells.element_at(cell, rule.nodes[m], rule.nodes[n]).area;
+            area +=
+                rule.weights[m] * rule.weights[n] * cells.element_at(cell, rule.nodes[m], rule.nodes[n]).area;
         }
     }
     return area;
