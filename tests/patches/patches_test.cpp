@@ -8,8 +8,10 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "scene/harmonic_surface.h"
 #include "scene/mesh_edges.h"
 #include "support/closed_meshes.h"
+#include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 
 namespace stilb {
@@ -207,6 +209,25 @@ TEST(Patches, ASizeThatMakesNoSenseIsRefused) {
     EXPECT_THROW(make_patches(scene, std::nan("")), InputError);
     EXPECT_THROW(make_patches(scene, 1e-5), InputError);
     EXPECT_EQ(make_patches(Scene{}, 1).count(), 0u);
+}
+
+TEST(Patches, OfBodiesByHarmonicsAreClosedAndComeToTheSurface) {
+    Harmonics body(rough_surface(8, 3));
+    body.center = {1, 2, 3};
+    body.scale = 0.5;
+    double error_before = 1;
+    for (const double size_m : {0.2, 0.1, 0.05}) {
+        const Patches patches = make_patches(scene_of(body), size_m);
+        EXPECT_EQ(edges_between_places(patches).others, 0u);
+        for (const Float3& vertex : patches.vertices) {
+            const Vec3 place = Vec3(vertex) + patches.center;
+            EXPECT_LT(length(body.point_towards(place - body.center) - place), 1e-6);
+        }
+        const double error = std::abs(total_area_m2(patches) / area_m2(body) - 1);
+        EXPECT_LT(error, 0.5 * error_before) << size_m;
+        error_before = error;
+    }
+    EXPECT_LT(error_before, 0.01);
 }
 
 }  // namespace
