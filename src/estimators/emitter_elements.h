@@ -18,8 +18,8 @@ struct EmitterElement {
     double size_m = 0;
     double area_m2 = 0;  ///< that is seen: of a sphere its disk's
     /// From farther away, points by area are as good as by solid angle (the density varies by some per cent),
-    /// and made in a fraction of the time. Infinite for spheres; below 0 for
-    /// surfaces by harmonics, which are always drawn by area.
+    /// and made in a fraction of the time. Infinite for spheres; below 0 for surfaces by harmonics, which are
+    /// always drawn by area.
     double squared_far_m2 = 0;
 };
 

@@ -22,7 +22,8 @@ double root_between(const Function& f, double curvature, double low, double high
         if (value == 0) return x;
         ((value < 0) == is_negative_at_low ? low : high) = x;
         const double step = -value / slope, middle = 0.5 * (low + high);
-        // Within |step| of the root the slope is half of this one at least, if the step is as small as that.
+        // Newton's error is below curvature / (2 slope) times the square of what was left; 4, as what was
+        // left may be twice the step, and the slope on the way there half of this one.
         const bool is_last = 4 * curvature * step * step <= exact * std::abs(slope);
         if (std::abs(step) <= enough || is_last || middle == low || middle == high) {
             return std::clamp(x + step, low, high);

@@ -83,7 +83,7 @@ MeshFit fit_mesh(const Mesh& mesh, const MeshFitOptions& options, const std::str
     fit.turned = outside.turned;
     fit.open_edges = outside.open_edges;
     fit.parts = outside.parts;
-    fit.size = 2 * bounds_of(mesh).half_extent();
+    fit.size = 2 * bounds_of_faces(mesh).half_extent();
     const RadialCaster caster(mesh);
     set_center(outside.mesh, caster, options, fit);
     fit.survey = survey(caster, fit.center, fit.size);

@@ -112,7 +112,7 @@ class Search {
 
 }  // namespace
 
-Bounds bounds_of(const Mesh& mesh) {
+Bounds bounds_of_faces(const Mesh& mesh) {
     Bounds bounds;
     for (const Triangle& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle) bounds.include(mesh.vertices[corner]);
@@ -140,7 +140,7 @@ double superfluous_crossings(const Mesh& mesh, const Vec3& from) {
 }
 
 StarCenter find_star_center(const Mesh& mesh, const RadialCaster& caster) {
-    const Bounds bounds = bounds_of(mesh);
+    const Bounds bounds = bounds_of_faces(mesh);
     const Vec3 origin = 0.5 * (bounds.min + bounds.max);
     const InnerBall ball = largest_ball(walls_of(mesh, bounds, origin), 1.01 * length(bounds.max - origin));
     const Vec3 middle = origin + ball.center;

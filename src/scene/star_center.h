@@ -14,7 +14,8 @@ struct StarCenter {
     double margin = 0;
 };
 
-Bounds bounds_of(const Mesh& mesh);
+/// Of the vertices that faces use (bounds_of() is of all).
+Bounds bounds_of_faces(const Mesh& mesh);
 
 /// Over all directions from a point, how many crossings of the surface are too many or missing, on average: 0
 /// where each direction meets it once. By solid angles: that of faces seen from behind, and what those of all
