@@ -107,6 +107,11 @@ class HarmonicsInCells final : public CurvedSurface {
     explicit HarmonicsInCells(Harmonics shape) : shape_(std::move(shape)), cells_(*shape_.cells) {
         const double per_unit = 1 / shape_.scale;
         to_own_ = {per_unit * shape_.axes.u, per_unit * shape_.axes.v, per_unit * shape_.axes.w};
+        const auto to_float = [](const Vec3& v) {
+            return std::array{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+        };
+        in_lanes_.axes = {to_float(to_own_.u), to_float(to_own_.v), to_float(to_own_.w)};
+        in_lanes_.center = to_float(shape_.center);
     }
 
     std::size_t part_count() const override { return cells_.count(); }
@@ -124,6 +129,9 @@ class HarmonicsInCells final : public CurvedSurface {
         return cells_.crossing(part, to_own_.to_local(ray.origin - shape_.center),
                                to_own_.to_local(ray.direction), ray.start, ray.end);
     }
+    Lanes<Verdict> verdicts(std::size_t part, const RayLanes& rays) const override {
+        return cells_.verdicts(part, rays, in_lanes_);
+    }
     SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const override {
         const auto [position, normal] = cells_.place_at(part, shape_.to_own(near_by));
         return {shape_.to_world(position), shape_.axes.to_world(normal), shape_.scale * length(position)};
@@ -133,6 +141,7 @@ class HarmonicsInCells final : public CurvedSurface {
     Harmonics shape_;
     const HarmonicCells& cells_;  ///< the shape's
     Frame to_own_;                ///< axes over scale
+    LanePlacement in_lanes_;      ///< the same
 };
 
 struct Maker {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "scene/bounds.h"
+#include "scene/ray_lanes.h"
 #include "scene/shape.h"
 
 namespace stilb {
@@ -30,6 +31,8 @@ class CurvedSurface {
     /// Smallest t in the interval at which the ray meets the part, from either side; infinite where it does
     /// not.
     virtual double intersect(std::size_t part, const RayInterval& ray) const = 0;
+    /// What intersect() would find, as far as a surface can tell that sooner.
+    virtual Lanes<Verdict> verdicts(std::size_t, const RayLanes&) const { return {}; }
     /// `near_by` (a hit with the rounding error of single precision) projected onto the part.
     virtual SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
 };

@@ -35,13 +35,32 @@ void curved_bounds(const RTCBoundsFunctionArguments* args) {
     out.lower_z = below(bounds.min.z), out.upper_z = above(bounds.max.z);
 }
 
+/// Up to 16 rays.
+RayLanes lanes_of(RTCRayN* rays, unsigned width) {
+    RayLanes lanes;
+    const auto copy = [width](const float& first, Lanes<float>& copies) {
+        std::copy_n(&first, width, copies.begin());
+    };
+    copy(RTCRayN_org_x(rays, width, 0), lanes.origin_x);
+    copy(RTCRayN_org_y(rays, width, 0), lanes.origin_y);
+    copy(RTCRayN_org_z(rays, width, 0), lanes.origin_z);
+    copy(RTCRayN_dir_x(rays, width, 0), lanes.direction_x);
+    copy(RTCRayN_dir_y(rays, width, 0), lanes.direction_y);
+    copy(RTCRayN_dir_z(rays, width, 0), lanes.direction_z);
+    copy(RTCRayN_tnear(rays, width, 0), lanes.start);
+    copy(RTCRayN_tfar(rays, width, 0), lanes.end);
+    return lanes;
+}
+
 /// The normal is found once the ray's closest hit is known.
 void curved_intersect(const RTCIntersectFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
+    Lanes<Verdict> verdicts{};
+    if (args->N > 1) verdicts = surface.verdicts(args->primID, lanes_of(rays, args->N));
     for (unsigned lane = 0; lane < args->N; ++lane) {
-        if (args->valid[lane] == 0) continue;
+        if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
         const double t = surface.intersect(args->primID, interval_of(rays, args->N, lane));
         if (t == std::numeric_limits<double>::infinity()) continue;
         RTCRayN_tfar(rays, args->N, lane) = static_cast<float>(t);
@@ -53,10 +72,13 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
 
 void curved_occluded(const RTCOccludedFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
+    Lanes<Verdict> verdicts{};
+    if (args->N > 1) verdicts = surface.verdicts(args->primID, lanes_of(args->ray, args->N));
     for (unsigned lane = 0; lane < args->N; ++lane) {
-        if (args->valid[lane] == 0) continue;
-        if (surface.intersect(args->primID, interval_of(args->ray, args->N, lane)) <
-            std::numeric_limits<double>::infinity())
+        if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
+        if (verdicts[lane] == Verdict::meets ||
+            surface.intersect(args->primID, interval_of(args->ray, args->N, lane)) <
+                std::numeric_limits<double>::infinity())
             RTCRayN_tfar(args->ray, args->N, lane) = -kInfinity;
     }
 }

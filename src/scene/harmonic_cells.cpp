@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/cube_face.h"
 #include "scene/first_root.h"
 
 namespace stilb {
@@ -23,23 +24,6 @@ constexpr double kSlack = 1e-4, kLeastSlack = 1e-12;
 constexpr double kMargin = 1e-5;  ///< of boxes
 /// Where differences from the surface are largest: between nodes, in the middle of the cell.
 constexpr std::array kChecked{-0.7, 0.26, 0.7};
-
-/// The axes (i, j, k) of a face and the sign of x_k.
-struct Face {
-    std::size_t i, j, k;
-    double sign;
-
-    explicit Face(std::size_t number)
-        : i((number / 2 + 1) % 3), j((number / 2 + 2) % 3), k(number / 2), sign(number % 2 == 0 ? 1 : -1) {}
-
-    /// (x_i, x_j, |x_k|).
-    Vec3 to_local(const Vec3& x) const { return {x[i], x[j], sign * x[k]}; }
-    Vec3 to_world(const Vec3& local) const {
-        std::array<double, 3> x{};
-        x[i] = local.x, x[j] = local.y, x[k] = sign * local.z;
-        return {x[0], x[1], x[2]};
-    }
-};
 
 /// The part of a ray where linear functions of the distance are not below 0. Its ends are fractions with
 /// denominators above 0, as most are replaced before anybody needs their values.
@@ -138,7 +122,7 @@ HarmonicCells::HarmonicCells(const HarmonicSurface& surface, double tolerance) {
     if (!(tolerance >= 1e-11)) throw std::invalid_argument("a tolerance of cells near rounding's, or below");
     const HarmonicSeries<double>& radius = surface.radius();
     const std::array series{MeridianSeries(radius, 0), MeridianSeries(radius, 1), MeridianSeries(radius, 2)};
-    double on_edge = 2 + 0.25 * radius.degree();
+    double on_edge = 2 + 0.15 * radius.degree();
     while (!divide(series, static_cast<std::size_t>(on_edge), tolerance)) {
         // The error falls with the power kNodes of a cell's size, once cells are small.
         const double missing = 1.03 * std::pow(error_ / tolerance, 1. / kNodes);
@@ -163,7 +147,7 @@ bool HarmonicCells::divide(const std::array<MeridianSeries, 3>& series, std::siz
     polynomials_.reserve(6 * on_edge * on_edge);
     error_ = 0;
     for (std::size_t number = 0; number < 6; ++number) {
-        const Face face(number);
+        const CubeFace face(number);
         const std::size_t first_cell = polynomials_.size();
         fill_face(series[face.i], face.sign);
         error_ = std::max(error_, error_of_face(series[face.i], face.sign, first_cell));
@@ -249,7 +233,7 @@ HarmonicCells::Outline HarmonicCells::outline_of(std::size_t cell) const {
 Bounds HarmonicCells::bounds_of(std::size_t number) const {
     const Outline& cell = outlines_[number];
     const Polynomial b = bernstein_form(polynomials_[number]);
-    const Face face(cell.face);
+    const CubeFace face(cell.face);
     const auto at = [](const Span& span, std::size_t n) {
         return span.middle + span.half * (2 * static_cast<double>(n) / (kNodes - 1) - 1);
     };
@@ -308,7 +292,7 @@ double HarmonicCells::root_on(const Line& line, std::size_t number) const {
 double HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec3& direction, double start,
                                double end) const {
     const Outline& cell = outlines_[number];
-    const Face face(cell.face);
+    const CubeFace face(cell.face);
     const Span s = spans_[cell.column], t = spans_[cell.row];
     const Vec3 o = face.to_local(origin), d = face.to_local(direction);
     Stretch stretch(start, end);
@@ -336,7 +320,7 @@ double HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec
 HarmonicCells::Place HarmonicCells::place_at(std::size_t number, const Vec3& near_by) const {
     const Outline& cell = outlines_[number];
     const Span s = spans_[cell.column], t = spans_[cell.row];
-    const Vec3 x = Face(cell.face).to_local(near_by);
+    const Vec3 x = CubeFace(cell.face).to_local(near_by);
     return element_at(number, (x.x / x.z - s.middle) / s.half, (x.y / x.z - t.middle) / t.half);
 }
 
@@ -344,7 +328,7 @@ HarmonicCells::Place HarmonicCells::place_at(std::size_t number, const Vec3& nea
 /// and the area |g| / W^3 by s and t.
 HarmonicCells::Element HarmonicCells::element_at(std::size_t number, double a, double b) const {
     const Outline& cell = outlines_[number];
-    const Face face(cell.face);
+    const CubeFace face(cell.face);
     const Span column = spans_[cell.column], row = spans_[cell.row];
     const double s = column.middle + a * column.half, t = row.middle + b * row.half;
     const ValueAndSlopes w = evaluate(polynomials_[number], a, b);

@@ -59,11 +59,23 @@ inline Tally judge(const HarmonicSurface& surface, const TestRay& ray, const Ref
 /// checked; what marching leaves out is large.
 inline constexpr double kAllowedOfRoots = 1e-9, kAllowedOfCells = 5e-7, kAllowedOfMarch = 1e-6;
 
+/// What single precision says of rays and cells whose boxes they meet, against what double precision does.
+struct VerdictTally {
+    std::uint64_t told = 0, unclear = 0;
+    std::uint64_t wrong = 0;
+
+    VerdictTally& operator+=(const VerdictTally& other) {
+        told += other.told, unclear += other.unclear, wrong += other.wrong;
+        return *this;
+    }
+};
+
 struct Tallies {
     Tally roots, cells, march;
+    VerdictTally verdicts;
 
     Tallies& operator+=(const Tallies& other) {
-        roots += other.roots, cells += other.cells, march += other.march;
+        roots += other.roots, cells += other.cells, march += other.march, verdicts += other.verdicts;
         return *this;
     }
 };
@@ -100,6 +112,7 @@ class CheckedSurface {
                     return cells_.crossing(cell, origin, direction, start, end);
                 });
             sum.cells += judged(by_cells, kAllowedOfCells);
+            sum.verdicts += compare_verdicts(ray);
             if (n % marched_every != 0) continue;
             const auto by_march = march_crossing(surface_, origin, direction, 0, infinity, step);
             sum.march += judged(distance_of(by_march), kAllowedOfMarch);
@@ -108,6 +121,34 @@ class CheckedSurface {
     }
 
   private:
+    VerdictTally compare_verdicts(const TestRay& exact) const {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        const LanePlacement own{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}};
+        RayLanes rays;
+        const Vec3 origin{rays.origin_x[0] = static_cast<float>(exact.origin.x),
+                          rays.origin_y[0] = static_cast<float>(exact.origin.y),
+                          rays.origin_z[0] = static_cast<float>(exact.origin.z)};
+        const Vec3 direction{rays.direction_x[0] = static_cast<float>(exact.direction.x),
+                             rays.direction_y[0] = static_cast<float>(exact.direction.y),
+                             rays.direction_z[0] = static_cast<float>(exact.direction.z)};
+        rays.end[0] = infinity;
+        VerdictTally tally;
+        std::uint64_t met = 0;
+        bool is_crossed = false;
+        const auto look_at = [&](std::size_t cell, double start, double) {
+            const Verdict verdict = cells_.verdicts(cell, rays, own)[0];
+            const bool is_here = cells_.crossing(cell, origin, direction, start, infinity) < infinity;
+            ++(verdict == Verdict::unclear ? tally.unclear : tally.told);
+            if (verdict == Verdict::misses && is_here) ++tally.wrong;
+            if (verdict == Verdict::meets) ++met;
+            is_crossed = is_crossed || is_here;
+            return Bounds::kInfinity;  // so that all cells are looked at
+        };
+        (void)tree_.first(origin, direction, 0, look_at);
+        if (!is_crossed) tally.wrong += met;
+        return tally;
+    }
+
     static std::vector<Bounds> boxes_of(const HarmonicCells& cells) {
         std::vector<Bounds> boxes;
         for (std::size_t cell = 0; cell < cells.count(); ++cell) boxes.push_back(cells.bounds_of(cell));
