@@ -50,7 +50,7 @@ double query_us(const FirstShotPatches& patches) {
     Spectrum sum;
     const double time_s = best_time_s(3, [&] {
         for (const auto& [side, position, out] : all) {
-            sum += patches.first_shot.reflected(side, position, out);
+            sum += patches.first_shot.reflected(side, position, {}, out);
         }
     });
     return sum.is_finite() ? 1e6 * time_s / static_cast<double>(kQueries) : 0;

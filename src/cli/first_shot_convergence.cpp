@@ -36,7 +36,7 @@ std::vector<double> pixels_of_sides(const PictureTracing& tracing, const PatchTr
 void add_not_stored(const PatchTransport& transport, const Vec3& eye, std::vector<Rgb>& sides) {
     for (std::uint32_t side = 0; side < sides.size(); ++side) {
         const Vec3 middle = transport.patches.middle(transport.patches.patch_of(side));
-        add_to(sides[side], transport.first_reflected_at(side, middle, normalized(eye - middle)));
+        add_to(sides[side], transport.first_reflected_at(side, middle, {}, normalized(eye - middle)));
     }
 }
 

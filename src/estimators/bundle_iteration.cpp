@@ -137,7 +137,7 @@ void BundleIteration::transfer(std::size_t axis, const Bundle& bundle) {
     const auto luminance = [&](std::uint32_t side, const CrossedLine& line, std::size_t i, const Vec3& out) {
         if (!transport_.first_shot.needs_position(side)) return radiance_[side];
         const Vec3 position = line.origin + double{line.distances_m[i]} * along;
-        return rgb_of(spectrum_of(radiance_[side]) + transport_.first_reflected_at(side, position, out));
+        return rgb_of(spectrum_of(radiance_[side]) + transport_.first_reflected_at(side, position, {}, out));
     };
     transport_.bundles->cast(bundle, [&](const CrossedLines& lines) {
         for (std::size_t n = 0; n < lines.count(); ++n) {

@@ -48,15 +48,16 @@ void FirstShot::set_up(const Scene& scene, const RayCaster& caster, const LightS
     }
 }
 
-Spectrum FirstShot::reflected(std::uint32_t side, const Vec3& position, const Vec3& out) const {
+Spectrum FirstShot::reflected(std::uint32_t side, const Vec3& position, RandomKey key,
+                              const Vec3& out) const {
     Spectrum sum;
-    add_reflected(side, position, {&out, 1}, {&sum, 1});
+    add_reflected(side, position, key, {&out, 1}, {&sum, 1});
     return sum;
 }
 
-void FirstShot::add_reflected(std::uint32_t side, const Vec3& position, std::span<const Vec3> outs,
-                              std::span<Spectrum> sums) const {
-    std::visit([&](const auto& stored) { stored.add_reflected(side, position, outs, sums); }, stored_);
+void FirstShot::add_reflected(std::uint32_t side, const Vec3& position, RandomKey key,
+                              std::span<const Vec3> outs, std::span<Spectrum> sums) const {
+    std::visit([&](const auto& stored) { stored.add_reflected(side, position, key, outs, sums); }, stored_);
 }
 
 bool FirstShot::is_constant(std::uint32_t side) const {

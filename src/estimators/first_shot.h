@@ -26,6 +26,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/random.h"
 #include "estimators/first_shot_classical.h"
 #include "estimators/first_shot_diffuse.h"
 #include "estimators/first_shot_incoming.h"
@@ -52,7 +53,8 @@ struct FirstShotOptions {
 
 /// Replaces no light.
 struct NoFirstShot {
-    void add_reflected(std::uint32_t, const Vec3&, std::span<const Vec3>, std::span<Spectrum>) const {}
+    void add_reflected(std::uint32_t, const Vec3&, RandomKey, std::span<const Vec3>,
+                       std::span<Spectrum>) const {}
     bool is_constant(std::uint32_t) const { return true; }
     std::size_t bytes() const { return 0; }
 };
@@ -74,16 +76,17 @@ class FirstShot {
 
     /// Of a side, by the light of the replaced lights that it reflects towards the unit world direction `out`
     /// [cd/m2]; nothing towards directions behind the side. `position` is on the side's patch; where light is
-    /// stored it does not matter.
-    Spectrum reflected(std::uint32_t side, const Vec3& position, const Vec3& out) const;
+    /// stored it does not matter. Shadow rays end at points on area lights that are drawn by key and
+    /// position: another key for each sample, where positions are always the same.
+    Spectrum reflected(std::uint32_t side, const Vec3& position, RandomKey key, const Vec3& out) const;
     /// The same added to `sums` for several directions: what arrives is found once.
-    void add_reflected(std::uint32_t side, const Vec3& position, std::span<const Vec3> outs,
+    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
                        std::span<Spectrum> sums) const;
     /// Whether that is the same for all positions and all directions in front of the side: one call is then
     /// enough for all steps.
     bool is_constant(std::uint32_t side) const;
 
-    /// Whether the position matters: shadow rays start there.
+    /// Whether position and key matter: shadow rays start there.
     bool needs_position(std::uint32_t side) const {
         return std::holds_alternative<ShadowRays>(stored_) ||
                (std::holds_alternative<DiffuseFirstShot>(stored_) && !is_constant(side));

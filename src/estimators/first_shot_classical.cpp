@@ -72,7 +72,7 @@ void ClassicalFirstShot::store(std::uint32_t side, const IncomingFirstShot& inco
         for (const auto& [u1, u2] : kPlaces) outs.push_back(frame.to_world(bins_.direction(bin, u1, u2)));
     }
     std::vector<Spectrum> sums(outs.size());
-    incoming.add_reflected(side, {}, outs, sums);
+    incoming.add_reflected(side, {}, {}, outs, sums);
     const std::size_t per_bin = outs.size() / count;
     for (std::size_t bin = 0; bin < count; ++bin) {
         Spectrum mean;
@@ -81,7 +81,7 @@ void ClassicalFirstShot::store(std::uint32_t side, const IncomingFirstShot& inco
     }
 }
 
-void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, std::span<const Vec3> outs,
+void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, RandomKey, std::span<const Vec3> outs,
                                        std::span<Spectrum> sums) const {
     const std::size_t count = bins_of(side);
     if (count == 0) return;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/random.h"
 #include "estimators/first_shot_incoming.h"
 
 namespace stilb {
@@ -33,7 +34,7 @@ class ClassicalFirstShot {
                        const HemisphereBins& bins);
 
     /// As FirstShot; the position does not matter.
-    void add_reflected(std::uint32_t side, const Vec3& position, std::span<const Vec3> outs,
+    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
                        std::span<Spectrum> sums) const;
     bool is_constant(std::uint32_t side) const { return bins_of(side) <= 1; }
     std::size_t bytes() const {

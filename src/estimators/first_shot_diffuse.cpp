@@ -39,14 +39,14 @@ DiffuseFirstShot::DiffuseFirstShot(const Scene& scene, const Patches& patches,
     }
 }
 
-void DiffuseFirstShot::add_reflected(std::uint32_t side, const Vec3& position, std::span<const Vec3> outs,
-                                     std::span<Spectrum> sums) const {
+void DiffuseFirstShot::add_reflected(std::uint32_t side, const Vec3& position, RandomKey key,
+                                     std::span<const Vec3> outs, std::span<Spectrum> sums) const {
     const Vec3 normal = patches_.normal_of(side);
     for (std::size_t i = 0; i < outs.size(); ++i) {
         if (dot(outs[i], normal) > 0) sums[i] += to_spectrum(radiance_cd_m2_[side]);
     }
     const Material& rest = rest_[index_of(patches_.materials[patches_.patch_of(side)])];
-    rays_.add_reflected_by(rest, side, position, outs, sums);
+    rays_.add_reflected_by(rest, side, position, key, outs, sums);
 }
 
 }  // namespace stilb

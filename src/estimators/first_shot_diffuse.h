@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/random.h"
 #include "estimators/first_shot_incoming.h"
 #include "estimators/first_shot_shadow_rays.h"
 
@@ -17,7 +18,7 @@ class DiffuseFirstShot {
                      const ShadowRays& rays);
 
     /// As FirstShot; the position matters to the rest.
-    void add_reflected(std::uint32_t side, const Vec3& position, std::span<const Vec3> outs,
+    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
                        std::span<Spectrum> sums) const;
     bool is_constant(std::uint32_t side) const { return reflects_alike(material_of(scene_, patches_, side)); }
     std::size_t bytes() const { return radiance_cd_m2_.size() * sizeof radiance_cd_m2_[0]; }

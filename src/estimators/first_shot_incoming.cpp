@@ -20,7 +20,7 @@ Spectrum IncomingFirstShot::illuminance_lx(std::uint32_t side) const {
     return sum;
 }
 
-void IncomingFirstShot::add_reflected(std::uint32_t side, const Vec3&, std::span<const Vec3> outs,
+void IncomingFirstShot::add_reflected(std::uint32_t side, const Vec3&, RandomKey, std::span<const Vec3> outs,
                                       std::span<Spectrum> sums) const {
     const auto factors = factors_.of(side);
     if (factors.empty()) return;

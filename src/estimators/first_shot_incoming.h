@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/random.h"
 #include "estimators/first_shot_factors.h"
 #include "estimators/first_shot_surface.h"
 
@@ -23,7 +24,7 @@ class IncomingFirstShot {
     Spectrum illuminance_lx(std::uint32_t side) const;
 
     /// As FirstShot; the position does not matter.
-    void add_reflected(std::uint32_t side, const Vec3& position, std::span<const Vec3> outs,
+    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
                        std::span<Spectrum> sums) const;
     bool is_constant(std::uint32_t side) const;
     std::size_t bytes() const { return factors_.bytes(); }

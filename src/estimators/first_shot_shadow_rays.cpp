@@ -5,9 +5,9 @@
 namespace stilb {
 namespace {
 
-/// Different for every position of every side.
-RandomKey key_of(std::uint32_t side, const Vec3& position) {
-    RandomKey key = RandomKey{}.derived(side);
+/// Another one for every position of every side.
+RandomKey key_at(RandomKey key, std::uint32_t side, const Vec3& position) {
+    key = key.derived(side);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         key = key.derived(std::bit_cast<std::uint64_t>(position[axis]));
     }
@@ -34,17 +34,17 @@ Vec3 lifted_off(const Scene& scene, const Patches& patches, const RayCaster& cas
 }
 
 void ShadowRays::add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position,
-                                  std::span<const Vec3> outs, std::span<Spectrum> sums) const {
+                                  RandomKey key, std::span<const Vec3> outs, std::span<Spectrum> sums) const {
     if (reflects_nothing(material)) return;
     const Frame frame = frame_of(patches_, side);
     const Vec3 lifted = lifted_off(scene_, patches_, caster_, side, position);
-    const RandomKey key = key_of(side, position);
+    const RandomKey key_here = key_at(key, side, position);
     const auto for_each_arrival = [&](const auto& visit) {
         for (std::size_t i = 0; i < lights_.lights.size(); ++i) {
             const std::size_t points = lights_.lights[i].samples;
             for (std::size_t k = 0; k < points; ++k) {
                 const auto light =
-                    sampler_.sample_incident(i, position, SampleStream(key.derived(i), k).next_two());
+                    sampler_.sample_incident(i, position, SampleStream(key_here.derived(i), k).next_two());
                 if (!light || !(light->normal_illuminance_lx.max() > 0)) continue;
                 const double cosine = dot(light->direction, frame.w);
                 if (cosine <= 0) continue;

@@ -1,12 +1,12 @@
 // First shot on the fly: light of the replaced lights at any position, by shadow rays when it is asked for.
 //
 // Point-like lights are exact. An area light is the mean of as many points drawn on it as it has samples: of
-// low discrepancy in one call, and without bias over positions, as they depend on side and position. Called
-// again for the same position it gives the same.
+// low discrepancy in one call, and without bias over keys and over positions.
 #pragma once
 
 #include <span>
 
+#include "base/random.h"
 #include "estimators/first_shot_lights.h"
 #include "estimators/first_shot_surface.h"
 #include "estimators/light_sampler.h"
@@ -26,12 +26,12 @@ class ShadowRays {
         : scene_(scene), patches_(patches), caster_(caster), sampler_(sampler), lights_(lights) {}
 
     /// As FirstShot.
-    void add_reflected(std::uint32_t side, const Vec3& position, std::span<const Vec3> outs,
+    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
                        std::span<Spectrum> sums) const {
-        add_reflected_by(material_of(scene_, patches_, side), side, position, outs, sums);
+        add_reflected_by(material_of(scene_, patches_, side), side, position, key, outs, sums);
     }
     /// As if the side were of another material.
-    void add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position,
+    void add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position, RandomKey key,
                           std::span<const Vec3> outs, std::span<Spectrum> sums) const;
     /// Where nothing is reflected: light differs from position to position.
     bool is_constant(std::uint32_t side) const {

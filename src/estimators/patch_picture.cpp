@@ -62,7 +62,7 @@ Spectrum PatchPass::reflected(const Path& path, const PatchPlace& seen) const {
     const bool is_front = transport_.patches.is_front(seen.side);
     const std::span<const Spectrum> vertices(is_front ? fronts_ : backs_);
     return transport_.interpolation.at(vertices, transport_.patches.patch_of(seen.side), seen.place) +
-           transport_.first_reflected_at(seen.side, path.hit.position, path.outgoing);
+           transport_.first_reflected_at(seen.side, path.hit.position, {}, path.outgoing);
 }
 
 }  // namespace stilb

@@ -11,6 +11,8 @@ namespace {
 /// From each point: a step of the light costs far more than a ray.
 constexpr std::uint64_t kRaysPerSample = 4;
 constexpr double kShare = 1.0 / kRaysPerSample;
+/// A key of its own; points have those of their numbers.
+constexpr std::uint64_t kViews = ~std::uint64_t{0};
 
 }  // namespace
 
@@ -64,7 +66,7 @@ void PatchReadings::for_each_share(const View& view, const Visit& visit) const {
 }
 
 Spectrum PatchReadings::first_reflected(const View& view) const {
-    Spectrum luminance = transport_.first_reflected_at(view.seen.side, view.position, view.outgoing);
+    Spectrum luminance;
     for_each_share(view, [&](std::uint32_t side, double weight) {
         luminance += transport_.first_reflected(side, view.outgoing) * weight;
     });
@@ -73,7 +75,10 @@ Spectrum PatchReadings::first_reflected(const View& view) const {
 
 void PatchReadings::add(const PatchLight& light, RandomKey key, std::uint64_t sample,
                         ReadingSums& sums) const {
-    for (const View& view : views_) add_luminance(light, view, sums);
+    const RandomKey key_of_views = key.derived(kViews).derived(sample);
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        add_luminance(light, views_[i], key_of_views.derived(i), sums);
+    }
     for (std::size_t first = 0; first < points_.size(); first += kPacketWidth) {
         const std::size_t count = std::min<std::size_t>(kPacketWidth, points_.size() - first);
         for (std::uint64_t ray = 0; ray < kRaysPerSample; ++ray) {
@@ -83,8 +88,9 @@ void PatchReadings::add(const PatchLight& light, RandomKey key, std::uint64_t sa
     }
 }
 
-void PatchReadings::add_luminance(const PatchLight& light, const View& view, ReadingSums& sums) const {
-    Spectrum luminance;
+void PatchReadings::add_luminance(const PatchLight& light, const View& view, RandomKey key,
+                                  ReadingSums& sums) const {
+    Spectrum luminance = transport_.first_reflected_at(view.seen.side, view.position, key, view.outgoing);
     for_each_share(view, [&](std::uint32_t side, double weight) {
         luminance += light.reflected(side, view.outgoing) * weight;
     });
@@ -116,7 +122,7 @@ void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Re
         sums.add(points[i].reading(),
                  kShare * samples[i].weight *
                      (light.reflected(sides[i], out) + transport_.first_reflected(sides[i], out) +
-                      transport_.first_reflected_at(sides[i], met, out)));
+                      transport_.first_reflected_at(sides[i], met, {}, out)));
     }
 }
 

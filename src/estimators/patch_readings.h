@@ -21,7 +21,7 @@ class PatchReadings {
   public:
     PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands);
 
-    /// Emission and first shot along lines of sight, direct light of point-like sources at points.
+    /// Emission and stored first shot along lines of sight, direct light of point-like sources at points.
     std::span<const Spectrum> known_part() const { return known_part_; }
 
     /// Adds sample number `sample` of every reading, beside the known part.
@@ -40,7 +40,7 @@ class PatchReadings {
     void add_reading(std::uint32_t reading, const Measurand& measurand);
     void add_shares();
     Spectrum first_reflected(const View& view) const;
-    void add_luminance(const PatchLight& light, const View& view, ReadingSums& sums) const;
+    void add_luminance(const PatchLight& light, const View& view, RandomKey key, ReadingSums& sums) const;
     /// Calls `visit(side, weight)` for the sides that a view is interpolated between.
     template <typename Visit>
     void for_each_share(const View& view, const Visit& visit) const;

@@ -58,7 +58,7 @@ void PatchTransport::add_reflection(std::uint32_t patch) {
     for (const std::uint32_t side : {patch, patches.other_side(patch)}) {
         if (first_shot.needs_position(side)) continue;
         first_reflection[side] =
-            rgb_of(first_shot.reflected(side, patches.middle(patch), patches.normal_of(side)));
+            rgb_of(first_shot.reflected(side, patches.middle(patch), {}, patches.normal_of(side)));
     }
 }
 
@@ -75,7 +75,7 @@ Spectrum PatchTransport::first_reflected(std::uint32_t side, const Vec3& out) co
     const std::uint32_t patch = patches.patch_of(side);
     if (reflects_alike(patch)) return spectrum_of(first_reflection[side]);
     return first_shot.needs_position(side) ? Spectrum{}
-                                           : first_shot.reflected(side, patches.middle(patch), out);
+                                           : first_shot.reflected(side, patches.middle(patch), {}, out);
 }
 
 }  // namespace stilb

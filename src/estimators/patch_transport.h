@@ -49,8 +49,9 @@ struct PatchTransport : FirstShotPatches {
     /// What first shot makes a side reflect, as a mean over the patch; nothing where it depends on the place.
     Spectrum first_reflected(std::uint32_t side, const Vec3& out) const;
     /// The other part: what depends on the place.
-    Spectrum first_reflected_at(std::uint32_t side, const Vec3& position, const Vec3& out) const {
-        return first_shot.needs_position(side) ? first_shot.reflected(side, position, out) : Spectrum{};
+    Spectrum first_reflected_at(std::uint32_t side, const Vec3& position, RandomKey key,
+                                const Vec3& out) const {
+        return first_shot.needs_position(side) ? first_shot.reflected(side, position, key, out) : Spectrum{};
     }
 
     VertexInterpolation interpolation{patches};

@@ -1,5 +1,6 @@
 #include "estimators/path_tracer.h"
 
+#include <bit>
 #include <cmath>
 
 #include "estimators/balance.h"
@@ -99,8 +100,13 @@ void PathTracer::add_first_reflected(std::span<Path* const> paths, Coherence coh
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (!places[i]) continue;
         Path& path = *reflecting[i];
-        path.luminance_cd_m2 += path.throughput * first_shot_->first_shot.reflected(
-                                                      places[i]->side, path.hit.position, path.outgoing);
+        const std::uint32_t side = places[i]->side;
+        // Many paths stand at the same place: each has points of its own on lights.
+        const RandomKey key{first_shot_->first_shot.needs_position(side)
+                                ? std::bit_cast<std::uint64_t>(path.stream.next())
+                                : 0};
+        path.luminance_cd_m2 +=
+            path.throughput * first_shot_->first_shot.reflected(side, path.hit.position, key, path.outgoing);
     }
 }
 

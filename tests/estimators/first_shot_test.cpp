@@ -45,7 +45,7 @@ Spectrum mean_reflected(const PreparedScene& room, const FirstShot& shot, std::u
     Spectrum sum;
     const auto add = [&](double b1, double b2) {
         const Vec3 place = room.patches.position(room.patches.patch_of(side), {1 - b1 - b2, b1, b2});
-        sum += shot.reflected(side, place, some_direction(room, side));
+        sum += shot.reflected(side, place, {}, some_direction(room, side));
     };
     for (int i = 0; i < n; ++i) {
         for (int j = 0; i + j < n; ++j) {
@@ -66,7 +66,7 @@ Spectrum mean_over_directions(const PreparedScene& room, const FirstShot& shot, 
         outs.push_back(frame.to_world(sample_cosine_hemisphere(u1, u2).direction));
     }
     std::vector<Spectrum> sums(outs.size());
-    shot.add_reflected(side, room.middle(side), outs, sums);
+    shot.add_reflected(side, room.middle(side), {}, outs, sums);
     return std::accumulate(sums.begin(), sums.end(), Spectrum{}) * (1. / (kSteps * kSteps));
 }
 
@@ -83,7 +83,7 @@ double difference(const PreparedScene& room, const Found& found, const Reference
 }
 
 Spectrum reflected_from_middle(const PreparedScene& room, const FirstShot& shot, std::uint32_t side) {
-    return shot.reflected(side, room.middle(side), some_direction(room, side));
+    return shot.reflected(side, room.middle(side), {}, some_direction(room, side));
 }
 
 void expect_same(const Spectrum& found, const Spectrum& expected, double relative_error) {
@@ -152,8 +152,8 @@ TEST(FirstShot, IncomingReflectsByTheBrdf) {
             const Spectrum expected =
                 evaluate_brdf_per_sr(material, frame.to_local(in), frame.to_local(out)) *
                 row[0].illuminance_lx;
-            expect_same(shot.reflected(side, {}, out), expected, 1e-9);
-            EXPECT_EQ(shot.reflected(side, {}, -out), Spectrum{});
+            expect_same(shot.reflected(side, {}, {}, out), expected, 1e-9);
+            EXPECT_EQ(shot.reflected(side, {}, {}, -out), Spectrum{});
             EXPECT_FALSE(shot.is_constant(side));
             EXPECT_TRUE(shot.is_constant(cube.patches.other_side(side)));
         }
@@ -169,10 +169,10 @@ TEST(FirstShot, AddsWhatIsReflectedInSeveralDirections) {
         for (std::uint32_t side = 0; side < room.sides(); ++side) {
             const std::array<Vec3, 2> outs{some_direction(room, side), room.patches.normal_of(side)};
             std::array<Spectrum, 2> sums{Spectrum::grey(1), Spectrum::grey(2)};
-            shot.add_reflected(side, room.middle(side), outs, sums);
+            shot.add_reflected(side, room.middle(side), {}, outs, sums);
             for (std::size_t i = 0; i < outs.size(); ++i) {
                 const Spectrum before = Spectrum::grey(static_cast<double>(i + 1));
-                expect_same(sums[i], before + shot.reflected(side, room.middle(side), outs[i]), 1e-12);
+                expect_same(sums[i], before + shot.reflected(side, room.middle(side), {}, outs[i]), 1e-12);
             }
         }
     }

@@ -111,6 +111,27 @@ TEST(RayBundle, EveryFirstShotApproachesPathTracing) {
     }
 }
 
+/// A lamp in a glossy plate: first shot that is not stored draws points on the lamp, which is noise.
+TEST(RayBundle, HighlightsHaveErrorBarsThatHold) {
+    Scene scene;
+    add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, Phong{{}, Spectrum::grey(0.6), 200});
+    add_area_light(scene, Sphere{{2, 2.5, 1.5}, 0.2}, Spectrum::grey(1000));
+    Sensor sensor = sights({LineOfSight{{2, 0.5, 1.5}, normalized({0, 1.05, -1.5})}});
+    RunOptions reference;
+    reference.method = "path";
+    reference.error = 0.002;
+    const Estimate exact = measured(scene, sensor, reference, 0);
+    for (const auto variant : {FirstShotVariant::diffuse, FirstShotVariant::on_the_fly}) {
+        RunOptions options = bundle_options(0.5, 256);
+        options.patches.first_shot.variant = variant;
+        const Estimate found = measured(scene, sensor, options, 0);
+        const double error = std::hypot(found.standard_error, exact.standard_error);
+        EXPECT_LT(std::abs(found.value - exact.value), 4.5 * error) << name_of(variant);
+        EXPECT_GT(found.standard_error, 0) << name_of(variant);
+        EXPECT_LT(found.standard_error, 0.02 * exact.value) << name_of(variant);
+    }
+}
+
 TEST(RayBundle, ThreadsAndRepetitionsChangeNothing) {
     const Scene scene = glossy_room();
     const Sensor floor = points({{{1, 1.3, 0}, kUp}, {{3, 1.3, 0.8}, kUp}});
