@@ -21,7 +21,8 @@ constexpr std::array kPhongScenes{"BroadPhong", "NarrowPhong"};
 constexpr std::array kSizes_m{0.6, 0.3, 0.15};
 constexpr double kTolerance = 0.01;
 constexpr std::uint64_t kSteps = 2048, kFewSteps = 512, kParticles = 1 << 22;
-/// Highlights of a narrow lobe are seen from few directions: so many times the steps bring 1 % out of the noise.
+/// Highlights of a narrow lobe are seen from few directions: so many times the steps bring 1 % out of the
+/// noise.
 constexpr std::string_view kNoisyScene = "NarrowPhong";
 constexpr std::uint64_t kNoisyFactor = 4;
 constexpr Vec3 kMiddle{2, 1.5, 1.3};
