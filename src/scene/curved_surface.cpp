@@ -129,6 +129,7 @@ class HarmonicsInCells final : public CurvedSurface {
         return cells_.crossing(part, to_own_.to_local(ray.origin - shape_.center),
                                to_own_.to_local(ray.direction), ray.start, ray.end);
     }
+    bool has_verdicts() const override { return true; }
     Lanes<Verdict> verdicts(std::size_t part, const RayLanes& rays) const override {
         return cells_.verdicts(part, rays, in_lanes_);
     }

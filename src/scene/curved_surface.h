@@ -31,6 +31,7 @@ class CurvedSurface {
     /// Smallest t in the interval at which the ray meets the part, from either side; infinite where it does
     /// not.
     virtual double intersect(std::size_t part, const RayInterval& ray) const = 0;
+    virtual bool has_verdicts() const { return false; }
     /// What intersect() would find, as far as a surface can tell that sooner.
     virtual Lanes<Verdict> verdicts(std::size_t, const RayLanes&) const { return {}; }
     /// `near_by` (a hit with the rounding error of single precision) projected onto the part.

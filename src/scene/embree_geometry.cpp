@@ -52,13 +52,18 @@ RayLanes lanes_of(RTCRayN* rays, unsigned width) {
     return lanes;
 }
 
+/// Unclear for single rays, which are quicker without.
+Lanes<Verdict> verdicts_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays, unsigned width) {
+    if (width == 1 || !surface.has_verdicts()) return {};
+    return surface.verdicts(part, lanes_of(rays, width));
+}
+
 /// The normal is found once the ray's closest hit is known.
 void curved_intersect(const RTCIntersectFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
-    Lanes<Verdict> verdicts{};
-    if (args->N > 1) verdicts = surface.verdicts(args->primID, lanes_of(rays, args->N));
+    const Lanes<Verdict> verdicts = verdicts_of(surface, args->primID, rays, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
         const double t = surface.intersect(args->primID, interval_of(rays, args->N, lane));
@@ -72,8 +77,7 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
 
 void curved_occluded(const RTCOccludedFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
-    Lanes<Verdict> verdicts{};
-    if (args->N > 1) verdicts = surface.verdicts(args->primID, lanes_of(args->ray, args->N));
+    const Lanes<Verdict> verdicts = verdicts_of(surface, args->primID, args->ray, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
         if (verdicts[lane] == Verdict::meets ||
