@@ -93,9 +93,9 @@ TEST(MeshFit, OfASphereOffItsCentreIsItsDistanceFromThere) {
 
 TEST(MeshFit, RefusesWhatIsNotStarShaped) {
     const std::string message = refusal(u_prism(), {.degree = 8});
-    expect_parts(message,
-                 {"mesh.ply: not star-shaped about (", "% of the directions meet the surface more than once",
-                  "0.5 % are tolerated", "theta", "phi", "% of the size between", "--center", "--force"});
+    expect_parts(message, {"mesh.ply: not star-shaped about (",
+                           "% of the directions meet the surface more than once", "0.5 % are tolerated",
+                           "theta", "phi", "% of the size between", "--center", "--force", "--tolerance"});
 }
 
 /// Seen from the middle of its base, each arm of the U hides behind the wall of the gap: directions towards
