@@ -40,16 +40,18 @@ void require_star_shape(const MeshFit& fit, const MeshFitOptions& options, const
     const char* advice = options.center
                              ? "Leave out --center to have one searched"
                              : "Give another --center, if you know one from which all of the surface is seen";
+    // --tolerance is a share below 1.
+    const double enough_percent = std::ceil(1000 * survey.share()) / 10;
+    const std::string tolerance =
+        enough_percent < 100 ? fmt::format(", or by --tolerance {:.1f}%,", enough_percent) : "";
     throw InputError(
-        fmt::format(
-            "not star-shaped about ({:.4g}, {:.4g}, {:.4g}): {:.2f} % of the directions meet the "
-            "surface more than once and {:.2f} % do not meet it, where {:.2g} % are tolerated. A "
-            "series has one radius for each direction. The worst directions:{}\n  {}; cut the mesh "
-            "into star-shaped parts; or accept by --force, or by --tolerance {:.1f}%, that the outermost "
-            "surface is taken and what is below it is lost.",
-            c.x, c.y, c.z, 100 * survey.folded_share, 100 * survey.missed_share,
-            100 * options.tolerated_share, worst_text(survey, fit.size), advice,
-            std::ceil(1000 * survey.share()) / 10),
+        fmt::format("not star-shaped about ({:.4g}, {:.4g}, {:.4g}): {:.2f} % of the directions meet the "
+                    "surface more than once and {:.2f} % do not meet it, where {:.2g} % are tolerated. A "
+                    "series has one radius for each direction. The worst directions:{}\n  {}; cut the mesh "
+                    "into star-shaped parts; or accept by --force{} that the outermost "
+                    "surface is taken and what is below it is lost.",
+                    c.x, c.y, c.z, 100 * survey.folded_share, 100 * survey.missed_share,
+                    100 * options.tolerated_share, worst_text(survey, fit.size), advice, tolerance),
         {name});
 }
 
