@@ -110,8 +110,8 @@ class HarmonicsInCells final : public CurvedSurface {
         const auto to_float = [](const Vec3& v) {
             return std::array{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
         };
-        in_lanes_.axes = {to_float(to_own_.u), to_float(to_own_.v), to_float(to_own_.w)};
-        in_lanes_.center = to_float(shape_.center);
+        in_packets_.axes = {to_float(to_own_.u), to_float(to_own_.v), to_float(to_own_.w)};
+        in_packets_.center = to_float(shape_.center);
     }
 
     std::size_t part_count() const override { return cells_.count(); }
@@ -130,8 +130,8 @@ class HarmonicsInCells final : public CurvedSurface {
                                to_own_.to_local(ray.direction), ray.start, ray.end);
     }
     bool has_verdicts() const override { return true; }
-    Lanes<Verdict> verdicts(std::size_t part, const RayLanes& rays) const override {
-        return cells_.verdicts(part, rays, in_lanes_);
+    LaneVerdicts verdicts(std::size_t part, const RayPacket& rays) const override {
+        return cells_.verdicts(part, rays, in_packets_);
     }
     SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const override {
         const auto [position, normal] = cells_.place_at(part, shape_.to_own(near_by));
@@ -142,7 +142,7 @@ class HarmonicsInCells final : public CurvedSurface {
     Harmonics shape_;
     const HarmonicCells& cells_;  ///< the shape's
     Frame to_own_;                ///< axes over scale
-    LanePlacement in_lanes_;      ///< the same
+    PacketPlacement in_packets_;  ///< the same
 };
 
 struct Maker {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "scene/bounds.h"
-#include "scene/ray_lanes.h"
+#include "scene/ray_packet.h"
 #include "scene/shape.h"
 
 namespace stilb {
@@ -33,7 +33,7 @@ class CurvedSurface {
     virtual double intersect(std::size_t part, const RayInterval& ray) const = 0;
     virtual bool has_verdicts() const { return false; }
     /// What intersect() would find, as far as a surface can tell that sooner.
-    virtual Lanes<Verdict> verdicts(std::size_t, const RayLanes&) const { return {}; }
+    virtual LaneVerdicts verdicts(std::size_t, const RayPacket&) const { return {}; }
     /// `near_by` (a hit with the rounding error of single precision) projected onto the part.
     virtual SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
 };

@@ -36,26 +36,26 @@ void curved_bounds(const RTCBoundsFunctionArguments* args) {
 }
 
 /// Up to 16 rays.
-RayLanes lanes_of(RTCRayN* rays, unsigned width) {
-    RayLanes lanes;
-    const auto copy = [width](const float& first, Lanes<float>& copies) {
+RayPacket packet_of(RTCRayN* rays, unsigned width) {
+    RayPacket packet;
+    const auto copy = [width](const float& first, RayPacket::Floats& copies) {
         std::copy_n(&first, width, copies.begin());
     };
-    copy(RTCRayN_org_x(rays, width, 0), lanes.origin_x);
-    copy(RTCRayN_org_y(rays, width, 0), lanes.origin_y);
-    copy(RTCRayN_org_z(rays, width, 0), lanes.origin_z);
-    copy(RTCRayN_dir_x(rays, width, 0), lanes.direction_x);
-    copy(RTCRayN_dir_y(rays, width, 0), lanes.direction_y);
-    copy(RTCRayN_dir_z(rays, width, 0), lanes.direction_z);
-    copy(RTCRayN_tnear(rays, width, 0), lanes.start);
-    copy(RTCRayN_tfar(rays, width, 0), lanes.end);
-    return lanes;
+    copy(RTCRayN_org_x(rays, width, 0), packet.origin_x);
+    copy(RTCRayN_org_y(rays, width, 0), packet.origin_y);
+    copy(RTCRayN_org_z(rays, width, 0), packet.origin_z);
+    copy(RTCRayN_dir_x(rays, width, 0), packet.direction_x);
+    copy(RTCRayN_dir_y(rays, width, 0), packet.direction_y);
+    copy(RTCRayN_dir_z(rays, width, 0), packet.direction_z);
+    copy(RTCRayN_tnear(rays, width, 0), packet.start);
+    copy(RTCRayN_tfar(rays, width, 0), packet.end);
+    return packet;
 }
 
 /// Unclear for single rays, which are quicker without.
-Lanes<Verdict> verdicts_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays, unsigned width) {
+LaneVerdicts verdicts_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays, unsigned width) {
     if (width == 1 || !surface.has_verdicts()) return {};
-    return surface.verdicts(part, lanes_of(rays, width));
+    return surface.verdicts(part, packet_of(rays, width));
 }
 
 /// The normal is found once the ray's closest hit is known.
@@ -63,7 +63,7 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
-    const Lanes<Verdict> verdicts = verdicts_of(surface, args->primID, rays, args->N);
+    const LaneVerdicts verdicts = verdicts_of(surface, args->primID, rays, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
         const double t = surface.intersect(args->primID, interval_of(rays, args->N, lane));
@@ -77,7 +77,7 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
 
 void curved_occluded(const RTCOccludedFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
-    const Lanes<Verdict> verdicts = verdicts_of(surface, args->primID, args->ray, args->N);
+    const LaneVerdicts verdicts = verdicts_of(surface, args->primID, args->ray, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
         if (verdicts[lane] == Verdict::meets ||

@@ -21,7 +21,7 @@
 #include "scene/cell_polynomial.h"
 #include "scene/harmonic_surface.h"
 #include "scene/meridian_series.h"
-#include "scene/ray_lanes.h"
+#include "scene/ray_packet.h"
 
 namespace stilb {
 
@@ -45,7 +45,7 @@ class HarmonicCells {
                     double end) const;
 
     /// What crossing() would find, where that is certain without it.
-    Lanes<Verdict> verdicts(std::size_t cell, const RayLanes& rays, const LanePlacement& placement) const;
+    LaneVerdicts verdicts(std::size_t cell, const RayPacket& rays, const PacketPlacement& placement) const;
 
     /// By the cell's polynomial: at the default tolerance the normal is within about 3e-5 rad of
     /// HarmonicSurface::normal_at(), mostly within 2e-6.

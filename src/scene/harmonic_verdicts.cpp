@@ -59,12 +59,12 @@ struct HarmonicCells::FloatCell {
     float most_doubt;
     float change;  ///< of W - w by a position's error, at most
 
-    FloatCell(const Outline& cell, const Span& column, const Span& row, const LanePlacement& placement);
+    FloatCell(const Outline& cell, const Span& column, const Span& row, const PacketPlacement& placement);
     Verdict verdict(const Vec3f& origin, const Vec3f& direction, float start, float end) const;
 };
 
 HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, const Span& row,
-                                    const LanePlacement& placement)
+                                    const PacketPlacement& placement)
     : low(cell.low), high(cell.high), q(cell.quadratic) {
     const CubeFace face(cell.face);
     const auto axis = [&](std::size_t number, double sign) {
@@ -127,12 +127,12 @@ HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, con
 }
 
 STILB_FOR_ALL_PROCESSORS
-Lanes<Verdict> HarmonicCells::verdicts(std::size_t number, const RayLanes& rays,
-                                       const LanePlacement& placement) const {
+LaneVerdicts HarmonicCells::verdicts(std::size_t number, const RayPacket& rays,
+                                     const PacketPlacement& placement) const {
     const Outline& outline = outlines_[number];
     const FloatCell cell(outline, spans_[outline.column], spans_[outline.row], placement);
-    Lanes<Verdict> verdicts;
-    for (std::size_t n = 0; n < kMostLanes; ++n) {
+    LaneVerdicts verdicts;
+    for (std::size_t n = 0; n < kPacketWidth; ++n) {
         verdicts[n] = cell.verdict({rays.origin_x[n], rays.origin_y[n], rays.origin_z[n]},
                                    {rays.direction_x[n], rays.direction_y[n], rays.direction_z[n]},
                                    rays.start[n], rays.end[n]);

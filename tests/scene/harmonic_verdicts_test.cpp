@@ -20,27 +20,22 @@ Harmonics body_at(const Vec3& center, double scale) {
 }
 
 /// Sixteen rays through a box, of which some end and some start in it.
-RayLanes rays_through(const Bounds& box, double away, Numbers& numbers) {
+RayPacket rays_through(const Bounds& box, double away, Numbers& numbers) {
     const Vec3 extent = box.max - box.min;
-    RayLanes rays;
-    for (std::size_t lane = 0; lane < kMostLanes; ++lane) {
+    RayPacket rays;
+    for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
         const Vec3 at =
             box.min + Vec3{numbers.next() * extent.x, numbers.next() * extent.y, numbers.next() * extent.z};
         const Vec3 direction = numbers.direction(), origin = at - away * direction;
-        rays.origin_x[lane] = static_cast<float>(origin.x),
-        rays.direction_x[lane] = static_cast<float>(direction.x);
-        rays.origin_y[lane] = static_cast<float>(origin.y),
-        rays.direction_y[lane] = static_cast<float>(direction.y);
-        rays.origin_z[lane] = static_cast<float>(origin.z),
-        rays.direction_z[lane] = static_cast<float>(direction.z);
         const double where = numbers.next();
+        rays.set(lane, origin, direction,
+                 where > 0.8 ? static_cast<float>(away) : std::numeric_limits<float>::infinity());
         rays.start[lane] = where < 0.2 ? static_cast<float>(away) : 0;
-        rays.end[lane] = where > 0.8 ? static_cast<float>(away) : std::numeric_limits<float>::infinity();
     }
     return rays;
 }
 
-RayInterval interval_of(const RayLanes& rays, std::size_t lane) {
+RayInterval interval_of(const RayPacket& rays, std::size_t lane) {
     return {{rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]},
             {rays.direction_x[lane], rays.direction_y[lane], rays.direction_z[lane]},
             rays.start[lane],
@@ -66,9 +61,9 @@ Told told_of(const Harmonics& body, double away, int packets) {
     for (int n = 0; n < packets; ++n) {
         const auto part =
             static_cast<std::size_t>(numbers.next() * static_cast<double>(surface->part_count()));
-        const RayLanes rays = rays_through(surface->bounds_of(part), away, numbers);
-        const Lanes<Verdict> verdicts = surface->verdicts(part, rays);
-        for (std::size_t lane = 0; lane < kMostLanes; ++lane) {
+        const RayPacket rays = rays_through(surface->bounds_of(part), away, numbers);
+        const LaneVerdicts verdicts = surface->verdicts(part, rays);
+        for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
             const RayInterval ray = interval_of(rays, lane);
             const bool is_met = surface->intersect(part, ray) < kInfinity;
             if (verdicts[lane] == Verdict::misses) {

@@ -123,15 +123,11 @@ class CheckedSurface {
   private:
     VerdictTally compare_verdicts(const TestRay& exact) const {
         constexpr float infinity = std::numeric_limits<float>::infinity();
-        const LanePlacement own{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}};
-        RayLanes rays;
-        const Vec3 origin{rays.origin_x[0] = static_cast<float>(exact.origin.x),
-                          rays.origin_y[0] = static_cast<float>(exact.origin.y),
-                          rays.origin_z[0] = static_cast<float>(exact.origin.z)};
-        const Vec3 direction{rays.direction_x[0] = static_cast<float>(exact.direction.x),
-                             rays.direction_y[0] = static_cast<float>(exact.direction.y),
-                             rays.direction_z[0] = static_cast<float>(exact.direction.z)};
-        rays.end[0] = infinity;
+        const PacketPlacement own{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}};
+        RayPacket rays;
+        rays.set(0, exact.origin, exact.direction, infinity);
+        const Vec3 origin{rays.origin_x[0], rays.origin_y[0], rays.origin_z[0]};
+        const Vec3 direction{rays.direction_x[0], rays.direction_y[0], rays.direction_z[0]};
         VerdictTally tally;
         std::uint64_t met = 0;
         bool is_crossed = false;
