@@ -56,7 +56,7 @@ format-check: setup-lint ## fail where a source is not in the project's format
 lint: setup-lint ## clang-tidy, and the directions of includes
 	@scripts/check-includes
 	@$(call configure,release)
-	@run-clang-tidy-14 -quiet -j $(JOBS) -p $(RELEASE) '^$(CURDIR)/src/'
+	@run-clang-tidy-14 -quiet -j $(JOBS) -p $(RELEASE) '^$(CURDIR)/(src|experiments)/'
 
 sanitize: setup ## all tests with address and undefined-behaviour sanitizers
 	@$(call configure,debug)

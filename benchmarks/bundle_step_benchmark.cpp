@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "base/error.h"
-#include "estimators/bundle_iteration.h"
+#include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 #include "rooms.h"
 
 namespace stilb {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <vector>
 
-#include "estimators/fan.h"
+#include "estimators/local/connection.h"
 #include "rooms.h"
 
 namespace stilb {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "best_time.h"
-#include "estimators/first_shot_patches.h"
+#include "estimators/patch_light/first_shot/first_shot_patches.h"
 #include "rooms.h"
 
 namespace stilb {

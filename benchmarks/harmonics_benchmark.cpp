@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "best_time.h"
-#include "scene/harmonic_cells.h"
-#include "scene/harmonic_march.h"
+#include "geometry/harmonics/cells.h"
+#include "geometry/harmonics/march.h"
 #include "support/harmonic_shapes.h"
 
 namespace stilb {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "estimators/incoming_light.h"
+#include "estimators/patch_light/incoming_light.h"
 
 namespace stilb {
 namespace {

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/spherical_harmonics.h"
-#include "files/harmonics_file.h"
+#include "io/mesh/harmonics_file.h"
+#include "math/spherical_harmonics.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view content(reinterpret_cast<const char*>(data), size);

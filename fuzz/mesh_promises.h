@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "files/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 
 namespace stilb {
 

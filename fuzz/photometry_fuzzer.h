@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "files/photometry_file.h"
+#include "io/photometry/photometry_file.h"
 
 namespace stilb {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "files/solution_file.h"
+#include "io/results/solution_file.h"
 
 namespace {
 

@@ -24,6 +24,5 @@ void add_fit(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_falsecolor(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);
-void add_reproduce(CLI::App& app, int& exit_code);
 
 }  // namespace stilb

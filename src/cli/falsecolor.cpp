@@ -10,10 +10,10 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
-#include "files/canvas.h"
-#include "files/false_colour_picture.h"
-#include "files/grid_picture.h"
-#include "files/picture_file.h"
+#include "io/image/picture_file.h"
+#include "plot/canvas.h"
+#include "plot/false_colour_picture.h"
+#include "plot/grid_picture.h"
 
 namespace stilb {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/spherical_harmonics.h"
+#include "math/spherical_harmonics.h"
 
 namespace stilb {
 namespace {

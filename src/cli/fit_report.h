@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/spherical_harmonics.h"
-#include "files/plot.h"
-#include "scene/mesh_fit.h"
+#include "fit/mesh_fit.h"
+#include "math/spherical_harmonics.h"
+#include "plot/plot.h"
 
 namespace stilb {
 

@@ -7,7 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/info_report.h"
-#include "files/text.h"
+#include "io/text/text.h"
 
 namespace stilb {
 namespace {

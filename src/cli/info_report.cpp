@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "estimators/unlit.h"
-#include "files/mesh_file.h"
-#include "files/photometry_file.h"
-#include "scene/bounds.h"
-#include "scene/harmonic_surface.h"
-#include "scene/holes.h"
-#include "scene/overlaps.h"
-#include "sensors/placement.h"
+#include "base/bounds.h"
+#include "checks/holes.h"
+#include "checks/overlaps.h"
+#include "checks/placement.h"
+#include "checks/unlit.h"
+#include "geometry/harmonics/surface.h"
+#include "io/mesh/mesh_file.h"
+#include "io/photometry/photometry_file.h"
 
 namespace stilb {
 namespace {

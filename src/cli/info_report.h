@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "files/scene_file.h"
+#include "io/scene/scene_file.h"
 
 namespace stilb {
 

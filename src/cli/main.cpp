@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "papers/reproduce.h"
 
 namespace {
 

@@ -12,11 +12,11 @@
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
-#include "files/canvas.h"
-#include "files/grid_picture.h"
-#include "files/results_csv.h"
-#include "files/results_json.h"
-#include "files/scene_file.h"
+#include "io/results/results_csv.h"
+#include "io/results/results_json.h"
+#include "io/scene/scene_file.h"
+#include "plot/canvas.h"
+#include "plot/grid_picture.h"
 
 namespace stilb {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "estimators/patch_report.h"
+#include "estimators/patch_light/patch_report.h"
 
 namespace stilb {
 

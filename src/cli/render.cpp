@@ -19,10 +19,10 @@
 #include "cli/progress.h"
 #include "cli/rendered_picture.h"
 #include "cli/run_flags.h"
-#include "files/content_hash.h"
-#include "files/picture_file.h"
-#include "files/scene_file.h"
-#include "files/solution_file.h"
+#include "io/image/picture_file.h"
+#include "io/results/solution_file.h"
+#include "io/scene/scene_file.h"
+#include "io/text/content_hash.h"
 
 namespace stilb {
 namespace {

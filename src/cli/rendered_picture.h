@@ -1,7 +1,7 @@
 // What was rendered, as a picture to be written.
 #pragma once
 
-#include "files/picture.h"
+#include "io/image/picture.h"
 #include "run/render.h"
 
 namespace stilb {

@@ -7,16 +7,16 @@
 #include <memory>
 #include <utility>
 
-#include "base/zernike.h"
 #include "cli/commands.h"
 #include "cli/ending.h"
 #include "cli/patch_text.h"
 #include "cli/progress.h"
 #include "cli/run_flags.h"
-#include "files/content_hash.h"
-#include "files/scene_file.h"
-#include "files/solution_file.h"
-#include "files/write_file.h"
+#include "io/results/solution_file.h"
+#include "io/scene/scene_file.h"
+#include "io/text/content_hash.h"
+#include "io/text/write_file.h"
+#include "math/zernike.h"
 
 namespace stilb {
 namespace {

@@ -13,10 +13,10 @@
 #include "cli/commands.h"
 #include "cli/place_text.h"
 #include "cli/progress.h"
-#include "cli/verification.h"
 #include "estimators/estimator_list.h"
-#include "files/place_json.h"
+#include "io/results/place_json.h"
 #include "run/relative_error.h"
+#include "verification/verification.h"
 
 namespace stilb {
 namespace {

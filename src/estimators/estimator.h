@@ -4,20 +4,17 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "base/random.h"
-#include "base/spectrum.h"
-#include "estimators/patch_report.h"
+#include "base/rgb.h"
+#include "estimators/patch_light/patch_report.h"
+#include "math/random.h"
+#include "transport/receiver.h"
 
 namespace stilb {
-
-/// Reflections without limit.
-inline constexpr int kUnlimited = std::numeric_limits<int>::max();
 
 /// The unit of work: samples first ... first + count - 1 of the replicate that `key` stands for. What a batch
 /// adds depends on these alone.

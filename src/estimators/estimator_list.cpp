@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "base/error.h"
-#include "estimators/local_estimation.h"
-#include "estimators/particles.h"
-#include "estimators/path.h"
-#include "estimators/picture_bundle.h"
-#include "estimators/picture_local.h"
-#include "estimators/picture_path.h"
-#include "estimators/radiosity.h"
-#include "estimators/ray_bundle.h"
+#include "estimators/local/local_estimation.h"
+#include "estimators/local/picture_local.h"
+#include "estimators/patch_light/particles/particles.h"
+#include "estimators/patch_light/radiosity/radiosity.h"
+#include "estimators/patch_light/ray_bundle/picture_bundle.h"
+#include "estimators/patch_light/ray_bundle/ray_bundle.h"
+#include "estimators/path/path.h"
+#include "estimators/path/picture_path.h"
 
 namespace stilb {
 namespace {

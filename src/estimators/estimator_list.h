@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "estimators/estimator.h"
-#include "estimators/patch_options.h"
+#include "estimators/patch_light/patch_options.h"
 #include "estimators/picture_estimator.h"
-#include "scene/ray_caster.h"
+#include "rays/ray_caster.h"
 #include "sensors/sensor.h"
 
 namespace stilb {

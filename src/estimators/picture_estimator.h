@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "base/random.h"
-#include "base/spectrum.h"
-#include "estimators/patch_options.h"
-#include "estimators/patch_report.h"
-#include "scene/ray_caster.h"
+#include "base/rgb.h"
+#include "estimators/patch_light/patch_options.h"
+#include "estimators/patch_light/patch_report.h"
+#include "math/random.h"
+#include "rays/ray_caster.h"
 #include "sensors/camera.h"
 
 namespace stilb {

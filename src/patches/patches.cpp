@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "geometry/harmonics/surface.h"
+#include "geometry/mesh_edges.h"
 #include "patches/refinement.h"
 #include "patches/smooth_vertices.h"
-#include "scene/harmonic_surface.h"
-#include "scene/mesh_edges.h"
 
 namespace stilb {
 namespace {

@@ -15,10 +15,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/bounds.h"
 #include "base/ids.h"
-#include "base/sampling.h"
 #include "base/vec.h"
-#include "scene/bounds.h"
+#include "math/sampling.h"
 #include "scene/scene.h"
 
 namespace stilb {

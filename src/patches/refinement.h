@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "scene/shape.h"
+#include "geometry/shape.h"
 
 namespace stilb {
 

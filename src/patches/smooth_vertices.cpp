@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/disjoint_sets.h"
-#include "scene/mesh_edges.h"
+#include "geometry/mesh_edges.h"
+#include "math/disjoint_sets.h"
 
 namespace stilb {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/ids.h"
-#include "scene/shape.h"
+#include "geometry/shape.h"
 
 namespace stilb {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "scene/harmonic_surface.h"
+#include "geometry/harmonics/surface.h"
 
 namespace stilb {
 namespace {

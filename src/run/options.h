@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "estimators/patch_options.h"
+#include "estimators/patch_light/patch_options.h"
 
 namespace stilb {
 

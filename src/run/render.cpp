@@ -13,13 +13,13 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/sample_stream.h"
+#include "checks/placement.h"
 #include "estimators/estimator_list.h"
-#include "estimators/solution_picture.h"
+#include "estimators/patch_light/solution_picture.h"
+#include "math/sample_stream.h"
 #include "run/clock.h"
 #include "run/remaining_time.h"
 #include "run/threads.h"
-#include "sensors/placement.h"
 #include "statistics/stopping.h"
 
 namespace stilb {

@@ -11,14 +11,14 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "checks/placement.h"
 #include "estimators/estimator_list.h"
-#include "estimators/line_of_sight.h"
 #include "run/clock.h"
 #include "run/remaining_time.h"
 #include "run/threads.h"
-#include "sensors/placement.h"
 #include "statistics/heavy_tail.h"
 #include "statistics/stopping.h"
+#include "transport/line_of_sight.h"
 
 namespace stilb {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/spectrum.h"
-#include "estimators/patch_report.h"
+#include "base/rgb.h"
+#include "estimators/patch_light/patch_report.h"
 #include "run/level_of_detail.h"
 #include "run/options.h"
 #include "scene/scene.h"

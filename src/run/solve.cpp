@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "estimators/estimator.h"
-#include "estimators/incoming_light.h"
 #include "estimators/limits.h"
+#include "estimators/patch_light/incoming_light.h"
 #include "run/clock.h"
 #include "run/remaining_time.h"
 #include "run/threads.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "estimators/patch_solution.h"
+#include "estimators/patch_light/patch_solution.h"
 #include "run/options.h"
 #include "run/run.h"
 #include "scene/scene.h"

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/ids.h"
-#include "scene/light.h"
-#include "scene/material.h"
-#include "scene/photometric_solid.h"
-#include "scene/shape.h"
+#include "geometry/shape.h"
+#include "lights/light.h"
+#include "lights/photometric_solid.h"
+#include "materials/material.h"
 
 namespace stilb {
 

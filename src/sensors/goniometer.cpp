@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "scene/luminaire_frame.h"
+#include "lights/luminaire_frame.h"
 
 namespace stilb {
 namespace {

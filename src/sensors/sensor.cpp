@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "scene/ray_caster.h"
+#include "rays/ray_caster.h"
 
 namespace stilb {
 

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "files/luminance_results.h"
+#include "io/luminance_results.h"
 
 namespace stilb {
 namespace {

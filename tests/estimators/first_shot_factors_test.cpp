@@ -1,6 +1,4 @@
 // What light samples shoot: all of their light arrives, each patch gets its own, and shadows stay dark.
-#include "estimators/first_shot_factors.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "base/error.h"
 #include "estimators/first_shot_rooms.h"
+#include "estimators/patch_light/first_shot/factors.h"
 #include "exact/configuration_factors.h"
 
 namespace stilb {

@@ -1,8 +1,8 @@
 // Rooms with small lights, prepared for first shot.
 #pragma once
 
-#include "estimators/first_shot.h"
-#include "patches/opengl_context.h"
+#include "estimators/patch_light/first_shot/first_shot.h"
+#include "patches/visibility/opengl_context.h"
 #include "support/scene_builder.h"
 
 namespace stilb {

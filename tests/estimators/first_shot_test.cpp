@@ -1,5 +1,5 @@
 // The four variants of first shot: each reflects what it says, and they agree as far as each is exact.
-#include "estimators/first_shot.h"
+#include "estimators/patch_light/first_shot/first_shot.h"
 
 #include <gtest/gtest.h>
 

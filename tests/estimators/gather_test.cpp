@@ -1,4 +1,4 @@
-#include "estimators/gather.h"
+#include "estimators/local/gather.h"
 
 #include <gtest/gtest.h>
 

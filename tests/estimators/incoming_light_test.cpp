@@ -1,5 +1,5 @@
 // The light that solutions keep, where what is reflected of it is known.
-#include "estimators/incoming_light.h"
+#include "estimators/patch_light/incoming_light.h"
 
 #include <gtest/gtest.h>
 

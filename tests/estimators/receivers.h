@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "estimators/receiver.h"
+#include "transport/receiver.h"
 
 namespace stilb {
 

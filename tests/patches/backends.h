@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "patches/buffer_backend.h"
-#include "patches/opengl_context.h"
+#include "patches/visibility/buffer_backend.h"
+#include "patches/visibility/opengl_context.h"
 
 namespace stilb {
 

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "patches/backends.h"
-#include "patches/opengl_item_buffers.h"
-#include "patches/ray_item_buffers.h"
 #include "patches/rooms.h"
+#include "patches/visibility/opengl_item_buffers.h"
+#include "patches/visibility/ray_item_buffers.h"
 
 namespace stilb {
 namespace {

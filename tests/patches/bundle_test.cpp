@@ -1,6 +1,6 @@
 // Bundles of parallel rays, by each way of casting them: what lines go through, and that transfer along them
 // is the transfer of light.
-#include "patches/bundle.h"
+#include "patches/visibility/bundle.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/sampling.h"
+#include "math/sampling.h"
 #include "patches/backends.h"
 #include "patches/rooms.h"
 #include "support/random_pairs.h"

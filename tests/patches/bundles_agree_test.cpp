@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "patches/backends.h"
-#include "patches/opengl_bundles.h"
-#include "patches/ray_bundles.h"
 #include "patches/rooms.h"
+#include "patches/visibility/opengl_bundles.h"
+#include "patches/visibility/ray_bundles.h"
 
 namespace stilb {
 namespace {

@@ -1,5 +1,5 @@
 // Where the pixels of item buffers are: their solid angles and cosines add up.
-#include "patches/item_buffer.h"
+#include "patches/visibility/item_buffer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Rays against patches.
-#include "patches/patch_caster.h"
+#include "patches/visibility/patch_caster.h"
 
 #include <gtest/gtest.h>
 
-#include "base/sampling.h"
+#include "math/sampling.h"
 #include "patches/backends.h"
 #include "patches/rooms.h"
 #include "support/random_pairs.h"

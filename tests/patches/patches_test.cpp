@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "scene/harmonic_surface.h"
-#include "scene/mesh_edges.h"
+#include "geometry/harmonics/surface.h"
+#include "geometry/mesh_edges.h"
 #include "support/closed_meshes.h"
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"

@@ -1,7 +1,7 @@
 // Rooms to look around in, for tests of item buffers.
 #pragma once
 
-#include "patches/viewpoint.h"
+#include "patches/visibility/viewpoint.h"
 #include "support/scene_builder.h"
 
 namespace stilb {

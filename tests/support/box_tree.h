@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/bounds.h"
+#include "base/bounds.h"
 
 namespace stilb {
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/sampling.h"
-#include "scene/ray_caster.h"
-#include "scene/transform.h"
+#include "geometry/transform.h"
+#include "math/sampling.h"
+#include "rays/ray_caster.h"
 #include "support/random_pairs.h"
 #include "support/scene_builder.h"
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "scene/harmonic_cells.h"
-#include "scene/harmonic_march.h"
+#include "geometry/harmonics/cells.h"
+#include "geometry/harmonics/march.h"
 #include "support/box_tree.h"
 #include "support/harmonic_rays.h"
 #include "support/harmonic_reference.h"

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scene/harmonic_surface.h"
+#include "geometry/harmonics/surface.h"
 
 namespace stilb {
 

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
-#include "base/random.h"
-#include "base/sampling.h"
-#include "scene/harmonic_projection.h"
-#include "scene/harmonic_surface.h"
+#include "geometry/harmonics/projection.h"
+#include "geometry/harmonics/surface.h"
+#include "math/random.h"
+#include "math/sampling.h"
 #include "support/scene_builder.h"
 
 namespace stilb {

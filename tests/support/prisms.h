@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/shape.h"
+#include "geometry/shape.h"
 
 namespace stilb {
 

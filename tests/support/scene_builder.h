@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/luminaire_frame.h"
+#include "lights/luminaire_frame.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 

@@ -1,0 +1,19 @@
+// What a study of a head found: for people, as a table, as a plot.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/text/table.h"
+#include "papers/head_study.h"
+#include "plot/plot.h"
+
+namespace stilb {
+
+std::string to_text(const HeadStudy& study);
+/// A row for each series; docs/reproduce.md has the columns.
+std::vector<Column> columns_of(const HeadStudy& study);
+/// Errors and the ratio of bytes over degrees.
+Plot plot_of(const HeadStudy& study);
+
+}  // namespace stilb

@@ -1,0 +1,106 @@
+#include "checks/placement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace stilb {
+namespace {
+
+using SpaceList = std::vector<Space>;
+
+bool contains(const SpaceList& spaces, const Space& space) {
+    return std::find(spaces.begin(), spaces.end(), space) != spaces.end();
+}
+
+/// A shell that the point of `space` lies in and nothing in the `others` does.
+std::optional<ShellId> only_around(const Space& space, const SpaceList& others) {
+    const auto place = std::find_if(space.begin(), space.end(), [&](const ShellId& shell) {
+        return std::none_of(others.begin(), others.end(), [&](const Space& other) {
+            return std::binary_search(other.begin(), other.end(), shell);
+        });
+    });
+    return place != space.end() ? std::optional{*place} : std::nullopt;
+}
+
+/// Where a point without light lies, next to where the lights are.
+std::string whereabouts(const Space& dark, const SpaceList& lit, const Scene& scene) {
+    if (const auto shell = only_around(dark, lit))
+        return fmt::format("inside object \"{}\", where no light is", scene.object(shell->object).name);
+    if (const auto shell = only_around(lit.front(), {dark}))
+        return fmt::format("outside object \"{}\", which encloses the light",
+                           scene.object(shell->object).name);
+    return "in a closed space without a light";
+}
+
+std::vector<MeasuringPoint> places_of(const Sensor& sensor) {
+    const Camera& camera = sensor.camera;
+    if (sensor.type == SensorType::camera) return {{camera.position, CameraView(camera).forward()}};
+    std::vector<MeasuringPoint> places;
+    for (const Measurand& measurand : sensor.measurands) places.push_back(place_of(measurand));
+    return places;
+}
+
+std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Space, std::size_t>& counts,
+                                    const SpaceList& lit, const Scene& scene) {
+    std::size_t dark_points = 0, points = 0;
+    const Space* most = nullptr;
+    for (const auto& [space, count] : counts) {
+        points += count;
+        if (contains(lit, space)) continue;
+        if (most == nullptr || count > counts.at(*most)) most = &space;
+        dark_points += count;
+    }
+    if (most == nullptr) return std::nullopt;
+    const std::string which =
+        points == 1 ? "it lies" : fmt::format("{} of {} points lie", dark_points, points);
+    return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} into the lit space.",
+                       sensor.name, which, whereabouts(*most, lit, scene),
+                       points == 1 ? "it reads" : "they read", sensor.quantity().unit,
+                       points == 1 ? "it" : "them");
+}
+
+std::optional<std::string> fault_of(const Light& light, const SpaceList& of_light,
+                                    const SpaceList& of_sensors, const Scene& scene) {
+    const bool is_measured = std::any_of(of_light.begin(), of_light.end(),
+                                         [&](const Space& space) { return contains(of_sensors, space); });
+    if (is_measured) return std::nullopt;
+    const auto shell = only_around(of_light.front(), of_sensors);
+    if (!shell) return std::nullopt;
+    return fmt::format(
+        "light \"{}\" is inside object \"{}\": its light cannot get out to any sensor. Move it, or open the "
+        "object.",
+        light.name, scene.object(shell->object).name);
+}
+
+}  // namespace
+
+std::vector<std::string> placement_warnings(const Scene& scene, const RayCaster& caster,
+                                            std::span<const Sensor> sensors) {
+    const Spaces spaces(scene, caster);
+    SpaceList lit, of_sensors;
+    for (const SpaceList& of_light : spaces.of_lights())
+        lit.insert(lit.end(), of_light.begin(), of_light.end());
+    if (lit.empty()) return {};
+
+    std::vector<std::string> warnings;
+    for (const Sensor& sensor : sensors) {
+        std::map<Space, std::size_t> counts;
+        for (const MeasuringPoint& point : places_of(sensor))
+            ++counts[spaces.space_of({lifted_position(point, caster), point.normal})];
+        for (const auto& [space, count] : counts) of_sensors.push_back(space);
+        if (auto fault = fault_of(sensor, counts, lit, scene)) warnings.push_back(std::move(*fault));
+    }
+    const bool some_are_lit = std::any_of(of_sensors.begin(), of_sensors.end(),
+                                          [&](const Space& space) { return contains(lit, space); });
+    if (!some_are_lit) return warnings;  // one mistake, one message
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        if (auto fault = fault_of(scene.lights[i], spaces.of_lights()[i], of_sensors, scene))
+            warnings.push_back(std::move(*fault));
+    }
+    return warnings;
+}
+
+}  // namespace stilb

@@ -1,0 +1,118 @@
+#include "checks/unlit.h"
+
+#include <algorithm>
+
+#include "math/sampling.h"
+#include "transport/light_sampler.h"
+
+namespace stilb {
+namespace {
+
+constexpr std::uint64_t kParticles = 4096;
+constexpr int kReflections = 3;
+constexpr std::uint64_t kPointsOnObject = 64;
+/// Lit places that each point on an object is held against.
+constexpr std::size_t kPlacesTried = 64;
+enum Purpose : std::uint64_t { kTracing, kLooking };
+
+/// A lifted point and the normal on its side.
+struct Place {
+    Vec3 position, normal;
+};
+
+struct Traced {
+    std::vector<Place> places;  ///< that light was at, in random order
+    std::vector<bool> is_object_hit;
+};
+
+/// Every surface reflects diffusely here, black ones too: it is the geometry that is asked for.
+Traced trace_particles(const Scene& scene, const RayCaster& caster) {
+    const LightSampler lights(scene, caster);
+    Traced traced{{}, std::vector<bool>(scene.objects.size())};
+    for (std::uint64_t i = 0; i < kParticles; ++i) {
+        SampleStream stream(RandomKey{}.derived(kTracing), i);
+        const EmittedParticle particle = lights.sample_emission(stream);
+        Place from{particle.origin, particle.direction};
+        Vec3 direction = particle.direction;
+        for (int reflection = 0; reflection <= kReflections; ++reflection) {
+            traced.places.push_back(from);
+            const auto hit = caster.closest(from.position, direction);
+            if (!hit) break;
+            traced.is_object_hit[index_of(hit->object)] = true;
+            from = {hit->lifted, hit->normal};
+            const auto [u1, u2] = stream.next_two();
+            direction = Frame::around(hit->normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
+        }
+    }
+    return traced;
+}
+
+Place place_on(const Mesh& mesh, SampleStream& stream) {
+    const auto count = static_cast<double>(mesh.triangles.size());
+    const auto [i, j, k] = mesh.triangles[static_cast<std::size_t>(stream.next() * count)];
+    const auto [u1, u2] = stream.next_two();
+    const Barycentric w = sample_triangle(u1, u2);
+    const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+    return {w.b0 * a + w.b1 * b + w.b2 * c, normalized(cross(b - a, c - a))};
+}
+Place place_on(const Rectangle& rectangle, SampleStream& stream) {
+    return place_on(triangulated(rectangle), stream);
+}
+Place place_on(const Box& box, SampleStream& stream) { return place_on(triangulated(box), stream); }
+Place place_on(const Sphere& sphere, SampleStream& stream) {
+    const auto [u1, u2] = stream.next_two();
+    const Vec3 normal = sample_sphere(u1, u2).direction;
+    return {sphere.center + sphere.radius * normal, normal};
+}
+Place place_on(const Harmonics& harmonics, SampleStream& stream) {
+    const auto [u1, u2] = stream.next_two();
+    const Vec3 direction = sample_sphere(u1, u2).direction;
+    return {harmonics.point_towards(direction), harmonics.normal_towards(direction)};
+}
+Place place_on(const Disk& disk, SampleStream& stream) {
+    const auto [u1, u2] = stream.next_two();
+    const DiskPoint p = sample_unit_disk(u1, u2);
+    const Frame frame = Frame::around(disk.normal);
+    return {disk.center + disk.radius * (p.x * frame.u + p.y * frame.v), disk.normal};
+}
+
+bool sees(const Place& from, const Place& to, const RayCaster& caster) {
+    const Vec3 way = to.position - from.position;
+    return dot(way, from.normal) > 0 && dot(way, to.normal) < 0 &&
+           !caster.occluded(from.position, to.position);
+}
+
+bool is_seen(const Object& object, const std::vector<Place>& lit, const RayCaster& caster) {
+    const std::size_t stride = std::max<std::size_t>(1, lit.size() / kPlacesTried);
+    for (std::uint64_t i = 0; i < kPointsOnObject; ++i) {
+        SampleStream stream(RandomKey{}.derived(kLooking), i);
+        const Place place = std::visit([&](const auto& s) { return place_on(s, stream); }, object.shape);
+        const double offset = caster.offset_m(place.position, caster.half_extent_m());
+        for (const Vec3& normal : {place.normal, -place.normal}) {
+            const Place lifted{place.position + offset * normal, normal};
+            for (std::size_t j = i % stride; j < lit.size(); j += stride) {
+                if (sees(lifted, lit[j], caster)) return true;
+            }
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+std::vector<ObjectId> unlit_objects(const Scene& scene, const RayCaster& caster) {
+    if (scene.lights.empty()) return {};  // then all are, and the reader of scene files says so
+    Traced traced = trace_particles(scene, caster);
+    for (const Light& light : scene.lights) {
+        if (const auto* area = std::get_if<AreaLight>(&light.source))
+            traced.is_object_hit[index_of(area->object)] = true;
+    }
+    std::vector<ObjectId> unlit;
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        if (traced.is_object_hit[i] || is_seen(scene.objects[i], traced.places, caster)) continue;
+        unlit.push_back(ObjectId{i});
+    }
+    return unlit;
+}
+
+}  // namespace stilb

@@ -1,0 +1,91 @@
+#include "estimators/camera_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace stilb {
+namespace {
+
+/// The numbers of a pixel's sample. Sobol' points for the place in the pixel and the first light and
+/// direction.
+SampleStream stream_of(const Pixel& pixel, int width, const Pass& pass) {
+    constexpr unsigned sobol_dimensions = 8;
+    const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(width) +
+                        static_cast<std::uint64_t>(pixel.x);
+    return {pass.key.derived(kPixels).derived(number), pass.index, sobol_dimensions};
+}
+
+/// The unit direction that a sample of a pixel looks along; nothing beside what the camera shows.
+std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pixel, SampleStream& stream) {
+    const auto [u1, u2] = stream.next_two();
+    if (tracing.camera.filter == PixelFilter::box) {
+        return tracing.view.direction_at(pixel.x + u1, pixel.y + u2);
+    }
+    // [Box and Muller 1958]; 1 - u1 is never 0.
+    constexpr double deviation = 0.5;
+    const double radius = deviation * std::sqrt(-2 * std::log(1 - u1));
+    const double angle = 2 * std::numbers::pi * u2;
+    return tracing.view.direction_at(pixel.x + 0.5 + radius * std::cos(angle),
+                                     pixel.y + 0.5 + radius * std::sin(angle));
+}
+
+}  // namespace
+
+PictureTracing::PictureTracing(const PictureInput& input)
+    : scene(input.scene),
+      caster(input.caster),
+      camera(input.camera),
+      view(camera),
+      max_reflections(input.max_reflections),
+      lights(scene, caster),
+      tracer(scene, caster, lights) {}
+
+CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pass& pass) const {
+    std::vector<Ray> rays;
+    std::vector<SampleStream> streams;
+    std::vector<std::size_t> pixel_of_ray;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        SampleStream stream = stream_of(pixels[i], camera.resolution[0], pass);
+        const auto direction = sample_pixel(*this, pixels[i], stream);
+        if (!direction) continue;
+        rays.push_back({view.position(), *direction});
+        streams.push_back(stream);
+        pixel_of_ray.push_back(i);
+    }
+    std::vector<std::optional<Hit>> hits(rays.size());
+    caster.closest(rays, Coherence::coherent, hits);
+    CameraPaths started;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!hits[i]) continue;
+        Path path{*hits[i], -rays[i].direction, streams[i], max_reflections};
+        path.luminance_cd_m2 = lights.emitted_luminance(path.hit);
+        started.paths.push_back(path);
+        started.pixels.push_back(pixel_of_ray[i]);
+    }
+    return started;
+}
+
+std::uint64_t CameraPaths::write_to(std::span<Spectrum> luminances_cd_m2) const {
+    std::ranges::fill(luminances_cd_m2, Spectrum{});
+    std::uint64_t invalid = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const Spectrum& luminance = paths[i].luminance_cd_m2;
+        if (luminance.is_finite()) {
+            luminances_cd_m2[pixels[i]] = luminance;
+        } else {
+            ++invalid;
+        }
+    }
+    return invalid;
+}
+
+std::vector<Pixel> pixels_of(const PixelBlock& block) {
+    std::vector<Pixel> pixels;
+    for (int y = block.top; y < block.top + block.height; ++y) {
+        for (int x = block.left; x < block.left + block.width; ++x) pixels.push_back({x, y});
+    }
+    return pixels;
+}
+
+}  // namespace stilb

@@ -1,0 +1,48 @@
+// What the methods have in common that trace pictures from the camera.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "estimators/picture_estimator.h"
+#include "transport/path_tracer.h"
+
+namespace stilb {
+
+/// What of a pass's key the pixels' own numbers are derived by; other purposes take other numbers.
+inline constexpr std::uint64_t kPixels = 1;
+
+struct Pixel {
+    int x = 0, y = 0;
+};
+
+/// Paths that stand on what pixels see. The emission that is seen is in their luminances.
+struct CameraPaths {
+    std::vector<Path> paths;
+    std::vector<std::size_t> pixels;  ///< of each path: which of the pixels asked for
+
+    /// Writes what the paths have gathered, and 0 for the others of `luminances_cd_m2`, one for each pixel
+    /// asked for. Returns the number that were not finite: these are 0.
+    std::uint64_t write_to(std::span<Spectrum> luminances_cd_m2) const;
+};
+
+/// Keeps references to the scene and its ray caster. Immutable.
+struct PictureTracing {
+    explicit PictureTracing(const PictureInput& input);
+
+    /// One path for each pixel that sees something, along a ray drawn by the camera's filter.
+    CameraPaths start_paths(std::span<const Pixel> pixels, const Pass& pass) const;
+
+    const Scene& scene;
+    const RayCaster& caster;
+    Camera camera;
+    CameraView view;
+    int max_reflections;
+    LightSampler lights;
+    PathTracer tracer;
+};
+
+/// The pixels of a block, row by row.
+std::vector<Pixel> pixels_of(const PixelBlock& block);
+
+}  // namespace stilb

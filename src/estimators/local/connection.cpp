@@ -1,0 +1,129 @@
+#include "estimators/local/connection.h"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+#include "base/vectorized.h"
+#include "transport/kernel_split.h"
+
+namespace stilb {
+namespace {
+
+using Floats = PointTile::Floats;
+
+/// Nodes whose contributions are summed in single precision before they are added to the sums in double.
+constexpr std::size_t kBlock = 64;
+
+/// A chain node as the inner loop wants it.
+struct FanNode {
+    SegmentOrigin origin;
+    float split;  ///< 0: w = 1
+    std::array<float, kBands>
+        coefficient;  ///< flux times BRDF; flux alone where the BRDF depends on direction
+    const ChainNode* node;
+    bool directional;  ///< the BRDF depends on direction
+};
+
+struct alignas(64) TileSums {
+    std::array<Floats, kBands> band{};
+    Floats largest{};
+};
+
+/// (Without the promise that nothing overlaps, the loop would stay scalar.)
+STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTile& __restrict tile,
+                                  const RayPacket& __restrict packet, const LaneMask& __restrict lanes,
+                                  const Floats& __restrict g, TileSums& __restrict sums) {
+    const float luminance = static_cast<float>(kLuminanceWeights[0]) * node.coefficient[0] +
+                            static_cast<float>(kLuminanceWeights[1]) * node.coefficient[1] +
+                            static_cast<float>(kLuminanceWeights[2]) * node.coefficient[2];
+    for (int i = 0; i < kPacketWidth; ++i) {
+        // & rather than &&: without a branch the loop vectorises.
+        const int lit = static_cast<int>(lanes[i] != 0) & static_cast<int>(packet.end[i] >= 0);
+        const float visible = lit != 0 ? g[i] / (1 + g[i] * tile.inverse_k[i] * node.split) : 0;
+        sums.band[0][i] += visible * node.coefficient[0];
+        sums.band[1][i] += visible * node.coefficient[1];
+        sums.band[2][i] += visible * node.coefficient[2];
+        sums.largest[i] = std::max(sums.largest[i], visible * luminance);
+    }
+}
+
+/// As add_visible() where the BRDF of the node or the response of a receiver depends on direction: lane by
+/// lane, w included, and the response where one of the tile's depends on direction.
+void add_visible_directional(const FanNode& node, const PointTile& tile, const RayPacket& packet,
+                             const LaneMask& lanes, const Floats& g_per_m2, TileSums& sums) {
+    const ChainNode& chain_node = *node.node;
+    const Frame frame = Frame::of_surface(chain_node.normal);
+    const Vec3 in = frame.to_local(chain_node.incoming);
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        if (lanes[i] == 0 || packet.end[i] < 0) continue;
+        const Vec3 to_point =
+            normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
+        const Spectrum brdf = evaluate_brdf_per_sr(*chain_node.material, in, frame.to_local(to_point));
+        const Receiver& receiver = tile.receivers[i];
+        const double relative =
+            relative_brdf(*chain_node.material, brdf) * receiver.relative_response(-to_point);
+        const double g = g_per_m2[i];
+        const double chain_share = chain_node.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
+        Spectrum added = chain_node.flux_lm * brdf * (g * chain_share);
+        if (tile.directional) added = added * receiver.response(-to_point);
+        for (std::size_t b = 0; b < kBands; ++b) sums.band[b][i] += static_cast<float>(added[b]);
+        sums.largest[i] = std::max(sums.largest[i], static_cast<float>(added.luminance()));
+    }
+}
+
+/// Constant responses are multiplied here, once for a block of nodes; others are in the sums.
+void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        const Receiver& receiver = tile.receivers[i];
+        const Spectrum response = tile.directional ? Spectrum::grey(1) : *receiver.constant_response();
+        const Spectrum received{{sums.band[0][i], sums.band[1][i], sums.band[2][i]}};
+        readings.sum[receiver.reading()] += response * received;
+        double& largest = readings.largest[receiver.reading()];
+        largest = std::max(largest, response.luminance() * double{sums.largest[i]});
+    }
+    sums = {};
+}
+
+FanNode fan_node(const ChainNode& node, const Vec3& center) {
+    const auto* diffuse = std::get_if<Diffuse>(node.material);
+    const Spectrum coefficient =
+        diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
+    FanNode result{SegmentOrigin(node.position, node.lifted, node.normal, center),
+                   node.only_by_light || !diffuse ? 0.0f : 1.0f,
+                   {},
+                   &node,
+                   diffuse == nullptr};
+    for (std::size_t b = 0; b < kBands; ++b) result.coefficient[b] = static_cast<float>(coefficient[b]);
+    return result;
+}
+
+}  // namespace
+
+void Fan::collect(std::span<const ChainNode> nodes, ReadingSums& sums) const {
+    std::vector<FanNode> fan_nodes;
+    fan_nodes.reserve(nodes.size());
+    for (const ChainNode& node : nodes) fan_nodes.push_back(fan_node(node, caster_.center()));
+    RayPacket packet;
+    LaneMask lanes;
+    alignas(64) Floats g_per_m2;
+    for (const PointTile& tile : tiles_) {
+        TileSums tile_sums;
+        for (std::size_t n = 0; n < fan_nodes.size(); ++n) {
+            const FanNode& node = fan_nodes[n];
+            if (connect(node.origin, node.node->reflections, tile, packet, lanes, g_per_m2)) {
+                sums.rays += static_cast<std::uint64_t>(-std::accumulate(lanes.begin(), lanes.end(), 0));
+                caster_.occlude(packet, lanes);
+                if (node.directional || tile.directional) {
+                    add_visible_directional(node, tile, packet, lanes, g_per_m2, tile_sums);
+                } else {
+                    add_visible(node, tile, packet, lanes, g_per_m2, tile_sums);
+                }
+            }
+            if (n % kBlock == kBlock - 1) flush(tile, tile_sums, sums);
+        }
+        flush(tile, tile_sums, sums);
+    }
+}
+
+}  // namespace stilb

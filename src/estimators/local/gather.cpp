@@ -1,0 +1,197 @@
+#include "estimators/local/gather.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "math/sampling.h"
+#include "transport/kernel_split.h"
+#include "transport/russian_roulette.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A place y that a ray has met, and the receivers of the ray's packet that may see it. Keeps references.
+class SharedPlace {
+  public:
+    /// Light for receivers that are farther from their sensors may have met fewer surfaces: only those like
+    /// `own` share.
+    SharedPlace(const Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
+                const Vec3& center)
+        : material_(material), tile_(tile), frame_(Frame::of_surface(hit.normal)) {
+        // At y at least one reflection takes place.
+        connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, center), 1, tile, segments_, lanes_,
+                g_per_m2_);
+        for_each_lane([&](std::size_t i) {
+            if (tile.reflections_left[i] == tile.reflections_left[own]) {
+                join(i, hit);
+            } else {
+                lanes_[i] = 0;
+            }
+        });
+    }
+
+    bool reaches(std::size_t lane) const { return lanes_[lane] != 0; }
+
+    /// 1 - w as it is on average over the ways of the light, at the receiver where it is largest.
+    double gathered_share() const {
+        const double concentration = mean_concentration(material_);
+        double largest = 0;
+        for_each_lane([&](std::size_t i) { largest = std::max(largest, share_at(i)(concentration)); });
+        return largest;
+    }
+
+    /// Leaves the receivers that see y. `own` does: its ray has shown it.
+    void test_visibility(const RayCaster& caster, std::size_t own) {
+        lanes_[own] = 0;
+        caster.occlude(segments_, lanes_);
+        lanes_[own] = -1;
+        for_each_lane([&](std::size_t i) {
+            if (segments_.end[i] < 0) lanes_[i] = 0;
+        });
+    }
+
+    /// A direction that light may come to y from, drawn by the BRDF as a receiver sees y.
+    struct Beam {
+        Vec3 direction;
+        double density = 0;  ///< of y and the direction together, by all receivers' rays [1/(m2 sr)]
+        double weight = 0;   ///< 1 / probability of having gone on
+    };
+    std::optional<Beam> sample_beam(std::size_t lane, SampleStream& stream) const {
+        const double survival = survival_probability(Spectrum::grey(1), reflectance_bound(material_));
+        if (stream.next() >= survival) return std::nullopt;
+        const auto [u1, u2] = stream.next_two();
+        const auto scattered = sample_brdf(material_, out_[lane], u1, u2);
+        if (!scattered) return std::nullopt;
+        const Vec3 direction = frame_.to_world(scattered->direction);
+        const double density = beam_density(direction);
+        if (!(density > 0)) return std::nullopt;
+        return Beam{direction, density, 1 / survival};
+    }
+
+    /// How densely the packet's rays meet y [1/m2].
+    double ray_density() const {
+        double sum = 0;
+        for_each_lane([&](std::size_t i) { sum += ray_density_per_m2_[i]; });
+        return sum;
+    }
+
+    /// How densely they meet y and go on along `direction` [1/(m2 sr)].
+    double beam_density(const Vec3& direction) const {
+        const Vec3 in = frame_.to_local(direction);
+        double sum = 0;
+        for_each_lane(
+            [&](std::size_t i) { sum += ray_density_per_m2_[i] * pdf_per_sr(material_, out_[i], in); });
+        return sum;
+    }
+
+    /// Adds what the readings receive of light that comes to y from `direction`, given its illuminance on a
+    /// surface across it, over the density of y.
+    void reflect(const Vec3& direction, const Spectrum& normal_illuminance, ReadingSums& sums) const {
+        const Vec3 in = frame_.to_local(direction);
+        for_each_lane([&](std::size_t i) {
+            const Spectrum brdf = evaluate_brdf_per_sr(material_, in, out_[i]);
+            const double gathered = share_at(i)(relative_brdf(material_, brdf));
+            sums.add(tile_.receivers[i].reading(),
+                     normal_illuminance * brdf * response_[i] * (in.z * double{g_per_m2_[i]} * gathered));
+        });
+    }
+
+  private:
+    template <typename Action>
+    void for_each_lane(const Action& action) const {
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            if (lanes_[i] != 0) action(i);
+        }
+    }
+    GatheredShare share_at(std::size_t lane) const {
+        return {double{g_per_m2_[lane]} * double{tile_.inverse_k[lane]} * relative_response_[lane]};
+    }
+
+    void join(std::size_t i, const Hit& hit) {
+        const Vec3 segment =
+            normalized(Vec3{segments_.direction_x[i], segments_.direction_y[i], segments_.direction_z[i]});
+        out_[i] = frame_.to_local(segment);
+        const Receiver& receiver = tile_.receivers[i];
+        response_[i] = receiver.response(-segment);
+        if (receiver.constant_response()) {
+            relative_response_[i] = 1;
+            ray_density_per_m2_[i] = double{g_per_m2_[i]} / kPi;
+            return;
+        }
+        relative_response_[i] = receiver.relative_response(-segment);
+        const double squared_distance = squared_length(receiver.position() - hit.position);
+        ray_density_per_m2_[i] = receiver.pdf_per_sr(-segment) * out_[i].z / squared_distance;
+    }
+
+    const Material& material_;
+    const PointTile& tile_;
+    Frame frame_;
+    RayPacket segments_;
+    LaneMask lanes_;
+    alignas(64) PointTile::Floats g_per_m2_;
+    std::array<Vec3, kPacketWidth> out_;           ///< to the receivers, in the frame of y
+    std::array<Spectrum, kPacketWidth> response_;  ///< of the receivers to light from y
+    std::array<double, kPacketWidth> relative_response_, ray_density_per_m2_;
+};
+
+}  // namespace
+
+void Gather::collect(const Batch& batch, ReadingSums& sums) const {
+    for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+        const RandomKey key = batch.key.derived(tile);
+        const std::uint64_t chains = plans_[tile * kPacketWidth].chains_per_ray;
+        for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
+            trace_round(tiles_[tile], key, i, static_cast<double>(chains), sums);
+        }
+    }
+}
+
+void Gather::trace_round(const PointTile& tile, RandomKey key, std::uint64_t round, double weight,
+                         ReadingSums& sums) const {
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        SampleStream stream(key.derived(i), round);
+        const Receiver& receiver = tile.receivers[i];
+        const auto [u1, u2] = stream.next_two();
+        const auto sample = receiver.sample(u1, u2);
+        if (!sample) continue;
+        const auto hit = caster_.closest(receiver.lifted(), sample->direction);
+        if (!hit) continue;
+        if (is_specular(tracer_.material(*hit))) {
+            const Spectrum luminance =
+                tracer_.luminance_without_direct(*hit, sample->direction, tile.reflections_left[i], stream);
+            sums.add(receiver.reading(), weight * sample->weight * luminance);
+        } else {
+            share_out(*hit, tile, i, stream, weight, sums);
+        }
+    }
+}
+
+void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, SampleStream& stream,
+                       double weight, ReadingSums& sums) const {
+    SharedPlace place(hit, tracer_.material(hit), tile, own, caster_.center());
+    if (!place.reaches(own)) return;
+    const double survival = place.gathered_share();
+    if (stream.next() >= survival) return;
+    weight /= survival;
+    place.test_visibility(caster_, own);
+    const double ray_density = place.ray_density();
+    if (const auto light = tracer_.sample_light(hit, stream)) {
+        // Beams make the light of emitters too; the balance heuristic over both.
+        const double light_density = light->pdf_per_sr * ray_density;
+        const double share = std::isinf(light_density)
+                                 ? 1
+                                 : light_density / (light_density + place.beam_density(light->direction));
+        place.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
+    }
+    if (const auto beam = place.sample_beam(own, stream)) {
+        const Lookout lookout{beam->density / ray_density, hit.position, hit.normal};
+        const Spectrum luminance = tracer_.incoming_luminance({hit.lifted, beam->direction}, lookout,
+                                                              tile.reflections_left[own] - 1, stream);
+        place.reflect(beam->direction, luminance * (weight * beam->weight / beam->density), sums);
+    }
+}
+}  // namespace stilb

@@ -1,0 +1,46 @@
+// The part of readings that rays from the receivers bring in, in packets of neighbours.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "estimators/estimator.h"
+#include "estimators/local/point_tile.h"
+#include "estimators/local/split_plan.h"
+#include "transport/path_tracer.h"
+
+namespace stilb {
+
+/// Estimates, for every receiver x with its own k,
+///
+///     integral over the hemisphere of L_r(y, y->x) (1 - w) response(x->y) cos(theta_x) dw    (theory T.1b)
+///
+/// with w of kernel_split.h. In a round every receiver of a packet sends out a ray about in proportion to
+/// response x cosine, and what goes on from the place y that it meets serves all receivers of the packet that
+/// see y: path reuse [Bekaert et al. 2002], by the balance heuristic over the rays that could have met y.
+///
+/// What is seen by mirrors and glass has w = 0 always, because no node on them can be joined to x, and serves
+/// only the receiver whose ray it is; emission counts behind them only: the rest is direct light. Keeps what
+/// its arguments refer to.
+class Gather {
+  public:
+    Gather(const RayCaster& caster, const PathTracer& tracer, std::span<const PointTile> tiles,
+           std::span<const SplitPlan> plans)
+        : caster_(caster), tracer_(tracer), tiles_(tiles), plans_(plans) {}
+
+    /// A round for so many chains of the batch as the plan says, weighing as much as these.
+    void collect(const Batch& batch, ReadingSums& sums) const;
+
+  private:
+    void trace_round(const PointTile& tile, RandomKey key, std::uint64_t round, double weight,
+                     ReadingSums& sums) const;
+    void share_out(const Hit& hit, const PointTile& tile, std::size_t own, SampleStream& stream,
+                   double weight, ReadingSums& sums) const;
+
+    const RayCaster& caster_;
+    const PathTracer& tracer_;
+    std::span<const PointTile> tiles_;
+    std::span<const SplitPlan> plans_;
+};
+
+}  // namespace stilb

@@ -1,0 +1,77 @@
+#include "estimators/local/point_tile.h"
+
+#include "base/vectorized.h"
+
+namespace stilb {
+namespace {
+
+/// Without the promise that nothing overlaps, the loop would stay scalar.
+STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std::int32_t reflections,
+                                    const PointTile& __restrict tile, RayPacket& __restrict segments,
+                                    LaneMask& __restrict lanes, PointTile::Floats& __restrict g_per_m2) {
+    std::int32_t any = 0;
+    for (int i = 0; i < kPacketWidth; ++i) {
+        const float dx = tile.x[i] - origin.x, dy = tile.y[i] - origin.y, dz = tile.z[i] - origin.z;
+        segments.origin_x[i] = origin.lifted_x, segments.origin_y[i] = origin.lifted_y,
+        segments.origin_z[i] = origin.lifted_z;
+        segments.direction_x[i] = tile.lifted_x[i] - origin.lifted_x;
+        segments.direction_y[i] = tile.lifted_y[i] - origin.lifted_y;
+        segments.direction_z[i] = tile.lifted_z[i] - origin.lifted_z;
+        segments.end[i] = 1;
+        const float squared = dx * dx + dy * dy + dz * dz;
+        const float cos_origin = origin.normal_x * dx + origin.normal_y * dy + origin.normal_z * dz;
+        const float cos_point = -(tile.normal_x[i] * dx + tile.normal_y[i] * dy + tile.normal_z[i] * dz);
+        // & rather than &&: without a branch the loop vectorises.
+        const std::int32_t active = -static_cast<std::int32_t>((cos_origin > 0) & (cos_point > 0) &
+                                                               (reflections <= tile.reflections_left[i]));
+        g_per_m2[i] = active ? cos_origin * cos_point / (squared * squared) : 0;
+        lanes[i] = active;
+        any |= active;
+    }
+    return any != 0;
+}
+
+}  // namespace
+
+std::vector<PointTile> tiles_of(std::span<const Receiver> receivers, std::span<const double> k_per_m2,
+                                const RayCaster& caster, int max_reflections) {
+    std::vector<PointTile> tiles((receivers.size() + kPacketWidth - 1) / kPacketWidth);
+    for (std::size_t j = 0; j < receivers.size(); ++j) {
+        const Receiver& receiver = receivers[j];
+        const Vec3 p = receiver.position() - caster.center();
+        const Vec3 lifted = receiver.lifted() - caster.center();
+        const Vec3& normal = receiver.normal();
+        const std::size_t first = j / kPacketWidth * kPacketWidth, i = j - first;
+        PointTile& tile = tiles[j / kPacketWidth];
+        tile.x[i] = static_cast<float>(p.x), tile.y[i] = static_cast<float>(p.y),
+        tile.z[i] = static_cast<float>(p.z);
+        tile.lifted_x[i] = static_cast<float>(lifted.x);
+        tile.lifted_y[i] = static_cast<float>(lifted.y);
+        tile.lifted_z[i] = static_cast<float>(lifted.z);
+        tile.normal_x[i] = static_cast<float>(normal.x);
+        tile.normal_y[i] = static_cast<float>(normal.y);
+        tile.normal_z[i] = static_cast<float>(normal.z);
+        tile.inverse_k[i] = static_cast<float>(1 / k_per_m2[j]);
+        tile.reflections_left[i] = receiver.reflections_left(max_reflections);
+        tile.receivers = receivers.subspan(first, i + 1);
+        tile.directional = tile.directional || !receiver.constant_response();
+    }
+    return tiles;
+}
+
+SegmentOrigin::SegmentOrigin(const Vec3& position, const Vec3& lifted_position, const Vec3& normal,
+                             const Vec3& center) {
+    const Vec3 p = position - center, lifted = lifted_position - center;
+    x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
+    lifted_x = static_cast<float>(lifted.x), lifted_y = static_cast<float>(lifted.y),
+    lifted_z = static_cast<float>(lifted.z);
+    normal_x = static_cast<float>(normal.x), normal_y = static_cast<float>(normal.y),
+    normal_z = static_cast<float>(normal.z);
+}
+
+bool connect(const SegmentOrigin& origin, int reflections, const PointTile& tile, RayPacket& segments,
+             LaneMask& lanes, PointTile::Floats& g_per_m2) {
+    return connect_lanes(origin, reflections, tile, segments, lanes, g_per_m2);
+}
+
+}  // namespace stilb

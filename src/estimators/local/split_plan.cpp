@@ -1,0 +1,377 @@
+#include "estimators/local/split_plan.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "estimators/local/connection.h"
+#include "math/sampling.h"
+#include "transport/kernel_split.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Costs in units of one ray of a fan, and factors of the variance model; measured in the example office.
+constexpr double kRayCost = 12;        ///< a gathering ray to its hit
+constexpr double kPathCost = 75;       ///< the path that goes on from there, shared out in its packet
+constexpr double kSegmentCost = 12;    ///< a chain's way from one node to the next
+constexpr double kPathVariance = 0.5;  ///< what Sobol' points leave of that of independent paths
+/// What even selection leaves of the variance of a kernel that varies slowly, and how many nodes lie evenly;
+/// a kernel that is peaked between two of these keeps its variance.
+constexpr double kEvenVariance = 0.1;
+constexpr double kEvenNodes = 512;
+
+/// What a ray from a receiver meets.
+struct RaySample {
+    double g_per_m2 = 0;   ///< infinite where it is a mirror: what that shows is gathered always
+    double luminance = 0;  ///< over the mean; both weighted by the response
+    double own_share = 1;  ///< of the rays of its packet that could have met the same place
+};
+
+/// What the model says of a point and a k.
+struct Outcome {
+    double k_per_m2 = 0;
+    double fan_variance = 0;     ///< of one chain, relative to the indirect light squared
+    double gather_variance = 0;  ///< of one gathering ray, likewise
+    double gather_cost = 0;      ///< of one gathering ray
+};
+struct Prediction {
+    double variance = 0, cost = 0;  ///< of a chain with its share of gathering
+};
+Prediction predict(const Outcome& outcome, std::uint64_t chains_per_ray) {
+    const double chains = static_cast<double>(chains_per_ray);
+    return {outcome.fan_variance + chains * outcome.gather_variance, outcome.gather_cost / chains};
+}
+
+/// One for each k that is tried: powers of two times pi nu.
+using PointModel = std::vector<Outcome>;
+constexpr double kLeastFactor = 1.0 / 16;
+/// The largest factor for each ray that the model is made from. Surfaces near by that cover little of the
+/// hemisphere may be met by no ray; their nodes make the variance grow with k.
+constexpr double kLargestFactorPerRay = 16;
+
+/// `peak` is G times the area that one of the evenly lying nodes stands for.
+double remaining_variance(double peak) { return (kEvenVariance + peak) / (1 + peak); }
+
+PointModel model_of(std::span<const RaySample> rays, double density_per_m2) {
+    PointModel model;
+    const double largest = kLargestFactorPerRay * static_cast<double>(rays.size());
+    for (double factor = kLeastFactor; factor <= largest; factor *= 2) {
+        const double k = factor * kPi * density_per_m2;
+        double fan_moment = 0, gathered = 0, gathered_moment = 0;
+        for (const auto& [g, l, own_share] : rays) {
+            const double rest = GatheredShare{g / k}(1);
+            const double w = 1 - rest;
+            if (w > 0) fan_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * density_per_m2));
+            gathered += rest;
+            gathered_moment += l * l * rest * own_share;
+        }
+        const double per_ray = 1 / static_cast<double>(rays.size());
+        model.push_back({k, per_ray * fan_moment / (kPi * density_per_m2),
+                         per_ray * kPathVariance * gathered_moment,
+                         kRayCost + kPathCost * per_ray * gathered});
+    }
+    return model;
+}
+
+struct Choice {
+    Prediction prediction;
+    double k_per_m2 = 0;
+};
+/// The k that is best for a given number of chains per ray, when a unit of cost is worth `price` units of
+/// variance.
+Choice best_constant(const PointModel& point, std::uint64_t chains_per_ray, double price) {
+    Choice best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Outcome& outcome : point) {
+        const Prediction prediction = predict(outcome, chains_per_ray);
+        const double loss = prediction.variance + price * prediction.cost;
+        if (loss < least) {
+            least = loss;
+            best = {prediction, outcome.k_per_m2};
+        }
+    }
+    return best;
+}
+
+/// Plans for the points of a packet, which have the number of chains per ray in common; returns what they
+/// add up to.
+Prediction plan_packet(std::span<const PointModel> packet, double price, std::span<SplitPlan> plans) {
+    Prediction best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint64_t chains = 1; chains <= kMostChainsPerRay; chains *= 2) {
+        std::array<SplitPlan, kPacketWidth> tried;
+        Prediction sum;
+        for (std::size_t j = 0; j < packet.size(); ++j) {
+            const Choice choice = best_constant(packet[j], chains, price);
+            tried[j] = {choice.k_per_m2, chains};
+            sum.variance += choice.prediction.variance;
+            sum.cost += choice.prediction.cost;
+        }
+        const double loss = sum.variance + price * sum.cost;
+        if (loss < least) {
+            least = loss;
+            best = sum;
+            std::copy_n(tried.begin(), packet.size(), plans.begin());
+        }
+    }
+    return best;
+}
+
+/// The mean of w over rays.
+double mean_chain_share(std::span<const RaySample> rays, double k_per_m2) {
+    double sum = 0;
+    for (const RaySample& ray : rays) sum += 1 - GatheredShare{ray.g_per_m2 / k_per_m2}(1);
+    return sum / static_cast<double>(rays.size());
+}
+
+/// G of a lane over the sum of all lanes': visibility left out.
+double own_share(const RayCaster& caster, const Hit& hit, const PointTile& packet, std::size_t lane) {
+    RayPacket segments;
+    LaneMask lanes;
+    PointTile::Floats g_per_m2;
+    connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, caster.center()), 1, packet, segments, lanes,
+            g_per_m2);
+    const double sum = std::accumulate(g_per_m2.begin(), g_per_m2.end(), 0.0);
+    return sum > 0 ? double{g_per_m2[lane]} / sum : 1;
+}
+
+struct RaySamples {
+    std::vector<RaySample> rays;
+    double indirect = 0;  ///< of the receiver, by these alone [lx or cd/m2]
+};
+
+RaySamples sample_rays(const RayCaster& caster, const PathTracer& tracer, const PointTile& packet,
+                       std::size_t lane, unsigned count, RandomKey key) {
+    constexpr double floor = 0.2;  // of the mean: single bright paths are not to decide alone
+    const Receiver& receiver = packet.receivers[lane];
+    std::vector<RaySample> rays(count);
+    double sum = 0;
+    for (unsigned i = 0; i < count; ++i) {
+        SampleStream stream(key, i);
+        const auto [u1, u2] = stream.next_two();
+        const auto sample = receiver.sample(u1, u2);
+        if (!sample) continue;
+        const Vec3& direction = sample->direction;
+        const auto hit = caster.closest(receiver.lifted(), direction);
+        if (!hit) continue;
+        if (is_specular(tracer.material(*hit))) {
+            rays[i].g_per_m2 = std::numeric_limits<double>::infinity();
+        } else {
+            const double cosines = dot(receiver.normal(), direction) * -dot(hit->normal, direction);
+            rays[i].g_per_m2 = cosines / (hit->distance_m * hit->distance_m) *
+                               mean_concentration(tracer.material(*hit)) *
+                               receiver.relative_response(direction);
+            rays[i].own_share = own_share(caster, *hit, packet, lane);
+        }
+        const Spectrum luminance =
+            tracer.luminance_without_direct(*hit, direction, packet.reflections_left[lane], stream);
+        rays[i].luminance = (sample->weight * luminance).luminance();
+        sum += rays[i].luminance;
+    }
+    const double mean = sum / count;
+    for (RaySample& ray : rays) {
+        if (ray.g_per_m2 == 0) continue;
+        ray.luminance = mean > 0 ? (ray.luminance / mean + floor) / (1 + floor) : 1;
+    }
+    return {std::move(rays), mean};
+}
+
+/// Nodes of unit flux on white surfaces: what they send to a point adds up to nu.
+std::vector<ChainNode> unit_nodes(std::span<const ChainNode> nodes) {
+    static const Material white = Diffuse{Spectrum::grey(1)};
+    std::vector<ChainNode> result(nodes.begin(), nodes.end());
+    for (ChainNode& node : result) {
+        node.material = &white;
+        node.flux_lm = Spectrum::grey(1);
+        node.only_by_light = false;
+    }
+    return result;
+}
+
+/// What is known of a receiver before planning.
+struct Survey {
+    std::vector<RaySample> rays;
+    double density_per_m2 = 0;  ///< of nodes, per chain, on the surfaces that it sees
+    double indirect = 0;        ///< [lx or cd/m2]
+};
+
+/// What the pilot's nodes send to the receivers of a packet, and how densely they lie there [1/m2]: sums over
+/// its chains, weighted by w of the kernel split.
+struct PilotSums {
+    std::vector<double> indirect, density_per_m2;
+};
+
+PilotSums collect_pilot(const RayCaster& caster, std::span<const Receiver> receivers, double k_per_m2,
+                        const PilotLight& pilot, std::span<const ChainNode> units) {
+    const std::vector<double> k(receivers.size(), k_per_m2);
+    const auto collect = [&](std::vector<Receiver> packet, std::span<const ChainNode> nodes) {
+        for (std::size_t i = 0; i < packet.size(); ++i) packet[i].set_reading(static_cast<std::uint32_t>(i));
+        const std::vector<PointTile> tile = tiles_of(packet, k, caster, pilot.max_reflections);
+        ReadingSums sums(packet.size());
+        Fan(caster, tile).collect(nodes, sums);
+        std::vector<double> luminous;
+        for (const Spectrum& sum : sums.sum) luminous.push_back(sum.luminance());
+        return luminous;
+    };
+    std::vector<Receiver> of_illuminance;
+    for (const Receiver& receiver : receivers) of_illuminance.push_back(receiver.without_response());
+    return {collect({receivers.begin(), receivers.end()}, pilot.nodes), collect(of_illuminance, units)};
+}
+
+std::vector<Survey> survey_packet(const RayCaster& caster, const PathTracer& tracer,
+                                  std::span<const Receiver> receivers, const PilotLight& pilot,
+                                  std::span<const ChainNode> units, unsigned rays_per_receiver,
+                                  RandomKey key) {
+    const double chains = static_cast<double>(pilot.chains);
+    const double area_m2 = std::max(pilot.scene_area_m2, std::numeric_limits<double>::min());
+    const double mean_density = (static_cast<double>(pilot.nodes.size()) + 1) / (chains * area_m2);
+    // Few nodes are there, and in a corner one may be very near by chance. Kernels bounded so that they are
+    // wider than the space between nodes keep such a node from deciding.
+    constexpr double nodes_within = 16;
+    const double k_per_m2 = kPi * chains * mean_density / nodes_within;
+    const PilotSums sums = collect_pilot(caster, receivers, k_per_m2, pilot, units);
+    const std::vector<PointTile> tile =
+        tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2), caster, pilot.max_reflections);
+    std::vector<Survey> surveys;
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        RaySamples samples = sample_rays(caster, tracer, tile.front(), i, rays_per_receiver, key.derived(i));
+        const double seen = chains * std::max(mean_chain_share(samples.rays, k_per_m2), 0.01);
+        // Few nodes, or none, lie where a glossy sub-point looks: there rays know more.
+        const double indirect = receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
+        // Where nothing is seen, in the dark, nothing is to be gained.
+        const double density_per_m2 =
+            indirect > 0 ? std::max(sums.density_per_m2[i] / seen, 1e-3 * mean_density) : mean_density;
+        surveys.push_back({std::move(samples.rays), density_per_m2, indirect});
+    }
+    return surveys;
+}
+
+/// A model in units of the indirect light, and how much that is.
+struct ReceiverModel {
+    PointModel model;
+    double indirect = 0;  ///< [lx or cd/m2]
+};
+
+std::vector<ReceiverModel> model_receivers(const RayCaster& caster, const PathTracer& tracer,
+                                           std::span<const Receiver> receivers, const PilotLight& pilot,
+                                           RandomKey key) {
+    // As many for all points together, but for very few or very many points.
+    constexpr std::size_t rays = 1u << 14;
+    const auto rays_per_point =
+        static_cast<unsigned>(std::clamp<std::size_t>(rays / receivers.size(), 16, 1024));
+    const std::vector<ChainNode> units = unit_nodes(pilot.nodes);
+    std::vector<ReceiverModel> models(receivers.size());
+    const std::size_t packets = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
+    tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+        const std::size_t first = p * kPacketWidth;
+        const std::size_t count = std::min<std::size_t>(kPacketWidth, receivers.size() - first);
+        const std::vector<Survey> surveys = survey_packet(caster, tracer, receivers.subspan(first, count),
+                                                          pilot, units, rays_per_point, key.derived(p));
+        for (std::size_t i = 0; i < count; ++i) {
+            models[first + i] = {model_of(surveys[i].rays, surveys[i].density_per_m2), surveys[i].indirect};
+        }
+    });
+    return models;
+}
+
+/// The models with variances relative to the readings that the receivers are parts of, times their weights.
+std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
+                                        std::span<const Receiver> receivers, std::span<const double> weights,
+                                        std::span<const double> direct) {
+    std::vector<double> values(direct.begin(), direct.end());
+    for (std::size_t j = 0; j < receivers.size(); ++j) values[receivers[j].reading()] += models[j].indirect;
+    std::vector<PointModel> weighted;
+    for (std::size_t j = 0; j < receivers.size(); ++j) {
+        const std::uint32_t reading = receivers[j].reading();
+        const double share = values[reading] > 0 ? models[j].indirect / values[reading] : 0;
+        weighted.push_back(std::move(models[j].model));
+        for (Outcome& outcome : weighted.back()) {
+            outcome.fan_variance *= weights[reading] * share * share;
+            outcome.gather_variance *= weights[reading] * share * share;
+        }
+    }
+    return weighted;
+}
+
+}  // namespace
+
+std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
+                                   std::span<const Receiver> receivers, std::span<const double> weights,
+                                   const PilotLight& pilot, RandomKey key) {
+    if (receivers.empty()) return {};
+    const std::vector<PointModel> models = weighted_models(
+        model_receivers(caster, tracer, receivers, pilot, key), receivers, weights, pilot.direct);
+    // About half of the nodes face a point; the walk is shared by all points.
+    const double nodes_per_chain =
+        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
+    const std::size_t lanes = (receivers.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth;
+    const double fan_cost =
+        0.5 * nodes_per_chain * static_cast<double>(lanes) +
+        kSegmentCost * (nodes_per_chain + 1) * static_cast<double>(pilot.chains_per_selected);
+    // What a unit of cost is worth: at the best plan, the quotient of variance and cost. Both depend on the
+    // plan; after some rounds they change little.
+    double price = 0;
+    for (const PointModel& model : models) price += predict(model[model.size() / 2], 16).variance / fan_cost;
+    std::vector<SplitPlan> plans(receivers.size());
+    constexpr int rounds = 4;
+    for (int round = 0; round < rounds; ++round) {
+        price = std::max(price, std::numeric_limits<double>::min());  // cost decides where nothing varies
+        Prediction sum{0, fan_cost};
+        for (std::size_t first = 0; first < models.size(); first += kPacketWidth) {
+            const std::size_t count = std::min<std::size_t>(kPacketWidth, models.size() - first);
+            const Prediction packet =
+                plan_packet({models.data() + first, count}, price, {plans.data() + first, count});
+            sum.variance += packet.variance;
+            sum.cost += packet.cost;
+        }
+        price = sum.variance / sum.cost;
+    }
+    return plans;
+}
+
+double plan_constant(const RayCaster& caster, const PathTracer& tracer, std::span<const Receiver> receivers,
+                     const PilotLight& pilot, std::uint64_t chains_per_ray, unsigned rays_per_receiver,
+                     RandomKey key) {
+    const std::vector<Survey> surveys =
+        survey_packet(caster, tracer, receivers, pilot, unit_nodes(pilot.nodes), rays_per_receiver, key);
+    double density_per_m2 = 0;
+    for (const Survey& survey : surveys) {
+        density_per_m2 += survey.density_per_m2 / static_cast<double>(surveys.size());
+    }
+    std::vector<Outcome> sums;
+    for (const Survey& survey : surveys) {
+        const PointModel model = model_of(survey.rays, density_per_m2);
+        sums.resize(model.size());
+        for (std::size_t i = 0; i < model.size(); ++i) {
+            sums[i].k_per_m2 = model[i].k_per_m2;
+            sums[i].fan_variance += model[i].fan_variance;
+            sums[i].gather_variance += model[i].gather_variance;
+            sums[i].gather_cost += model[i].gather_cost;
+        }
+    }
+    const double chains = static_cast<double>(chains_per_ray);
+    const double nodes_per_chain =
+        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
+    const double fan_cost = chains * nodes_per_chain * static_cast<double>(surveys.size());
+    Outcome best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Outcome& outcome : sums) {
+        const double loss =
+            (outcome.fan_variance / chains + outcome.gather_variance) * (fan_cost + outcome.gather_cost);
+        if (loss < least) {
+            least = loss;
+            best = outcome;
+        }
+    }
+    return best.k_per_m2;
+}
+
+}  // namespace stilb

@@ -1,0 +1,97 @@
+#include "estimators/patch_light/first_shot/classical.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/error.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+/// The mean over a bin is that of these directions.
+constexpr std::array<std::pair<double, double>, 4> kPlaces{
+    {{0.25, 0.25}, {0.25, 0.75}, {0.75, 0.25}, {0.75, 0.75}}};
+
+}  // namespace
+
+HemisphereBins::HemisphereBins(int rings) : rings_(static_cast<std::uint32_t>(rings)), sectors_(4 * rings_) {
+    constexpr int kMost = 256;
+    if (rings >= 1 && rings <= kMost) return;
+    throw InputError(fmt::format(
+        "classical first shot with {} rings of bins: reflected light needs a ring to be stored in. Take 1 "
+        "to {}; r rings are 4 r^2 bins of directions for each patch.",
+        rings, kMost));
+}
+
+std::uint32_t HemisphereBins::bin_of(const Vec3& local) const {
+    const double squared_sine = local.x * local.x + local.y * local.y;
+    const double angle = std::atan2(local.y, local.x);
+    const double turn = angle < 0 ? angle + kTurn : angle;
+    const auto place = [](double share, std::uint32_t count) {
+        return std::min(static_cast<std::uint32_t>(share * count), count - 1);
+    };
+    return place(squared_sine, rings_) * sectors_ + place(turn / kTurn, sectors_);
+}
+
+Vec3 HemisphereBins::direction(std::uint32_t bin, double u1, double u2) const {
+    const std::uint32_t ring = bin / sectors_, sector = bin % sectors_;
+    const double squared_sine = (ring + u1) / rings_;
+    const double angle = kTurn * (sector + u2) / sectors_;
+    const double sine = std::sqrt(squared_sine);
+    return {sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1 - squared_sine)};
+}
+
+ClassicalFirstShot::ClassicalFirstShot(const Scene& scene, const Patches& patches,
+                                       const IncomingFirstShot& incoming, const HemisphereBins& bins)
+    : patches_(patches), bins_(bins), first_{0} {
+    const auto sides = static_cast<std::uint32_t>(2 * patches.count());
+    first_.reserve(sides + 1);
+    for (std::uint32_t side = 0; side < sides; ++side) {
+        const Material& material = material_of(scene, patches, side);
+        const bool is_dark = incoming.factors().of(side).empty() || reflects_nothing(material);
+        first_.push_back(first_.back() + (is_dark ? 0 : reflects_alike(material) ? 1 : bins_.count()));
+    }
+    radiance_cd_m2_.resize(first_.back());
+    tbb::parallel_for(0u, sides, [&](std::uint32_t side) { store(side, incoming); });
+}
+
+void ClassicalFirstShot::store(std::uint32_t side, const IncomingFirstShot& incoming) {
+    const std::size_t count = bins_of(side);
+    if (count == 0) return;
+    const Frame frame = frame_of(patches_, side);
+    std::vector<Vec3> outs;
+    if (count == 1) outs.push_back(frame.w);
+    for (std::uint32_t bin = 0; count > 1 && bin < count; ++bin) {
+        for (const auto& [u1, u2] : kPlaces) outs.push_back(frame.to_world(bins_.direction(bin, u1, u2)));
+    }
+    std::vector<Spectrum> sums(outs.size());
+    incoming.add_reflected(side, {}, {}, outs, sums);
+    const std::size_t per_bin = outs.size() / count;
+    for (std::size_t bin = 0; bin < count; ++bin) {
+        Spectrum mean;
+        for (std::size_t i = 0; i < per_bin; ++i) mean += sums[bin * per_bin + i];
+        radiance_cd_m2_[first_[side] + bin] = in_floats(mean * (1 / static_cast<double>(per_bin)));
+    }
+}
+
+void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, RandomKey, std::span<const Vec3> outs,
+                                       std::span<Spectrum> sums) const {
+    const std::size_t count = bins_of(side);
+    if (count == 0) return;
+    const Frame frame = frame_of(patches_, side);
+    for (std::size_t i = 0; i < outs.size(); ++i) {
+        const Vec3 out = frame.to_local(outs[i]);
+        if (out.z <= 0) continue;
+        const std::size_t bin = count == 1 ? 0 : bins_.bin_of(out);
+        sums[i] += to_spectrum(radiance_cd_m2_[first_[side] + bin]);
+    }
+}
+
+}  // namespace stilb

@@ -1,0 +1,105 @@
+#include "estimators/patch_light/first_shot/factors.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace stilb {
+namespace {
+
+/// A side that a sample sees.
+struct Lit {
+    std::uint32_t side = 0;
+    float illuminance_lx = 0;
+};
+
+/// What one thread shoots with.
+class Shooter {
+  public:
+    Shooter(const PatchCaster& caster, const ShootingOptions& options)
+        : patches_(caster.patches()),
+          buffers_(make_item_buffers(options.backend, caster)),
+          whole_(BufferShape::cube, options.resolution),
+          half_(options.window, options.resolution),
+          flux_lm_(2 * patches_.count()) {}
+
+    std::vector<Lit> shoot(const LightSample& sample) {
+        const ItemBufferLayout& layout = sample.is_point ? whole_ : half_;
+        seen_.resize(layout.pixel_count());
+        buffers_->fill(layout, sample.viewpoint, seen_);
+        layout.for_each_pixel([&](std::size_t index, const BufferPixel& pixel) {
+            const std::uint32_t side = seen_[index];
+            if (side == kNoSide) return;
+            const double flux_lm = sample.intensity_cd(pixel) * pixel.solid_angle_sr;
+            if (!(flux_lm > 0)) return;
+            if (flux_lm_[side] == 0) touched_.push_back(side);
+            flux_lm_[side] += flux_lm;
+        });
+        return take_lit();
+    }
+
+  private:
+    std::vector<Lit> take_lit() {
+        std::vector<Lit> lit;
+        lit.reserve(touched_.size());
+        for (const std::uint32_t side : touched_) {
+            const double illuminance_lx = flux_lm_[side] / patches_.areas_m2[patches_.patch_of(side)];
+            lit.push_back({side, static_cast<float>(illuminance_lx)});
+            flux_lm_[side] = 0;
+        }
+        touched_.clear();
+        return lit;
+    }
+
+    const Patches& patches_;
+    std::unique_ptr<ItemBuffers> buffers_;
+    ItemBufferLayout whole_, half_;
+    std::vector<std::uint32_t> seen_;
+    std::vector<double> flux_lm_;         ///< per side, of the sample; 0 before and after
+    std::vector<std::uint32_t> touched_;  ///< sides with flux
+};
+
+/// Sides that every sample sees. Those of a sample do not depend on who else works.
+std::vector<std::vector<Lit>> shoot_all(const PatchCaster& caster, std::span<const LightSample> samples,
+                                        const ShootingOptions& options) {
+    std::vector<std::vector<Lit>> lit(samples.size());
+    if (options.backend == BufferBackend::opengl) {  // one buffer at a time, the driver has threads
+        Shooter shooter(caster, options);
+        std::ranges::transform(samples, lit.begin(), [&](const LightSample& s) { return shooter.shoot(s); });
+        return lit;
+    }
+    tbb::enumerable_thread_specific<Shooter> shooters([&] { return Shooter(caster, options); });
+    tbb::parallel_for(std::size_t{0}, samples.size(),
+                      [&](std::size_t i) { lit[i] = shooters.local().shoot(samples[i]); });
+    return lit;
+}
+
+}  // namespace
+
+int first_shot_resolution(std::size_t patches) {
+    constexpr double kPixelsPerPatch = 100, kFaces = 6, kMost = 2048;
+    const double wanted = std::sqrt(kPixelsPerPatch / kFaces * static_cast<double>(patches));
+    return 2 * static_cast<int>(std::ceil(std::clamp(wanted, 64., kMost) / 2));
+}
+
+FirstShotFactors::FirstShotFactors(const PatchCaster& caster, std::span<const LightSample> samples,
+                                   const ShootingOptions& options)
+    : first_(2 * caster.patches().count() + 1) {
+    std::vector<std::vector<Lit>> lit = shoot_all(caster, samples, options);
+    for (const auto& sides : lit) {
+        for (const Lit& l : sides) ++first_[l.side + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    factors_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t i = 0; i < lit.size(); ++i) {
+        for (const Lit& l : lit[i]) factors_[next[l.side]++] = {i, l.illuminance_lx};
+        lit[i] = {};
+    }
+}
+
+}  // namespace stilb

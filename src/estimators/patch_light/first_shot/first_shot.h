@@ -1,0 +1,122 @@
+// First shot: small lights replaced by their first reflection, which is flatter [Szirmay-Kalos, Sbert,
+// Martinez, Tobler 2000, Incoming first-shot for non-diffuse global illumination].
+//
+// With Lep the emission of the replaced lights, L - Lep = Lnp solves
+//
+//     Lnp = L* + T Lnp,    L* = (Le - Lep) + T Lep                                   [FirstShot (11), (12)]
+//
+// where T Lep is what FirstShot::reflected() gives, in one of four ways. Whoever uses it leaves the emission
+// of replaced lights out and adds Lep to what the eye sees at the end.
+//
+// - classical: the reflected radiance is stored, in directional bins. Wrong by what it varies over a bin.
+// - diffuse: the diffuse part of the reflection is stored, the rest found by shadow rays. Only where the rest
+//   is a summand: Rough and Plastic are left to shadow rays as a whole.
+// - incoming: what arrives from each light sample is stored, and reflected when asked for. Any BRDF.
+// - on the fly: nothing is stored, shadow rays from every position. Any BRDF; without error but for the noise
+//   of points drawn on area lights.
+//
+// The first three know a mean over each patch, by item buffers: their light ends at panes, while shadow rays
+// pass them. Mirrors, glass and panes reflect nothing in any of them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "estimators/patch_light/first_shot/classical.h"
+#include "estimators/patch_light/first_shot/diffuse.h"
+#include "estimators/patch_light/first_shot/incoming.h"
+#include "estimators/patch_light/first_shot/shadow_rays.h"
+#include "math/random.h"
+
+namespace stilb {
+
+enum class FirstShotVariant { none, classical, diffuse, incoming, on_the_fly };
+
+inline constexpr std::array<std::string_view, 5> kFirstShotNames{"none", "classical", "diffuse", "incoming",
+                                                                 "on-the-fly"};
+constexpr std::string_view name_of(FirstShotVariant variant) {
+    return kFirstShotNames[static_cast<std::size_t>(variant)];
+}
+
+/// Where none is asked for, but for path tracing: that takes none.
+inline constexpr FirstShotVariant kUsualFirstShot = FirstShotVariant::incoming;
+
+struct FirstShotOptions {
+    std::optional<FirstShotVariant> variant;  ///< absent: as is usual with the method
+    ShootingOptions shooting;
+    int bin_rings = 4;  ///< classical: 4 bin_rings^2 bins where reflection depends on direction
+};
+
+/// Replaces no light.
+struct NoFirstShot {
+    void add_reflected(std::uint32_t, const Vec3&, RandomKey, std::span<const Vec3>,
+                       std::span<Spectrum>) const {}
+    bool is_constant(std::uint32_t) const { return true; }
+    std::size_t bytes() const { return 0; }
+};
+
+/// Immutable once made; all queries may run in parallel. Keeps references to the arguments but the options.
+class FirstShot {
+  public:
+    /// Throws InputError where the options make no sense (ItemBufferLayout, HemisphereBins) and where OpenGL
+    /// is asked for and missing.
+    FirstShot(const Scene& scene, const RayCaster& caster, const LightSampler& sampler,
+              const PatchCaster& patch_caster, const FirstShotOptions& options);
+    /// Incoming first shot with factors of another one, of the same scene and patches.
+    FirstShot(const Scene& scene, const RayCaster& caster, const Patches& patches, FirstShotFactors factors);
+    FirstShot(const FirstShot&) = delete;
+    FirstShot& operator=(const FirstShot&) = delete;
+
+    /// Whether the emission of a light (of Scene::lights) is replaced.
+    bool replaces(std::size_t light) const { return lights_.lights[light].is_replaced; }
+
+    /// Of a side, by the light of the replaced lights that it reflects towards the unit world direction `out`
+    /// [cd/m2]; nothing towards directions behind the side. `position` is on the side's patch; where light is
+    /// stored it does not matter. Shadow rays end at points on area lights that are drawn by key and
+    /// position: another key for each sample, where positions are always the same.
+    Spectrum reflected(std::uint32_t side, const Vec3& position, RandomKey key, const Vec3& out) const;
+    /// The same added to `sums` for several directions: what arrives is found once.
+    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
+                       std::span<Spectrum> sums) const;
+    /// Whether that is the same for all positions and all directions in front of the side: one call is then
+    /// enough for all steps.
+    bool is_constant(std::uint32_t side) const;
+
+    /// Whether position and key matter: shadow rays start there.
+    bool needs_position(std::uint32_t side) const {
+        return std::holds_alternative<ShadowRays>(stored_) ||
+               (std::holds_alternative<DiffuseFirstShot>(stored_) && !is_constant(side));
+    }
+
+    FirstShotVariant variant() const { return static_cast<FirstShotVariant>(stored_.index()); }
+    /// Of the item buffers that were filled, if any.
+    std::optional<int> resolution() const { return resolution_; }
+    /// What was decided of each light, as Scene::lights.
+    std::span<const FirstShotLight> lights() const { return lights_.lights; }
+    std::span<const LightSample> samples() const { return lights_.samples; }
+    /// Factors of incoming first shot; none in other variants.
+    const IncomingFirstShot* incoming() const { return std::get_if<IncomingFirstShot>(&stored_); }
+    /// Pairs of a side and a light sample that see one another and have no pixel (FirstShotFactors): none
+    /// where nothing was shot.
+    std::size_t missed() const { return missed_; }
+    /// What is stored for the patches.
+    std::size_t bytes() const;
+    double set_up_s() const { return set_up_s_; }
+
+  private:
+    void set_up(const Scene& scene, const RayCaster& caster, const LightSampler& sampler,
+                const PatchCaster& patch_caster, const FirstShotOptions& options);
+
+    FirstShotLights lights_;
+    std::optional<int> resolution_;
+    std::size_t missed_ = 0;
+    /// In the order of FirstShotVariant.
+    std::variant<NoFirstShot, ClassicalFirstShot, DiffuseFirstShot, IncomingFirstShot, ShadowRays> stored_;
+    double set_up_s_ = 0;
+};
+
+}  // namespace stilb

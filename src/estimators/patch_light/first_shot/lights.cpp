@@ -1,0 +1,223 @@
+#include "estimators/patch_light/first_shot/lights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "math/sample_stream.h"
+#include "patches/patches.h"
+#include "transport/light_sampler.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Mesh fan(const Vec3& middle, const std::vector<Vec3>& rim) {
+    Mesh mesh{{middle}, {}};
+    const auto count = static_cast<std::uint32_t>(rim.size());
+    mesh.vertices.insert(mesh.vertices.end(), rim.begin(), rim.end());
+    for (std::uint32_t i = 0; i < count; ++i) mesh.triangles.push_back({0, i + 1, (i + 1) % count + 1});
+    return mesh;
+}
+
+/// The shape as the light's own patches begin.
+Shape coarse(const Shape& shape) {
+    if (const auto* rectangle = std::get_if<Rectangle>(&shape)) {
+        return fan(rectangle->corner + 0.5 * (rectangle->edge_u + rectangle->edge_v),
+                   triangulated(*rectangle).vertices);
+    }
+    if (const auto* disk = std::get_if<Disk>(&shape)) {
+        const Frame frame = Frame::around(disk->normal);
+        std::vector<Vec3> rim;
+        for (int i = 0; i < 6; ++i) {
+            const double angle = i * kPi / 3;
+            rim.push_back(disk->center +
+                          disk->radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v));
+        }
+        return fan(disk->center, rim);
+    }
+    return shape;
+}
+
+/// The light alone. Places are relative to the centre of all patches, as viewpoints are lifted by how far
+/// they are from it.
+Patches light_patches(const Shape& shape, double longest_edge_m, const Vec3& center) {
+    Scene alone;
+    alone.objects.push_back({"", shape, {MaterialId{}}});
+    Patches patches = make_patches(alone, longest_edge_m);
+    for (Float3& vertex : patches.vertices) {
+        const Vec3 moved = Vec3(vertex) + (patches.center - center);
+        vertex = {static_cast<float>(moved.x), static_cast<float>(moved.y), static_cast<float>(moved.z)};
+    }
+    patches.center = center;
+    return patches;
+}
+
+/// The distance that half of the flux of an area light flies at least; what leaves the scene counts as flying
+/// through all of it.
+double median_flight_m(const Object& light, const RayCaster& caster) {
+    constexpr std::uint64_t kRays = 256;
+    Scene alone;
+    alone.objects.push_back(light);
+    alone.lights.push_back({"", AreaLight{ObjectId{0}, Spectrum::grey(1)}});
+    const LightSampler sampler(alone, caster);
+    std::vector<double> flights_m;
+    for (std::uint64_t i = 0; i < kRays; ++i) {
+        SampleStream stream(RandomKey{}, i);
+        const EmittedParticle particle = sampler.sample_emission(stream);
+        const auto hit = caster.closest(particle.origin, particle.direction);
+        flights_m.push_back(hit ? hit->distance_m : 2 * caster.half_extent_m());
+    }
+    std::ranges::nth_element(flights_m, flights_m.begin() + kRays / 2);
+    return flights_m[kRays / 2];
+}
+
+/// Turned by no particular angle about w: rows of pixels that run along the edges of patches, as those of
+/// rooms would from places in the middle, are all counted to the same side.
+Frame turned_about(const Vec3& w) {
+    const Frame frame = Frame::around(w);
+    const Vec3 u = std::cos(0.7) * frame.u + std::sin(0.7) * frame.v;
+    return {u, cross(w, u), w};
+}
+
+/// For points, which any direction will do for.
+Frame turned() { return turned_about(normalized(Vec3{0.3, -0.5, 0.8})); }
+
+/// Makes the samples of one light after the other.
+class Chooser {
+  public:
+    Chooser(const Scene& scene, const RayCaster& caster, const Vec3& center)
+        : scene_(scene), caster_(caster), center_(center) {}
+
+    FirstShotLights run() {
+        for (const Light& light : scene_.lights) add(light);
+        return std::move(chosen_);
+    }
+
+  private:
+    void add(const Light& light) {
+        FirstShotLight& decision = chosen_.lights.emplace_back();
+        decision.name = light.name;
+        const Spectrum flux = flux_lm(scene_, light);
+        if (!(flux.luminance() > 0)) {
+            decision.why = "it is dark";
+            return;
+        }
+        decision.colour = flux * (1 / flux.luminance());
+        const std::size_t before = chosen_.samples.size();
+        decision.why = std::visit([&](const auto& source) { return shoot_from(source); }, light.source);
+        decision.samples = chosen_.samples.size() - before;
+        decision.is_replaced = decision.samples > 0;
+    }
+
+    void add_sample(bool is_point, const Viewpoint& viewpoint,
+                    std::function<double(const BufferPixel&)> intensity_cd) {
+        const auto light = static_cast<std::uint32_t>(chosen_.lights.size() - 1);
+        chosen_.samples.push_back({light, is_point, viewpoint, std::move(intensity_cd)});
+    }
+
+    // Each adds the samples of a source, or none where it is not small, and says why.
+
+    std::string shoot_from(const PointLight& point) {
+        const double intensity_cd = point.intensity_cd.luminance();
+        add_sample(true, {point.position, turned()}, [=](const BufferPixel&) { return intensity_cd; });
+        return "a point";
+    }
+
+    std::string shoot_from(const PhotometryLight& luminaire) {
+        const PhotometricSolid& solid = scene_.solid(luminaire.solid);
+        const double factor = luminaire.factor.luminance();
+        const Frame frame = turned();
+        // Its place may be in the very plane of a ceiling (as LightSampler).
+        const double lift_m = caster_.offset_m(luminaire.position, caster_.half_extent_m());
+        const Vec3 c0 = frame.to_local(luminaire.c0), c90 = frame.to_local(luminaire.c90),
+                   nadir = frame.to_local(luminaire.nadir);
+        add_sample(true, {luminaire.position + lift_m * luminaire.nadir, frame},
+                   [=, &solid](const BufferPixel& pixel) {
+                       const Vec3 w = normalized(pixel.direction);
+                       return factor * solid.intensity_cd({dot(w, c0), dot(w, c90), dot(w, nadir)});
+                   });
+        return "a luminaire";
+    }
+
+    std::string shoot_from(const AreaLight& light) {
+        const Object& object = scene_.object(light.object);
+        const Shape& shape = object.shape;
+        const double luminance_cd_m2 = light.luminance_cd_m2.luminance();
+        const double spacing_m = kVertexSpacing * median_flight_m(object, caster_);
+        const auto* sphere = std::get_if<Sphere>(&shape);
+        const bool is_small = sphere != nullptr ? shoot_from(*sphere, luminance_cd_m2, spacing_m)
+                                                : shoot_from_vertices(shape, luminance_cd_m2, spacing_m);
+        return is_small ? fmt::format("small: vertices {:.2g} m apart stand for it", spacing_m)
+                        : fmt::format("large: it would take more than {} vertices {:.2g} m apart",
+                                      kMostLightSamples, spacing_m);
+    }
+
+    bool shoot_from(const Sphere& sphere, double luminance_cd_m2, double spacing_m) {
+        const std::vector<Vec3> vertices = inscribed_icosahedron(sphere).vertices;
+        if (length(vertices[0] - vertices[1]) > spacing_m) return false;
+        std::vector<Vec3> normals;
+        for (const Vec3& vertex : vertices) normals.push_back((vertex - sphere.center) / sphere.radius);
+        const double intensity_cd = kPi * sphere.radius * sphere.radius * luminance_cd_m2;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const Frame frame = turned_about(normals[i]);
+            std::vector<Vec3> local;
+            for (const Vec3& normal : normals) local.push_back(frame.to_local(normal));
+            const double lift_m = caster_.offset_m(vertices[i], sphere.radius);
+            add_sample(false, {vertices[i] + lift_m * normals[i], frame},
+                       [intensity_cd, local = std::move(local)](const BufferPixel& pixel) {
+                           double all = 0;
+                           for (const Vec3& normal : local)
+                               all += std::max(dot(normal, pixel.direction), 0.0);
+                           return intensity_cd * std::max(pixel.direction.z, 0.0) / all;
+                       });
+        }
+        return true;
+    }
+
+    bool shoot_from_vertices(const Shape& shape, double luminance_cd_m2, double spacing_m) {
+        const double area = area_m2(shape);
+        // No triangle is larger than the regular one, and there are at least half as many vertices.
+        if (area / (std::sqrt(3) / 2 * spacing_m * spacing_m) > kMostLightSamples) return false;
+        const Patches light = light_patches(coarse(shape), spacing_m, center_);
+        if (light.vertices.size() > kMostLightSamples) return false;
+        double total_m2 = 0;
+        for (const float patch_m2 : light.areas_m2) total_m2 += patch_m2;
+        for (std::uint32_t v = 0; v < light.vertices.size(); ++v)
+            shoot_from_vertex(light, v, luminance_cd_m2 * area / total_m2);
+        return true;
+    }
+
+    void shoot_from_vertex(const Patches& light, std::uint32_t vertex, double luminance_cd_m2) {
+        double around_m2 = 0;
+        Vec3 normal, position;
+        for (std::uint32_t p = 0; p < light.count(); ++p) {
+            const auto& [a, b, c] = light.corners[p];
+            if (vertex != a && vertex != b && vertex != c) continue;
+            around_m2 += light.areas_m2[p];
+            normal += light.areas_m2[p] * Vec3(light.normals[p]);
+            position =
+                viewpoint_on(light, p, {vertex == a ? 1. : 0., vertex == b ? 1. : 0., vertex == c ? 1. : 0.})
+                    .position;
+        }
+        const double normal_intensity_cd = luminance_cd_m2 * around_m2 / 3;
+        add_sample(false, {position, turned_about(normalized(normal))},
+                   [=](const BufferPixel& pixel) { return normal_intensity_cd * pixel.cosine; });
+    }
+
+    const Scene& scene_;
+    const RayCaster& caster_;
+    Vec3 center_;
+    FirstShotLights chosen_;
+};
+
+}  // namespace
+
+FirstShotLights choose_first_shot_lights(const Scene& scene, const RayCaster& caster, const Vec3& center) {
+    return Chooser(scene, caster, center).run();
+}
+
+}  // namespace stilb

@@ -1,0 +1,60 @@
+// Which lights the first shot replaces, and the points that it shoots their light from.
+//
+// Point lights and luminaires are one point each. An area light is replaced where few points can stand for
+// it: the vertices of a triangle mesh of its own, no farther apart than kVertexSpacing of the distance that
+// half of its light flies at least. What a vertex i stands for is a third of the area S_i of the triangles
+// around it [FirstShot (20)]: the trapezoidal rule, whose flux is exact and whose illuminance at a distance
+// d, from squares of edge h, is wrong by a share of about (h/d)^2 / 3. Rectangles and disks begin as
+// triangles around their middle, a disk as a hexagon; areas are scaled to the true one.
+//
+// A sphere is the twelve vertices of the inscribed icosahedron, looking outwards. They share the light of
+// each direction among those that it leaves from, in proportion to their cosines: so that all of them
+// together have the sphere's intensity in every direction.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "patches/visibility/item_buffer.h"
+#include "patches/visibility/viewpoint.h"
+#include "rays/ray_caster.h"
+#include "scene/scene.h"
+
+namespace stilb {
+
+/// Of the distance that half of an area light's light flies at least.
+inline constexpr double kVertexSpacing = 0.25;
+/// An area light that takes more is not small.
+inline constexpr std::size_t kMostLightSamples = 32;
+
+/// A point that light is shot from.
+struct LightSample {
+    std::uint32_t light = 0;  ///< of Scene::lights
+    bool is_point = false;    ///< shines all around, else to the hemisphere about the viewpoint's w
+    Viewpoint viewpoint;      ///< lifted off the light
+    /// Its share of the light's luminous intensity [cd] towards a pixel of an item buffer there, the cosine
+    /// of area lights included; nothing comes where it is below 0.
+    std::function<double(const BufferPixel&)> intensity_cd;
+};
+
+/// What became of a light, for the report.
+struct FirstShotLight {
+    std::string name;
+    bool is_replaced = false;
+    std::string why;          ///< in words: "a point", "large: it would take more than 32 vertices ..."
+    std::size_t samples = 0;  ///< 0 where it is not replaced
+    Spectrum colour{};        ///< of its light: luminance 1; nothing where it is dark
+};
+
+struct FirstShotLights {
+    std::vector<FirstShotLight> lights;  ///< as Scene::lights
+    std::vector<LightSample> samples;    ///< one light after the other
+};
+
+/// Decides for every light. `center` is that of the patches which will be seen from the samples. The samples
+/// keep references to the scene.
+FirstShotLights choose_first_shot_lights(const Scene& scene, const RayCaster& caster, const Vec3& center);
+
+}  // namespace stilb

@@ -1,0 +1,77 @@
+// The light that sides of patches receive, seen from no eye in particular: its first terms over the
+// directions that it comes from.
+//
+// L_in = sum over k of a_k Z_k for the projected hemisphere's orthonormal basis (base/zernike.h), so that
+//
+//     a_k = integral of L_in Z_k cos(theta) dw = sum over what arrives of Z_k(w_in) E,
+//     L_out(w) = sum over k of a_k integral of f(w_in, w) Z_k(w_in) cos(theta) dw_in
+//
+// where E is the illuminance of each arrival. A diffuse side needs a_0 alone, E / sqrt(pi), and nothing is
+// lost. Others keep a basis of some degree: light that is alike from everywhere is still exact; light that
+// changes within less than about 180 degrees / degree is blurred. docs/solution.md has the errors.
+//
+// First shot is no part of it: light of small sources has no few terms.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "estimators/patch_light/patch_transport.h"
+#include "estimators/patch_light/ray_bundle/bundle_iteration.h"
+#include "math/zernike.h"
+
+namespace stilb {
+
+/// Where the terms of each side are among those of all: one of a side that reflects alike, a basis of others.
+class TermLayout {
+  public:
+    /// `sides`: those that have terms, ascending.
+    TermLayout(const PatchTransport& transport, int degree, std::vector<std::uint32_t> sides);
+
+    const ZernikeBasis& basis() const { return basis_; }
+    std::span<const std::uint32_t> sides() const { return sides_; }
+    /// Of all sides together.
+    std::size_t count() const { return first_.back(); }
+    std::size_t first_of(std::uint32_t side) const { return first_[side]; }
+    /// 0 where the side has none.
+    std::size_t count_of(std::uint32_t side) const { return first_[side + 1] - first_[side]; }
+
+  private:
+    ZernikeBasis basis_;
+    std::vector<std::uint32_t> sides_;
+    std::vector<std::size_t> first_;  ///< per side of all patches, and the end
+};
+
+/// Sides that reflect anything.
+std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport);
+
+/// Terms of the mean of a walk's steps. Keeps references to both arguments.
+class TermSums {
+  public:
+    TermSums(const PatchTransport& transport, const TermLayout& layout)
+        : transport_(transport), layout_(layout), sums_(layout.count()) {}
+
+    /// What was received in the last step.
+    void add(const BundleIteration& iteration);
+    std::uint64_t steps() const { return steps_; }
+    /// [lx / sqrt(sr)]
+    std::vector<Rgb> mean() const;
+    Spectrum mean_illuminance_lx(std::uint32_t side) const;
+
+  private:
+    const PatchTransport& transport_;
+    const TermLayout& layout_;
+    std::uint64_t steps_ = 0;
+    std::vector<Rgb> sums_;
+};
+
+/// What the terms of a side are multiplied by for the luminance that it reflects towards the unit `out`, in
+/// front of it [1 / sqrt(sr)]. By a sum over directions: right to about 0.5 % for light that is alike from
+/// everywhere.
+std::vector<Rgb> reflection_factors(const PatchTransport& transport, const TermLayout& layout,
+                                    std::uint32_t side, const Vec3& out);
+/// The sum of their products [cd/m2]; 0 where that is below: a luminance is not.
+Spectrum reflected_cd_m2(std::span<const Rgb> terms, std::span<const Rgb> factors);
+
+}  // namespace stilb

@@ -1,0 +1,129 @@
+#include "estimators/patch_light/patch_readings.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "transport/direct_light.h"
+
+namespace stilb {
+namespace {
+
+/// From each point: a step of the light costs far more than a ray.
+constexpr std::uint64_t kRaysPerSample = 4;
+constexpr double kShare = 1.0 / kRaysPerSample;
+/// A key of its own; points have those of their numbers.
+constexpr std::uint64_t kViews = ~std::uint64_t{0};
+
+}  // namespace
+
+PatchReadings::PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands)
+    : transport_(transport), known_part_(measurands.size()) {
+    for (std::uint32_t reading = 0; reading < measurands.size(); ++reading) {
+        add_reading(reading, measurands[reading]);
+    }
+    points_ = sorted_receivers(std::move(points_));
+    add_shares();
+}
+
+void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measurand) {
+    const RayCaster& caster = transport_.caster;
+    if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
+        points_.emplace_back(reading, *point, caster);
+        known_part_[reading] = direct_from_points(points_.back(), caster, transport_.lights);
+        return;
+    }
+    const Sight sight = look(measurand, transport_.scene, caster, transport_.lights, kUnlimited);
+    known_part_[reading] = sight.emission_cd_m2;
+    std::vector<SeenPoint> points;
+    for (const SubPoint& sub_point : sight.sub_points) {
+        points.push_back({sub_point.surface, sub_point.outgoing});
+    }
+    const auto places = find_places(transport_.patch_caster, points);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!places[i]) continue;
+        views_.push_back({reading, sight.sub_points[i].transmission, *places[i], points[i].hit.position,
+                          points[i].outgoing});
+    }
+}
+
+void PatchReadings::add_shares() {
+    std::vector<VertexInterpolation::Place> places;
+    for (const View& view : views_) {
+        places.push_back({transport_.patches.patch_of(view.seen.side), view.seen.place});
+    }
+    auto shares = transport_.interpolation.shares_of(places);
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        views_[i].shares = std::move(shares[i]);
+        known_part_[views_[i].reading] += views_[i].transmission * first_reflected(views_[i]);
+    }
+}
+
+template <typename Visit>
+void PatchReadings::for_each_share(const View& view, const Visit& visit) const {
+    const Patches& patches = transport_.patches;
+    const bool front = patches.is_front(view.seen.side);
+    for (const auto& [patch, weight] : view.shares) visit(front ? patch : patches.other_side(patch), weight);
+}
+
+Spectrum PatchReadings::first_reflected(const View& view) const {
+    Spectrum luminance;
+    for_each_share(view, [&](std::uint32_t side, double weight) {
+        luminance += transport_.first_reflected(side, view.outgoing) * weight;
+    });
+    return luminance;
+}
+
+void PatchReadings::add(const PatchLight& light, RandomKey key, std::uint64_t sample,
+                        ReadingSums& sums) const {
+    const RandomKey key_of_views = key.derived(kViews).derived(sample);
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        add_luminance(light, views_[i], key_of_views.derived(i), sums);
+    }
+    for (std::size_t first = 0; first < points_.size(); first += kPacketWidth) {
+        const std::size_t count = std::min<std::size_t>(kPacketWidth, points_.size() - first);
+        for (std::uint64_t ray = 0; ray < kRaysPerSample; ++ray) {
+            add_illuminances(light, std::span(points_).subspan(first, count),
+                             SampleStream(key.derived(first), kRaysPerSample * sample + ray), sums);
+        }
+    }
+}
+
+void PatchReadings::add_luminance(const PatchLight& light, const View& view, RandomKey key,
+                                  ReadingSums& sums) const {
+    Spectrum luminance = transport_.first_reflected_at(view.seen.side, view.position, key, view.outgoing);
+    for_each_share(view, [&](std::uint32_t side, double weight) {
+        luminance += light.reflected(side, view.outgoing) * weight;
+    });
+    sums.add(view.reading, view.transmission * luminance);
+}
+
+/// The rays have one direction in the frames of their points, so that they are coherent.
+void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Receiver> points,
+                                     SampleStream stream, ReadingSums& sums) const {
+    const Vec3& center = transport_.patches.center;
+    const auto [u1, u2] = stream.next_two();
+    RayPacket packet;
+    LaneMask lanes{};
+    std::array<Receiver::Sample, kPacketWidth> samples;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        sums.add(points[i].reading(),
+                 kShare * sample_direct_from_areas(points[i], transport_.caster, transport_.lights, stream));
+        const auto sample = points[i].sample(u1, u2);
+        if (!sample) continue;
+        samples[i] = *sample;
+        packet.set(i, points[i].lifted() - center, sample->direction, std::numeric_limits<float>::infinity());
+        lanes[i] = -1;
+    }
+    const auto sides = transport_.patch_caster.closest(packet, lanes).sides;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (sides[i] == kNoSide) continue;
+        const Vec3 out = -samples[i].direction;
+        const Vec3 met = points[i].lifted() - double{packet.end[i]} * out;
+        sums.add(points[i].reading(),
+                 kShare * samples[i].weight *
+                     (light.reflected(sides[i], out) + transport_.first_reflected(sides[i], out) +
+                      transport_.first_reflected_at(sides[i], met, {}, out)));
+    }
+}
+
+}  // namespace stilb

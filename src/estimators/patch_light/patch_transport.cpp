@@ -1,0 +1,81 @@
+#include "estimators/patch_light/patch_transport.h"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "patches/visibility/buffer_backend.h"
+
+namespace stilb {
+namespace {
+
+/// Rays of a bundle that meet a patch of mean size which stands across it.
+constexpr double kRaysPerPatch = 2;
+
+double area_m2(const Patches& patches) {
+    return std::accumulate(patches.areas_m2.begin(), patches.areas_m2.end(), 0.0);
+}
+
+}  // namespace
+
+PatchTransport::PatchTransport(const Scene& all, const RayCaster& rays, const PatchOptions& asked)
+    : FirstShotPatches(all, rays, asked) {
+    describe_patches();
+}
+
+PatchTransport::PatchTransport(const Scene& all, const RayCaster& rays, Patches made,
+                               std::optional<FirstShotFactors> factors)
+    : FirstShotPatches(all, rays, std::move(made), std::move(factors)) {
+    describe_patches();
+}
+
+void PatchTransport::describe_patches() {
+    const std::size_t count = patches.count();
+    glossy_number.assign(count, kConstant);
+    constant_brdf.resize(count);
+    first_reflection.resize(2 * count);
+    emission.resize(count);
+    for (std::uint32_t patch = 0; patch < count; ++patch) add_reflection(patch);
+    for (std::size_t light = 0; light < scene.lights.size(); ++light) add_emission(light);
+    const double all_m2 = area_m2(patches);
+    mean_reflectance /= all_m2;
+    spacing_m = std::sqrt(all_m2 / static_cast<double>(count) / kRaysPerPatch);
+}
+
+void PatchTransport::add_reflection(std::uint32_t patch) {
+    const Material& material = material_of(patch);
+    if (is_specular(material)) return;
+    mean_reflectance += double{patches.areas_m2[patch]} * reflectance_bound(material).luminance();
+    if (std::holds_alternative<Black>(material)) return;
+    const auto* diffuse = std::get_if<Diffuse>(&material);
+    if (!diffuse) {
+        glossy_number[patch] = static_cast<std::uint32_t>(glossy_patches.size());
+        glossy_patches.push_back(patch);
+        return;
+    }
+    constant_brdf[patch] = rgb_of(diffuse->reflectance * std::numbers::inv_pi);
+    for (const std::uint32_t side : {patch, patches.other_side(patch)}) {
+        if (first_shot.needs_position(side)) continue;
+        first_reflection[side] =
+            rgb_of(first_shot.reflected(side, patches.middle(patch), {}, patches.normal_of(side)));
+    }
+}
+
+void PatchTransport::add_emission(std::size_t light) {
+    const auto* area_light = std::get_if<AreaLight>(&scene.lights[light].source);
+    if (!area_light || first_shot.replaces(light)) return;
+    const std::size_t object = index_of(area_light->object);
+    for (std::uint32_t p = patches.first_of_object[object]; p < patches.first_of_object[object + 1]; ++p) {
+        emission[p] = rgb_of(area_light->luminance_cd_m2);
+    }
+}
+
+Spectrum PatchTransport::first_reflected(std::uint32_t side, const Vec3& out) const {
+    const std::uint32_t patch = patches.patch_of(side);
+    if (reflects_alike(patch)) return spectrum_of(first_reflection[side]);
+    return first_shot.needs_position(side) ? Spectrum{}
+                                           : first_shot.reflected(side, patches.middle(patch), {}, out);
+}
+
+}  // namespace stilb

@@ -1,0 +1,76 @@
+// What the methods that light patches share: the patches, how they reflect, and what is known of the light.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "estimators/patch_light/first_shot/first_shot_patches.h"
+#include "patches/vertex_interpolation.h"
+#include "patches/visibility/buffer_backend.h"
+#include "patches/visibility/bundle.h"
+
+namespace stilb {
+
+/// Single precision, for what every side has.
+using Rgb = std::array<float, kBands>;
+
+inline Rgb rgb_of(const Spectrum& spectrum) {
+    return {static_cast<float>(spectrum[0]), static_cast<float>(spectrum[1]),
+            static_cast<float>(spectrum[2])};
+}
+inline Spectrum spectrum_of(const Rgb& rgb) { return {{rgb[0], rgb[1], rgb[2]}}; }
+inline void add_to(Rgb& sum, const Spectrum& value) {
+    for (std::size_t b = 0; b < kBands; ++b) sum[b] += static_cast<float>(value[b]);
+}
+
+/// Of as many sides.
+inline void add_to(std::vector<Rgb>& sums, const std::vector<Rgb>& others) {
+    for (std::size_t side = 0; side < sums.size(); ++side) add_to(sums[side], spectrum_of(others[side]));
+}
+
+/// Keeps references to scene and caster. Immutable once made.
+struct PatchTransport : FirstShotPatches {
+    /// Both as FirstShotPatches.
+    PatchTransport(const Scene& scene, const RayCaster& caster, const PatchOptions& options);
+    PatchTransport(const Scene& scene, const RayCaster& caster, Patches patches,
+                   std::optional<FirstShotFactors> factors);
+
+    const Material& material_of(std::uint32_t patch) const {
+        return scene.material(patches.materials[patch]);
+    }
+    std::uint32_t side_towards(std::uint32_t patch, const Vec3& direction) const {
+        const bool front = dot(Vec3(patches.normals[patch]), direction) > 0;
+        return front ? patch : patches.other_side(patch);
+    }
+    bool reflects_alike(std::uint32_t patch) const { return glossy_number[patch] == kConstant; }
+
+    /// What first shot makes a side reflect, as a mean over the patch; nothing where it depends on the place.
+    Spectrum first_reflected(std::uint32_t side, const Vec3& out) const;
+    /// The other part: what depends on the place.
+    Spectrum first_reflected_at(std::uint32_t side, const Vec3& position, RandomKey key,
+                                const Vec3& out) const {
+        return first_shot.needs_position(side) ? first_shot.reflected(side, position, key, out) : Spectrum{};
+    }
+
+    VertexInterpolation interpolation{patches};
+    std::unique_ptr<Bundles> bundles = make_bundles(options.first_shot.shooting.backend, patch_caster);
+    double spacing_m = 0;  ///< of bundles' rays
+
+    static constexpr std::uint32_t kConstant = ~0u;
+    /// Per patch: its place in `glossy_patches`, or kConstant: it reflects alike in all directions.
+    std::vector<std::uint32_t> glossy_number;
+    std::vector<std::uint32_t> glossy_patches;
+    std::vector<Rgb> constant_brdf;     ///< per patch [1/sr]; 0 where it depends on direction
+    std::vector<Rgb> first_reflection;  ///< per side [cd/m2]; 0 where it depends on direction or place
+    std::vector<Rgb> emission;          ///< per patch, of its front; 0 where first shot stands for it
+    double mean_reflectance = 0;        ///< by area
+
+  private:
+    void describe_patches();
+    void add_reflection(std::uint32_t patch);
+    void add_emission(std::size_t light);
+};
+
+}  // namespace stilb

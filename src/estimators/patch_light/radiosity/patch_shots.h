@@ -1,0 +1,46 @@
+// What patches send to one another: form factors of single patches, by item buffers around their middles.
+//
+//     F_ij = (1/pi) sum over pixels p in P_j of cos(theta_p) dW_p                     [Cohen, Greenberg 1985]
+//
+// P_j are the pixels in which side j is seen from the middle of side i. The middle stands for all of the
+// patch: wrong where j is close to i against its size, in corners above all. Nothing is stored.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "estimators/patch_light/first_shot/factors.h"
+#include "patches/visibility/item_buffer.h"
+
+namespace stilb {
+
+struct FormFactor {
+    std::uint32_t side = 0;  ///< that receives
+    float share = 0;         ///< of the flux that is sent diffusely
+};
+
+/// Keeps a reference to the caster.
+class PatchShots {
+  public:
+    /// Throws InputError where the resolution is none (ItemBufferLayout) and where OpenGL is missing.
+    PatchShots(const PatchCaster& caster, const ShootingOptions& options);
+    ~PatchShots();
+
+    /// The form factors of each of `sides` to all that it sees, which add up to 1 in a closed scene. Rays
+    /// take all threads. Buffers are turned about the normal by an angle of the side's own: parallel to the
+    /// walls, all patches of a wall would have the same errors.
+    std::vector<std::vector<FormFactor>> from(std::span<const std::uint32_t> sides);
+
+    std::uint64_t rays_per_shot() const { return layout_.pixel_count(); }
+
+  private:
+    struct Shooters;
+
+    const PatchCaster& caster_;
+    ItemBufferLayout layout_;
+    std::vector<float> weights_;  ///< per pixel: its share of the flux
+    std::unique_ptr<Shooters> shooters_;
+};
+
+}  // namespace stilb

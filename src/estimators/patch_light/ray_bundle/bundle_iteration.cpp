@@ -1,0 +1,186 @@
+#include "estimators/patch_light/ray_bundle/bundle_iteration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "math/sample_stream.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// Numbers of a step: three for the frame, two for each axis' offset.
+constexpr unsigned kDimensions = 12;
+/// Points of the low-discrepancy sequence are used in a random order within blocks of so many: steps that
+/// follow one another must be independent of each other, or their product would be biased.
+constexpr std::uint64_t kShuffled = 256;
+enum Purpose : std::uint64_t { kPoints, kOrder };
+
+/// Uniform among all rotations [Shoemake 1992].
+Frame random_frame(double u1, double u2, double u3) {
+    const double a = std::sqrt(1 - u1), b = std::sqrt(u1);
+    const double x = a * std::sin(2 * kPi * u2), y = a * std::cos(2 * kPi * u2);
+    const double z = b * std::sin(2 * kPi * u3), w = b * std::cos(2 * kPi * u3);
+    return {{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+            {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+            {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}};
+}
+
+/// Where number `step` stands in the random order of its block.
+std::uint64_t shuffled(std::uint64_t step, RandomKey key) {
+    const std::uint64_t block = step / kShuffled;
+    std::array<std::uint16_t, kShuffled> order;
+    std::iota(order.begin(), order.end(), std::uint16_t{0});
+    for (std::size_t i = kShuffled - 1; i > 0; --i) {
+        const double u = unit_interval(random_block(key, block, i)[0]);
+        std::swap(order[i], order[static_cast<std::size_t>(u * static_cast<double>(i + 1))]);
+    }
+    return block * kShuffled + order[step % kShuffled];
+}
+
+/// With the axis as w.
+Frame frame_along(const Frame& frame, std::size_t axis) {
+    if (axis == 0) return frame;
+    return axis == 1 ? Frame{frame.v, frame.w, frame.u} : Frame{frame.w, frame.u, frame.v};
+}
+
+std::size_t axes_of(BundleDirections directions) { return directions == BundleDirections::frame ? 3 : 1; }
+
+/// Of each axis (theory 8).
+double weight_of(BundleDirections directions) {
+    switch (directions) {
+        case BundleDirections::single:
+            return 4 * kPi;
+        case BundleDirections::pair:
+            return 2 * kPi;
+        case BundleDirections::frame:
+            break;
+    }
+    return 2 * kPi / 3;
+}
+
+}  // namespace
+
+BundleIteration::BundleIteration(const PatchTransport& transport, RandomKey key)
+    : transport_(transport),
+      key_(key),
+      axes_(axes_of(transport.options.directions)),
+      weight_(weight_of(transport.options.directions)),
+      radiance_(2 * transport.patches.count()),
+      received_(radiance_.size()),
+      receiving_(radiance_.size()),
+      glossy_received_(2 * axes_ * transport.glossy_patches.size()),
+      glossy_receiving_(glossy_received_.size()) {}
+
+void BundleIteration::step() {
+    SampleStream stream(key_.derived(kPoints), shuffled(steps_++, key_.derived(kOrder)), kDimensions);
+    const auto [u1, u2] = stream.next_two();
+    const Frame frame = random_frame(u1, u2, stream.next());
+    std::ranges::fill(receiving_, Rgb{});
+    std::ranges::fill(glossy_receiving_, Rgb{});
+    radiate_constant();
+    for (std::size_t axis = 0; axis < axes_; ++axis) {
+        radiate_glossy(axis_of(frame, axis));
+        transfer(axis, {frame_along(frame, axis), transport_.spacing_m, stream.next_two()});
+    }
+    std::swap(received_, receiving_);
+    std::swap(glossy_received_, glossy_receiving_);
+    received_along_ = frame;
+}
+
+/// Step n lacks about r^n of the reflected light, where r is the mean reflectance; all from step m on,
+/// averaged over m steps, r^m / (m (1 - r)).
+std::uint64_t first_steps(const PatchTransport& transport) {
+    constexpr double most_missing = 1e-3;
+    constexpr std::uint64_t most_steps = 512;
+    const double r = transport.mean_reflectance;
+    std::uint64_t steps = 1;
+    while (steps < most_steps &&
+           std::pow(r, static_cast<double>(steps)) > most_missing * static_cast<double>(steps) * (1 - r)) {
+        ++steps;
+    }
+    return steps;
+}
+
+void BundleIteration::radiate_constant() {
+    const auto weight = static_cast<float>(weight_);
+    const std::size_t patches = transport_.patches.count();
+    for (std::size_t side = 0; side < radiance_.size(); ++side) {
+        const bool is_front = side < patches;
+        const std::size_t patch = is_front ? side : side - patches;
+        for (std::size_t b = 0; b < kBands; ++b) {
+            radiance_[side][b] = transport_.first_reflection[side][b] +
+                                 weight * transport_.constant_brdf[patch][b] * received_[side][b];
+            if (is_front) radiance_[side][b] += transport_.emission[patch][b];
+        }
+    }
+}
+
+void BundleIteration::radiate_glossy(const Vec3& axis) {
+    for (std::uint32_t patch : transport_.glossy_patches) {
+        for (const Vec3& out : {axis, -axis}) {
+            const std::uint32_t side = transport_.side_towards(patch, out);
+            Spectrum luminance = transport_.first_reflected(side, out) + reflected(side, out);
+            if (side == patch) luminance += spectrum_of(transport_.emission[patch]);
+            radiance_[side] = rgb_of(luminance);
+        }
+    }
+}
+
+void BundleIteration::transfer(std::size_t axis, const Bundle& bundle) {
+    const Patches& patches = transport_.patches;
+    const bool both_ways = transport_.options.directions != BundleDirections::single;
+    const Vec3& along = bundle.frame.w;
+    const double ray_area_m2 = bundle.spacing_m * bundle.spacing_m;
+    const auto luminance = [&](std::uint32_t side, const CrossedLine& line, std::size_t i, const Vec3& out) {
+        if (!transport_.first_shot.needs_position(side)) return radiance_[side];
+        const Vec3 position = line.origin + double{line.distances_m[i]} * along;
+        return rgb_of(spectrum_of(radiance_[side]) + transport_.first_reflected_at(side, position, {}, out));
+    };
+    transport_.bundles->cast(bundle, [&](const CrossedLines& lines) {
+        for (std::size_t n = 0; n < lines.count(); ++n) {
+            const CrossedLine line = lines.line(n);
+            for (std::size_t i = 0; i + 1 < line.sides.size(); ++i) {
+                const std::uint32_t from = patches.other_side(line.sides[i]), to = line.sides[i + 1];
+                receive(to, axis, luminance(from, line, i, along), ray_area_m2);
+                if (both_ways) receive(from, axis, luminance(to, line, i + 1, -along), ray_area_m2);
+            }
+            rays_ += line.sides.size();
+        }
+    });
+}
+
+void BundleIteration::receive(std::uint32_t side, std::size_t axis, const Rgb& luminance,
+                              double ray_area_m2) {
+    const std::uint32_t patch = transport_.patches.patch_of(side);
+    const std::uint32_t glossy = transport_.glossy_number[patch];
+    Rgb& sum = glossy == PatchTransport::kConstant ? receiving_[side]
+                                                   : glossy_receiving_[glossy_index(side, glossy, axis)];
+    const auto weight = static_cast<float>(ray_area_m2 / double{transport_.patches.areas_m2[patch]});
+    for (std::size_t b = 0; b < kBands; ++b) sum[b] += weight * luminance[b];
+}
+
+std::size_t BundleIteration::glossy_index(std::uint32_t side, std::uint32_t number, std::size_t axis) const {
+    const std::size_t back = transport_.patches.is_front(side) ? 0 : 1;
+    return (2 * std::size_t{number} + back) * axes_ + axis;
+}
+
+Spectrum BundleIteration::reflected(std::uint32_t side, const Vec3& out) const {
+    const std::uint32_t patch = transport_.patches.patch_of(side);
+    const std::uint32_t glossy = transport_.glossy_number[patch];
+    if (glossy == PatchTransport::kConstant) {
+        return spectrum_of(transport_.constant_brdf[patch]) * spectrum_of(received_[side]) * weight_;
+    }
+    const Material& material = transport_.material_of(patch);
+    const Frame frame = Frame::of_surface(transport_.patches.normal_of(side));
+    const Vec3 local_out = frame.to_local(out);
+    Spectrum luminance;
+    for_each_arrival(side, [&](const Vec3& in, const Spectrum& illuminance_lx) {
+        luminance += evaluate_brdf_per_sr(material, frame.to_local(in), local_out) * illuminance_lx;
+    });
+    return luminance;
+}
+
+}  // namespace stilb

@@ -1,0 +1,24 @@
+// Sides of patches that reflect the same luminance in all directions: what methods for diffuse scenes find.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "estimators/patch_light/patch_light.h"
+#include "estimators/patch_light/patch_transport.h"
+
+namespace stilb {
+
+class ReflectedSides final : public PatchLight {
+  public:
+    /// `cd_m2`: of every side.
+    explicit ReflectedSides(std::vector<Rgb> cd_m2) : cd_m2_(std::move(cd_m2)) {}
+
+    Spectrum reflected(std::uint32_t side, const Vec3&) const override { return spectrum_of(cd_m2_[side]); }
+    const std::vector<Rgb>& cd_m2() const { return cd_m2_; }
+
+  private:
+    std::vector<Rgb> cd_m2_;
+};
+
+}  // namespace stilb

@@ -1,0 +1,129 @@
+// Path tracing from every measuring point, with next-event estimation: the naive twin of local estimation.
+//
+//   E(x) = E_direct + integral over the hemisphere of L_r(y, y->x) cos(theta_x) dw        (theory 2, T.1b
+//   with k = 0)
+//
+// by one cosine-distributed ray and the path that it begins, for each sample and point by itself; luminance
+// by paths that begin along the line of sight. Finite variance for bounded BRDFs. Not made: light that leaves
+// a point-like source and meets a mirror or glass before anything else, but panes straight on. With first
+// shot, which is only taken where it is asked for, it is biased by the patches.
+#include "estimators/path/path.h"
+
+#include <algorithm>
+
+#include "estimators/path/flattened_paths.h"
+#include "transport/direct_light.h"
+#include "transport/receiver.h"
+
+namespace stilb {
+namespace {
+
+/// Paths that are traced together: enough to fill packets until most of them have ended.
+constexpr std::uint64_t kSideBySide = 256;
+
+class PathEstimator final : public Estimator {
+  public:
+    explicit PathEstimator(const EstimatorInput& input)
+        : scene_(input.scene),
+          caster_(input.caster),
+          max_reflections_(input.max_reflections),
+          paths_(scene_, caster_, input.patches),
+          known_part_(input.measurands.size()) {
+        for (std::uint32_t reading = 0; reading < input.measurands.size(); ++reading) {
+            add_reading(reading, input.measurands[reading]);
+        }
+    }
+
+    void run_batch(const Batch& batch, ReadingSums& sums) const override {
+        const std::uint64_t end = batch.first + batch.count;
+        for (std::uint64_t first = batch.first; first < end; first += kSideBySide) {
+            const Batch part{batch.key, first, std::min(kSideBySide, end - first)};
+            for (const Receiver& point : points_) sample_illuminance(point, part, sums);
+            for (const Sighting& sighting : sights_) sample_luminance(sighting, part, sums);
+        }
+    }
+
+    std::span<const Spectrum> known_part() const override { return known_part_; }
+    /// Enough for a first look at the error not to miss what few paths find.
+    std::uint64_t batch_granularity() const override { return 64; }
+    double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
+    std::vector<std::string> warnings() const override { return paths_.warnings(); }
+    std::optional<PatchReport> patch_report() const override { return paths_.report(); }
+
+  private:
+    /// The surface that a line of sight meets first, and the direction that it is seen along.
+    struct Sighting {
+        std::uint32_t reading = 0;
+        Hit hit;
+        Vec3 direction;
+    };
+
+    /// What is known of a reading without sampling: direct light of point-like sources at a point, emission
+    /// along a line of sight.
+    void add_reading(std::uint32_t reading, const Measurand& measurand) {
+        if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
+            points_.emplace_back(reading, *point, caster_);
+            known_part_[reading] = direct_from_points(points_.back(), caster_, paths_.lights);
+        } else if (const auto hit = first_surface(measurand, caster_)) {
+            sights_.push_back({reading, *hit, looking_direction(measurand)});
+            known_part_[reading] = paths_.lights.emitted_luminance(*hit);
+        }
+    }
+
+    void sample_illuminance(const Receiver& point, const Batch& batch, ReadingSums& sums) const {
+        const RandomKey key = batch.key.derived(point.reading());
+        std::vector<Ray> rays;
+        std::vector<SampleStream> streams;
+        std::vector<Spectrum> weights;
+        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
+            SampleStream stream(key, i);
+            sums.add(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream));
+            const auto [u1, u2] = stream.next_two();
+            const auto sample = point.sample(u1, u2);
+            if (!sample) continue;
+            rays.push_back({point.lifted(), sample->direction});
+            streams.push_back(stream);
+            weights.push_back(sample->weight);
+        }
+        std::vector<std::optional<Hit>> hits(rays.size());
+        caster_.closest(rays, Coherence::scattered, hits);
+        std::vector<Path> paths;
+        std::vector<Spectrum> weight_of_path;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (!hits[i]) continue;
+            paths.push_back({*hits[i], -rays[i].direction, streams[i], max_reflections_});
+            paths.back().lookout = kDirectIsKnown;
+            weight_of_path.push_back(weights[i]);
+        }
+        paths_.tracer.trace(paths, Coherence::scattered);
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            sums.add(point.reading(), weight_of_path[i] * paths[i].luminance_cd_m2);
+        }
+    }
+
+    void sample_luminance(const Sighting& sighting, const Batch& batch, ReadingSums& sums) const {
+        const RandomKey key = batch.key.derived(sighting.reading);
+        std::vector<Path> paths;
+        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
+            paths.push_back({sighting.hit, -sighting.direction, SampleStream(key, i), max_reflections_});
+        }
+        paths_.tracer.trace(paths, Coherence::coherent);
+        for (const Path& path : paths) sums.add(sighting.reading, path.luminance_cd_m2);
+    }
+
+    const Scene& scene_;
+    const RayCaster& caster_;
+    int max_reflections_;
+    FlattenedPaths paths_;
+    std::vector<Receiver> points_;
+    std::vector<Sighting> sights_;
+    std::vector<Spectrum> known_part_;
+};
+
+}  // namespace
+
+std::unique_ptr<Estimator> make_path_estimator(const EstimatorInput& input) {
+    return std::make_unique<PathEstimator>(input);
+}
+
+}  // namespace stilb

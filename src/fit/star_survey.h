@@ -1,0 +1,46 @@
+// In which directions from a centre a mesh is not star-shaped.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/radial_caster.h"
+#include "geometry/harmonics/parallel_grid.h"
+
+namespace stilb {
+
+/// A direction that meets the surface more than once.
+struct Fold {
+    Vec3 direction;
+    double depth = 0;  ///< from the outermost surface to the innermost
+};
+
+struct StarSurvey {
+    ParallelGrid grid;
+    std::vector<double> outermost;  ///< distances on the grid; kNoSurface where nothing is met
+    /// Shares of all directions.
+    double folded_share = 0, missed_share = 0;
+    /// The deepest first; at most kMostNamed, 10 degrees or more apart from each other.
+    std::vector<Fold> worst_folds;
+    /// Likewise, directions that meet nothing.
+    std::vector<Vec3> misses;
+
+    double share() const { return folded_share + missed_share; }
+};
+
+inline constexpr std::size_t kMostNamed = 3;
+
+/// Looks in some 200,000 directions, none of them on a gauss_grid(). A direction counts as folded where
+/// outermost and innermost surface are more than 1e-5 of `size` apart, so that doubled faces do not.
+StarSurvey survey(const RadialCaster& caster, const Vec3& center, double size);
+
+/// Of a unit vector.
+struct Angles {
+    double theta_deg = 0, phi_deg = 0;  ///< from +z, 0 to 180; from +x, 0 to 360
+};
+Angles angles_of(const Vec3& direction);
+
+/// "(0.1, 0.2, 0.97), theta 12.9, phi 63.4 degrees"
+std::string named_direction(const Vec3& direction);
+
+}  // namespace stilb

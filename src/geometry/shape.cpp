@@ -1,0 +1,143 @@
+#include "geometry/shape.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/bounds.h"
+#include "geometry/harmonics/area.h"
+#include "geometry/harmonics/cells.h"
+#include "geometry/harmonics/surface.h"
+
+namespace stilb {
+namespace {
+
+double area(const Mesh& mesh) {
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3& a = mesh.vertices[t[0]];
+        sum += length(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
+    }
+    return sum;
+}
+
+double area(const Rectangle& r) { return length(cross(r.edge_u, r.edge_v)); }
+
+double area(const Box& box) {
+    const Vec3 e = box.max - box.min;
+    return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
+}
+
+double area(const Sphere& s) { return 4 * std::numbers::pi * s.radius * s.radius; }
+
+double area(const Disk& d) { return std::numbers::pi * d.radius * d.radius; }
+
+double area(const Harmonics& h) { return h.scale * h.scale * h.area->total(); }
+
+Bounds bounds(const Mesh& mesh) {
+    Bounds all;
+    for (const Vec3& vertex : mesh.vertices) all.include(vertex);
+    return all;
+}
+Bounds bounds(const Rectangle& r) { return bounds(triangulated(r)); }
+Bounds bounds(const Box& box) { return {box.min, box.max}; }
+Bounds bounds(const Sphere& s) {
+    const Vec3 r{s.radius, s.radius, s.radius};
+    return {s.center - r, s.center + r};
+}
+
+Bounds bounds(const Disk& d) {
+    // The extent of a circle along an axis is its radius times the sine of the angle between axis and normal.
+    const auto extent = [&](double n) { return d.radius * std::sqrt(std::max(0.0, 1 - n * n)); };
+    const Vec3 e{extent(d.normal.x), extent(d.normal.y), extent(d.normal.z)};
+    return {d.center - e, d.center + e};
+}
+
+/// Of points so close together that it is little smaller than the true one.
+Bounds bounds(const Harmonics& h) {
+    constexpr int count = 4096;
+    Bounds all;
+    for (int i = 0; i < count; ++i) {  // a spiral over the sphere
+        const double z = 1 - (2 * i + 1.0) / count, radius = std::sqrt(1 - z * z);
+        const double angle = 2 * std::numbers::pi * i / std::numbers::phi;
+        all.include(h.point_towards({radius * std::cos(angle), radius * std::sin(angle), z}));
+    }
+    return all;
+}
+
+}  // namespace
+
+Bounds bounds_of(const Shape& shape) {
+    return std::visit([](const auto& s) { return bounds(s); }, shape);
+}
+
+double area_m2(const Shape& shape) {
+    return std::visit([](const auto& s) { return area(s); }, shape);
+}
+
+Mesh triangulated(const Rectangle& r) {
+    return {{r.corner, r.corner + r.edge_u, r.corner + r.edge_u + r.edge_v, r.corner + r.edge_v},
+            {{0, 1, 2}, {0, 2, 3}}};
+}
+
+Mesh triangulated(const Box& box) {
+    Mesh mesh;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        mesh.vertices.push_back({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                 corner & 4 ? box.max.z : box.min.z});
+    }
+    // Corner index: bit 0 for x, bit 1 for y, bit 2 for z; each face counterclockwise from outside.
+    constexpr std::array<std::array<std::uint32_t, 4>, 6> faces{
+        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+    for (const auto& f : faces) {
+        mesh.triangles.push_back({f[0], f[1], f[2]});
+        mesh.triangles.push_back({f[0], f[2], f[3]});
+    }
+    return mesh;
+}
+
+Mesh inscribed_icosahedron(const Sphere& sphere) {
+    constexpr double g = std::numbers::phi;
+    constexpr std::array<Vec3, 12> corners{{{-1, g, 0},
+                                            {1, g, 0},
+                                            {-1, -g, 0},
+                                            {1, -g, 0},
+                                            {0, -1, g},
+                                            {0, 1, g},
+                                            {0, -1, -g},
+                                            {0, 1, -g},
+                                            {g, 0, -1},
+                                            {g, 0, 1},
+                                            {-g, 0, -1},
+                                            {-g, 0, 1}}};
+    Mesh mesh;
+    for (const Vec3& corner : corners) {
+        mesh.vertices.push_back(sphere.center + sphere.radius * normalized(corner));
+    }
+    mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    return mesh;
+}
+
+Mesh inscribed_icosahedron(const Harmonics& harmonics) {
+    Mesh mesh = inscribed_icosahedron(Sphere{});
+    for (Vec3& vertex : mesh.vertices) vertex = harmonics.point_towards(harmonics.axes.to_world(vertex));
+    return mesh;
+}
+
+Harmonics::Harmonics(HarmonicSurface own)
+    : surface(std::make_shared<const HarmonicSurface>(std::move(own))),
+      cells(std::make_shared<const HarmonicCells>(*surface)),
+      area(std::make_shared<const HarmonicArea>(cells)) {}
+
+Vec3 Harmonics::point_towards(const Vec3& direction) const {
+    const Vec3 own = normalized(axes.to_local(direction));
+    return to_world(surface->radius().at(own) * own);
+}
+
+Vec3 Harmonics::normal_towards(const Vec3& direction) const {
+    return axes.to_world(surface->normal_at(normalized(axes.to_local(direction))));
+}
+
+}  // namespace stilb

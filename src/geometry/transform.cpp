@@ -1,0 +1,93 @@
+#include "geometry/transform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace stilb {
+namespace {
+
+/// What a similarity multiplies lengths by.
+double similarity_scale(const Transform& t) { return std::cbrt(std::abs(t.determinant())); }
+
+bool keeps_axes(const Transform& t) {
+    return t.x_axis.y == 0 && t.x_axis.z == 0 && t.y_axis.x == 0 && t.y_axis.z == 0 && t.z_axis.x == 0 &&
+           t.z_axis.y == 0;
+}
+
+Shape moved(const Mesh& mesh, const Transform& t) {
+    Mesh result = mesh;
+    for (Vec3& vertex : result.vertices) vertex = t.point(vertex);
+    if (t.determinant() < 0) {
+        for (Triangle& triangle : result.triangles) std::swap(triangle[1], triangle[2]);
+    }
+    return result;
+}
+
+Shape moved(const Rectangle& r, const Transform& t) {
+    Rectangle result{t.point(r.corner), t.direction(r.edge_u), t.direction(r.edge_v)};
+    if (t.determinant() < 0) std::swap(result.edge_u, result.edge_v);
+    return result;
+}
+
+Shape moved(const Box& box, const Transform& t) {
+    if (!keeps_axes(t)) return moved(triangulated(box), t);
+    const Vec3 a = t.point(box.min), b = t.point(box.max);
+    return Box{{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+               {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
+}
+
+Shape moved(const Sphere& s, const Transform& t) {
+    return Sphere{t.point(s.center), s.radius * similarity_scale(t)};
+}
+
+Shape moved(const Disk& d, const Transform& t) {
+    return Disk{t.point(d.center), normalized(t.direction(d.normal)), d.radius * similarity_scale(t)};
+}
+
+Shape moved(const Harmonics& h, const Transform& t) {
+    const double scale = similarity_scale(t);
+    const auto turned = [&](const Vec3& axis) { return t.direction(axis) / scale; };
+    Harmonics result = h;
+    result.center = t.point(h.center);
+    result.scale *= scale;
+    result.axes = {turned(h.axes.u), turned(h.axes.v), turned(h.axes.w)};
+    return result;
+}
+
+}  // namespace
+
+Transform Transform::scaling(double factor) { return {{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}, {}}; }
+
+Transform Transform::rotation(const Vec3& unit_axis, double angle_deg) {
+    const double angle = angle_deg * std::numbers::pi / 180;
+    const double c = std::cos(angle), s = std::sin(angle);
+    const auto turned = [&](const Vec3& v) {
+        return c * v + s * cross(unit_axis, v) + (1 - c) * dot(unit_axis, v) * unit_axis;
+    };
+    return {turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1}), {}};
+}
+
+double Transform::regularity() const {
+    const double volume = length(x_axis) * length(y_axis) * length(z_axis);
+    return volume > 0 ? std::abs(determinant()) / volume : 0;
+}
+
+bool Transform::is_similarity() const {
+    constexpr double tolerance = 1e-6;
+    const double x = length(x_axis), y = length(y_axis), z = length(z_axis);
+    return std::abs(x - y) <= tolerance * x && std::abs(x - z) <= tolerance * x &&
+           regularity() >= 1 - tolerance;
+}
+
+Transform compose(const Transform& second, const Transform& first) {
+    return {second.direction(first.x_axis), second.direction(first.y_axis), second.direction(first.z_axis),
+            second.point(first.translation)};
+}
+
+Shape transformed(const Shape& shape, const Transform& transform) {
+    return std::visit([&](const auto& s) { return moved(s, transform); }, shape);
+}
+
+}  // namespace stilb

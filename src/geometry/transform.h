@@ -1,0 +1,36 @@
+// Affine transforms of objects.
+#pragma once
+
+#include "geometry/shape.h"
+
+namespace stilb {
+
+/// p -> x_axis p.x + y_axis p.y + z_axis p.z + translation.
+struct Transform {
+    Vec3 x_axis{1, 0, 0}, y_axis{0, 1, 0}, z_axis{0, 0, 1};
+    Vec3 translation;
+
+    bool operator==(const Transform&) const = default;
+
+    static Transform scaling(double factor);
+    /// Right-handed about `unit_axis` through the origin.
+    static Transform rotation(const Vec3& unit_axis, double angle_deg);
+
+    Vec3 direction(const Vec3& d) const { return d.x * x_axis + d.y * y_axis + d.z * z_axis; }
+    Vec3 point(const Vec3& p) const { return direction(p) + translation; }
+    /// Volumes are multiplied by this; negative for mirrored transforms.
+    double determinant() const { return dot(x_axis, cross(y_axis, z_axis)); }
+    /// |determinant| over the product of the axes' lengths, 0 to 1; 0 where space is squashed flat.
+    double regularity() const;
+    /// Angles and ratios of lengths stay as they are.
+    bool is_similarity() const;
+};
+
+/// First `first`, then `second`.
+Transform compose(const Transform& second, const Transform& first);
+
+/// The transformed shape; mirrored transforms keep fronts in front. Boxes become meshes unless their axes
+/// stay put. For spheres, disks and harmonics the caller makes sure that the transform is a similarity.
+Shape transformed(const Shape& shape, const Transform& transform);
+
+}  // namespace stilb

@@ -1,0 +1,331 @@
+// Stanford PLY, text and binary. [Turk 1994, The PLY polygon file format]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "base/error.h"
+#include "io/mesh/mesh_builder.h"
+#include "io/mesh/ply_header.h"
+#include "io/text/text.h"
+
+namespace stilb {
+namespace {
+
+/// Where the reader stands, for messages.
+struct Place {
+    const std::string& file;
+    const PlyElement* element = nullptr;
+    std::uint64_t row = 0;
+    std::size_t line = 0;  ///< 0 in binary files
+
+    [[noreturn]] void fail(const std::string& message) const {
+        throw InputError(
+            fmt::format("element {}, row {} of {}: {}", element->name, row + 1, element->count, message),
+            {file, line});
+    }
+};
+
+/// Whether a value of a body can count or number something: no type that PLY has for that goes further.
+bool is_index(double value) {
+    return value >= 0 && value <= std::numeric_limits<std::uint32_t>::max() && value == std::floor(value);
+}
+
+/// Values written as text: each row of an element stands on a line of its own.
+class TextBody {
+  public:
+    TextBody(const PlyHeader& header, Place& place) : lines_(header.body, header.body_line), place_(place) {}
+
+    std::string_view rest() const { return lines_.rest(); }
+    /// The fewest bytes that a row's part can take: a digit and a blank or line end.
+    static std::size_t least_size(const PlyProperty&) { return 2; }
+
+    void begin_row() {
+        do {
+            if (!lines_.next()) place_.fail("the file ends too early: it is cut off, or the count is wrong");
+            row_ = lines_.line();
+            place_.line = lines_.number();
+        } while (row_.find_first_not_of(" \t") == row_.npos);
+    }
+    void end_row() {
+        const std::string_view word = next_word(row_);
+        if (word.empty()) return;
+        place_.fail(
+            fmt::format("{} follows the last value; each row needs a line of its own", in_quotes(word)));
+    }
+
+    double read(PlyScalar) {
+        const std::string_view word = next_value();
+        const auto value = parse_number(word);
+        if (!value) place_.fail(fmt::format("{} stands where a finite number must be", in_quotes(word)));
+        return *value;
+    }
+    void skip(PlyScalar, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) next_value();
+    }
+
+  private:
+    std::string_view next_value() {
+        const std::string_view word = next_word(row_);
+        if (word.empty())
+            place_.fail("the line ends too early; it needs all values that the header declares");
+        return word;
+    }
+
+    TextLines lines_;
+    Place& place_;
+    std::string_view row_;  // what is left of it
+};
+
+template <std::endian order>
+class BinaryBody {
+  public:
+    BinaryBody(const PlyHeader& header, const Place& place) : rest_(header.body), place_(place) {}
+
+    std::string_view rest() const { return rest_; }
+    static std::size_t least_size(const PlyProperty& property) {
+        return size_of(property.count_type.value_or(property.type));
+    }
+
+    void begin_row() {}
+    void end_row() {}
+
+    double read(PlyScalar scalar) {
+        switch (scalar) {
+            case PlyScalar::int8:
+                return take<std::int8_t>();
+            case PlyScalar::uint8:
+                return take<std::uint8_t>();
+            case PlyScalar::int16:
+                return take<std::int16_t>();
+            case PlyScalar::uint16:
+                return take<std::uint16_t>();
+            case PlyScalar::int32:
+                return take<std::int32_t>();
+            case PlyScalar::uint32:
+                return take<std::uint32_t>();
+            case PlyScalar::float32:
+                return take<float>();
+            case PlyScalar::float64:
+                return take<double>();
+        }
+        return std::numeric_limits<double>::quiet_NaN();  // not reached: all scalars are above
+    }
+    void skip(PlyScalar scalar, std::size_t count) {
+        if (count > rest_.size() / size_of(scalar)) fail_short();
+        rest_.remove_prefix(count * size_of(scalar));
+    }
+
+  private:
+    [[noreturn]] void fail_short() const {
+        place_.fail("the file ends too early: it is cut off, or the count is wrong");
+    }
+
+    template <class Number>
+    Number take() {
+        if (rest_.size() < sizeof(Number)) fail_short();
+        std::array<char, sizeof(Number)> bytes;
+        std::copy_n(rest_.begin(), bytes.size(), bytes.begin());
+        if constexpr (order != std::endian::native) std::reverse(bytes.begin(), bytes.end());
+        rest_.remove_prefix(bytes.size());
+        return std::bit_cast<Number>(bytes);
+    }
+
+    std::string_view rest_;
+    const Place& place_;
+};
+
+template <class Body>
+class PlyReader {
+  public:
+    PlyReader(const PlyHeader& header, const std::string& name)
+        : header_(header), place_{name}, body_(header, place_) {}
+
+    MeshFile read() && {
+        for (const PlyElement& element : header_.elements) {
+            place_.element = &element;
+            check_count(element);
+            if (element.name == "vertex") {
+                read_vertices(element);
+            } else if (element.name == "face") {
+                read_lists(element, [this] { add_face(); });
+            } else if (element.name == "tristrips") {
+                read_lists(element, [this] { add_strips(); });
+            } else {
+                read_rows(
+                    element, [&](std::size_t i) { skip(element.properties[i]); }, [] {});
+            }
+        }
+        check_end();
+        return std::move(builder_).finish(
+            place_.file, "a PLY file needs an element vertex and an element face (or tristrips)");
+    }
+
+  private:
+    [[noreturn]] void fail_declaration(const PlyElement& element, const std::string& message) const {
+        throw InputError(fmt::format("the element {} {}", element.name, message),
+                         {place_.file, element.line});
+    }
+
+    /// A count that the file cannot hold must become neither an allocation nor a loop.
+    void check_count(const PlyElement& element) const {
+        if (element.count == 0) return;
+        if (element.properties.empty()) fail_declaration(element, "has rows but no property; it needs one");
+        std::size_t row_size = 0;
+        for (const PlyProperty& property : element.properties) row_size += Body::least_size(property);
+        const std::size_t bytes_left =
+            body_.rest().size() + 1;  // the last line of a text may do without its end
+        if (element.count > bytes_left / row_size) {
+            fail_declaration(element,
+                             fmt::format("is to have {} rows of at least {} bytes, but {} bytes are left; "
+                                         "the count is wrong or the file is cut off",
+                                         element.count, row_size, body_.rest().size()));
+        }
+    }
+
+    void check_end() const {
+        const std::string_view rest = body_.rest();
+        if (rest.find_first_not_of(std::string_view("\r\n\t \0", 5)) == rest.npos) return;
+        throw InputError(
+            fmt::format("{} bytes follow the last row that the header declares; its counts are wrong "
+                        "or the file is damaged",
+                        rest.size()),
+            {place_.file});
+    }
+
+    /// `read_property(i)` takes a row's values of property i off the body; `use_row()` is called at the row's
+    /// end.
+    template <class ReadProperty, class UseRow>
+    void read_rows(const PlyElement& element, ReadProperty read_property, UseRow use_row) {
+        for (place_.row = 0; place_.row < element.count; ++place_.row) {
+            body_.begin_row();
+            for (std::size_t i = 0; i < element.properties.size(); ++i) read_property(i);
+            body_.end_row();
+            use_row();
+        }
+    }
+
+    void skip(const PlyProperty& property) {
+        body_.skip(property.type, property.is_list() ? read_length(property) : 1);
+    }
+
+    std::size_t read_length(const PlyProperty& list) {
+        const double length = body_.read(*list.count_type);
+        if (!is_index(length)) {
+            place_.fail(fmt::format("the list {} has the length {}; it must be a whole number, 0 or more",
+                                    list.name, length));
+        }
+        return static_cast<std::size_t>(length);
+    }
+
+    void read_vertices(const PlyElement& element) {
+        constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
+        std::array<double, 3> position{};
+        std::vector<double*> targets(element.properties.size(), nullptr);  // null: to be skipped
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto has_name = [&](const PlyProperty& p) { return p.name == kAxes[axis] && !p.is_list(); };
+            const auto found = std::find_if(element.properties.begin(), element.properties.end(), has_name);
+            if (found == element.properties.end())
+                fail_declaration(element,
+                                 fmt::format("has no property {}; it needs x, y and z", kAxes[axis]));
+            targets[static_cast<std::size_t>(found - element.properties.begin())] = &position[axis];
+        }
+        const auto read_property = [&](std::size_t i) {
+            const PlyProperty& property = element.properties[i];
+            if (targets[i] == nullptr) return skip(property);
+            const double value = body_.read(property.type);
+            if (!is_coordinate(value)) {
+                place_.fail(fmt::format("{} is {}; it must be a finite number, at most 1e30 in size",
+                                        property.name, value));
+            }
+            *targets[i] = value;
+        };
+        builder_.reserve_vertices(element.count);
+        read_rows(element, read_property, [&] {
+            builder_.add_vertex({position[0], position[1], position[2]});
+        });
+    }
+
+    /// Rows with a list of vertex numbers, which `use_list()` finds in list_.
+    template <class UseList>
+    void read_lists(const PlyElement& element, UseList use_list) {
+        const auto is_vertex_list = [](const PlyProperty& p) {
+            return p.is_list() && (p.name == "vertex_indices" || p.name == "vertex_index");
+        };
+        const auto found = std::find_if(element.properties.begin(), element.properties.end(), is_vertex_list);
+        if (found == element.properties.end()) {
+            fail_declaration(element,
+                             "has no list of vertices; it needs: property list uchar int vertex_indices");
+        }
+        if (element.count > 0 && builder_.vertex_count() == 0)
+            fail_declaration(element, "stands before any vertex; the element vertex must come first");
+        const auto read_property = [&](std::size_t i) {
+            const PlyProperty& property = element.properties[i];
+            if (&property != &*found) return skip(property);
+            list_.clear();
+            for (std::size_t left = read_length(property); left > 0; --left)
+                list_.push_back(body_.read(property.type));
+        };
+        read_rows(element, read_property, use_list);
+    }
+
+    void add_face() {
+        if (list_.size() < 3)
+            place_.fail(fmt::format("the face has {} corners; it needs three or more", list_.size()));
+        corners_.clear();
+        for (const double number : list_) corners_.push_back(vertex_index(number));
+        builder_.add_polygon(corners_);
+    }
+
+    /// Strips, one after the other with -1 between: each corner makes a triangle with the two before it, and
+    /// every second triangle of a strip runs the other way round.
+    void add_strips() {
+        corners_.clear();
+        for (const double number : list_) {
+            if (number == -1) {
+                corners_.clear();
+                continue;
+            }
+            corners_.push_back(vertex_index(number));
+            const std::size_t count = corners_.size();
+            if (count < 3) continue;
+            const bool is_turned = count % 2 == 0;
+            builder_.add_triangle({corners_[count - (is_turned ? 2 : 3)],
+                                   corners_[count - (is_turned ? 3 : 2)], corners_[count - 1]});
+        }
+    }
+
+    std::uint32_t vertex_index(double number) const {
+        const auto last = static_cast<double>(builder_.vertex_count() - 1);
+        if (!is_index(number) || number > last)
+            place_.fail(
+                fmt::format("the vertex number is {}; it must be a whole number from 0 to {}", number, last));
+        return static_cast<std::uint32_t>(number);
+    }
+
+    const PlyHeader& header_;
+    Place place_;
+    Body body_;
+    MeshBuilder builder_;
+    std::vector<double> list_;
+    std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace
+
+MeshFile read_ply(std::string_view content, const std::string& name) {
+    const PlyHeader header = read_ply_header(content, name);
+    switch (header.format) {
+        case PlyFormat::ascii:
+            return PlyReader<TextBody>(header, name).read();
+        case PlyFormat::binary_little_endian:
+            return PlyReader<BinaryBody<std::endian::little>>(header, name).read();
+        case PlyFormat::binary_big_endian:
+            break;
+    }
+    return PlyReader<BinaryBody<std::endian::big>>(header, name).read();
+}
+
+}  // namespace stilb

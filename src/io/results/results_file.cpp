@@ -1,0 +1,163 @@
+#include "io/results/results_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/vec.h"
+#include "io/text/text.h"
+
+namespace stilb {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// A JSON value and where it stands ("sensors[2].count"), so that every message can say it.
+class Node {
+  public:
+    Node(const Json& json, std::string place, const std::string& file)
+        : json_(json), place_(std::move(place)), file_(file) {}
+
+    [[noreturn]] void fail(const std::string& expected) const {
+        throw InputError(
+            fmt::format("{} is {} (not what 'stilb measure --json' writes). It should be {}.",
+                        place_.empty() ? "the document" : "'" + place_ + "'", json_.type_name(), expected),
+            {file_});
+    }
+
+    bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+
+    Node member(const char* key) const {
+        if (!json_.is_object()) fail("an object");
+        const std::string place = place_.empty() ? key : place_ + "." + key;
+        const auto found = json_.find(key);
+        if (found == json_.end()) {
+            throw InputError(
+                fmt::format("'{}' is missing (results of 'stilb measure --json' have it).", place), {file_});
+        }
+        return {*found, place, file_};
+    }
+
+    std::size_t size() const {
+        if (!json_.is_array()) fail("an array");
+        return json_.size();
+    }
+    Node element(std::size_t index) const {
+        if (!json_.is_array() || index >= json_.size())
+            fail(fmt::format("an array of {} or more", index + 1));
+        return {json_[index], fmt::format("{}[{}]", place_, index), file_};
+    }
+
+    std::string text() const {
+        if (!json_.is_string()) fail("a string");
+        return json_.get<std::string>();
+    }
+    double number() const {
+        if (!json_.is_number()) fail("a number");
+        return json_.get<double>();
+    }
+    double number_or_none() const { return json_.is_null() ? kNone : number(); }
+    int positive_count() const {
+        if (!json_.is_number_integer()) fail("a whole number");
+        const auto count = json_.get<std::int64_t>();
+        if (count < 1 || count > std::numeric_limits<int>::max()) fail("a count of 1 or more");
+        return static_cast<int>(count);
+    }
+    Vec3 point() const { return {element(0).number(), element(1).number(), element(2).number()}; }
+
+  private:
+    const Json& json_;
+    std::string place_;
+    const std::string& file_;
+};
+
+/// Length of `count` cells whose centres' first and last lie `span_m` apart; a single cell's is `cell_m`.
+double extent_of(double span_m, int count, double cell_m) {
+    return count > 1 ? span_m * count / (count - 1) : cell_m;
+}
+
+void read_size(const Node& values, MeasuredGrid& grid) {
+    const int nu = grid.count[0], nv = grid.count[1];
+    const Vec3 first = values.element(0).member("position").point();
+    const auto at = [&](int u, int v) {
+        return values
+            .element(static_cast<std::size_t>(v) * static_cast<std::size_t>(nu) + static_cast<std::size_t>(u))
+            .member("position")
+            .point();
+    };
+    const double span_u = length(at(nu - 1, 0) - first);
+    const double span_v = length(at(0, nv - 1) - first);
+    // A row of single cells is taken for a row of squares.
+    grid.width_m = extent_of(span_u, nu, nv > 1 ? span_v / (nv - 1) : 0);
+    grid.height_m = extent_of(span_v, nv, nu > 1 ? span_u / (nu - 1) : 0);
+}
+
+MeasuredGrid read_grid(const Node& sensor) {
+    MeasuredGrid grid;
+    grid.name = sensor.member("name").text();
+    grid.quantity = sensor.member("quantity").text();
+    grid.unit = sensor.member("unit").text();
+    const Node count = sensor.member("count");
+    grid.count = {count.element(0).positive_count(), count.element(1).positive_count()};
+    const Node values = sensor.member("values");
+    const auto [nu, nv] = grid.count;
+    if (values.size() != static_cast<std::size_t>(nu) * static_cast<std::size_t>(nv)) {
+        values.fail(fmt::format("of {} x {} values", nu, nv));
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        grid.values.push_back(values.element(i).member("value").number_or_none());
+    }
+    read_size(values, grid);
+    const Node summary = sensor.member("summary");
+    grid.summary = {summary.member("mean").number_or_none(), summary.member("minimum").number_or_none(),
+                    summary.member("maximum").number_or_none(),
+                    summary.member("uniformity").number_or_none()};
+    return grid;
+}
+
+Json parse_json(std::string_view content, const std::string& name) {
+    try {
+        return Json::parse(content);
+    } catch (const Json::parse_error& error) {
+        const std::size_t end = std::min(error.byte, content.size());
+        const auto line =
+            1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+        throw InputError("not JSON, so not results. Give a file written by 'stilb measure SCENE --json'.",
+                         {name, static_cast<std::size_t>(line)});
+    } catch (const Json::out_of_range& error) {
+        throw InputError("a number is too large for a double. Give a file written by 'stilb measure --json'.",
+                         {name});
+    }
+}
+
+}  // namespace
+
+ResultsFile read_results(std::string_view content, const std::string& name) {
+    const Json json = parse_json(content, name);
+    const Node root(json, "", name);
+    if (!root.has("stilb")) {
+        throw InputError(
+            "JSON, but not results (there is no 'stilb'). Give a file written by 'stilb measure "
+            "SCENE --json'.",
+            {name});
+    }
+    ResultsFile results{root.member("scene").text(), {}};
+    const Node sensors = root.member("sensors");
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+        if (sensors.element(i).member("type").text() == "grid")
+            results.grids.push_back(read_grid(sensors.element(i)));
+    }
+    return results;
+}
+
+ResultsFile read_results_file(const std::filesystem::path& path) {
+    return read_results(read_whole_file(path), path.string());
+}
+
+}  // namespace stilb

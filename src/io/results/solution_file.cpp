@@ -1,0 +1,225 @@
+#include "io/results/solution_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "io/text/content_hash.h"
+#include "io/text/text.h"
+#include "io/text/write_file.h"
+
+namespace stilb {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
+
+constexpr std::array<char, 8> kMagic{'S', 'T', 'I', 'L', 'B', 'S', 'O', 'L'};
+constexpr std::uint32_t kVersion = 1;
+/// Magic, version, size and hash.
+constexpr std::size_t kHeaderSize = kMagic.size() + 4 + 8 + 8;
+
+/// Numbers, or structs of numbers of one size, which have no gaps.
+template <typename T>
+constexpr bool kIsPlain = std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0;
+
+class ByteWriter {
+  public:
+    template <typename T>
+    void add(const T& number) {
+        static_assert(kIsPlain<T>);
+        bytes_.append(reinterpret_cast<const char*>(&number), sizeof number);
+    }
+    template <typename List>
+    void add_list(const List& list) {
+        using T = std::remove_cvref_t<decltype(*std::data(list))>;
+        static_assert(kIsPlain<T> || std::is_same_v<T, char>);
+        add(static_cast<std::uint64_t>(std::size(list)));
+        bytes_.append(reinterpret_cast<const char*>(std::data(list)), std::size(list) * sizeof(T));
+    }
+    std::string take() { return std::move(bytes_); }
+
+  private:
+    std::string bytes_;
+};
+
+class ByteReader {
+  public:
+    /// `first`: the number of the first byte in the file, for messages.
+    ByteReader(std::string_view bytes, std::size_t first, const std::string& name)
+        : rest_(bytes), position_(first), name_(name) {}
+
+    template <typename T>
+    T take(std::string_view what) {
+        static_assert(kIsPlain<T>);
+        if (rest_.size() < sizeof(T)) fail(fmt::format("the file ends before {}", what));
+        T number;
+        std::memcpy(&number, rest_.data(), sizeof number);
+        skip(sizeof number);
+        return number;
+    }
+    /// Takes memory only for what is in the file.
+    template <typename List>
+    List take_list(std::string_view what) {
+        using T = typename List::value_type;
+        static_assert(kIsPlain<T> || std::is_same_v<T, char>);
+        const auto count = take<std::uint64_t>(what);
+        if (count > rest_.size() / sizeof(T)) {
+            fail(fmt::format("{} should be {} in number, and only {} bytes are left", what, count,
+                             rest_.size()));
+        }
+        List list(static_cast<std::size_t>(count), T{});
+        if (count > 0) std::memcpy(list.data(), rest_.data(), list.size() * sizeof(T));
+        skip(list.size() * sizeof(T));
+        return list;
+    }
+    void expect_end() const {
+        if (!rest_.empty()) fail(fmt::format("{} bytes too many", rest_.size()));
+    }
+    [[noreturn]] void fail(const std::string& message) const {
+        throw InputError(fmt::format("damaged at byte {}: {}. Solve the scene again.", position_, message),
+                         {name_});
+    }
+
+  private:
+    void skip(std::size_t count) {
+        rest_.remove_prefix(count);
+        position_ += count;
+    }
+
+    std::string_view rest_;
+    std::size_t position_;
+    const std::string& name_;
+};
+
+void write_patches(const Patches& patches, ByteWriter& bytes) {
+    bytes.add(patches.center);
+    bytes.add_list(patches.vertices);
+    bytes.add_list(patches.corners);
+    bytes.add_list(patches.normals);
+    bytes.add_list(patches.areas_m2);
+    bytes.add_list(patches.materials);
+    bytes.add_list(patches.first_of_object);
+}
+
+Patches read_patches(ByteReader& bytes) {
+    Patches patches;
+    patches.center = bytes.take<Vec3>("the patches' centre");
+    patches.vertices = bytes.take_list<std::vector<Float3>>("the vertices");
+    patches.corners = bytes.take_list<std::vector<Triangle>>("the patches' corners");
+    patches.normals = bytes.take_list<std::vector<Float3>>("the patches' normals");
+    patches.areas_m2 = bytes.take_list<std::vector<float>>("the patches' areas");
+    patches.materials = bytes.take_list<std::vector<MaterialId>>("the patches' materials");
+    patches.first_of_object = bytes.take_list<std::vector<std::uint32_t>>("the objects' first patches");
+    return patches;
+}
+
+std::string body_of(const StoredSolution& stored) {
+    const PatchSolution& solution = stored.solution;
+    ByteWriter bytes;
+    bytes.add_list(stored.version);
+    bytes.add_list(stored.scene);
+    bytes.add_list(stored.light_hash);
+    bytes.add(stored.seed);
+    bytes.add(stored.steps);
+    bytes.add(stored.attained_error);
+    write_patches(solution.patches, bytes);
+    bytes.add(static_cast<std::uint32_t>(solution.factors ? 1 : 0));
+    if (solution.factors) {
+        bytes.add_list(solution.factors->rows());
+        bytes.add_list(solution.factors->all());
+    }
+    bytes.add(static_cast<std::uint32_t>(solution.degree));
+    bytes.add_list(solution.lit_sides);
+    bytes.add(static_cast<std::uint32_t>(solution.replicates.size()));
+    for (const std::vector<Rgb>& terms : solution.replicates) bytes.add_list(terms);
+    return bytes.take();
+}
+
+StoredSolution read_body(ByteReader& bytes) {
+    StoredSolution stored;
+    stored.version = bytes.take_list<std::string>("Stilb's version");
+    stored.scene = bytes.take_list<std::string>("the scene's file");
+    stored.light_hash = bytes.take_list<std::string>("the scene's hash");
+    stored.seed = bytes.take<std::uint64_t>("the seed");
+    stored.steps = bytes.take<std::uint64_t>("the steps");
+    stored.attained_error = bytes.take<double>("the error");
+    PatchSolution& solution = stored.solution;
+    solution.patches = read_patches(bytes);
+    const auto first_shot = bytes.take<std::uint32_t>("first shot");
+    if (first_shot > 1) bytes.fail(fmt::format("first shot is {}, and 0 and 1 are known", first_shot));
+    if (first_shot == 1) {
+        auto rows = bytes.take_list<std::vector<std::uint32_t>>("the rows of first shot");
+        auto factors = bytes.take_list<std::vector<FirstShotFactors::Factor>>("the factors of first shot");
+        solution.factors.emplace(std::move(rows), std::move(factors));
+    }
+    solution.degree = static_cast<int>(bytes.take<std::uint32_t>("the degree"));
+    solution.lit_sides = bytes.take_list<std::vector<std::uint32_t>>("the sides with light");
+    const auto replicates = bytes.take<std::uint32_t>("the number of replicates");
+    for (std::uint32_t r = 0; r < replicates; ++r)
+        solution.replicates.push_back(bytes.take_list<std::vector<Rgb>>("the light"));
+    bytes.expect_end();
+    return stored;
+}
+
+}  // namespace
+
+std::string solution_header(std::string_view body) {
+    ByteWriter bytes;
+    bytes.add(kMagic);
+    bytes.add(kVersion);
+    bytes.add(static_cast<std::uint64_t>(kHeaderSize + body.size()));
+    bytes.add(hash_of(body));
+    return bytes.take();
+}
+
+std::string to_bytes(const StoredSolution& stored) {
+    const std::string body = body_of(stored);
+    return solution_header(body) + body;
+}
+
+StoredSolution read_solution(std::string_view bytes, const std::string& name) {
+    const auto fail = [&](const std::string& message) { throw InputError(message, {name}); };
+    if (!bytes.starts_with(std::string_view(kMagic.data(), kMagic.size()))) {
+        fail("not a solution: it does not begin with STILBSOL. `stilb solve` writes them.");
+    }
+    ByteReader header(bytes.substr(kMagic.size()), kMagic.size(), name);
+    const auto version = header.take<std::uint32_t>("the version");
+    if (version != kVersion) {
+        fail(
+            fmt::format("a solution of version {}, and this is Stilb {}, which reads version {}. Solve the "
+                        "scene again.",
+                        version, STILB_VERSION, kVersion));
+    }
+    const auto size = header.take<std::uint64_t>("the size");
+    if (size != bytes.size()) {
+        fail(
+            fmt::format("the file has {} bytes where it should have {}: it was cut off or added to. Copy it "
+                        "anew, or solve the scene again.",
+                        bytes.size(), size));
+    }
+    const auto hash = header.take<std::uint64_t>("the hash");
+    const std::string_view body = bytes.substr(kHeaderSize);
+    if (hash != hash_of(body)) {
+        fail(
+            "damaged: its contents do not have the hash that it states. Copy it anew, or solve the scene "
+            "again.");
+    }
+    ByteReader reader(body, kHeaderSize, name);
+    return read_body(reader);
+}
+
+StoredSolution read_solution_file(const std::filesystem::path& path) {
+    return read_solution(read_whole_file(path), path.string());
+}
+
+void write_solution_file(const StoredSolution& stored, const std::filesystem::path& path) {
+    replace_file(path, to_bytes(stored));
+}
+
+}  // namespace stilb

@@ -1,0 +1,35 @@
+// Solutions on disk: docs/solution.md has the format byte by byte.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "estimators/patch_light/patch_solution.h"
+
+namespace stilb {
+
+struct StoredSolution {
+    std::string version;     ///< of Stilb
+    std::string scene;       ///< the scene's file, relative to the folder of the solution's
+    std::string light_hash;  ///< of the scene (content_hash.h)
+    std::uint64_t seed = 0;
+    std::uint64_t steps = 0;    ///< of all walks together
+    double attained_error = 0;  ///< as SolveResult has it
+    PatchSolution solution;
+};
+
+std::string to_bytes(const StoredSolution& stored);
+/// Throws InputError, with the name, where the bytes are no solution, of another version, truncated or
+/// damaged. Whether the parts fit a scene is for require_consistency() to say.
+StoredSolution read_solution(std::string_view bytes, const std::string& name);
+
+/// Throw InputError as above, and where the file cannot be read or written; it changes in one step.
+StoredSolution read_solution_file(const std::filesystem::path& path);
+void write_solution_file(const StoredSolution& stored, const std::filesystem::path& path);
+
+/// What a file of these contents begins with: for the fuzz target, whose contents are foreign.
+std::string solution_header(std::string_view body);
+
+}  // namespace stilb

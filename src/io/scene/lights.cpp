@@ -1,0 +1,152 @@
+// [lights.NAME]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "io/photometry/photometry_file.h"
+#include "io/scene/sections.h"
+#include "io/text/text.h"
+#include "lights/colour_temperature.h"
+#include "lights/luminaire_frame.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr Range kColourTemperature{kMinColourTemperature_k, kMaxColourTemperature_k, "from 1000 to 25000 K"};
+constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
+
+/// What the reader of one light sees besides its table.
+struct Context {
+    const std::string& name;
+    const std::filesystem::path& directory;
+    SceneFile& file;
+};
+
+/// Luminance 1.
+Spectrum read_colour(const TomlTable& table) {
+    table.expect_not_both("cct", "color");
+    if (const auto cct = table.find("cct")) return colour_of_temperature(cct->number(kColourTemperature));
+    const auto color = table.find("color");
+    if (!color) return Spectrum::grey(1);
+    const Spectrum rgb = color->spectrum(kColour);
+    constexpr double darkest = 1e-9;
+    if (rgb.luminance() < darkest)
+        color->fail("black has no colour. Allowed: [r, g, b] with a channel above 0.");
+    return rgb * (1 / rgb.luminance());
+}
+
+PointLight read_point(TomlTable& table) {
+    table.expect_keys({"type", "position", "flux", "intensity", "cct", "color"}, "type \"point\"");
+    const double quantity = table.one_of({"flux", "intensity"}).item.number(kLightQuantity);
+    const double intensity_cd = table.has("flux") ? quantity / (4 * kPi) : quantity;
+    return {table.at("position").vector(), intensity_cd * read_colour(table)};
+}
+
+double read_luminance(const TomlTable& table, const Shape& shape) {
+    const TomlItem item = table.one_of({"flux", "luminance"}).item;
+    const double quantity = item.number(kLightQuantity);
+    if (table.has("luminance")) return quantity;
+    const double luminance_cd_m2 = quantity / (kPi * area_m2(shape));
+    if (!std::isfinite(luminance_cd_m2)) item.fail("the object has no area that could emit a flux.");
+    return luminance_cd_m2;
+}
+
+AreaLight read_area(TomlTable& table, const Context& context) {
+    table.expect_keys({"type", "object", "flux", "luminance", "cct", "color"}, "type \"area\"");
+    const Scene& scene = context.file.scene;
+    std::vector<std::string_view> names;
+    for (const Object& object : scene.objects) names.push_back(object.name);
+    const TomlItem item = table.at("object");
+    const ObjectId object{static_cast<std::uint32_t>(item.index_in(names, "object"))};
+    for (const Light& other : scene.lights) {
+        const auto* area = std::get_if<AreaLight>(&other.source);
+        if (area && area->object == object) {
+            item.fail(fmt::format("{} emits for the light {} already. Allowed: one area light for an object.",
+                                  in_quotes(item.text()), in_quotes(other.name)));
+        }
+    }
+    return {object, read_luminance(table, scene.object(object).shape) * read_colour(table)};
+}
+
+/// The surface of luminous spheres reflects nothing; all of them share one material.
+MaterialId black_of_lights(Scene& scene) {
+    constexpr std::string_view name = "(luminous spheres)";
+    const auto place = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                    [&](const NamedMaterial& material) { return material.name == name; });
+    const auto index = static_cast<std::uint32_t>(place - scene.materials.begin());
+    if (place == scene.materials.end()) scene.materials.push_back({std::string(name), Black{}});
+    return MaterialId{index};
+}
+
+AreaLight read_sphere(TomlTable& table, const Context& context) {
+    table.expect_keys({"type", "center", "radius", "flux", "luminance", "cct", "color"}, "type \"sphere\"");
+    Scene& scene = context.file.scene;
+    const Sphere sphere{table.at("center").vector(), table.at("radius").number(kRadius)};
+    for (const Object& object : scene.objects) {
+        if (object.name != context.name) continue;
+        table.fail(
+            "adds a sphere object of its own name, which the scene has already. Allowed: another name.");
+    }
+    const AreaLight light{ObjectId{static_cast<std::uint32_t>(scene.objects.size())},
+                          read_luminance(table, sphere) * read_colour(table)};
+    scene.objects.push_back({context.name, sphere, {black_of_lights(scene)}});
+    return light;
+}
+
+/// Lights with the same file share one solid.
+SolidId read_solid(const TomlItem& item, const Context& context) {
+    std::vector<NamedSolid>& solids = context.file.scene.solids;
+    const std::filesystem::path path = item.existing_file(context.directory).lexically_normal();
+    const auto place = std::find_if(solids.begin(), solids.end(),
+                                    [&](const NamedSolid& solid) { return solid.file == path.string(); });
+    const auto index = static_cast<std::uint32_t>(place - solids.begin());
+    if (place == solids.end()) {
+        context.file.sources.push_back(path);
+        const PhotometryFile file = read_photometry_file(path);
+        const PhotometricSolid solid(file.grid);
+        solids.push_back({path.string(), file.luminaire, solid, file.format,
+                          check_flux(file, solid.flux_lm()).description()});
+        for (const std::string& warning : photometry_warnings(file, solid))
+            context.file.warnings.push_back(fmt::format("{}: {}", item.where(), warning));
+    }
+    return SolidId{index};
+}
+
+PhotometryLight read_photometry(TomlTable& table, const Context& context) {
+    table.expect_keys({"type", "file", "position", "aim", "spin", "dimming", "flux", "cct", "color"},
+                      "type \"photometry\"");
+    const Vec3 position = table.at("position").vector();
+    const auto aim = table.find("aim"), spin = table.find("spin"), dimming = table.find("dimming"),
+               flux = table.find("flux");
+    const auto [c0, c90, nadir] =
+        aim_luminaire(aim ? aim->direction() : Vec3{0, 0, -1}, spin ? spin->number(kAngle) : 0);
+    Spectrum factor = read_colour(table);
+    if (dimming) factor *= dimming->number(kLightQuantity);
+    const SolidId solid = read_solid(table.at("file"), context);
+    if (flux) factor *= flux->number(kLightQuantity) / context.file.scene.solid(solid).flux_lm();
+    return {position, solid, c0, c90, nadir, factor};
+}
+
+constexpr std::array<std::string_view, 4> kTypes{"point", "area", "sphere", "photometry"};
+
+decltype(Light::source) read_source(TomlTable& table, const Context& context) {
+    const std::string_view type = table.choose("type", kTypes);
+    if (type == "point") return read_point(table);
+    if (type == "area") return read_area(table, context);
+    if (type == "sphere") return read_sphere(table, context);
+    return read_photometry(table, context);
+}
+
+}  // namespace
+
+void read_lights(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file) {
+    for (auto& [name, table] : named_tables(section)) {
+        file.scene.lights.push_back({name, read_source(table, {name, directory, file})});
+    }
+}
+
+}  // namespace stilb

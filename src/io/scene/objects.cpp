@@ -1,0 +1,243 @@
+// [objects.NAME]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "io/mesh/mesh_builder.h"
+#include "io/mesh/mesh_file.h"
+#include "io/scene/sections.h"
+#include "io/text/messages.h"
+#include "io/text/text.h"
+
+namespace stilb {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+constexpr std::array<std::string_view, 7> kShapes{"mesh", "rectangle", "box",      "sphere",
+                                                  "disk", "polygons",  "harmonics"};
+
+/// The keys of the shape, and those that every object has.
+void expect_object_keys(TomlTable& table, std::string_view shape, Names keys) {
+    for (const std::string_view key : {"shape", "material", "scale", "rotate", "translate", "transform"}) {
+        keys.push_back(key);
+    }
+    table.expect_keys(keys, fmt::format("shape {}", in_quotes(shape)));
+}
+
+Box read_box(const TomlTable& table) {
+    const Box box{table.at("min").vector(), table.at("max").vector()};
+    const Vec3 size = box.max - box.min;
+    if (!(size.x > 0 && size.y > 0 && size.z > 0)) {
+        table.fail("max is not above min. Allowed: a max that is larger than min in x, y and z.");
+    }
+    return box;
+}
+
+Sphere read_sphere(const TomlTable& table) {
+    return {table.at("center").vector(), table.at("radius").number(kRadius)};
+}
+
+Disk read_disk(const TomlTable& table, SceneFile& file) {
+    return {table.at("center").vector(), read_direction(table.at("normal"), file.warnings),
+            table.at("radius").number(kRadius)};
+}
+
+void add_face(const TomlItem& face, MeshBuilder& builder) {
+    const auto last_vertex = static_cast<std::int64_t>(builder.vertex_count()) - 1;
+    std::vector<std::uint32_t> corners;
+    for (const TomlItem& corner : face.elements()) {
+        corners.push_back(static_cast<std::uint32_t>(corner.integer(0, last_vertex)));
+    }
+    if (corners.size() < 3) {
+        face.fail(fmt::format("found a face of {} corners. Allowed: 3 or more indices of vertices.",
+                              corners.size()));
+    }
+    builder.add_polygon(corners);
+}
+
+void warn_of_degenerate(const TomlTable& table, const MeshFile& mesh, SceneFile& file) {
+    if (mesh.degenerate_triangles == 0) return;
+    file.warnings.push_back(
+        fmt::format("{}: {} triangles of no area are left out.", table.where(), mesh.degenerate_triangles));
+}
+
+Mesh read_polygons(const TomlTable& table, SceneFile& file) {
+    MeshBuilder builder;
+    for (const TomlItem& vertex : table.at("vertices").elements()) builder.add_vertex(vertex.vector());
+    if (builder.vertex_count() < 3)
+        table.at("vertices").fail("found fewer than 3 vertices. Allowed: 3 or more.");
+    for (const TomlItem& face : table.at("faces").elements()) add_face(face, builder);
+    MeshFile mesh = std::move(builder).finish(table.where(), "give a face that has an area");
+    warn_of_degenerate(table, mesh, file);
+    return std::move(mesh.mesh);
+}
+
+Names names_of(const std::vector<NamedMaterial>& materials) {
+    Names names;
+    for (const NamedMaterial& material : materials) names.push_back(material.name);
+    return names;
+}
+
+MaterialId read_material(const TomlItem& item, const Scene& scene) {
+    return MaterialId{static_cast<std::uint32_t>(item.index_in(names_of(scene.materials), "material"))};
+}
+
+MeshFile read_mesh(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
+    const TomlItem item = table.at("file");
+    for (const std::string_view extension : {".gltf", ".glb"}) {
+        if (!item.text().ends_with(extension)) continue;
+        item.fail("meshes in glTF are not supported yet. Allowed: OBJ (.obj) and PLY (.ply).");
+    }
+    file.sources.push_back(item.existing_file(directory));
+    return read_mesh_file(file.sources.back());
+}
+
+/// The materials that a scene gives to the parts of a mesh, by the mesh file's own names.
+class PartMaterials {
+  public:
+    PartMaterials(const TomlTable& object, const MeshFile& mesh, const Scene& scene)
+        : mesh_(mesh), of_material_(mesh.material_names.size()), of_group_(mesh.group_names.size()) {
+        if (const auto rest = object.find("material")) rest_ = read_material(*rest, scene);
+        for (const auto& [part, item] : object.at("materials").table().items()) {
+            const MaterialId material = read_material(item, scene);
+            const bool is_material = assign(mesh.material_names, of_material_, part, material);
+            if (!is_material && !assign(mesh.group_names, of_group_, part, material))
+                fail_unknown(part, item);
+        }
+    }
+
+    /// One for each triangle. The file's material names come before its groups, and both before `material`.
+    std::vector<MaterialId> of_triangles(const TomlTable& object) const {
+        std::vector<MaterialId> materials;
+        for (std::size_t t = 0; t < mesh_.mesh.triangles.size(); ++t) {
+            const std::uint32_t material = mesh_.material_of_triangle[t];
+            const std::uint32_t group = mesh_.group_of_triangle[t];
+            const auto& by_group = of_group_[group] ? of_group_[group] : rest_;
+            const auto& found = of_material_[material] ? of_material_[material] : by_group;
+            if (!found) fail_unassigned(object, material);
+            materials.push_back(*found);
+        }
+        return materials;
+    }
+
+  private:
+    using Assigned = std::vector<std::optional<MaterialId>>;
+
+    static bool assign(const std::vector<std::string>& names, Assigned& assigned, std::string_view part,
+                       MaterialId material) {
+        const auto place = std::find(names.begin(), names.end(), part);
+        if (place == names.end()) return false;
+        assigned[static_cast<std::size_t>(place - names.begin())] = material;
+        return true;
+    }
+
+    Names names() const {
+        Names names(mesh_.material_names.begin(), mesh_.material_names.end());
+        names.insert(names.end(), mesh_.group_names.begin(), mesh_.group_names.end());
+        return names;
+    }
+
+    [[noreturn]] void fail_unknown(const std::string& part, const TomlItem& item) const {
+        item.fail(fmt::format("the mesh file has no material or group {}.{}", in_quotes(part),
+                              suggestion(part, names())));
+    }
+
+    [[noreturn]] void fail_unassigned(const TomlTable& object, std::uint32_t material) const {
+        object.fail(
+            fmt::format("the mesh file's material {} has no material of the scene. Allowed: an entry in "
+                        "\"materials\" for it, or \"material\" for all that is not in \"materials\".",
+                        in_quotes(mesh_.material_names[material])));
+    }
+
+    const MeshFile& mesh_;
+    Assigned of_material_, of_group_;
+    std::optional<MaterialId> rest_;
+};
+
+Object read_mesh_object(TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
+    MeshFile mesh = read_mesh(table, directory, file);
+    warn_of_degenerate(table, mesh, file);
+    std::vector<MaterialId> materials;
+    if (table.has("materials")) {
+        materials = PartMaterials(table, mesh, file.scene).of_triangles(table);
+    } else {
+        materials = {read_material(table.at("material"), file.scene)};
+    }
+    return {"", std::move(mesh.mesh), std::move(materials)};
+}
+
+Shape read_simple_shape(TomlTable& table, std::string_view shape, SceneFile& file) {
+    if (shape == "rectangle") {
+        expect_object_keys(table, shape, {"corner", "edge_u", "edge_v"});
+        return read_rectangle(table);
+    }
+    if (shape == "box") {
+        expect_object_keys(table, shape, {"min", "max"});
+        return read_box(table);
+    }
+    if (shape == "sphere") {
+        expect_object_keys(table, shape, {"center", "radius"});
+        return read_sphere(table);
+    }
+    if (shape == "disk") {
+        expect_object_keys(table, shape, {"center", "normal", "radius"});
+        return read_disk(table, file);
+    }
+    expect_object_keys(table, shape, {"vertices", "faces"});
+    return read_polygons(table, file);
+}
+
+Object read_untransformed(TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
+    const std::string_view shape = table.choose("shape", kShapes);
+    if (shape == "mesh") {
+        expect_object_keys(table, shape, {"file", "materials"});
+        return read_mesh_object(table, directory, file);
+    }
+    const auto of_one_material = [&](Shape geometry) {
+        return Object{"", std::move(geometry), {read_material(table.at("material"), file.scene)}};
+    };
+    if (shape == "harmonics") {
+        expect_object_keys(table, shape, {"file", "coefficients", "center", "degree", "intersection", "lod"});
+        return of_one_material(read_harmonic_shape(table, directory, file));
+    }
+    return of_one_material(read_simple_shape(table, shape, file));
+}
+
+void expect_possible(const Transform& transform, const Shape& shape, const TomlTable& table) {
+    const bool is_round = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Disk>(shape);
+    const bool is_harmonic = std::holds_alternative<Harmonics>(shape);
+    if ((is_round || is_harmonic) && !transform.is_similarity()) {
+        table.at("transform")
+            .fail(
+                "stretches or shears a curved shape. Allowed for spheres, disks and harmonics: what keeps "
+                "angles (moves, turns, mirrors, one scale for all axes).");
+    }
+}
+
+/// A series with a centre is scaled and turned about it.
+Transform transform_of(const Shape& shape, const TomlTable& table) {
+    Transform transform = read_transform(table);
+    if (std::holds_alternative<Harmonics>(shape)) {
+        if (const auto center = table.find("center")) transform.translation += center->vector();
+    }
+    return transform;
+}
+
+}  // namespace
+
+void read_objects(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file) {
+    for (auto& [name, table] : named_tables(section)) {
+        Object object = read_untransformed(table, directory, file);
+        object.name = name;
+        const Transform transform = transform_of(object.shape, table);
+        expect_possible(transform, object.shape, table);
+        if (transform != Transform{}) object.shape = transformed(object.shape, transform);
+        file.scene.objects.push_back(std::move(object));
+    }
+}
+
+}  // namespace stilb

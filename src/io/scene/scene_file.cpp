@@ -1,0 +1,155 @@
+#include "io/scene/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "estimators/estimator_list.h"
+#include "io/scene/sections.h"
+#include "io/text/text.h"
+#include "run/relative_error.h"
+
+namespace stilb {
+namespace {
+
+constexpr Range kRelativeError{1e-9, 0.999999, "a share between 0 and 1, such as 0.01 or \"1%\""};
+constexpr Range kSeconds{1e-3, 1e9, "a time above 0 (from 0.001 to 1e9 s)"};
+constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
+
+std::string read_method(const TomlItem& item) {
+    std::vector<std::string_view> methods;
+    for (const EstimatorEntry& entry : estimator_list()) methods.push_back(entry.name);
+    return std::string(methods[item.index_in(methods, "method")]);
+}
+
+double read_error(const TomlItem& item) {
+    if (!item.is_text()) return item.number(kRelativeError);
+    const auto error = parse_relative_error(item.text());
+    if (!error)
+        item.fail(
+            fmt::format("{} is not allowed. Allowed: {}.", in_quotes(item.text()), kRelativeError.allowed));
+    return *error;
+}
+
+/// The section as a table; an absent one is an empty table.
+TomlTable section_of(const TomlTable& root, std::string_view name, const TomlTable& none) {
+    const auto item = root.find(name);
+    return item ? item->table() : none;
+}
+
+void warn_of_unused_materials(const TomlTable& section, SceneFile& file) {
+    const Scene& scene = file.scene;
+    std::vector<bool> is_used(scene.materials.size());
+    for (const Object& object : scene.objects) {
+        for (const MaterialId material : object.materials) is_used[index_of(material)] = true;
+    }
+    for (std::size_t m = 0; m < is_used.size(); ++m) {
+        if (is_used[m]) continue;
+        file.warnings.push_back(
+            fmt::format("{}: no object has this material.", section.at(scene.materials[m].name).where()));
+    }
+}
+
+}  // namespace
+
+std::vector<NamedTable> named_tables(const TomlTable& section) {
+    std::vector<NamedTable> tables;
+    for (const auto& [name, item] : section.items()) {
+        const bool is_plain = !name.empty() && std::none_of(name.begin(), name.end(), [](unsigned char c) {
+            return c < 0x20 || c == 0x7f || c == '/' || c == '\\';
+        });
+        if (!is_plain) {
+            item.fail(fmt::format(
+                "{} cannot be a name (names become parts of file names). Allowed: any text without "
+                "slashes and control characters.",
+                in_quotes(name)));
+        }
+        tables.push_back({name, item.table()});
+    }
+    return tables;
+}
+
+Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings) {
+    const Vec3 given = item.vector();
+    const Vec3 normal = item.made_unit(given);
+    constexpr double rounding = 1e-3;  // three digits are enough to say that a unit vector is meant
+    if (std::abs(length(given) - 1) > rounding) {
+        warnings.push_back(fmt::format("{}: of length {:.4g}; its direction is used, with length 1.",
+                                       item.where(), length(given)));
+    }
+    return normal;
+}
+
+Rectangle read_rectangle(const TomlTable& table) {
+    const TomlItem edge_u = table.at("edge_u"), edge_v = table.at("edge_v");
+    const Rectangle rectangle{table.at("corner").vector(), edge_u.vector(), edge_v.vector()};
+    const Vec3 front = cross(edge_u.made_unit(rectangle.edge_u), edge_v.made_unit(rectangle.edge_v));
+    constexpr double flattest = 1e-6;  // sine of the angle between the edges
+    if (length(front) < flattest) {
+        edge_v.fail("is parallel to edge_u, so that they span no area. Allowed: any other direction.");
+    }
+    return rectangle;
+}
+
+RunOptions read_run(TomlTable section) {
+    section.expect_keys({"method", "error", "time", "paths", "bounces", "seed", "threads"});
+    RunOptions run;
+    if (const auto item = section.find("method")) run.method = read_method(*item);
+    if (const auto item = section.find("error")) run.error = read_error(*item);
+    if (const auto item = section.find("time")) run.time_s = item->number(kSeconds);
+    if (const auto item = section.find("paths"))
+        run.paths = static_cast<std::uint64_t>(item->integer(1, kMostPaths));
+    if (const auto item = section.find("bounces"))
+        run.bounces = static_cast<int>(item->integer(0, 1'000'000));
+    if (const auto item = section.find("seed")) {
+        run.seed = static_cast<std::uint64_t>(item->integer(0, std::numeric_limits<std::int64_t>::max()));
+    }
+    if (const auto item = section.find("threads")) run.threads = static_cast<int>(item->integer(0, 4096));
+    return run;
+}
+
+SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory) {
+    const TomlValue document = parse_toml(toml, name);
+    const auto& members = std::get<TomlMembers>(document.content);
+    if (members.empty()) {
+        throw InputError(
+            "the scene file is empty. Needed: the sections materials, objects, lights and sensors.", {name});
+    }
+    TomlTable root(members, "", name, 0);
+    root.expect_keys({"scene", "materials", "objects", "lights", "sensors", "run"});
+    const TomlMembers nothing;
+    const TomlTable none(nothing, "", name, 0);
+
+    SceneFile file;
+    TomlTable scene = section_of(root, "scene", none);
+    scene.expect_keys({"name"});
+    if (const auto title = scene.find("name")) file.scene.name = title->text();
+    const TomlTable materials = section_of(root, "materials", none);
+    file.scene.materials = read_materials(materials);
+    read_objects(section_of(root, "objects", none), directory, file);
+    warn_of_unused_materials(materials, file);
+    read_lights(section_of(root, "lights", none), directory, file);
+    if (file.scene.lights.empty())
+        file.warnings.push_back(fmt::format("{}: no light: the scene is dark.", name));
+    read_sensors(section_of(root, "sensors", none), file);
+    file.run = read_run(section_of(root, "run", none));
+    return file;
+}
+
+SceneFile read_scene_file(const std::filesystem::path& path) {
+    for (const std::string_view other : {".obj", ".ply", ".ies", ".ldt"}) {
+        if (extension_of(path) != other) continue;
+        throw InputError(fmt::format("not a scene but a {} file: a scene (.toml) names it as the file of {}. "
+                                     "`stilb info` shows what it holds.",
+                                     other, other == ".obj" || other == ".ply" ? "an object" : "a light"),
+                         {path.string()});
+    }
+    SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path());
+    file.sources.insert(file.sources.begin(), path);
+    return file;
+}
+
+}  // namespace stilb

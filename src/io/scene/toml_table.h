@@ -1,0 +1,123 @@
+// Typed access to a TOML document. Whatever is missing, unknown, of the wrong type or out of range throws an
+// InputError that says where it stands, what was found and what is allowed.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/rgb.h"
+#include "base/vec.h"
+#include "io/scene/toml_document.h"
+
+namespace stilb {
+
+/// The numbers that a key takes, and the words for them in messages: "2 is not {allowed}".
+struct Range {
+    double min = 0, max = 0;
+    std::string_view allowed;
+};
+
+/// Metres; the limit keeps squares and products of lengths far from overflow.
+inline constexpr Range kCoordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
+inline constexpr Range kRadius{1e-9, 1e9, "a length above 0 (from 1e-9 to 1e9 m)"};
+/// Flux, intensity, luminance and factors on them.
+inline constexpr Range kLightQuantity{1e-15, 1e15, "a number above 0 (from 1e-15 to 1e15)"};
+inline constexpr Range kAngle{-1e6, 1e6, "an angle from -1e6 to 1e6 degrees"};
+
+class TomlTable;
+
+/// A value and its full name, such as objects.room.translate.
+class TomlItem {
+  public:
+    /// The value and the file's name outlive the item.
+    TomlItem(const TomlValue& value, std::string path, const std::string& file)
+        : value_(&value), path_(std::move(path)), file_(&file) {}
+
+    double number(const Range& range) const;
+    /// A whole number; 1e6 will do for 1000000.
+    std::int64_t integer(std::int64_t min, std::int64_t max) const;
+    const std::string& text() const;
+    /// true or false.
+    bool boolean() const;
+    /// [r, g, b], or one number for a grey triple.
+    Spectrum spectrum(const Range& range) const;
+    /// [x, y, z].
+    Vec3 vector() const;
+    /// [x, y, z] but not zero, made a unit vector.
+    Vec3 direction() const { return made_unit(vector()); }
+    /// The value's direction as a unit vector; fails where it is zero.
+    Vec3 made_unit(const Vec3& v) const;
+    /// Array of any length.
+    std::vector<TomlItem> elements() const;
+    std::vector<double> numbers(std::size_t count, const Range& range) const;
+    TomlTable table() const;
+
+    bool is_text() const { return std::holds_alternative<std::string>(value_->content); }
+
+    /// Index of the text among the names. `what` it names is for the message; names in `later` are said to be
+    /// not supported yet.
+    std::size_t index_in(std::span<const std::string_view> names, std::string_view what,
+                         std::span<const std::string_view> later = {}) const;
+    /// A regular file, its path relative to `directory`.
+    std::filesystem::path existing_file(const std::filesystem::path& directory) const;
+
+    [[noreturn]] void fail(std::string_view message) const;
+    /// "file:line: path", the beginning of a warning.
+    std::string where() const;
+
+  private:
+    [[noreturn]] void fail_type(std::string_view needed) const;
+    const TomlArray& array_of(std::size_t count, std::string_view needed) const;
+    TomlItem element(const TomlArray& array, std::size_t index) const;
+
+    const TomlValue* value_;
+    std::string path_;
+    const std::string* file_;
+};
+
+class TomlTable {
+  public:
+    /// The members and the file's name outlive the table. `line` is where the table begins.
+    TomlTable(const TomlMembers& members, std::string path, const std::string& file, std::size_t line)
+        : members_(&members), path_(std::move(path)), file_(&file), line_(line) {}
+
+    /// Throws for any other key. `kind` is what has these keys, as in `for type "phong"`; may be empty.
+    void expect_keys(const std::vector<std::string_view>& keys, std::string_view kind = "");
+
+    struct NamedItem;
+    /// In the order of the file.
+    std::vector<NamedItem> items() const;
+    bool has(std::string_view key) const { return find(key).has_value(); }
+    std::optional<TomlItem> find(std::string_view key) const;
+    TomlItem at(std::string_view key) const;
+    /// The one of the names that stands at the key; `later` as in TomlItem::index_in().
+    std::string_view choose(std::string_view key, std::span<const std::string_view> names,
+                            std::span<const std::string_view> later = {}) const;
+    /// Whichever of the keys is there; throws where several or none are.
+    NamedItem one_of(const std::vector<std::string_view>& keys) const;
+    /// Throws where both are there.
+    void expect_not_both(std::string_view first, std::string_view second) const;
+
+    [[noreturn]] void fail(std::string_view message) const;
+    std::string where() const;
+
+  private:
+    TomlItem item(const TomlMember& member) const;
+
+    const TomlMembers* members_;
+    std::string path_;
+    const std::string* file_;
+    std::size_t line_;
+    std::string kind_;  ///< for messages
+};
+
+struct TomlTable::NamedItem {
+    std::string key;
+    TomlItem item;
+};
+
+}  // namespace stilb

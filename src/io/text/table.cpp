@@ -1,0 +1,58 @@
+#include "io/text/table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "io/text/write_file.h"
+
+namespace stilb {
+namespace {
+
+std::string quoted_where_needed(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
+
+std::string csv_cell(const std::string& text) { return quoted_where_needed(text); }
+std::string csv_cell(double number) { return std::isnan(number) ? std::string() : fmt::format("{}", number); }
+
+std::size_t length_of(const Column& column) {
+    return std::visit([](const auto& cells) { return cells.size(); }, column.cells);
+}
+
+std::string line_of(std::span<const Column> columns, const auto& cell_of) {
+    std::string line;
+    for (const Column& column : columns) {
+        if (&column != columns.data()) line += ',';
+        line += cell_of(column);
+    }
+    return line + "\r\n";
+}
+
+}  // namespace
+
+std::string to_csv(std::span<const Column> columns) {
+    const std::size_t rows = columns.empty() ? 0 : length_of(columns.front());
+    for (const Column& column : columns) {
+        if (length_of(column) != rows) {
+            throw std::invalid_argument("column '" + column.name + "' differs in length from the first");
+        }
+    }
+    std::string csv = line_of(columns, [](const Column& column) { return csv_cell(column.name); });
+    for (std::size_t row = 0; row < rows; ++row) {
+        csv += line_of(columns, [row](const Column& column) {
+            return std::visit([row](const auto& cells) { return csv_cell(cells[row]); }, column.cells);
+        });
+    }
+    return csv;
+}
+
+void write_csv(std::span<const Column> columns, const std::filesystem::path& path) {
+    write_file(path, to_csv(columns));
+}
+
+}  // namespace stilb

@@ -1,0 +1,92 @@
+#include "io/text/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace stilb {
+namespace {
+
+template <class Number>
+std::optional<Number> parse_all(std::string_view text) {
+    // from_chars takes no plus sign; "+-1" must not become -1 by its removal.
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+std::string extension_of(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return extension;
+}
+
+std::string read_whole_file(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(path, error);
+    if (error) throw InputError(fmt::format("cannot be read: {}", error.message()), {path.string()});
+    std::string content(size, '\0');
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream.read(content.data(), static_cast<std::streamsize>(size)))
+        throw InputError("cannot be read (is it readable for you, and not changing?)", {path.string()});
+    return content;
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    std::string result = "\"";
+    for (const char c : text.substr(0, kLongest)) {
+        if (c >= ' ' && c <= '~') {
+            result += c;
+        } else {
+            result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+        }
+    }
+    return result + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+std::optional<double> parse_number(std::string_view text) {
+    const auto value = parse_all<double>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<long long> parse_integer(std::string_view text) { return parse_all<long long>(text); }
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\v\f";
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::string_view next_word(std::string_view& text) {
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+    const auto begin = std::find_if_not(text.begin(), text.end(), is_blank);
+    const auto end = std::find_if(begin, text.end(), is_blank);
+    text.remove_prefix(static_cast<std::size_t>(end - text.begin()));
+    return {begin, end};
+}
+
+bool TextLines::next() {
+    if (rest_.empty()) return false;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    line_ = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    if (line_.ends_with('\r')) line_.remove_suffix(1);
+    ++number_;
+    return true;
+}
+
+}  // namespace stilb

@@ -1,0 +1,60 @@
+#include "lights/colour_temperature.h"
+
+#include <algorithm>
+
+namespace stilb {
+namespace {
+
+constexpr double kPlanckianUpTo_k = 4000;
+constexpr double kDaylightFrom_k = 5000;
+
+/// CIE 1931.
+struct Chromaticity {
+    double x = 0, y = 0;
+};
+
+/// [Krystek 1985, An algorithm to calculate correlated colour temperature]: rational approximation in CIE
+/// 1960 (u, v), within 1e-4 from 1000 to 15000 K.
+Chromaticity planckian_chromaticity(double t) {
+    const double u = (0.860117757 + t * (1.54118254e-4 + t * 1.28641212e-7)) /
+                     (1 + t * (8.42420235e-4 + t * 7.08145163e-7));
+    const double v = (0.317398726 + t * (4.22806245e-5 + t * 4.20481691e-8)) /
+                     (1 + t * (-2.89741816e-5 + t * 1.61456053e-7));
+    const double scale = 1 / (2 * u - 8 * v + 4);
+    return {3 * u * scale, 2 * v * scale};
+}
+
+/// [CIE 15, daylight illuminants], stated for 4000 to 25000 K.
+Chromaticity daylight_chromaticity(double t) {
+    const double r = 1000 / t;
+    const double x = t <= 7000 ? 0.244063 + r * (0.09911 + r * (2.9678 - r * 4.6070))
+                               : 0.237040 + r * (0.24748 + r * (1.9018 - r * 2.0064));
+    return {x, -0.275 + x * (2.870 - x * 3.000)};
+}
+
+/// XYZ to linear Rec. 709 [IEC 61966-2-1]; cut to the gamut, luminance 1.
+Spectrum unit_luminance_colour(const Chromaticity& c) {
+    const double x = c.x / c.y;
+    const double z = (1 - c.x - c.y) / c.y;
+    Spectrum rgb{{3.2406 * x - 1.5372 - 0.4986 * z, -0.9689 * x + 1.8758 + 0.0415 * z,
+                  0.0557 * x - 0.2040 + 1.0570 * z}};
+    for (double& value : rgb.band) value = std::max(value, 0.0);
+    return rgb * (1 / rgb.luminance());
+}
+
+}  // namespace
+
+Spectrum colour_of_temperature(double temperature_k) {
+    const double daylight_share =
+        std::clamp((temperature_k - kPlanckianUpTo_k) / (kDaylightFrom_k - kPlanckianUpTo_k), 0.0, 1.0);
+    Spectrum colour;
+    if (daylight_share < 1) {
+        colour += (1 - daylight_share) * unit_luminance_colour(planckian_chromaticity(temperature_k));
+    }
+    if (daylight_share > 0) {
+        colour += daylight_share * unit_luminance_colour(daylight_chromaticity(temperature_k));
+    }
+    return colour;
+}
+
+}  // namespace stilb

@@ -1,0 +1,17 @@
+// The colour of white light by its correlated colour temperature.
+#pragma once
+
+#include "base/rgb.h"
+
+namespace stilb {
+
+inline constexpr double kMinColourTemperature_k = 1000;
+inline constexpr double kMaxColourTemperature_k = 25000;
+
+/// Linear Rec. 709 colour of luminance 1 for a correlated colour temperature of 1000 to 25000 K (expected of
+/// the caller). Up to 4000 K the Planckian radiator, from 5000 K daylight of the CIE, between them their
+/// mixture in proportion, as in [IES TM-30-18]: lamps are made to match the two. Below about 1900 K the
+/// colour lies outside of Rec. 709; its negative blue is cut to 0 and the luminance made 1 again.
+Spectrum colour_of_temperature(double temperature_k);
+
+}  // namespace stilb

@@ -1,0 +1,16 @@
+// What sampling a material gives.
+#pragma once
+
+#include "base/rgb.h"
+#include "base/vec.h"
+
+namespace stilb {
+
+/// A scattered direction and what the light is multiplied by: weight = f cos(theta_out) / pdf.
+struct ScatterSample {
+    Vec3 direction;
+    Spectrum weight;
+    double pdf_per_sr = 0;
+};
+
+}  // namespace stilb

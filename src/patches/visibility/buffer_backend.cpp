@@ -1,0 +1,20 @@
+#include "patches/visibility/buffer_backend.h"
+
+#include "patches/visibility/opengl_bundles.h"
+#include "patches/visibility/opengl_item_buffers.h"
+#include "patches/visibility/ray_bundles.h"
+#include "patches/visibility/ray_item_buffers.h"
+
+namespace stilb {
+
+std::unique_ptr<ItemBuffers> make_item_buffers(BufferBackend backend, const PatchCaster& caster) {
+    if (backend == BufferBackend::rays) return std::make_unique<RayItemBuffers>(caster);
+    return std::make_unique<OpenGlItemBuffers>(caster.patches());
+}
+
+std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& caster) {
+    if (backend == BufferBackend::rays) return std::make_unique<RayBundles>(caster);
+    return std::make_unique<OpenGlBundles>(caster.patches());
+}
+
+}  // namespace stilb

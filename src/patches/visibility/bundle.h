@@ -1,0 +1,100 @@
+// Bundles of parallel rays: all surfaces along each of many parallel lines at once (theory:
+// [FirstShot section 5]; the lines of a random direction are "global lines").
+//
+// The rays of a bundle stand on a square grid across its direction, so each counts for a cross-section of
+// spacing^2. Where the grid's offset is uniform over a square of the grid, sums over lines are unbiased: a
+// patch is crossed by |n . w| A / spacing^2 lines on average. With the direction uniform over the sphere too,
+// the mean cross-section of the lines that lead from side i straight to side j is A_i F_ij / 4, F_ij being
+// the form factor: of all directions' 4 pi it is the share that pi A_i F_ij takes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/bounds.h"
+#include "base/vec.h"
+#include "patches/patches.h"
+#include "patches/visibility/patch_caster.h"
+
+namespace stilb {
+
+struct Bundle {
+    Frame frame;                     ///< w: where the rays go; u and v: the axes of the grid
+    double spacing_m = 0;            ///< of neighbouring rays
+    std::array<double, 2> offset{};  ///< of the grid along u and v, in spacings; in [0, 1)
+};
+
+/// What one line of a bundle goes through. Neighbours in `sides` see each other: of patch i the side
+/// other_side(sides[i]) faces along the line, and sees sides[i + 1].
+struct CrossedLine {
+    Vec3 origin;                           ///< world; before all patches
+    std::span<const std::uint32_t> sides;  ///< those that are met on the way along w
+    std::span<const float> distances_m;    ///< from the origin
+};
+
+/// Some lines, without those that meet nothing.
+class CrossedLines {
+  public:
+    std::size_t count() const { return origins_.size(); }
+    CrossedLine line(std::size_t i) const {
+        const std::size_t first = first_crossing_[i], n = first_crossing_[i + 1] - first;
+        return {origins_[i], std::span(sides_).subspan(first, n), std::span(distances_m_).subspan(first, n)};
+    }
+
+    void clear();
+    /// Adds a line, unless it crosses nothing.
+    void add(const Vec3& origin, std::span<const Crossing> crossings);
+
+  private:
+    std::vector<Vec3> origins_;
+    std::vector<std::size_t> first_crossing_{0};  ///< per line, and the number of crossings at the end
+    std::vector<std::uint32_t> sides_;
+    std::vector<float> distances_m_;
+};
+
+/// Calls `visit(sender, receiver)` for all pairs of sides that see each other along the lines: the sender
+/// faces along w, the receiver against it.
+template <typename Visitor>
+void for_each_pair(const Patches& patches, const CrossedLines& lines, const Visitor& visit) {
+    for (std::size_t i = 0; i < lines.count(); ++i) {
+        const std::span<const std::uint32_t> sides = lines.line(i).sides;
+        for (std::size_t k = 1; k < sides.size(); ++k) visit(patches.other_side(sides[k - 1]), sides[k]);
+    }
+}
+
+/// Called for one block of lines after another; they last as long as the call.
+using LineVisitor = std::function<void(const CrossedLines&)>;
+
+/// One way of casting bundles. All ways agree but in lines that meet a boundary between patches.
+class Bundles {
+  public:
+    Bundles() = default;
+    Bundles(const Bundles&) = delete;
+    Bundles& operator=(const Bundles&) = delete;
+    virtual ~Bundles() = default;
+
+    /// Hands all lines that meet something to `visit`, each once, on the calling thread. Throws InputError
+    /// where the spacing is not above 0, or so small that there would be more than kMostLines along an edge
+    /// of the grid.
+    virtual void cast(const Bundle& bundle, const LineVisitor& visit) const = 0;
+};
+
+inline constexpr int kMostLines = 65'536;
+
+/// The lines of a bundle: as many as it takes to cover the projection of the patches' bounding box. Line
+/// (x, y) begins at `first` + x `step_x` + y `step_y`.
+struct LineGrid {
+    Vec3 first, step_x, step_y;  ///< relative to Patches::center
+    int width = 0, height = 0;
+    double depth_m = 0;  ///< all patches are nearer
+
+    /// Throws as Bundles::cast.
+    LineGrid(const Bounds& bounds, const Bundle& bundle);
+    Vec3 origin(int x, int y) const { return first + x * step_x + y * step_y; }
+};
+
+}  // namespace stilb

@@ -1,0 +1,140 @@
+#include "patches/visibility/patch_caster.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+
+#include "rays/embree_context.h"
+
+namespace stilb {
+namespace {
+
+static_assert(sizeof(RayPacket) == sizeof(RTCRay16));
+static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
+
+void throw_error(void*, RTCError, const char* message) {
+    throw std::runtime_error(fmt::format("Embree: {}", message));
+}
+
+bool count_bytes(void* sum, ssize_t bytes, bool) {
+    static_cast<std::atomic<std::int64_t>*>(sum)->fetch_add(bytes);
+    return true;
+}
+
+std::uint32_t side_met(const Patches& patches, std::uint32_t front, float direction_along_normal) {
+    return direction_along_normal < 0 ? front : patches.other_side(front);
+}
+
+RTCRayHit16 unanswered(const RayPacket& packet) {
+    RTCRayHit16 rays;
+    std::memcpy(&rays.ray, &packet, sizeof packet);
+    std::ranges::fill(rays.hit.geomID, RTC_INVALID_GEOMETRY_ID);
+    return rays;
+}
+
+struct CollectingContext : RTCIntersectContext {
+    const Patches& patches;
+    PacketCrossings& crossings;
+};
+
+/// Keeps what is met and lets the rays go on.
+void collect(const RTCFilterFunctionNArguments* args) {
+    const auto& context = *static_cast<const CollectingContext*>(args->context);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        args->valid[i] = 0;
+        const float along_normal =
+            RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
+            RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
+            RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
+        const std::uint32_t front = RTCHitN_primID(args->hit, args->N, i);
+        context.crossings[RTCRayN_id(args->ray, args->N, i)].push_back(
+            {RTCRayN_tfar(args->ray, args->N, i), side_met(context.patches, front, along_normal)});
+    }
+}
+
+}  // namespace
+
+struct PatchCaster::Implementation {
+    const Patches& patches;
+    std::atomic<std::int64_t> bytes = 0;
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    explicit Implementation(const Patches& all) : patches(all) {
+        device = rtcNewDevice(nullptr);
+        if (device == nullptr) throw std::runtime_error("Embree: no device could be made");
+        rtcSetDeviceErrorFunction(device, throw_error, nullptr);
+        rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
+        scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+        if (patches.count() > 0) add_patches();
+        rtcCommitScene(scene);
+    }
+
+    ~Implementation() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    /// One geometry: its primitives are the patches.
+    void add_patches() const {
+        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                 sizeof(Float3), patches.vertices.size());
+        std::ranges::copy(patches.vertices, static_cast<Float3*>(vertices));
+        // Embree only reads what is shared with it.
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                   patches.corners.data(), 0, sizeof(Triangle), patches.count());
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+};
+
+PatchCaster::PatchCaster(const Patches& patches)
+    : implementation_(std::make_unique<Implementation>(patches)) {}
+PatchCaster::~PatchCaster() = default;
+
+const Patches& PatchCaster::patches() const { return implementation_->patches; }
+std::size_t PatchCaster::bytes() const { return static_cast<std::size_t>(implementation_->bytes.load()); }
+
+PatchHits PatchCaster::closest(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
+    RTCRayHit16 found = unanswered(packet);
+    RTCIntersectContext context = context_for(coherence);
+    rtcIntersect16(lanes.data(), implementation_->scene, &context, &found);
+    std::memcpy(packet.end.data(), found.ray.tfar, sizeof packet.end);
+    PatchHits hits;
+    std::ranges::copy(found.hit.u, hits.b1.begin());
+    std::ranges::copy(found.hit.v, hits.b2.begin());
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+        const float along_normal = packet.direction_x[i] * found.hit.Ng_x[i] +
+                                   packet.direction_y[i] * found.hit.Ng_y[i] +
+                                   packet.direction_z[i] * found.hit.Ng_z[i];
+        const bool is_met = lanes[i] != 0 && found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        hits.sides[i] =
+            is_met ? side_met(implementation_->patches, found.hit.primID[i], along_normal) : kNoSide;
+    }
+    return hits;
+}
+
+void PatchCaster::all(const RayPacket& packet, const LaneMask& lanes, PacketCrossings& crossings) const {
+    for (auto& of_lane : crossings) of_lane.clear();
+    RTCRayHit16 rays = unanswered(packet);
+    std::iota(std::begin(rays.ray.id), std::end(rays.ray.id), 0u);
+    CollectingContext context{context_for(Coherence::coherent), implementation_->patches, crossings};
+    context.filter = collect;
+    rtcIntersect16(lanes.data(), implementation_->scene, &context, &rays);
+    for (auto& of_lane : crossings) std::ranges::sort(of_lane, std::less<>{});
+}
+
+}  // namespace stilb

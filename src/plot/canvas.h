@@ -1,0 +1,103 @@
+// A sheet to draw on, saved as PNG or SVG: the same calls give the same picture in both. The only file that
+// sees Cairo.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/image/colour.h"
+
+namespace stilb {
+
+/// All lengths are in units of 1/96 inch; y grows downwards. A PNG has two pixels to the unit.
+struct Point {
+    double x = 0, y = 0;
+};
+
+struct PageRectangle {
+    double left = 0, top = 0, width = 0, height = 0;
+
+    double right() const { return left + width; }
+    double bottom() const { return top + height; }
+    Point center() const { return {left + width / 2, top + height / 2}; }
+};
+
+struct Stroke {
+    Colour colour;
+    double width = 1;
+    std::vector<double> dashes{};  ///< lengths on, off, ...; solid where empty
+};
+
+enum class Weight { regular, bold };
+/// Which part of the text lies at the given point.
+enum class HorizontalPart { left, center, right };
+enum class VerticalPart { top, middle, baseline };
+
+struct TextStyle {
+    double size = 11;
+    Colour colour{};
+    Weight weight = Weight::regular;
+    HorizontalPart horizontal = HorizontalPart::left;
+    VerticalPart vertical = VerticalPart::baseline;
+    double angle_rad = 0;  ///< clockwise
+    std::optional<Colour> halo{};
+};
+
+/// Pixels row by row from the top: 0xRRGGBB, or kTransparent.
+struct PixelImage {
+    static constexpr std::uint32_t kTransparent = 0xff000000;
+    int width = 0, height = 0;  ///< up to 32767
+    std::vector<std::uint32_t> pixels;
+};
+
+inline constexpr double kUpwards = -std::numbers::pi / 2;
+
+/// Advance of one line of text.
+double text_width(const std::string& text, double size, Weight weight = Weight::regular);
+
+/// Throws InputError where no picture can be written to `path`: another extension than .png or .svg (any
+/// case), or a folder that does not exist. For a look before a long computation.
+void require_picture_path(const std::filesystem::path& path);
+
+class Canvas {
+  public:
+    /// A white sheet. The extension of `path` says what it becomes: .png or .svg (any case); InputError
+    /// otherwise.
+    Canvas(std::filesystem::path path, double width, double height);
+    ~Canvas();
+    Canvas(Canvas&&) noexcept;
+    Canvas& operator=(Canvas&&) noexcept;
+
+    /// With hard edges, so that neighbours leave no seam.
+    void fill_rectangle(const PageRectangle& rectangle, const Colour& colour);
+    /// Pixels stay sharp, however large they are drawn.
+    void image(const PageRectangle& place, const PixelImage& image);
+    void stroke_rectangle(const PageRectangle& rectangle, const Stroke& stroke);
+    void line(const Point& from, const Point& to, const Stroke& stroke);
+    /// Open and with round joins.
+    void polyline(std::span<const Point> points, const Stroke& stroke);
+    void fill_polygon(std::span<const Point> points, const Colour& colour);
+    void fill_circle(const Point& center, double radius, const Colour& colour);
+    void text(const Point& at, const std::string& text, const TextStyle& style);
+    /// What `draw` draws shows only inside the rectangle.
+    void clipped(const PageRectangle& rectangle, const std::function<void()>& draw);
+
+    /// Writes the file; nothing may be drawn afterwards. Throws InputError where it cannot be written.
+    void save();
+
+  private:
+    struct Cairo;
+    void trace(std::span<const Point> points);
+
+    std::filesystem::path path_;
+    std::unique_ptr<Cairo> cairo_;
+};
+
+}  // namespace stilb

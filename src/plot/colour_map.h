@@ -1,0 +1,24 @@
+// The colours of a false-colour picture.
+#pragma once
+
+#include <vector>
+
+#include "io/image/colour.h"
+
+namespace stilb {
+
+/// From almost black over blue, magenta and orange to pale yellow. Lightness grows all the way, so that the
+/// order survives grey print and colour blindness, and equal steps of the argument are equal steps in OKLab.
+class ColourMap {
+  public:
+    ColourMap();
+
+    /// The colour at 0 (least) to 1 (most); what lies outside gets the end's colour.
+    Colour at(double fraction) const;
+
+  private:
+    /// At equal distances along the curve, both ends included.
+    std::vector<Oklab> samples_;
+};
+
+}  // namespace stilb

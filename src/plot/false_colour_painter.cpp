@@ -1,0 +1,168 @@
+#include "plot/false_colour_painter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plot/axis_drawing.h"
+#include "plot/isolines.h"
+#include "plot/label_placer.h"
+
+namespace stilb {
+namespace {
+
+constexpr int kMostDecades = 4;
+constexpr int kBarTicks = 9;
+/// More cells are drawn as one image: as many rectangles would be slow, and an SVG of them huge.
+constexpr std::size_t kMostRectangles = 20'000;
+
+double length_of(std::span<const Point> line) {
+    double sum = 0;
+    for (std::size_t i = 1; i < line.size(); ++i)
+        sum += std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y);
+    return sum;
+}
+
+std::uint32_t to_rgb(const Colour& colour) {
+    const auto byte = [](double component) {
+        return static_cast<std::uint32_t>(std::lround(255 * std::clamp(component, 0.0, 1.0)));
+    };
+    return byte(colour.red) << 16 | byte(colour.green) << 8 | byte(colour.blue);
+}
+
+/// The panel's first row of values comes last in the image.
+PixelImage image_of(const FalseColourPanel& panel, const Scale& scale, const ColourMap& map) {
+    PixelImage image{panel.nu, panel.nv, {}};
+    image.pixels.reserve(panel.values.size());
+    for (int v = panel.nv - 1; v >= 0; --v) {
+        for (int u = 0; u < panel.nu; ++u) {
+            const double value = panel.value_at(u, v);
+            image.pixels.push_back(std::isnan(value) ? PixelImage::kTransparent
+                                                     : to_rgb(map.at(scale.fraction_of(value))));
+        }
+    }
+    return image;
+}
+
+}  // namespace
+
+Scale choose_scale(std::span<const double> values, const FalseColourOptions& options) {
+    Range range = nice_range(options.scale, values);
+    if (options.scale == ScaleType::logarithmic) {
+        range.low = std::max(range.low, range.high * std::pow(10.0, -kMostDecades));
+    }
+    range.low = options.minimum.value_or(range.low);
+    range.high = options.maximum.value_or(range.high);
+    return Scale(options.scale, range);
+}
+
+double bar_extent(const Scale& scale) {
+    return kBarWidth + axis_extent(nice_ticks(scale, kBarTicks), Side::right);
+}
+
+PageRectangle cell_in(const PageRectangle& frame, const FalseColourPanel& panel, int u, int v) {
+    const double width = frame.width / panel.nu;
+    const double height = frame.height / panel.nv;
+    return {frame.left + u * width, frame.bottom() - (v + 1) * height, width, height};
+}
+
+FalseColourPainter::FalseColourPainter(Canvas& canvas, const Scale& scale)
+    : canvas_(canvas), scale_(scale), ticks_(nice_ticks(scale, kBarTicks)) {}
+
+void FalseColourPainter::draw_cells(const FalseColourPanel& panel, const PageRectangle& frame) {
+    const bool has_holes =
+        std::any_of(panel.values.begin(), panel.values.end(), [](double value) { return std::isnan(value); });
+    if (has_holes) draw_hatching(frame);
+    if (panel.values.size() > kMostRectangles) {
+        canvas_.image(frame, image_of(panel, scale_, map_));
+        return;
+    }
+    for (int v = 0; v < panel.nv; ++v) {
+        for (int u = 0; u < panel.nu; ++u) {
+            const double value = panel.value_at(u, v);
+            if (!std::isnan(value))
+                canvas_.fill_rectangle(cell_in(frame, panel, u, v), map_.at(scale_.fraction_of(value)));
+        }
+    }
+}
+
+void FalseColourPainter::draw_hatching(const PageRectangle& place) {
+    constexpr double kSpacing = 6;
+    canvas_.fill_rectangle(place, grey(0.86));
+    canvas_.clipped(place, [&] {
+        // Lines x + y = n * spacing.
+        const double last = place.right() + place.bottom();
+        for (double sum = std::ceil((place.left + place.top) / kSpacing) * kSpacing; sum < last;
+             sum += kSpacing) {
+            canvas_.line({sum - place.top, place.top}, {sum - place.bottom(), place.bottom()},
+                         {grey(0.62), 1});
+        }
+    });
+}
+
+std::vector<Isoline> FalseColourPainter::draw_isolines(const FalseColourPanel& panel,
+                                                       const PageRectangle& frame) {
+    // Along the scale's own measure, so that lines on a logarithmic scale lie where the colours say; the
+    // lower limit stands in for values without a logarithm.
+    std::vector<double> fractions;
+    for (const double value : panel.values) {
+        fractions.push_back(std::isnan(value) ? value : std::max(scale_.fraction_of(value), -1.0));
+    }
+    std::vector<Isoline> isolines;
+    for (const Tick& tick : ticks_.major) {
+        const double level = scale_.fraction_of(tick.value);
+        if (level <= 0 || level >= 1) continue;  // what lies at the ends has one colour with what is beyond
+        for (std::vector<Point> line : find_isolines(fractions, panel.nu, panel.nv, level)) {
+            for (Point& point : line) {
+                point = {frame.left + point.x / panel.nu * frame.width,
+                         frame.bottom() - point.y / panel.nv * frame.height};
+            }
+            if (length_of(line) < kSmallSize) continue;
+            // White in a dark casing: seen on every colour.
+            canvas_.polyline(line, {with_alpha(grey(0), 0.5), 2.6});
+            canvas_.polyline(line, {grey(1), 1.2});
+            isolines.push_back({std::move(line), tick.label});
+        }
+    }
+    return isolines;
+}
+
+void FalseColourPainter::label_isolines(std::span<const Isoline> isolines, const PageRectangle& frame) {
+    LabelPlacer placer(frame);
+    for (const Isoline& isoline : isolines) {
+        const auto place = placer.place(isoline.points, text_width(isoline.label, kSmallSize));
+        if (!place) continue;
+        canvas_.text(place->center, isoline.label,
+                     {.size = kSmallSize,
+                      .colour = grey(0),
+                      .horizontal = HorizontalPart::center,
+                      .vertical = VerticalPart::middle,
+                      .angle_rad = place->angle_rad,
+                      .halo = grey(1)});
+    }
+}
+
+void FalseColourPainter::draw_number(const Point& center, double value, int decimals, double size) {
+    if (std::isnan(value)) return;
+    // The halo is seen only where an isoline passes behind, or the surroundings differ.
+    const Colour background = map_.at(scale_.fraction_of(value));
+    canvas_.text(center, number_text(value, decimals),
+                 {.size = size,
+                  .colour = readable_on(background),
+                  .horizontal = HorizontalPart::center,
+                  .vertical = VerticalPart::middle,
+                  .halo = background});
+}
+
+void FalseColourPainter::draw_bar(const PageRectangle& bar, const std::string& unit) {
+    constexpr int kStrips = 256;
+    for (int i = 0; i < kStrips; ++i) {
+        const double top = bar.top + bar.height * i / kStrips;
+        canvas_.fill_rectangle({bar.left, top, bar.width, bar.bottom() - top},
+                               map_.at(1 - (i + 0.5) / kStrips));
+    }
+    canvas_.stroke_rectangle(bar, {kInk, 0.8});
+    draw_axis(canvas_, scale_, ticks_, Side::right, bar);
+    canvas_.text({bar.left, bar.top - 10}, unit, {.size = kNameSize, .colour = kInk, .weight = Weight::bold});
+}
+
+}  // namespace stilb

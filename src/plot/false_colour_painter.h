@@ -1,0 +1,59 @@
+// What false-colour pictures of all kinds are drawn with.
+#pragma once
+
+#include <span>
+
+#include "plot/axis.h"
+#include "plot/canvas.h"
+#include "plot/colour_map.h"
+#include "plot/false_colour.h"
+
+namespace stilb {
+
+inline constexpr double kSheetMargin = 24;
+inline constexpr double kTitleSize = 17;
+inline constexpr double kTitleHeight = 36;
+inline constexpr double kNameSize = 12.5;
+inline constexpr double kSmallSize = 10.5;
+inline constexpr double kBarWidth = 18;
+inline constexpr double kBarGap = 30;
+inline constexpr double kLeastBarHeight = 180;
+
+/// The scale that the options ask for, chosen from all the values where they leave it open.
+Scale choose_scale(std::span<const double> values, const FalseColourOptions& options);
+
+/// Width of the colour bar with its labels.
+double bar_extent(const Scale& scale);
+
+/// Of one value of the panel.
+PageRectangle cell_in(const PageRectangle& frame, const FalseColourPanel& panel, int u, int v);
+
+struct Isoline {
+    std::vector<Point> points;  ///< on the sheet
+    std::string label;
+};
+
+/// Draws panels' values into frames: row v = 0 at the bottom, a NaN as hatching.
+class FalseColourPainter {
+  public:
+    FalseColourPainter(Canvas& canvas, const Scale& scale);
+
+    void draw_cells(const FalseColourPanel& panel, const PageRectangle& frame);
+    /// At the bar's labelled values but its ends. Specks, which are shorter than a label is high, are left
+    /// out.
+    std::vector<Isoline> draw_isolines(const FalseColourPanel& panel, const PageRectangle& frame);
+    void label_isolines(std::span<const Isoline> isolines, const PageRectangle& frame);
+    /// In the middle of a cell of that value.
+    void draw_number(const Point& center, double value, int decimals, double size);
+    void draw_bar(const PageRectangle& bar, const std::string& unit);
+
+  private:
+    void draw_hatching(const PageRectangle& place);
+
+    Canvas& canvas_;
+    Scale scale_;
+    Ticks ticks_;
+    ColourMap map_;
+};
+
+}  // namespace stilb

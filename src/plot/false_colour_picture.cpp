@@ -1,0 +1,176 @@
+#include "plot/false_colour_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plot/axis_drawing.h"
+#include "plot/canvas.h"
+#include "plot/false_colour_painter.h"
+
+namespace stilb {
+namespace {
+
+constexpr const char* kUnit = "cd/m²";
+constexpr double kPixelsPerUnit = 2;
+/// Pixels of a PNG: pictures are magnified up to the first, averaged beyond the second.
+constexpr int kMagnifiedSide = 1000, kLongestSide = 4096;
+constexpr int kIsolineColumns = 160;
+constexpr double kNumberWidth = 70, kNumberHeight = 44;
+constexpr double kHeaderHeight = 38;
+
+/// Rows from the bottom, as panels have them.
+FalseColourPanel panel_of(const Picture& picture) {
+    std::optional<CameraView> view;
+    if (picture.camera) view.emplace(*picture.camera);
+    FalseColourPanel panel;
+    panel.nu = picture.width;
+    panel.nv = picture.height;
+    panel.values.reserve(picture.pixel_count());
+    for (int y = picture.height - 1; y >= 0; --y) {
+        const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width);
+        for (int x = 0; x < picture.width; ++x) {
+            const bool is_seen = !view || view->direction_at(x + 0.5, y + 0.5);
+            panel.values.push_back(is_seen ? picture.luminance_cd_m2(row + static_cast<std::size_t>(x))
+                                           : std::numeric_limits<double>::quiet_NaN());
+        }
+    }
+    return panel;
+}
+
+/// Columns or rows from `begin` to before `end`.
+struct Stretch {
+    int begin = 0, end = 0;
+};
+
+/// The middle `share` of part i of n, one cell at least.
+Stretch stretch(int count, int n, int i, double share) {
+    const double middle = (i + 0.5) * count / n;
+    const double half = 0.5 * share * count / n;
+    const int begin = std::clamp(static_cast<int>(std::lround(middle - half)), 0, count - 1);
+    return {begin, std::clamp(static_cast<int>(std::lround(middle + half)), begin + 1, count)};
+}
+
+/// The mean; NaN where half of the values or more are that.
+double mean_of(const FalseColourPanel& panel, const Stretch& u, const Stretch& v) {
+    double sum = 0;
+    int count = 0;
+    for (int j = v.begin; j < v.end; ++j) {
+        for (int i = u.begin; i < u.end; ++i) {
+            const double value = panel.value_at(i, j);
+            if (std::isnan(value)) continue;
+            sum += value;
+            ++count;
+        }
+    }
+    const bool is_known = 2 * count > (u.end - u.begin) * (v.end - v.begin);
+    return is_known ? sum / count : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// nu x nv means, each over the middle `share` of its part of the panel (along both sides).
+FalseColourPanel averaged(const FalseColourPanel& panel, int nu, int nv, double share = 1) {
+    FalseColourPanel result;
+    result.nu = nu;
+    result.nv = nv;
+    for (int v = 0; v < nv; ++v) {
+        for (int u = 0; u < nu; ++u)
+            result.values.push_back(
+                mean_of(panel, stretch(panel.nu, nu, u, share), stretch(panel.nv, nv, v, share)));
+    }
+    return result;
+}
+
+FalseColourPanel with_columns(const FalseColourPanel& panel, int columns) {
+    if (columns >= panel.nu) return panel;
+    return averaged(panel, columns,
+                    std::max(1, static_cast<int>(std::lround(double(columns) * panel.nv / panel.nu))));
+}
+
+/// Small enough to be drawn pixel by pixel.
+FalseColourPanel drawable(const FalseColourPanel& panel) {
+    const double reduction = std::max(1.0, std::max(panel.nu, panel.nv) / double(kLongestSide));
+    return with_columns(panel, std::max(1, static_cast<int>(panel.nu / reduction)));
+}
+
+/// A whole number of the PNG's pixels for each of the panel's.
+PageRectangle frame_of(const FalseColourPanel& panel) {
+    const int magnification = std::max(1, kMagnifiedSide / std::max(panel.nu, panel.nv));
+    return {kSheetMargin, kSheetMargin + kTitleHeight + kHeaderHeight,
+            panel.nu * magnification / kPixelsPerUnit, panel.nv * magnification / kPixelsPerUnit};
+}
+
+std::string headline_of(const Picture& picture, const FalseColourPanel& panel) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    double sum = 0;
+    std::size_t count = 0;
+    for (const double value : panel.values) {
+        if (!std::isfinite(value)) continue;
+        least = std::min(least, value);
+        most = std::max(most, value);
+        sum += value;
+        ++count;
+    }
+    std::string text = fmt::format("{} × {} pixels", picture.width, picture.height);
+    if (count == 0) return text + ", none with a value";
+    const auto add = [&](const char* name, double value) {
+        text += fmt::format("   {} {} {}", name, number_text(value, three_digit_decimals(value)), kUnit);
+    };
+    add("mean", sum / static_cast<double>(count));
+    add("minimum", least);
+    add("maximum", most);
+    return text;
+}
+
+void draw_numbers(FalseColourPainter& painter, const FalseColourPanel& panel, const PageRectangle& frame) {
+    const auto parts = [](double length, double part, int most) {
+        return std::clamp(static_cast<int>(length / part), 1, most);
+    };
+    const FalseColourPanel spots = averaged(panel, parts(frame.width, kNumberWidth, panel.nu),
+                                            parts(frame.height, kNumberHeight, panel.nv), 0.25);
+    for (int v = 0; v < spots.nv; ++v) {
+        for (int u = 0; u < spots.nu; ++u) {
+            const double value = spots.value_at(u, v);
+            painter.draw_number(cell_in(frame, spots, u, v).center(), value, three_digit_decimals(value),
+                                kSmallSize);
+        }
+    }
+}
+
+}  // namespace
+
+void draw_false_colour(const Picture& picture, const std::string& title, const FalseColourOptions& options,
+                       const std::filesystem::path& path) {
+    require_consistency(picture);
+    const FalseColourPanel whole = panel_of(picture);
+    const Scale scale = choose_scale(whole.values, options);
+    const FalseColourPanel panel = drawable(whole);
+    const PageRectangle frame = frame_of(panel);
+    const PageRectangle bar{frame.right() + kBarGap, frame.top, kBarWidth,
+                            std::max(kLeastBarHeight, frame.height)};
+    const std::string headline = headline_of(picture, whole);
+    const double text_width_needed =
+        std::max(text_width(title, kTitleSize, Weight::bold), text_width(headline, kSmallSize));
+    Canvas canvas(path,
+                  std::max(bar.left + bar_extent(scale), kSheetMargin + text_width_needed) + kSheetMargin,
+                  bar.bottom() + kSheetMargin);
+    canvas.text({frame.left, kSheetMargin + kTitleSize}, title,
+                {.size = kTitleSize, .colour = kInk, .weight = Weight::bold});
+    canvas.text({frame.left, frame.top - kHeaderHeight + 10}, headline, {.size = kSmallSize, .colour = kInk});
+
+    FalseColourPainter painter(canvas, scale);
+    painter.draw_cells(panel, frame);
+    if (options.isolines) {
+        const std::vector<Isoline> isolines =
+            painter.draw_isolines(with_columns(panel, kIsolineColumns), frame);
+        if (!options.numbers) painter.label_isolines(isolines, frame);
+    }
+    if (options.numbers) draw_numbers(painter, panel, frame);
+    canvas.stroke_rectangle(frame, {kInk, 0.8});
+    painter.draw_bar(bar, kUnit);
+    canvas.save();
+}
+
+}  // namespace stilb

@@ -1,0 +1,150 @@
+#include "plot/isolines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+
+namespace stilb {
+namespace {
+
+/// An edge between neighbouring nodes; each is crossed at most once.
+using EdgeId = std::int64_t;
+
+struct Segment {
+    EdgeId from, to;
+};
+
+/// Cell centres as nodes, with one more ring of nodes on the grid's edge.
+class Nodes {
+  public:
+    Nodes(std::span<const double> values, int nu, int nv) : values_(values), nu_(nu), nv_(nv) {}
+
+    int columns() const { return nu_ + 2; }
+    int rows() const { return nv_ + 2; }
+    double value(int i, int j) const {
+        if (j == 0 || j > nv_)
+            return beyond(along_u(i, j == 0 ? 0 : nv_ - 1), along_u(i, j == 0 ? 1 : nv_ - 2));
+        return along_u(i, j - 1);
+    }
+    Point place(int i, int j) const {
+        return {std::clamp(i - 0.5, 0.0, double(nu_)), std::clamp(j - 0.5, 0.0, double(nv_))};
+    }
+    EdgeId edge_right_of(int i, int j) const { return 2 * (EdgeId{j} * columns() + i); }
+    EdgeId edge_above(int i, int j) const { return edge_right_of(i, j) + 1; }
+
+    Point crossing(EdgeId edge, double level) const {
+        const int i = static_cast<int>(edge / 2 % columns());
+        const int j = static_cast<int>(edge / 2 / columns());
+        const bool right = edge % 2 == 0;
+        const int i2 = right ? i + 1 : i;
+        const int j2 = right ? j : j + 1;
+        const double t = (level - value(i, j)) / (value(i2, j2) - value(i, j));
+        const Point a = place(i, j);
+        const Point b = place(i2, j2);
+        return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+    }
+
+  private:
+    /// Half a cell past the border cell, on the straight line through it and its inner neighbour.
+    static double beyond(double border, double inner) {
+        return std::isfinite(inner) ? 1.5 * border - 0.5 * inner : border;
+    }
+    /// The value in column i of nodes and row v of cells.
+    double along_u(int i, int v) const {
+        if (i == 0 || i > nu_) return beyond(cell(i == 0 ? 0 : nu_ - 1, v), cell(i == 0 ? 1 : nu_ - 2, v));
+        return cell(i - 1, v);
+    }
+    /// A grid of one column or row has the same value beside it.
+    double cell(int u, int v) const {
+        return values_[static_cast<std::size_t>(std::clamp(v, 0, nv_ - 1)) * static_cast<std::size_t>(nu_) +
+                       static_cast<std::size_t>(std::clamp(u, 0, nu_ - 1))];
+    }
+
+    std::span<const double> values_;
+    int nu_, nv_;
+};
+
+void add_segments(const Nodes& nodes, int i, int j, double level, std::vector<Segment>& segments) {
+    // Corners and edges counterclockwise from the lower left; edge k joins corners k and k + 1.
+    const std::array<double, 4> corner{nodes.value(i, j), nodes.value(i + 1, j), nodes.value(i + 1, j + 1),
+                                       nodes.value(i, j + 1)};
+    if (std::any_of(corner.begin(), corner.end(), [](double value) { return !std::isfinite(value); })) return;
+    const std::array<EdgeId, 4> edge{nodes.edge_right_of(i, j), nodes.edge_above(i + 1, j),
+                                     nodes.edge_right_of(i, j + 1), nodes.edge_above(i, j)};
+    std::array<EdgeId, 4> crossed{};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        if ((corner[k] < level) != (corner[(k + 1) % 4] < level)) crossed[count++] = edge[k];
+    }
+    if (count == 2) segments.push_back({crossed[0], crossed[1]});
+    if (count == 4) {
+        // A saddle: the mean decides which two corners hang together.
+        const bool center_below = (corner[0] + corner[1] + corner[2] + corner[3]) / 4 < level;
+        const std::size_t first = (corner[0] < level) == center_below ? 0 : 1;
+        segments.push_back({crossed[first], crossed[first + 1]});
+        segments.push_back({crossed[first + 2], crossed[(first + 3) % 4]});
+    }
+}
+
+/// Joins segments that share an edge to chains of edges.
+class Chains {
+  public:
+    explicit Chains(std::span<const Segment> segments) : segments_(segments), used_(segments.size(), false) {
+        for (std::size_t s = 0; s < segments.size(); ++s) {
+            touching_[segments[s].from].push_back(s);
+            touching_[segments[s].to].push_back(s);
+        }
+    }
+
+    std::vector<std::vector<EdgeId>> join() {
+        std::vector<std::vector<EdgeId>> chains;
+        for (std::size_t s = 0; s < segments_.size(); ++s) {
+            if (used_[s]) continue;
+            used_[s] = true;
+            std::vector<EdgeId> chain{segments_[s].from, segments_[s].to};
+            extend(chain);
+            std::reverse(chain.begin(), chain.end());
+            extend(chain);
+            chains.push_back(std::move(chain));
+        }
+        return chains;
+    }
+
+  private:
+    void extend(std::vector<EdgeId>& chain) {
+        for (bool grown = true; grown;) {
+            grown = false;
+            for (const std::size_t s : touching_[chain.back()]) {
+                if (used_[s]) continue;
+                used_[s] = grown = true;
+                chain.push_back(segments_[s].from == chain.back() ? segments_[s].to : segments_[s].from);
+                break;
+            }
+        }
+    }
+
+    std::span<const Segment> segments_;
+    std::vector<bool> used_;
+    std::unordered_map<EdgeId, std::vector<std::size_t>> touching_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Point>> find_isolines(std::span<const double> values, int nu, int nv, double level) {
+    const Nodes nodes(values, nu, nv);
+    std::vector<Segment> segments;
+    for (int j = 0; j + 1 < nodes.rows(); ++j) {
+        for (int i = 0; i + 1 < nodes.columns(); ++i) add_segments(nodes, i, j, level, segments);
+    }
+    std::vector<std::vector<Point>> lines;
+    for (const std::vector<EdgeId>& chain : Chains(segments).join()) {
+        std::vector<Point>& line = lines.emplace_back();
+        for (const EdgeId edge : chain) line.push_back(nodes.crossing(edge, level));
+    }
+    return lines;
+}
+
+}  // namespace stilb

@@ -1,0 +1,37 @@
+// Where along a line its label stands.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "plot/canvas.h"
+
+namespace stilb {
+
+struct LabelPlace {
+    Point center;
+    double angle_rad = 0;  ///< along the line, never upside down
+};
+
+/// Places labels of several lines within one frame so that they do not touch each other or the frame.
+class LabelPlacer {
+  public:
+    explicit LabelPlacer(const PageRectangle& frame) : frame_(frame) {}
+
+    /// On the straightest stretch that is free; nothing where the line is too short, too crooked or has no
+    /// room.
+    std::optional<LabelPlace> place(std::span<const Point> line, double label_width);
+
+  private:
+    bool is_free(const Point& center, double radius) const;
+
+    struct Disk {
+        Point center;
+        double radius;
+    };
+    PageRectangle frame_;
+    std::vector<Disk> taken_;
+};
+
+}  // namespace stilb

@@ -1,0 +1,174 @@
+#include "plot/plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+
+#include "plot/axis_drawing.h"
+#include "plot/canvas.h"
+#include "plot/series_drawing.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kWidth = 620;  // of the frames
+constexpr double kPanelGap = 16;
+/// Rounding of a point on the frame's edge.
+constexpr double kEdgeSlack = 1e-6;
+/// Off-scale points are moved to at most this many frame heights away, which Cairo's fixed point numbers
+/// hold.
+constexpr double kFarthest = 8;
+
+Scale make_scale(const PlotAxis& axis, const std::vector<double>& values) {
+    const Range range = nice_range(axis.scale, values);
+    return Scale(axis.scale, {axis.minimum.value_or(range.low), axis.maximum.value_or(range.high)});
+}
+
+Scale x_scale_of(const Plot& plot) {
+    std::vector<double> values;
+    for (const PlotPanel& panel : plot.panels) {
+        for (const Series& series : panel.series) {
+            values.insert(values.end(), series.x.begin(), series.x.end());
+        }
+    }
+    return make_scale(plot.x, values);
+}
+
+Scale y_scale_of(const PlotPanel& panel) {
+    std::vector<double> values;
+    for (const Series& series : panel.series) {
+        for (const auto* list : {&series.y, &series.y_low, &series.y_high}) {
+            values.insert(values.end(), list->begin(), list->end());
+        }
+    }
+    return make_scale(panel.y, values);
+}
+
+void require_consistency(const Plot& plot) {
+    if (plot.panels.empty()) throw std::invalid_argument("a plot without panels");
+    for (const PlotPanel& panel : plot.panels) require_consistency(panel.series);
+}
+
+/// One panel's ready-made scales and place.
+struct Frame {
+    Scale x, y;
+    Ticks x_ticks, y_ticks;
+    PageRectangle place;
+
+    Frame(const Scale& x_scale, const Scale& y_scale, double height)
+        : x(x_scale),
+          y(y_scale),
+          x_ticks(nice_ticks(x, static_cast<int>(kWidth / 60))),
+          y_ticks(nice_ticks(y, std::max(4, static_cast<int>(height / 38)))),
+          place{0, 0, kWidth, height} {}
+
+    /// NaN where the value has no place at all.
+    Point at(double x_value, double y_value) const {
+        const double u = x.fraction_of(x_value);
+        const double v = y.fraction_of(y_value);
+        return {
+            std::isfinite(u) ? place.left + std::clamp(u, -kFarthest, kFarthest) * place.width : NAN,
+            std::isfinite(v) ? place.bottom() - std::clamp(v, -kFarthest, kFarthest) * place.height : NAN};
+    }
+
+    /// Whether the place lies within the frame's width.
+    bool has_column(const Point& point) const {
+        return point.x >= place.left - kEdgeSlack && point.x <= place.right() + kEdgeSlack;
+    }
+
+    /// Lower ends without a logarithm go down off the frame.
+    double low_end(double y_value) const {
+        return y.type() == ScaleType::logarithmic && y_value <= 0 ? y.value_at(-1) : y_value;
+    }
+};
+
+void draw_grid_lines(Canvas& canvas, const Frame& frame) {
+    const PageRectangle& place = frame.place;
+    for (const Tick& tick : frame.x_ticks.major) {
+        const double x = position_along(frame.x, Side::bottom, place, tick.value);
+        canvas.line({x, place.top}, {x, place.bottom()}, {kGridColour, 0.8});
+    }
+    for (const Tick& tick : frame.y_ticks.major) {
+        const double y = position_along(frame.y, Side::left, place, tick.value);
+        canvas.line({place.left, y}, {place.right(), y}, {kGridColour, 0.8});
+    }
+}
+
+/// In the corner of the frame where the legend hides least.
+PageRectangle place_legend(std::span<const PlacedSeries> all, const PageRectangle& frame) {
+    constexpr double kInset = 10;
+    const PageRectangle box = legend_box(all);
+    PageRectangle best;
+    int least = -1;
+    for (const double top : {frame.top + kInset, frame.bottom() - kInset - box.height}) {
+        for (const double left : {frame.right() - kInset - box.width, frame.left + kInset}) {
+            const PageRectangle area{left, top, box.width, box.height};
+            const int crowd = crowd_within(area, all);
+            if (least >= 0 && crowd >= least) continue;
+            least = crowd;
+            best = area;
+        }
+    }
+    return best;
+}
+
+void draw_panel(Canvas& canvas, const PlotPanel& panel, const Frame& frame) {
+    const PageRectangle& place = frame.place;
+    std::vector<PlacedSeries> all;
+    for (std::size_t i = 0; i < panel.series.size(); ++i) {
+        all.push_back(place_series(panel.series[i], i, frame));
+    }
+    draw_grid_lines(canvas, frame);
+    canvas.clipped(place, [&] {
+        for (const PlacedSeries& placed : all) draw_areas(canvas, placed);
+    });
+    canvas.stroke_rectangle(place, {kInk, 0.8});
+    const PageRectangle around{place.left - kMarkerReach, place.top - kMarkerReach,
+                               place.width + 2 * kMarkerReach, place.height + 2 * kMarkerReach};
+    canvas.clipped(around, [&] {
+        const auto is_within = [&](const Point& point) { return frame.has_column(point); };
+        for (const PlacedSeries& placed : all) draw_points(canvas, placed, is_within);
+    });
+    draw_legend(canvas, all, place_legend(all, place));
+    draw_axis(canvas, frame.x, frame.x_ticks, Side::bottom, place);
+    draw_axis(canvas, frame.y, frame.y_ticks, Side::left, place);
+    canvas.text(
+        {kMargin + kLabelSize, place.center().y}, panel.y.label,
+        {.size = kLabelSize, .colour = kInk, .horizontal = HorizontalPart::center, .angle_rad = kUpwards});
+}
+
+}  // namespace
+
+void draw_plot(const Plot& plot, const std::filesystem::path& path) {
+    require_consistency(plot);
+    const Scale x = x_scale_of(plot);
+    std::vector<Frame> frames;
+    double extent = 0;
+    for (const PlotPanel& panel : plot.panels) {
+        frames.emplace_back(x, y_scale_of(panel), panel.height);
+        extent = std::max(extent, axis_extent(frames.back().y_ticks, Side::left));
+    }
+    double bottom = kMargin + (plot.title.empty() ? 0 : kTitleSize + 14);
+    for (Frame& frame : frames) {
+        frame.place.left = kMargin + kLabelSize + 12 + extent;
+        frame.place.top = bottom;
+        bottom = frame.place.bottom() + kPanelGap;
+    }
+    const PageRectangle& last = frames.back().place;
+    const double x_label = last.bottom() + axis_extent(frames.back().x_ticks, Side::bottom) + 8 + kLabelSize;
+
+    Canvas canvas(path, last.right() + kMargin + 8, x_label + kMargin);
+    canvas.text({last.left, kMargin + kTitleSize}, plot.title,
+                {.size = kTitleSize, .colour = kInk, .weight = Weight::bold});
+    // Only the lowest panel's x axis carries numbers.
+    for (Frame& frame : std::span(frames).first(frames.size() - 1)) {
+        for (Tick& tick : frame.x_ticks.major) tick.label.clear();
+    }
+    for (std::size_t i = 0; i < frames.size(); ++i) draw_panel(canvas, plot.panels[i], frames[i]);
+    canvas.text({last.center().x, x_label}, plot.x.label,
+                {.size = kLabelSize, .colour = kInk, .horizontal = HorizontalPart::center});
+    canvas.save();
+}
+
+}  // namespace stilb

@@ -1,0 +1,44 @@
+// Surfaces that rays are intersected with exactly, in double precision, instead of through triangles.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "base/bounds.h"
+#include "base/ray_packet.h"
+#include "geometry/shape.h"
+
+namespace stilb {
+
+/// The points origin + t direction, start < t < end; the direction need not be a unit vector.
+struct RayInterval {
+    Vec3 origin, direction;
+    double start = 0, end = 0;
+};
+
+/// A point of the surface with the unit normal of its front; `size_m` bounds the shape's extent.
+struct SurfacePoint {
+    Vec3 position, normal;
+    double size_m = 0;
+};
+
+/// In parts that have bounds each. Immutable.
+class CurvedSurface {
+  public:
+    virtual ~CurvedSurface() = default;
+    virtual std::size_t part_count() const = 0;
+    virtual Bounds bounds_of(std::size_t part) const = 0;
+    /// Smallest t in the interval at which the ray meets the part, from either side; infinite where it does
+    /// not.
+    virtual double intersect(std::size_t part, const RayInterval& ray) const = 0;
+    virtual bool has_verdicts() const { return false; }
+    /// What intersect() would find, as far as a surface can tell that sooner.
+    virtual LaneVerdicts verdicts(std::size_t, const RayPacket&) const { return {}; }
+    /// `near_by` (a hit with the rounding error of single precision) projected onto the part.
+    virtual SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
+};
+
+/// The surface of a shape relative to `origin`; null where it is made of triangles.
+std::unique_ptr<CurvedSurface> curved_surface(const Shape& shape, const Vec3& origin);
+
+}  // namespace stilb

@@ -1,0 +1,128 @@
+#include "rays/embree_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace stilb {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// What the callbacks of a curved surface share for N rays, of which lane i is looked at.
+RayInterval interval_of(RTCRayN* rays, unsigned width, unsigned lane) {
+    return {{RTCRayN_org_x(rays, width, lane), RTCRayN_org_y(rays, width, lane),
+             RTCRayN_org_z(rays, width, lane)},
+            {RTCRayN_dir_x(rays, width, lane), RTCRayN_dir_y(rays, width, lane),
+             RTCRayN_dir_z(rays, width, lane)},
+            RTCRayN_tnear(rays, width, lane),
+            RTCRayN_tfar(rays, width, lane)};
+}
+
+const CurvedSurface& surface_of(const void* user_data) {
+    return *static_cast<const CurvedSurface*>(user_data);
+}
+
+void curved_bounds(const RTCBoundsFunctionArguments* args) {
+    const Bounds bounds = surface_of(args->geometryUserPtr).bounds_of(args->primID);
+    // Rounded outwards, so that the box in single precision holds the part.
+    const auto below = [](double v) { return std::nextafter(static_cast<float>(v), -kInfinity); };
+    const auto above = [](double v) { return std::nextafter(static_cast<float>(v), kInfinity); };
+    RTCBounds& out = *args->bounds_o;
+    out.lower_x = below(bounds.min.x), out.upper_x = above(bounds.max.x);
+    out.lower_y = below(bounds.min.y), out.upper_y = above(bounds.max.y);
+    out.lower_z = below(bounds.min.z), out.upper_z = above(bounds.max.z);
+}
+
+/// Up to 16 rays.
+RayPacket packet_of(RTCRayN* rays, unsigned width) {
+    RayPacket packet;
+    const auto copy = [width](const float& first, RayPacket::Floats& copies) {
+        std::copy_n(&first, width, copies.begin());
+    };
+    copy(RTCRayN_org_x(rays, width, 0), packet.origin_x);
+    copy(RTCRayN_org_y(rays, width, 0), packet.origin_y);
+    copy(RTCRayN_org_z(rays, width, 0), packet.origin_z);
+    copy(RTCRayN_dir_x(rays, width, 0), packet.direction_x);
+    copy(RTCRayN_dir_y(rays, width, 0), packet.direction_y);
+    copy(RTCRayN_dir_z(rays, width, 0), packet.direction_z);
+    copy(RTCRayN_tnear(rays, width, 0), packet.start);
+    copy(RTCRayN_tfar(rays, width, 0), packet.end);
+    return packet;
+}
+
+/// Unclear for single rays, which are quicker without.
+LaneVerdicts verdicts_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays, unsigned width) {
+    if (width == 1 || !surface.has_verdicts()) return {};
+    return surface.verdicts(part, packet_of(rays, width));
+}
+
+/// The normal is found once the ray's closest hit is known.
+void curved_intersect(const RTCIntersectFunctionNArguments* args) {
+    const CurvedSurface& surface = surface_of(args->geometryUserPtr);
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
+    const LaneVerdicts verdicts = verdicts_of(surface, args->primID, rays, args->N);
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
+        const double t = surface.intersect(args->primID, interval_of(rays, args->N, lane));
+        if (t == std::numeric_limits<double>::infinity()) continue;
+        RTCRayN_tfar(rays, args->N, lane) = static_cast<float>(t);
+        RTCHitN_geomID(hits, args->N, lane) = args->geomID;
+        RTCHitN_primID(hits, args->N, lane) = args->primID;
+        RTCHitN_instID(hits, args->N, lane, 0) = RTC_INVALID_GEOMETRY_ID;
+    }
+}
+
+void curved_occluded(const RTCOccludedFunctionNArguments* args) {
+    const CurvedSurface& surface = surface_of(args->geometryUserPtr);
+    const LaneVerdicts verdicts = verdicts_of(surface, args->primID, args->ray, args->N);
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
+        if (verdicts[lane] == Verdict::meets ||
+            surface.intersect(args->primID, interval_of(args->ray, args->N, lane)) <
+                std::numeric_limits<double>::infinity())
+            RTCRayN_tfar(args->ray, args->N, lane) = -kInfinity;
+    }
+}
+
+RTCGeometry new_mesh(RTCDevice device, const Mesh& mesh, const Vec3& origin, EmbreeGeometry& kept) {
+    using Vertex = std::array<float, 3>;
+    const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<Vertex*>(rtcSetNewGeometryBuffer(
+        handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vertex), mesh.vertices.size()));
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const Vec3 p = mesh.vertices[i] - origin;
+        vertices[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    }
+    auto* triangles = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
+        handle, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), mesh.triangles.size()));
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+    kept.vertices = vertices;
+    kept.triangles = triangles;
+    return handle;
+}
+
+RTCGeometry new_curved(RTCDevice device, const EmbreeGeometry& kept) {
+    const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(handle, static_cast<unsigned>(kept.curved->part_count()));
+    rtcSetGeometryUserData(handle, kept.curved.get());
+    rtcSetGeometryBoundsFunction(handle, curved_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(handle, curved_intersect);
+    rtcSetGeometryOccludedFunction(handle, curved_occluded);
+    return handle;
+}
+
+}  // namespace
+
+RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origin, EmbreeGeometry& kept) {
+    kept.curved = curved_surface(shape, origin);
+    if (kept.curved) return new_curved(device, kept);
+    if (const auto* rectangle = std::get_if<Rectangle>(&shape))
+        return new_mesh(device, triangulated(*rectangle), origin, kept);
+    if (const auto* box = std::get_if<Box>(&shape)) return new_mesh(device, triangulated(*box), origin, kept);
+    return new_mesh(device, std::get<Mesh>(shape), origin, kept);
+}
+
+}  // namespace stilb

@@ -1,0 +1,409 @@
+#include "rays/ray_caster.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "base/bounds.h"
+#include "rays/embree_context.h"
+#include "rays/embree_geometry.h"
+
+namespace stilb {
+namespace {
+
+static_assert(sizeof(RayPacket) == sizeof(RTCRay16));
+static_assert(offsetof(RayPacket, direction_x) == offsetof(RTCRay16, dir_x));
+static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
+static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
+
+constexpr double kRelativeOffset = 0x1p-19;
+/// Hits are moved so many offsets away from edges: lifting stays on this side of neighbours at up to 7
+/// degrees.
+constexpr double kEdgeMargin = 8;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+void throw_error(void*, RTCError, const char* message) {
+    throw std::runtime_error(fmt::format("Embree: {}", message));
+}
+
+Bounds bounds_of_scene(const Scene& scene) {
+    Bounds all;
+    for (const Object& object : scene.objects) {
+        const Bounds own = bounds_of(object.shape);
+        if (own.is_empty()) continue;
+        all.include(own.min), all.include(own.max);
+    }
+    for (const Light& light : scene.lights) {
+        if (const auto* point = std::get_if<PointLight>(&light.source)) all.include(point->position);
+        if (const auto* solid = std::get_if<PhotometryLight>(&light.source)) all.include(solid->position);
+    }
+    return all.is_empty() ? Bounds{{}, {}} : all;
+}
+
+/// The point with barycentric coordinates b, moved away from the triangle's edges by `margin` metres where it
+/// is large enough for that; otherwise towards its middle.
+struct InnerPoint {
+    std::array<double, 3> b;
+    bool was_at_edge = false;
+};
+InnerPoint away_from_edges(const std::array<double, 3>& b, const std::array<Vec3, 3>& v, double margin,
+                           double size, double doubled_area) {
+    // Most points are: no edge is longer than 2 sqrt(3) times the longest coordinate difference.
+    if (std::min({b[0], b[1], b[2]}) * doubled_area >= margin * 4 * size) return {b};
+    constexpr double most = 0.75;
+    std::array<double, 3> least{};
+    double least_sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double opposite_edge = length(v[(i + 2) % 3] - v[(i + 1) % 3]);
+        least[i] = margin * opposite_edge / doubled_area;  // margin / height above that edge
+        least_sum += least[i];
+    }
+    if (b[0] >= least[0] && b[1] >= least[1] && b[2] >= least[2]) return {b};
+    if (least_sum > most) {
+        for (double& l : least) l *= most / least_sum;
+        least_sum = most;
+    }
+    std::array<double, 3> beyond{};
+    for (std::size_t i = 0; i < 3; ++i) beyond[i] = std::max(b[i] - least[i], 0.0);
+    const double beyond_sum = beyond[0] + beyond[1] + beyond[2];
+    InnerPoint moved{{}, true};
+    for (std::size_t i = 0; i < 3; ++i) {
+        moved.b[i] = least[i] + (beyond_sum > 0 ? beyond[i] / beyond_sum : 1.0 / 3) * (1 - least_sum);
+    }
+    return moved;
+}
+
+/// The packet in parts of `width` rays, for processors without 16-wide vectors.
+template <int width, typename EmbreeRays, typename Occlude>
+void occlude_in_parts(RayPacket& packet, const LaneMask& lanes, Occlude occlude) {
+    for (int first = 0; first < kPacketWidth; first += width) {
+        const auto part = [&](const auto& all) { return all.data() + first; };
+        alignas(32) std::array<int, width> valid;
+        std::copy_n(part(lanes), width, valid.begin());
+        EmbreeRays rays;
+        std::copy_n(part(packet.origin_x), width, rays.org_x);
+        std::copy_n(part(packet.origin_y), width, rays.org_y);
+        std::copy_n(part(packet.origin_z), width, rays.org_z);
+        std::copy_n(part(packet.start), width, rays.tnear);
+        std::copy_n(part(packet.direction_x), width, rays.dir_x);
+        std::copy_n(part(packet.direction_y), width, rays.dir_y);
+        std::copy_n(part(packet.direction_z), width, rays.dir_z);
+        std::copy_n(part(packet.time), width, rays.time);
+        std::copy_n(part(packet.end), width, rays.tfar);
+        std::copy_n(part(packet.mask), width, rays.mask);
+        std::copy_n(part(packet.id), width, rays.id);
+        std::copy_n(part(packet.flags), width, rays.flags);
+        occlude(valid.data(), &rays);
+        std::copy_n(rays.tfar, width, packet.end.data() + first);
+    }
+}
+
+}  // namespace
+
+struct RayCaster::Implementation {
+    const Scene& scene;
+    Bounds bounds;
+    Vec3 center;
+    double half_extent = 0;
+    bool has_panes = false;
+    RTCDevice device = nullptr;
+    RTCScene embree_scene = nullptr;
+    int packet_width = 4;                                     ///< widest that the processor takes natively
+    std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
+
+    explicit Implementation(const Scene& s) : scene(s), bounds(bounds_of_scene(s)) {
+        center = 0.5 * (bounds.min + bounds.max);
+        half_extent = bounds.half_extent();
+        has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
+            return std::ranges::any_of(object.materials,
+                                       [&](MaterialId id) { return pane_of(id) != nullptr; });
+        });
+        device = rtcNewDevice(nullptr);
+        if (device == nullptr) throw std::runtime_error("Embree: no device could be made");
+        rtcSetDeviceErrorFunction(device, throw_error, nullptr);
+        if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) packet_width = 8;
+        if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) packet_width = 16;
+        embree_scene = rtcNewScene(device);
+        rtcSetSceneFlags(embree_scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(embree_scene, RTC_BUILD_QUALITY_HIGH);
+        for (const Object& object : scene.objects) add(object);
+        rtcCommitScene(embree_scene);
+    }
+
+    ~Implementation() {
+        rtcReleaseScene(embree_scene);
+        rtcReleaseDevice(device);
+    }
+
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    void add(const Object& object) {
+        geometries.push_back(std::make_unique<EmbreeGeometry>());
+        const RTCGeometry embree_geometry = new_geometry(device, object.shape, center, *geometries.back());
+        rtcCommitGeometry(embree_geometry);
+        rtcAttachGeometryByID(embree_scene, embree_geometry, static_cast<unsigned>(geometries.size() - 1));
+        rtcReleaseGeometry(embree_geometry);
+    }
+
+    Hit hit_of(const RTCRayHit& found) const {
+        const auto& [ray, met] = found;
+        const Vec3 origin{ray.org_x, ray.org_y, ray.org_z}, direction{ray.dir_x, ray.dir_y, ray.dir_z};
+        const double u = met.u, v = met.v;
+        const EmbreeGeometry& geometry = *geometries[met.geomID];
+        Hit hit;
+        double size = 0;
+        bool at_edge = false;
+        Vec3 inner_position;  // away from edges: where lifted points stand
+        if (geometry.vertices != nullptr) {
+            const Triangle& t = geometry.triangles[met.primID];
+            std::array<Vec3, 3> p;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto& [x, y, z] = geometry.vertices[t[i]];
+                p[i] = {x, y, z};
+                size = std::max(
+                    {size, std::abs(p[i].x - p[0].x), std::abs(p[i].y - p[0].y), std::abs(p[i].z - p[0].z)});
+            }
+            const Vec3 edge_1 = p[1] - p[0], edge_2 = p[2] - p[0];
+            const Vec3 doubled = cross(edge_1, edge_2);
+            const double doubled_area = length(doubled);
+            hit.normal = (1 / doubled_area) * doubled;
+            hit.position = inner_position = p[0] + u * edge_1 + v * edge_2;
+            const double margin = kEdgeMargin * offset(hit.position, size);
+            const auto inner = away_from_edges({1 - u - v, u, v}, p, margin, size, doubled_area);
+            if (inner.was_at_edge) {
+                at_edge = true;
+                inner_position = inner.b[0] * p[0] + inner.b[1] * p[1] + inner.b[2] * p[2];
+            }
+        } else {
+            const Vec3 near_by = origin + ray.tfar * direction;
+            const SurfacePoint point = geometry.curved->nearest_point(met.primID, near_by);
+            hit.position = inner_position = point.position;
+            hit.normal = point.normal;
+            size = point.size_m;
+        }
+        hit.on_front = dot(hit.normal, direction) < 0;
+        if (!hit.on_front) hit.normal = -hit.normal;
+        hit.lift_m = offset(inner_position, size);
+        const Vec3 lift = hit.lift_m * hit.normal;
+        hit.lifted = inner_position + lift;
+        // At an edge where the mesh folds towards the ray, rounding may have picked the face behind the fold,
+        // whose side towards the ray is outside. Then the ray's origin sees the other side instead or, where
+        // the fold is sharp, neither: what it does see is the ray's own last stretch.
+        if (at_edge && occluded(origin, hit.lifted)) {
+            if (!occluded(origin, inner_position - lift)) {
+                hit.lifted = inner_position - lift;
+                hit.normal = -hit.normal;
+                hit.on_front = !hit.on_front;
+            } else {
+                const double back = kEdgeMargin * length(lift) / length(direction);
+                hit.lifted = origin + std::max(ray.tfar - back, 0.0) * direction;
+            }
+        }
+        hit.lifted += center;
+        hit.position += center;
+        hit.distance_m = ray.tfar;
+        hit.object = ObjectId{met.geomID};
+        hit.triangle = geometry.curved ? 0 : met.primID;
+        hit.material = material_of(met.geomID, met.primID);
+        return hit;
+    }
+
+    MaterialId material_of(std::uint32_t object, std::uint32_t primitive) const {
+        const auto& materials = scene.objects[object].materials;
+        return materials.size() == 1 ? materials[0] : materials[primitive];
+    }
+
+    const Pane* pane_of(MaterialId id) const { return std::get_if<Pane>(&scene.material(id)); }
+    const Pane* pane_at(const Hit& hit) const { return pane_of(hit.material); }
+
+    /// As RayCaster::offset_m, for a position relative to the centre.
+    double offset(const Vec3& relative, double size_m) const {
+        return kRelativeOffset *
+               std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z), size_m});
+    }
+
+    /// Origin relative to the centre.
+    static RTCRay ray_from(const Vec3& origin, const Vec3& direction, float length) {
+        RTCRay ray{};
+        ray.org_x = static_cast<float>(origin.x), ray.org_y = static_cast<float>(origin.y);
+        ray.org_z = static_cast<float>(origin.z);
+        ray.dir_x = static_cast<float>(direction.x), ray.dir_y = static_cast<float>(direction.y);
+        ray.dir_z = static_cast<float>(direction.z);
+        ray.tfar = length;
+        ray.mask = ~0u;
+        return ray;
+    }
+
+    /// Up to `width` rays as one packet of Embree's; EmbreeRayHits: RTCRayHit16 or its smaller kin.
+    template <int width, typename EmbreeRayHits, typename Intersect>
+    void closest_of_packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits,
+                           Intersect intersect) const {
+        alignas(64) std::array<int, width> valid{};
+        EmbreeRayHits packet;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Vec3 origin = rays[i].origin - center;
+            const Vec3& direction = rays[i].direction;
+            packet.ray.org_x[i] = static_cast<float>(origin.x);
+            packet.ray.org_y[i] = static_cast<float>(origin.y);
+            packet.ray.org_z[i] = static_cast<float>(origin.z);
+            packet.ray.dir_x[i] = packet_direction(direction.x);
+            packet.ray.dir_y[i] = packet_direction(direction.y);
+            packet.ray.dir_z[i] = packet_direction(direction.z);
+            packet.ray.tnear[i] = packet.ray.time[i] = 0;
+            packet.ray.tfar[i] = kInfinity;
+            packet.ray.mask[i] = ~0u;
+            packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            valid[i] = -1;
+        }
+        intersect(valid.data(), &packet);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            hits[i].reset();
+            if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+            hits[i] = hit_of(rtcGetRayHitFromRayHitN(reinterpret_cast<RTCRayHitN*>(&packet), width,
+                                                     static_cast<unsigned>(i)));
+        }
+    }
+
+    /// Between positions relative to the centre.
+    bool occluded(const Vec3& from, const Vec3& to) const {
+        RTCRay ray = ray_from(from, to - from, 1);
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcOccluded1(embree_scene, &context, &ray);
+        return ray.tfar < 0;
+    }
+};
+
+RayCaster::RayCaster(const Scene& scene) : implementation_(std::make_unique<Implementation>(scene)) {}
+RayCaster::~RayCaster() = default;
+
+const Vec3& RayCaster::center() const { return implementation_->center; }
+double RayCaster::half_extent_m() const { return implementation_->half_extent; }
+double RayCaster::offset_m(const Vec3& position, double size_m) const {
+    return implementation_->offset(position - center(), size_m);
+}
+
+std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction) const {
+    RTCRayHit ray_hit{Implementation::ray_from(origin - center(), direction, kInfinity), {}};
+    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(implementation_->embree_scene, &context, &ray_hit);
+    if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return implementation_->hit_of(ray_hit);
+}
+
+void RayCaster::closest(std::span<const Ray> rays, Coherence coherence,
+                        std::span<std::optional<Hit>> hits) const {
+    RTCIntersectContext context = context_for(coherence);
+    const Implementation& own = *implementation_;
+    const auto width = static_cast<std::size_t>(own.packet_width);
+    for (std::size_t first = 0; first < rays.size(); first += width) {
+        const auto part = rays.subspan(first, std::min(width, rays.size() - first));
+        const auto found = hits.subspan(first, part.size());
+        switch (own.packet_width) {
+            case 16:
+                own.closest_of_packet<16, RTCRayHit16>(
+                    part, found, [&](const int* valid, RTCRayHit16* packet) {
+                        rtcIntersect16(valid, own.embree_scene, &context, packet);
+                    });
+                break;
+            case 8:
+                own.closest_of_packet<8, RTCRayHit8>(part, found, [&](const int* valid, RTCRayHit8* packet) {
+                    rtcIntersect8(valid, own.embree_scene, &context, packet);
+                });
+                break;
+            default:
+                own.closest_of_packet<4, RTCRayHit4>(part, found, [&](const int* valid, RTCRayHit4* packet) {
+                    rtcIntersect4(valid, own.embree_scene, &context, packet);
+                });
+        }
+    }
+}
+
+bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
+    return implementation_->occluded(from - center(), to - center());
+}
+
+Spectrum RayCaster::transmittance(const Segment& segment) const {
+    if (!occluded(segment.from, segment.to)) return Spectrum::grey(1);
+    return implementation_->has_panes ? transmittance_of_panes(segment) : Spectrum{};
+}
+
+void RayCaster::transmittances(std::span<const Segment> segments, Coherence coherence,
+                               std::span<Spectrum> transmittances) const {
+    for (std::size_t first = 0; first < segments.size(); first += kPacketWidth) {
+        const std::size_t count = std::min<std::size_t>(kPacketWidth, segments.size() - first);
+        RayPacket packet;
+        LaneMask lanes{};
+        for (std::size_t i = 0; i < count; ++i) {
+            const Segment& segment = segments[first + i];
+            packet.set(i, segment.from - center(), segment.to - segment.from, 1);
+            lanes[i] = -1;
+        }
+        occlude(packet, lanes, coherence);
+        for (std::size_t i = 0; i < count; ++i) {
+            Spectrum& left = transmittances[first + i] = Spectrum::grey(packet.end[i] < 0 ? 0 : 1);
+            if (packet.end[i] < 0 && implementation_->has_panes) {
+                left = transmittance_of_panes(segments[first + i]);
+            }
+        }
+    }
+}
+
+Spectrum RayCaster::transmittance_of_panes(const Segment& segment) const {
+    Spectrum left = Spectrum::grey(1);
+    const Vec3 direction = normalized(segment.to - segment.from);
+    Vec3 from = segment.from;
+    while (occluded(from, segment.to)) {
+        const auto hit = closest(from, direction);
+        const Pane* pane = hit ? implementation_->pane_at(*hit) : nullptr;
+        if (pane == nullptr) return {};
+        left *= pane_shares(*pane, -dot(direction, hit->normal)).transmittance;
+        from = hit->lifted_behind();
+    }
+    return left;
+}
+
+std::optional<RayCaster::Seen> RayCaster::seen(const Ray& ray) const {
+    Seen seen;
+    Vec3 origin = ray.origin;
+    for (;;) {
+        const auto hit = closest(origin, ray.direction);
+        if (!hit) return std::nullopt;
+        const Pane* pane = implementation_->pane_at(*hit);
+        if (pane == nullptr) {
+            seen.hit = *hit;
+            return seen;
+        }
+        seen.transmittance *= pane_shares(*pane, -dot(ray.direction, hit->normal)).transmittance;
+        origin = hit->lifted_behind();
+    }
+}
+
+void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
+    RTCIntersectContext context = context_for(coherence);
+    const RTCScene embree_scene = implementation_->embree_scene;
+    switch (implementation_->packet_width) {
+        case 16:
+            rtcOccluded16(lanes.data(), embree_scene, &context, reinterpret_cast<RTCRay16*>(&packet));
+            break;
+        case 8:
+            occlude_in_parts<8, RTCRay8>(packet, lanes, [&](const int* valid, RTCRay8* rays) {
+                rtcOccluded8(valid, embree_scene, &context, rays);
+            });
+            break;
+        default:
+            occlude_in_parts<4, RTCRay4>(packet, lanes, [&](const int* valid, RTCRay4* rays) {
+                rtcOccluded4(valid, embree_scene, &context, rays);
+            });
+    }
+}
+
+}  // namespace stilb

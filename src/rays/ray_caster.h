@@ -1,0 +1,105 @@
+// Ray queries: closest hit, occlusion, and packets of both. Embree is behind it, and behind
+// patches/patch_caster.h; nothing else sees it.
+//
+// Offsets. Embree works in single precision on coordinates relative to the scene's centre. Rays start from,
+// and connections end at, points that are lifted off their surface along its geometric normal by offset_m() =
+// 2^-19 of the largest number involved (distance from the centre, size of the triangle): some 30 times the
+// rounding error, 8 micrometres in a room of 8 m, and the same in proportion at any size. Before they are
+// lifted, points are moved away from the edges of their triangle by eight times that, so that lifting never
+// carries them through a neighbouring wall. With Embree's robust (watertight) mode nothing else is needed:
+// rays have no minimal length. Distances and angles are those of the points themselves, not of the lifted
+// ones.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "base/ids.h"
+#include "base/ray_packet.h"
+#include "base/vec.h"
+#include "scene/scene.h"
+
+namespace stilb {
+
+/// Where a ray met a surface.
+struct Hit {
+    Vec3 position;
+    Vec3 normal;        ///< geometric, unit, on the side that the ray came from
+    Vec3 lifted;        ///< the position, lifted off the surface on that side: rays start and end here
+    double lift_m = 0;  ///< how far
+    double distance_m = 0;
+    ObjectId object{};
+    MaterialId material{};
+    std::uint32_t triangle = 0;  ///< of the mesh, or of the triangulated() rectangle or box; else 0
+    bool on_front = true;
+
+    /// As `lifted`, on the other side.
+    Vec3 lifted_behind() const { return lifted - 2 * lift_m * normal; }
+};
+
+struct Ray {
+    Vec3 origin;
+    Vec3 direction;  ///< unit
+};
+
+/// Between two (lifted) points.
+struct Segment {
+    Vec3 from, to;
+};
+
+/// Whether neighbouring rays of many go nearly the same way: then they are fastest together, else by
+/// themselves.
+enum class Coherence { coherent, scattered };
+
+/// Immutable after construction; all queries may run in parallel. Keeps a reference to the scene.
+class RayCaster {
+  public:
+    /// Builds the acceleration structure. Throws std::runtime_error where Embree does (out of memory).
+    explicit RayCaster(const Scene& scene);
+    ~RayCaster();
+    RayCaster(const RayCaster&) = delete;
+    RayCaster& operator=(const RayCaster&) = delete;
+
+    /// The first surface that a ray from `origin` along the unit vector `direction` meets.
+    std::optional<Hit> closest(const Vec3& origin, const Vec3& direction) const;
+    /// The same of many rays, into as many hits.
+    void closest(std::span<const Ray> rays, Coherence coherence, std::span<std::optional<Hit>> hits) const;
+
+    /// True where something lies between two (lifted) points.
+    bool occluded(const Vec3& from, const Vec3& to) const;
+    /// What is left of light that goes straight: 0 where something lies in between, the panes' transmittance
+    /// where it is nothing but panes.
+    Spectrum transmittance(const Segment& segment) const;
+    /// The same of many segments.
+    void transmittances(std::span<const Segment> segments, Coherence coherence,
+                        std::span<Spectrum> transmittances) const;
+
+    /// The first surface but panes that light along a ray comes straight from, and what panes leave of it.
+    struct Seen {
+        Hit hit;
+        Spectrum transmittance = Spectrum::grey(1);
+    };
+    std::optional<Seen> seen(const Ray& ray) const;
+
+    /// For lanes that are set: `end` becomes negative where something is met between `start` and `end`.
+    void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;
+
+    /// The origin of packet coordinates: the middle of the scene's bounding box.
+    const Vec3& center() const;
+    /// Half of the longest edge of the scene's bounding box [m]; lights and surfaces, not sensors.
+    double half_extent_m() const;
+    /// How far a point near `position` on something of size `size_m` is lifted off its surface.
+    double offset_m(const Vec3& position, double size_m) const;
+
+  private:
+    /// Of a segment that meets something.
+    Spectrum transmittance_of_panes(const Segment& segment) const;
+
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace stilb

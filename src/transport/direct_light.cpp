@@ -1,0 +1,64 @@
+#include "transport/direct_light.h"
+
+#include "transport/balance.h"
+
+namespace stilb {
+namespace {
+
+/// Without the response. Direction and distance are those of the point itself; only the shadow ray starts
+/// lifted.
+Spectrum illuminance_lx(const IncidentLight& light, const Receiver& receiver, const RayCaster& caster) {
+    const double cosine = dot(light.direction, receiver.normal());
+    if (cosine <= 0) return {};
+    return cosine * light.normal_illuminance_lx *
+           caster.transmittance({receiver.lifted(), light.source_point});
+}
+
+/// The emitters' light along a ray in proportion to the response; beside samples of each light.
+Spectrum sample_by_response(const Receiver& receiver, const RayCaster& caster, const LightSampler& lights,
+                            SampleStream& stream) {
+    const auto [u1, u2] = stream.next_two();
+    const auto sample = receiver.sample(u1, u2);
+    if (!sample) return {};
+    const auto seen = caster.seen({receiver.lifted(), sample->direction});
+    if (!seen) return {};
+    const Spectrum emission = seen->transmittance * lights.emitted_luminance(seen->hit);
+    if (!(emission.max() > 0)) return {};
+    const double light_pdf = lights.pdf_of_its_light_per_sr(seen->hit, receiver.position());
+    return sample->weight * emission * balance(sample->pdf_per_sr, light_pdf);
+}
+
+}  // namespace
+
+Spectrum direct_from_points(const Receiver& receiver, const RayCaster& caster, const LightSampler& lights) {
+    Spectrum sum;
+    for (std::size_t i = 0; i < lights.count(); ++i) {
+        if (!lights.is_point_like(i)) continue;
+        if (const auto light = lights.sample_incident(i, receiver.position(), {})) {
+            const Spectrum received = illuminance_lx(*light, receiver, caster);
+            if (received.max() > 0) sum += received * receiver.response(light->direction);
+        }
+    }
+    return sum;
+}
+
+Spectrum sample_direct_from_areas(const Receiver& receiver, const RayCaster& caster,
+                                  const LightSampler& lights, SampleStream& stream) {
+    const bool directional = !receiver.constant_response();
+    Spectrum sum;
+    for (std::size_t i = 0; i < lights.count(); ++i) {
+        if (lights.is_point_like(i)) continue;
+        const auto u = stream.next_two();
+        const auto light = lights.sample_incident(i, receiver.position(), u);
+        if (!light) continue;
+        const Spectrum received = illuminance_lx(*light, receiver, caster);
+        if (!(received.max() > 0)) continue;
+        const double weight =
+            directional ? balance(light->pdf_per_sr, receiver.pdf_per_sr(light->direction)) : 1;
+        sum += received * receiver.response(light->direction) * weight;
+    }
+    if (directional && lights.has_area_lights()) sum += sample_by_response(receiver, caster, lights, stream);
+    return sum;
+}
+
+}  // namespace stilb

@@ -1,0 +1,59 @@
+#include "transport/light_path.h"
+
+#include "transport/russian_roulette.h"
+#include "transport/specular_branch.h"
+
+namespace stilb {
+
+void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSampler& lights, int max_nodes,
+                      SampleStream stream, std::vector<ChainNode>& nodes) {
+    if (lights.count() == 0) return;
+    const EmittedParticle particle = lights.sample_emission(stream);
+    Vec3 origin = particle.origin;
+    Vec3 direction = particle.direction;
+    Spectrum flux = particle.flux_lm;
+    bool only_by_light = false;
+    int reflections = 0;
+    while (reflections < max_nodes) {
+        const auto hit = caster.closest(origin, direction);
+        if (!hit) return;
+        const Material& material = scene.material(hit->material);
+        if (is_specular(material)) {
+            const auto way = choose_specular_way(material, *hit, -direction, stream.next());
+            if (way && !way->straight) {
+                if (reflections == 0) only_by_light = particle.from_point;
+                ++reflections;
+            }
+            const double survival = way ? survival_probability(flux, way->share) : 0;
+            if (stream.next() >= survival) return;
+            flux *= way->share * (1 / survival);
+            origin = way->origin;
+            direction = way->direction;
+            continue;
+        }
+        const double survival = survival_probability(flux, reflectance_bound(material));
+        if (stream.next() >= survival) return;
+        flux *= 1 / survival;
+        nodes.push_back({hit->position, hit->lifted, hit->normal, -direction, &material, flux, ++reflections,
+                         only_by_light});
+        const Frame frame = Frame::of_surface(hit->normal);
+        const auto [u1, u2] = stream.next_two();
+        const auto scattered = sample_brdf(material, frame.to_local(-direction), u1, u2);
+        if (!scattered) return;
+        flux *= scattered->weight;
+        direction = frame.to_world(scattered->direction);
+        origin = hit->lifted;
+    }
+}
+
+std::vector<ChainNode> walk_light_chains(const Scene& scene, const RayCaster& caster,
+                                         const LightSampler& lights, int max_nodes, RandomKey key,
+                                         std::uint64_t first, std::uint64_t end) {
+    std::vector<ChainNode> nodes;
+    for (std::uint64_t chain = first; chain < end; ++chain) {
+        walk_light_chain(scene, caster, lights, max_nodes, SampleStream(key, chain), nodes);
+    }
+    return nodes;
+}
+
+}  // namespace stilb

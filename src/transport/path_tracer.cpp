@@ -1,0 +1,171 @@
+#include "transport/path_tracer.h"
+
+#include <cmath>
+
+#include "transport/balance.h"
+#include "transport/russian_roulette.h"
+#include "transport/specular_branch.h"
+
+namespace stilb {
+
+void PathTracer::trace(std::span<Path> paths, Coherence first) const {
+    struct Lit {
+        Path* path;
+        Spectrum luminance_cd_m2;
+    };
+    std::vector<Path*> going;
+    for (Path& path : paths) going.push_back(&path);
+    std::vector<Lit> lit;
+    std::vector<Segment> segments;
+    std::vector<Ray> rays;
+    std::vector<Spectrum> transmittances(paths.size());
+    std::vector<std::optional<Hit>> hits(paths.size());
+    for (Coherence coherence = first; !going.empty(); coherence = Coherence::scattered) {
+        if (stored_) add_stored_reflection(going, coherence);
+        lit.clear(), segments.clear(), rays.clear();
+        std::size_t count = 0;
+        for (Path* path : going) {
+            const Step step = take_step(*path);
+            if (step.connection) {
+                segments.push_back(step.connection->segment);
+                lit.push_back({path, step.connection->luminance_cd_m2});
+            }
+            if (step.ray) {
+                rays.push_back(*step.ray);
+                going[count++] = path;
+            }
+        }
+        caster_.transmittances(segments, coherence, transmittances);
+        for (std::size_t i = 0; i < lit.size(); ++i) {
+            lit[i].path->luminance_cd_m2 += lit[i].luminance_cd_m2 * transmittances[i];
+        }
+        caster_.closest(rays, Coherence::scattered, hits);
+        count = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (!hits[i]) continue;
+            arrive(*going[i], rays[i].direction, *hits[i]);
+            going[count++] = going[i];
+        }
+        going.resize(count);
+    }
+}
+
+void PathTracer::follow(Path& path) const {
+    Path* const self = &path;
+    for (;;) {
+        if (stored_) add_stored_reflection({&self, 1}, Coherence::scattered);
+        const Step step = take_step(path);
+        if (step.connection) {
+            path.luminance_cd_m2 +=
+                step.connection->luminance_cd_m2 * caster_.transmittance(step.connection->segment);
+        }
+        if (!step.ray) return;
+        const auto next = caster_.closest(step.ray->origin, step.ray->direction);
+        if (!next) return;
+        arrive(path, step.ray->direction, *next);
+    }
+}
+
+bool PathTracer::look_through(Path& path) const {
+    while (is_specular(material(path.hit))) {
+        const Step step = take_step(path);
+        if (!step.ray) return false;
+        const auto next = caster_.closest(step.ray->origin, step.ray->direction);
+        if (!next) return false;
+        arrive(path, step.ray->direction, *next);
+    }
+    return true;
+}
+
+PathTracer::Step PathTracer::take_step(Path& path) const {
+    const Material& material = this->material(path.hit);
+    if (is_specular(material)) return {std::nullopt, pass_specular(path, material)};
+    if (path.reflections_left == 0) return {};
+    --path.reflections_left;
+    return reflect(path, material);
+}
+
+void PathTracer::add_stored_reflection(std::span<Path* const> paths, Coherence coherence) const {
+    std::vector<Path*> reflecting;
+    for (Path* path : paths) {
+        if (path->reflections_left > 0 && !is_specular(material(path->hit))) reflecting.push_back(path);
+    }
+    stored_->add_to(reflecting, coherence);
+}
+
+std::optional<Ray> PathTracer::pass_specular(Path& path, const Material& material) const {
+    const auto way = choose_specular_way(material, path.hit, path.outgoing, path.stream.next());
+    const double survival = way ? survival_probability(path.throughput, way->share) : 0;
+    if (path.stream.next() >= survival) return std::nullopt;
+    path.throughput *= way->share * (way->luminance_factor / survival);
+    if (!way->straight) {
+        if (path.reflections_left == 0) return std::nullopt;
+        --path.reflections_left;
+        path.lookout = {};
+    }
+    return Ray{way->origin, way->direction};
+}
+
+PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const {
+    Step step;
+    const Hit& hit = path.hit;
+    const Frame frame = Frame::of_surface(hit.normal);
+    const Vec3 out = frame.to_local(path.outgoing);
+    const auto light = lights_.sample_one_light(hit.position, hit.normal, path.stream);
+    if (light && dot(light->direction, hit.normal) > 0) {
+        const Vec3 in = frame.to_local(light->direction);
+        const double weight = balance(light->pdf_per_sr, pdf_per_sr(material, out, in));
+        step.connection = {{hit.lifted, light->source_point},
+                           path.throughput * evaluate_brdf_per_sr(material, in, out) * (in.z * weight) *
+                               light->normal_illuminance_lx};
+    }
+    const double survival = patient_survival_probability(path.throughput, reflectance_bound(material));
+    if (path.stream.next() >= survival) return step;
+    const auto [u1, u2] = path.stream.next_two();
+    const auto scattered = sample_brdf(material, out, u1, u2);
+    if (!scattered) return step;
+    path.throughput *= scattered->weight * (1 / survival);
+    path.lookout = {scattered->pdf_per_sr, hit.position, hit.normal};
+    step.ray = {hit.lifted, frame.to_world(scattered->direction)};
+    return step;
+}
+
+double PathTracer::share_of(const Lookout& lookout, const Hit& emitter) const {
+    if (lookout.pdf_per_sr == 0 || std::isinf(lookout.pdf_per_sr)) return lookout.pdf_per_sr == 0 ? 0 : 1;
+    return balance(lookout.pdf_per_sr, lights_.pdf_per_sr(emitter, lookout.position, lookout.normal));
+}
+
+void PathTracer::arrive(Path& path, const Vec3& direction, const Hit& next) const {
+    const Spectrum emission = lights_.emitted_luminance(next);
+    if (emission.max() > 0) path.luminance_cd_m2 += path.throughput * emission * share_of(path.lookout, next);
+    path.hit = next;
+    path.outgoing = -direction;
+}
+
+std::optional<IncidentLight> PathTracer::sample_light(const Hit& surface, SampleStream& stream) const {
+    auto light = lights_.sample_one_light(surface.position, surface.normal, stream);
+    if (!light || dot(light->direction, surface.normal) <= 0) return std::nullopt;
+    light->normal_illuminance_lx *= caster_.transmittance({surface.lifted, light->source_point});
+    if (!(light->normal_illuminance_lx.max() > 0)) return std::nullopt;
+    return light;
+}
+
+Spectrum PathTracer::luminance_behind(const Hit& hit, const Vec3& direction, const Lookout& lookout,
+                                      int max_reflections, const SampleStream& stream) const {
+    Path path{hit, -direction, stream, max_reflections};
+    path.lookout = lookout;
+    follow(path);
+    return path.luminance_cd_m2;
+}
+
+Spectrum PathTracer::incoming_luminance(const Ray& ray, const Lookout& lookout, int max_reflections,
+                                        const SampleStream& stream) const {
+    const auto hit = caster_.closest(ray.origin, ray.direction);
+    if (!hit) return {};
+    Spectrum luminance = luminance_behind(*hit, ray.direction, lookout, max_reflections, stream);
+    const Spectrum emission = lights_.emitted_luminance(*hit);
+    if (emission.max() > 0) luminance += emission * share_of(lookout, *hit);
+    return luminance;
+}
+
+}  // namespace stilb

@@ -1,0 +1,91 @@
+#include "transport/receiver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "math/morton.h"
+#include "transport/kernel_split.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+const Material& white() {
+    static const Material material = Diffuse{Spectrum::grey(1)};
+    return material;
+}
+
+}  // namespace
+
+Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const RayCaster& caster)
+    : position_(point.position),
+      lifted_(lifted_position(point, caster)),
+      normal_(point.normal),
+      frame_(Frame::of_surface(normal_)),
+      material_(&white()),
+      outgoing_{0, 0, 1},
+      factor_(Spectrum::grey(kPi)),
+      constant_response_(Spectrum::grey(1)),
+      reading_(reading) {}
+
+Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material)
+    : position_(sub_point.surface.position),
+      lifted_(sub_point.surface.lifted),
+      normal_(sub_point.surface.normal),
+      frame_(Frame::of_surface(normal_)),
+      material_(&material),
+      outgoing_(frame_.to_local(sub_point.outgoing)),
+      factor_(sub_point.transmission),
+      reflections_(sub_point.reflections + 1),
+      reading_(reading) {
+    if (const auto* diffuse = std::get_if<Diffuse>(&material)) {
+        constant_response_ = factor_ * diffuse->reflectance * std::numbers::inv_pi;
+    }
+}
+
+Spectrum Receiver::response(const Vec3& direction) const {
+    if (constant_response_) return *constant_response_;
+    return factor_ * evaluate_brdf_per_sr(*material_, frame_.to_local(direction), outgoing_);
+}
+
+double Receiver::relative_response(const Vec3& direction) const {
+    if (constant_response_) return 1;
+    return relative_brdf(*material_, evaluate_brdf_per_sr(*material_, frame_.to_local(direction), outgoing_));
+}
+
+std::optional<Receiver::Sample> Receiver::sample(double u1, double u2) const {
+    const auto scattered = sample_brdf(*material_, outgoing_, u1, u2);
+    if (!scattered) return std::nullopt;
+    return Sample{frame_.to_world(scattered->direction), factor_ * scattered->weight, scattered->pdf_per_sr};
+}
+
+double Receiver::pdf_per_sr(const Vec3& direction) const {
+    return stilb::pdf_per_sr(*material_, outgoing_, frame_.to_local(direction));
+}
+
+Receiver Receiver::without_response() const {
+    Receiver result = *this;
+    result.material_ = &white();
+    result.outgoing_ = {0, 0, 1};
+    result.factor_ = Spectrum::grey(kPi);
+    result.constant_response_ = Spectrum::grey(1);
+    return result;
+}
+
+std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
+    std::vector<Vec3> positions;
+    for (const Receiver& receiver : receivers) positions.push_back(receiver.position());
+    const std::vector<std::uint64_t> codes = morton_codes(positions);
+    std::vector<std::uint32_t> order(receivers.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return codes[a] < codes[b]; });
+    std::vector<Receiver> sorted;
+    sorted.reserve(receivers.size());
+    for (const std::uint32_t i : order) sorted.push_back(receivers[i]);
+    return sorted;
+}
+
+}  // namespace stilb

@@ -1,0 +1,79 @@
+// Where light is received, and what it adds to which reading.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rays/ray_caster.h"
+#include "sensors/sensor.h"
+#include "transport/line_of_sight.h"
+
+namespace stilb {
+
+/// Reflections without limit.
+inline constexpr int kUnlimited = std::numeric_limits<int>::max();
+
+/// A point with a normal where light arrives: to its reading it adds
+///
+///     integral over the hemisphere of L(direction) response(direction) cos(theta) d direction.
+///
+/// For illuminance the response is 1. For luminance the point is a sub-point z of the line of sight, and the
+/// response is the BRDF there times what mirrors and glass leave of the light on its way to the sensor
+/// [LocalEstimation (8) to (10)].
+class Receiver {
+  public:
+    /// Of illuminance.
+    Receiver(std::uint32_t reading, const MeasuringPoint& point, const RayCaster& caster);
+    /// Of luminance. `material`: of the sub-point, not specular.
+    Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material);
+
+    std::uint32_t reading() const { return reading_; }
+    void set_reading(std::uint32_t reading) { reading_ = reading; }
+    const Vec3& position() const { return position_; }
+    const Vec3& lifted() const { return lifted_; }  ///< where rays start
+    const Vec3& normal() const { return normal_; }
+    /// What is left of a limit to all reflections for light before it arrives here.
+    int reflections_left(int max_reflections) const {
+        return max_reflections == kUnlimited ? kUnlimited : max_reflections - reflections_;
+    }
+
+    /// The response where it does not depend on direction.
+    const std::optional<Spectrum>& constant_response() const { return constant_response_; }
+    /// 1, or [1/sr]; for unit directions above the surface, towards where light comes from.
+    Spectrum response(const Vec3& direction) const;
+    /// pi f / albedo: s of kernel_split.h; 1 where the response is constant.
+    double relative_response(const Vec3& direction) const;
+
+    struct Sample {
+        Vec3 direction;
+        Spectrum weight;  ///< response cos(theta) / pdf
+        double pdf_per_sr = 0;
+    };
+    /// A direction that light may come from, about in proportion to response x cosine; nothing where the
+    /// surface absorbs the light.
+    std::optional<Sample> sample(double u1, double u2) const;
+    double pdf_per_sr(const Vec3& direction) const;
+
+    /// The point without its response: what receives its illuminance.
+    Receiver without_response() const;
+
+  private:
+    Vec3 position_, lifted_, normal_;
+    Frame frame_;
+    const Material* material_;  ///< owned by the scene; white for illuminance
+    Vec3 outgoing_;             ///< in the frame of the surface
+    Spectrum factor_;
+    std::optional<Spectrum> constant_response_;
+    int reflections_ = 0;  ///< from here to the sensor
+    std::uint32_t reading_ = 0;
+};
+
+/// The receivers of all readings, sorted along a space-filling (Morton) curve: neighbours in space share
+/// packets of rays. A packet is kPacketWidth of them from a multiple of kPacketWidth on. A reading may have
+/// several (several sub-points) or none.
+std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers);
+
+}  // namespace stilb

@@ -1,0 +1,28 @@
+// Ways of light on from mirrors and glass, in the scene.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "rays/ray_caster.h"
+
+namespace stilb {
+
+struct SpecularWay {
+    Vec3 origin;  ///< off the surface, on the side that the way goes to
+    Vec3 direction;
+    Spectrum share;               ///< of the flux; as SpecularBranch has it
+    double luminance_factor = 1;  ///< likewise
+    /// Through a pane: straight on, so that such light counts as not reflected, and shadow rays make it too.
+    bool straight = false;
+};
+
+/// All ways on from `hit` on a specular surface; `from`: unit, towards where the path came from.
+std::vector<SpecularWay> specular_ways(const Material& material, const Hit& hit, const Vec3& from);
+
+/// One of them, drawn in proportion to its luminous share by `u` in [0, 1); the share is divided by the
+/// probability. Nothing where all light is absorbed.
+std::optional<SpecularWay> choose_specular_way(const Material& material, const Hit& hit, const Vec3& from,
+                                               double u);
+
+}  // namespace stilb

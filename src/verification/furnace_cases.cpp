@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "exact/furnace.h"
+#include "verification/case_families.h"
+#include "verification/case_scenes.h"
+
+namespace stilb {
+namespace {
+
+/// Front: where the vertices run counterclockwise.
+void add_quad(Mesh& mesh, const std::array<Vec3, 4>& vertices) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), vertices.begin(), vertices.end());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+/// A room of 2 m squares on an L, 2.5 m high, with the front inside. The first four quads are walls.
+Mesh l_shaped_room() {
+    constexpr double height_m = 2.5;
+    constexpr std::array<std::array<double, 2>, 8> outline{
+        {{0, 0}, {2, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}, {0, 2}}};
+    constexpr std::array<std::array<double, 2>, 3> squares{{{0, 0}, {2, 0}, {0, 2}}};
+    Mesh mesh;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const auto [x1, y1] = outline[i];
+        const auto [x2, y2] = outline[(i + 1) % outline.size()];
+        add_quad(mesh, {{{x1, y1, 0}, {x1, y1, height_m}, {x2, y2, height_m}, {x2, y2, 0}}});
+    }
+    for (const auto& [x, y] : squares) {
+        add_quad(mesh, {{{x, y, 0}, {x + 2, y, 0}, {x + 2, y + 2, 0}, {x, y + 2, 0}}});
+        add_quad(mesh,
+                 {{{x, y, height_m}, {x, y + 2, height_m}, {x + 2, y + 2, height_m}, {x + 2, y, height_m}}});
+    }
+    return mesh;
+}
+
+/// On walls, floor and ceiling, and in the air with tilted normals.
+std::vector<MeasuringPoint> furnace_points() {
+    return {{{1, 1, 0}, {0, 0, 1}},
+            {{3, 0.7, 2.5}, {0, 0, -1}},
+            {{2, 3.1, 1.2}, {-1, 0, 0}},
+            {{1.2, 1.1, 1.0}, normalized({1, 2, -2})},
+            {{3.2, 1.3, 0.6}, normalized({-2, 0.3, 1})},
+            {{0.8, 3.3, 1.7}, normalized({0.2, -1, 0.4})}};
+}
+
+constexpr double kEmitted = 10;
+constexpr const char* kFurnaceNote =
+    "an L-shaped room whose walls all shine and reflect. Not with Phong and Ward surfaces, whose albedo\n"
+    "  depends on the direction. What stands in it and loses no light is invisible; white rough and plastic\n"
+    "  balls are so within the errors of their tables (docs/materials.md).";
+
+/// A furnace without readings.
+VerificationCase furnace(const std::string& variant, double reflectance,
+                         const std::vector<Material>& wall_materials) {
+    VerificationCase result{"furnace", fmt::format("rho {}, {}", reflectance, variant), {}, {}};
+    result.note = kFurnaceNote;
+    const Mesh room = l_shaped_room();
+    const ObjectId walls = add_object(result.scene, room, wall_materials.front());
+    std::vector<MaterialId> ids{MaterialId{0}};
+    for (std::size_t m = 1; m < wall_materials.size(); ++m) {
+        ids.push_back(add_material(result.scene, wall_materials[m]));
+    }
+    auto& of_triangles = result.scene.objects.front().materials;
+    of_triangles.clear();
+    for (std::size_t t = 0; t < room.triangles.size(); ++t) of_triangles.push_back(ids[t / 2 % ids.size()]);
+    add_area_light(result.scene, walls, kEmitted);
+    return result;
+}
+
+void add_illuminances(VerificationCase& furnace, double reflectance) {
+    for (const MeasuringPoint& point : furnace_points()) {
+        furnace.readings.push_back({point, exact::furnace_illuminance_lx(kEmitted, reflectance)});
+    }
+}
+
+/// Along lines of sight from the air, and leaving floor, ceiling and wall.
+void add_luminances(VerificationCase& furnace, double reflectance) {
+    const double luminance_cd_m2 = exact::furnace_luminance_cd_m2(kEmitted, reflectance);
+    for (const auto& [position, normal] : furnace_points()) {
+        for (const Vec3& direction : spread_directions(5)) {
+            if (dot(direction, normal) < 0.05) continue;
+            const bool in_the_air = std::abs(normal.x * normal.y) > 0;
+            furnace.readings.push_back({in_the_air ? Measurand{LineOfSight{position, direction}}
+                                                   : Measurand{EmergentRay{position, normal, direction}},
+                                        luminance_cd_m2});
+        }
+    }
+}
+
+std::vector<VerificationCase> furnaces_of_walls() {
+    const auto grey = [](double reflectance) { return Spectrum::grey(reflectance); };
+    struct Walls {
+        std::string variant;
+        double reflectance;
+        std::vector<Material> materials;
+    };
+    const std::vector<Walls> all{
+        {"diffuse", 0.5, {diffuse(0.5)}},
+        {"diffuse", 0.8, {diffuse(0.8)}},
+        {"some mirrors", 0.8, {diffuse(0.8), Mirror{grey(0.8)}, diffuse(0.8)}},
+        {"black", 0, {Black{}}},
+    };
+    std::vector<VerificationCase> cases;
+    for (const auto& [variant, reflectance, materials] : all) {
+        cases.push_back(furnace(variant, reflectance, materials));
+        cases.push_back(furnace(variant + ", luminance", reflectance, materials));
+        add_illuminances(cases.end()[-2], reflectance);
+        add_luminances(cases.back(), reflectance);
+    }
+    return cases;
+}
+
+// What is invisible in a furnace
+
+constexpr Vec3 kMiddle{1, 1, 1.2};  ///< of the thing
+constexpr double kHalfSize = 0.45;
+
+/// Of walls that stand around a convex thing whose albedo is wrong by `albedo_error`, at most, the thing's
+/// luminance is wrong by (albedo_error + what arrives wrongly), and what arrives is wrong by `reflectance`
+/// times the thing's error.
+double largest_error(double albedo_error, double reflectance) { return albedo_error / (1 - reflectance); }
+
+/// Lines of sight to places all over the thing, which is no larger than a ball of kHalfSize, and past it; and
+/// of the floor beside it.
+VerificationCase invisible_case(const std::string& variant, const Shape& thing, const Material& material,
+                                double albedo_error) {
+    constexpr double reflectance = 0.2;
+    VerificationCase result = furnace(variant + " inside", reflectance, {diffuse(reflectance)});
+    add_object(result.scene, thing, material);
+    const double tolerance = largest_error(albedo_error, reflectance);
+    const double luminance_cd_m2 = exact::furnace_luminance_cd_m2(kEmitted, reflectance);
+    for (const Vec3& eye : {Vec3{3, 0.8, 1.5}, Vec3{0.4, 3.2, 0.9}}) {
+        for (const Vec3& offset : spread_directions(6)) {
+            const Vec3 target = kMiddle + 0.9 * kHalfSize * offset;
+            result.readings.push_back(
+                {LineOfSight{eye, normalized(target - eye)}, luminance_cd_m2, tolerance});
+        }
+    }
+    result.readings.push_back(
+        {EmergentRay{{1.2, 1.1, 0}, {0, 0, 1}, normalized(Vec3{1, -1, 1})}, luminance_cd_m2, tolerance});
+    return result;
+}
+
+std::vector<VerificationCase> furnaces_with_things() {
+    const Spectrum white = Spectrum::grey(1);
+    const Sphere ball{kMiddle, kHalfSize};
+    const Vec3 corner{0.2, 0.25, 0.3};
+    const Box box{kMiddle - corner, kMiddle + corner};
+    const Rectangle sheet{kMiddle - Vec3{0.1, 0.4, 0.4}, {0.2, 0.8, 0}, {0, 0, 0.8}};
+    return {
+        invisible_case("glass ball", ball, Glass{1.5}, 0),
+        invisible_case("glass box", box, Glass{1.5}, 0),
+        invisible_case("pane", sheet, Pane{1.52, white}, 0),
+        invisible_case("mirror", sheet, Mirror{white}, 0),
+        invisible_case("white diffuse ball", ball, Diffuse{white}, 0),
+        invisible_case("white rough ball", ball, Rough(white, 0.3), 0.003),
+        invisible_case("white plastic ball", ball, Plastic(white, 1.5, 0.2), 0.001),
+    };
+}
+
+}  // namespace
+
+std::vector<VerificationCase> furnace_cases() {
+    std::vector<VerificationCase> cases = furnaces_of_walls();
+    for (VerificationCase& c : furnaces_with_things()) cases.push_back(std::move(c));
+    return cases;
+}
+
+}  // namespace stilb

@@ -1,0 +1,151 @@
+#include "checks/placement.h"
+
+#include <gtest/gtest.h>
+
+namespace stilb {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+PointLight bulb(const Vec3& position) { return {position, Spectrum::grey(100)}; }
+
+/// A room of 4 m x 4 m x 3 m with a bulb, and a cabinet that stands on the floor in its corner.
+Scene furnished_room() {
+    Scene scene;
+    scene.materials.push_back({"wall", Diffuse{Spectrum::grey(0.5)}});
+    scene.objects.push_back({"room", Box{{0, 0, 0}, {4, 4, 3}}, {MaterialId{0}}});
+    scene.objects.push_back({"cabinet", Box{{0, 0, 0}, {1, 1, 2}}, {MaterialId{0}}});
+    scene.lights.push_back({"bulb", bulb({3, 3, 2.5})});
+    return scene;
+}
+
+Sensor at(const Vec3& position, const Vec3& normal = {0, 0, 1}) {
+    return {"probe", SensorType::illuminance, {MeasuringPoint{position, normal}}};
+}
+
+Texts warnings_of(const Scene& scene, const std::vector<Sensor>& sensors) {
+    const RayCaster caster(scene);
+    return placement_warnings(scene, caster, sensors);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Placement, SensorsInTheRoomAreFine) {
+    const std::vector<Sensor> sensors{at({2, 2, 0.75}),           at({2, 2, 0}),
+                                      at({1, 0.5, 1}, {1, 0, 0}), at({0.5, 0.5, 2}),
+                                      at({0, 3, 1}, {1, 0, 0}),   at({3, 3, 0.001}, {0, 0, -1})};
+    EXPECT_EQ(warnings_of(furnished_room(), sensors), Texts{});
+}
+
+TEST(Placement, PointsInsideACabinetAreCounted) {
+    const Sensor grid = make_grid_sensor("desk", {{0, 0, 0.75}, {4, 0, 0}, {0, 4, 0}, {8, 8}}, {0, 0, 1});
+    const Texts warnings = warnings_of(furnished_room(), {grid});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(
+        warnings[0],
+        "sensor \"desk\": 4 of 64 points lie inside object \"cabinet\", where no light is: no light arrives, "
+        "they read 0 lx. Move them into the lit space.");
+}
+
+TEST(Placement, APointInsideTheCabinetsWallSide) {
+    const Texts warnings = warnings_of(furnished_room(), {at({0, 0.5, 1}, {1, 0, 0})});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_TRUE(has(warnings[0], "inside object \"cabinet\"")) << warnings[0];
+}
+
+TEST(Placement, PointsOutsideOfTheRoom) {
+    const Texts warnings = warnings_of(furnished_room(), {at({6, 2, 1})});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_TRUE(has(warnings[0], "outside object \"room\"")) << warnings[0];
+}
+
+TEST(Placement, APointBehindTheWallThatItShouldLieOn) {
+    EXPECT_EQ(warnings_of(furnished_room(), {at({4, 2, 1}, {1, 0, 0})}).size(), 1u);
+    EXPECT_EQ(warnings_of(furnished_room(), {at({4, 2, 1}, {-1, 0, 0})}).size(), 0u);
+}
+
+TEST(Placement, ThickWalls) {
+    Scene scene = furnished_room();
+    scene.objects.push_back({"facade", Box{{-0.3, -0.3, -0.3}, {4.3, 4.3, 3.3}}, {MaterialId{0}}});
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75})}).size(), 0u);
+    const Texts warnings = warnings_of(scene, {at({2, -0.15, 1})});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_TRUE(has(warnings[0], "outside object \"room\"")) << warnings[0];
+}
+
+TEST(Placement, ALampInAClosedShade) {
+    Scene scene = furnished_room();
+    scene.objects.push_back({"shade", Sphere{{2, 2, 2}, 0.2}, {MaterialId{0}}});
+    scene.lights.push_back({"lamp", bulb({2, 2, 2})});
+    const Texts warnings = warnings_of(scene, {at({2, 2, 0.75})});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(
+        warnings[0],
+        "light \"lamp\" is inside object \"shade\": its light cannot get out to any sensor. Move it, or "
+        "open the object.");
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({2.1, 2, 2})}).size(), 0u);
+}
+
+TEST(Placement, LightsOfSurfaces) {
+    Scene scene = furnished_room();
+    scene.lights.clear();
+    scene.objects.push_back({"panel", Rectangle{{2, 2, 2.9}, {0, 1, 0}, {1, 0, 0}}, {MaterialId{0}}});
+    scene.objects.push_back({"globe", Sphere{{3, 3, 2}, 0.1}, {MaterialId{0}}});
+    scene.lights.push_back({"panel", AreaLight{ObjectId{2}, Spectrum::grey(1000)}});
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75})}).size(), 0u);
+    EXPECT_EQ(warnings_of(scene, {at({3, 3, 2})}).size(), 1u);
+    scene.lights.push_back({"globe", AreaLight{ObjectId{3}, Spectrum::grey(1000)}});
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75})}).size(), 0u);
+    EXPECT_EQ(warnings_of(scene, {at({3, 3, 2})}).size(), 1u);  // the globe shines outwards
+}
+
+TEST(Placement, OpenSurfacesKeepNoLightOut) {
+    Scene scene = furnished_room();
+    Mesh open = triangulated(Box{{2, 2, 0}, {3, 3, 1}});
+    open.triangles.erase(open.triangles.begin());
+    scene.objects.push_back({"crate", open, {MaterialId{0}}});
+    EXPECT_EQ(warnings_of(scene, {at({2.5, 2.5, 0.5})}).size(), 0u);
+}
+
+TEST(Placement, AMeshOfSeveralClosedParts) {
+    Scene scene = furnished_room();
+    Mesh mesh = triangulated(Box{{0, 0, 0}, {4, 4, 3}});
+    const Mesh cabinet = triangulated(Box{{0.1, 0.1, 0.1}, {1, 1, 2}});
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), cabinet.vertices.begin(), cabinet.vertices.end());
+    for (const auto& [a, b, c] : cabinet.triangles)
+        mesh.triangles.push_back({a + first, b + first, c + first});
+    scene.objects = {{"office", mesh, {MaterialId{0}}}};
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75})}).size(), 0u);
+    EXPECT_EQ(warnings_of(scene, {at({0.5, 0.5, 0.75})}).size(), 1u);
+}
+
+TEST(Placement, LinesOfSightAndCamerasInTheDark) {
+    const Sensor sight{"sight", SensorType::luminance, {LineOfSight{{0.5, 0.5, 1}, {1, 0, 0}}}};
+    Sensor camera{"view", SensorType::camera, {}};
+    camera.camera = {.position = {0.5, 0.5, 1}, .target = {3, 3, 1}};
+    const Texts warnings = warnings_of(furnished_room(), {sight, camera});
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_TRUE(has(warnings[0], "sensor \"sight\": it lies inside object \"cabinet\"")) << warnings[0];
+    EXPECT_TRUE(has(warnings[0], "it reads 0 cd/m2")) << warnings[0];
+    EXPECT_TRUE(has(warnings[1], "sensor \"view\": it lies inside object \"cabinet\"")) << warnings[1];
+    camera.camera.position = {2, 2, 1};
+    EXPECT_EQ(warnings_of(furnished_room(), {camera}), Texts{});
+}
+
+TEST(Placement, GoniometersMeasureOnTheSideOfTheirNormal) {
+    const auto goniometer = [](const Vec3& normal) {
+        return Sensor{"probe", SensorType::goniometer, {EmergentRay{{4, 2, 1}, normal, normal}}};
+    };
+    EXPECT_EQ(warnings_of(furnished_room(), {goniometer({-1, 0, 0})}).size(), 0u);
+    EXPECT_EQ(warnings_of(furnished_room(), {goniometer({1, 0, 0})}).size(), 1u);
+}
+
+TEST(Placement, NoLightNoWarning) {
+    Scene scene = furnished_room();
+    scene.lights.clear();
+    EXPECT_EQ(warnings_of(scene, {at({0.5, 0.5, 1})}).size(), 0u);
+}
+
+}  // namespace
+}  // namespace stilb

@@ -1,0 +1,143 @@
+#include "estimators/local/connection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "estimators/receivers.h"
+#include "support/random_pairs.h"
+#include "support/scene_builder.h"
+#include "transport/kernel_split.h"
+
+namespace stilb {
+namespace {
+
+/// Cosines are sums of products in single precision: near grazing their relative error is 1e-7 over the
+/// cosine. Nodes at less than this cosine are left out of the comparison.
+constexpr double kLeastCosine = 0.01;
+constexpr double kTolerance = 2e-5;
+
+Vec3 random_direction(RandomPairs& random) {
+    const auto [a, b] = random.next_pair();
+    return normalized(Vec3{a - 0.5, b - 0.5, random.next() - 0.5});
+}
+Vec3 random_point(RandomPairs& random) {
+    const auto [a, b] = random.next_pair();
+    return {4 * a, 3 * b, 2.8 * random.next()};
+}
+
+std::vector<MeasuringPoint> random_points(std::size_t count, RandomPairs& random) {
+    std::vector<MeasuringPoint> points(count);
+    for (MeasuringPoint& point : points) point = {random_point(random), random_direction(random)};
+    return points;
+}
+
+TEST(Receivers, ArePermutedSoThatNeighboursStandTogether) {
+    RandomPairs random(1);
+    const std::vector<MeasuringPoint> points = random_points(1000, random);
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Black{});
+    const RayCaster caster(scene);
+    const std::vector<Receiver> sorted = receivers_of(points, caster);
+    double steps = 0, unsorted_steps = 0;
+    std::set<std::uint32_t> readings;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const MeasuringPoint& point = points[sorted[i].reading()];
+        readings.insert(sorted[i].reading());
+        EXPECT_EQ(sorted[i].normal(), point.normal);
+        EXPECT_EQ(sorted[i].position(), point.position);
+        EXPECT_EQ(sorted[i].lifted(), lifted_position(point, caster));
+        if (i == 0) continue;
+        steps += length(sorted[i].position() - sorted[i - 1].position());
+        unsorted_steps += length(points[i].position - points[i - 1].position);
+    }
+    EXPECT_LT(steps, unsorted_steps / 3);
+    EXPECT_EQ(readings.size(), points.size());
+    EXPECT_EQ(*readings.rbegin(), points.size() - 1);
+    EXPECT_EQ(receivers_of(std::vector<MeasuringPoint>(3), caster).size(), 3u);  // all in one place
+}
+
+/// W f_r w G (theory T.1b), one node and point at a time, in double precision.
+Spectrum contribution_lx(const ChainNode& node, const MeasuringPoint& point, double k_per_m2,
+                         const RayCaster& caster) {
+    const Vec3 w = normalized(point.position - node.position), to = lifted_position(point, caster);
+    const double cos_node = dot(w, node.normal), cos_point = -dot(w, point.normal);
+    if (cos_node <= 0 || cos_point <= 0 || caster.occluded(node.lifted, to)) {
+        return {};
+    }
+    const double g = cos_node * cos_point / squared_length(point.position - node.position);
+    const Frame frame = Frame::of_surface(node.normal);
+    // BRDFs see the ray, which goes between lifted points.
+    const Vec3 out = frame.to_local(normalized(to - node.lifted));
+    const Spectrum brdf = evaluate_brdf_per_sr(*node.material, frame.to_local(node.incoming), out);
+    const double weight =
+        node.only_by_light ? 1 : 1 / (1 + relative_brdf(*node.material, brdf) * g / k_per_m2);
+    return node.flux_lm * brdf * (weight * g);
+}
+
+TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, diffuse(0.5));
+    add_object(scene, Box{{1, 1, 0.5}, {1.7, 1.6, 1.2}}, diffuse(0.5));
+    add_object(scene, Sphere{{3, 2, 1}, 0.4}, diffuse(0.5));
+    const RayCaster caster(scene);
+    const std::array<Material, 3> materials{Diffuse{{{0.7, 0.5, 0.2}}},
+                                            Phong{{{0.3, 0.2, 0.1}}, {{0.2, 0.3, 0.4}}, 12}, diffuse(0.9)};
+    // Fewer points than a packet, a packet and one more; more nodes than a block.
+    for (const std::size_t count : {1u, 5u, 16u, 17u, 101u}) {
+        RandomPairs random(20 + count);
+        const std::vector<MeasuringPoint> points = random_points(count, random);
+        std::vector<double> k(count);
+        for (std::size_t j = 0; j < count; ++j) {
+            k[j] = j % 4 == 0 ? std::numeric_limits<double>::infinity() : 0.01 + random.next();
+        }
+        std::vector<ChainNode> nodes;
+        for (int n = 0; n < 600; ++n) {
+            ChainNode node;
+            node.position = random_point(random);
+            node.normal = random_direction(random);
+            node.lifted = node.position + 1e-5 * node.normal;
+            do node.incoming = random_direction(random);
+            while (dot(node.incoming, node.normal) <= 0);
+            node.material = &materials[static_cast<std::size_t>(n) % materials.size()];
+            node.flux_lm = {{random.next(), random.next(), random.next()}};
+            node.only_by_light = n % 5 == 0;
+            const bool grazes = std::any_of(points.begin(), points.end(), [&](const MeasuringPoint& point) {
+                const Vec3 w = normalized(point.position - node.position);
+                return std::min(std::abs(dot(w, node.normal)), std::abs(dot(w, point.normal))) < kLeastCosine;
+            });
+            if (!grazes) nodes.push_back(node);
+        }
+        ASSERT_GT(nodes.size(), 64u);
+        ReadingSums sums(count);
+        const std::vector<Receiver> sorted = receivers_of(points, caster);
+        std::vector<double> sorted_k;
+        for (const Receiver& receiver : sorted) sorted_k.push_back(k[receiver.reading()]);
+        const std::vector<PointTile> tiles = tiles_of(sorted, sorted_k, caster, kUnlimited);
+        Fan(caster, tiles).collect(nodes, sums);
+        std::uint64_t rays = 0;
+        for (std::size_t j = 0; j < count; ++j) {
+            Spectrum expected;
+            double largest = 0;
+            for (const ChainNode& node : nodes) {
+                const Spectrum added = contribution_lx(node, points[j], k[j], caster);
+                expected += added;
+                largest = std::max(largest, added.luminance());
+                const Vec3 w = points[j].position - node.position;
+                rays += dot(w, node.normal) > 0 && dot(w, points[j].normal) < 0;
+            }
+            for (std::size_t b = 0; b < kBands; ++b) {
+                EXPECT_NEAR(sums.sum[j][b], expected[b], kTolerance * expected[b] + 1e-9)
+                    << j << " of " << count;
+            }
+            EXPECT_NEAR(sums.largest[j], largest, kTolerance * largest + 1e-9) << j << " of " << count;
+        }
+        EXPECT_EQ(sums.rays, rays);
+        EXPECT_EQ(sums.invalid, 0u);
+    }
+}
+
+}  // namespace
+}  // namespace stilb

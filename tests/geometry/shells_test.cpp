@@ -1,0 +1,87 @@
+#include "geometry/shells.h"
+
+#include <gtest/gtest.h>
+
+namespace stilb {
+namespace {
+
+Mesh joined(Mesh first, const Mesh& second) {
+    const auto offset = static_cast<std::uint32_t>(first.vertices.size());
+    first.vertices.insert(first.vertices.end(), second.vertices.begin(), second.vertices.end());
+    for (const auto& [a, b, c] : second.triangles)
+        first.triangles.push_back({a + offset, b + offset, c + offset});
+    return first;
+}
+
+/// Every triangle with three vertices of its own, as many files have them.
+Mesh unwelded(const Mesh& mesh) {
+    Mesh result;
+    for (const Triangle& triangle : mesh.triangles) {
+        const auto first = static_cast<std::uint32_t>(result.vertices.size());
+        for (const std::uint32_t vertex : triangle) result.vertices.push_back(mesh.vertices[vertex]);
+        result.triangles.push_back({first, first + 1, first + 2});
+    }
+    return result;
+}
+
+const Box kUnitBox{{0, 0, 0}, {1, 1, 1}};
+
+TEST(Shells, ABoxIsOneClosedShell) {
+    const Shells shells = find_shells(Shape{kUnitBox});
+    EXPECT_EQ(shells.count(), 1u);
+    EXPECT_TRUE(shells.is_closed(0));
+    EXPECT_EQ(shells.turned_edges, 0u);
+    EXPECT_EQ(shells.of_triangle, std::vector<std::uint32_t>(12, 0));
+}
+
+TEST(Shells, RepeatedVerticesAreOne) {
+    const Shells shells = find_shells(unwelded(triangulated(kUnitBox)));
+    EXPECT_EQ(shells.count(), 1u);
+    EXPECT_TRUE(shells.is_closed(0));
+}
+
+TEST(Shells, AMissingTriangleOpensItsThreeEdges) {
+    Mesh mesh = unwelded(triangulated(kUnitBox));
+    mesh.triangles.pop_back();
+    const Shells shells = find_shells(mesh);
+    EXPECT_EQ(shells.count(), 1u);
+    EXPECT_EQ(shells.total_open_edges(), 3u);
+}
+
+TEST(Shells, ARectangleHasFourOpenEdges) {
+    EXPECT_EQ(find_shells(Shape{Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}).total_open_edges(), 4u);
+}
+
+TEST(Shells, SpheresAreClosedAndDisksAreNot) {
+    EXPECT_TRUE(find_shells(Shape{Sphere{{0, 0, 0}, 1}}).is_closed(0));
+    EXPECT_FALSE(find_shells(Shape{Disk{{0, 0, 0}, {0, 0, 1}, 1}}).is_closed(0));
+}
+
+TEST(Shells, SeparatePartsAreSeparateShells) {
+    Mesh open_box = triangulated(Box{{2, 0, 0}, {3, 1, 1}});
+    open_box.triangles.erase(open_box.triangles.begin());
+    const Shells shells = find_shells(joined(triangulated(kUnitBox), open_box));
+    ASSERT_EQ(shells.count(), 2u);
+    EXPECT_TRUE(shells.is_closed(0));
+    EXPECT_FALSE(shells.is_closed(1));
+    EXPECT_EQ(shells.of_triangle.front(), 0u);
+    EXPECT_EQ(shells.of_triangle.back(), 1u);
+}
+
+TEST(Shells, BoxesThatShareAnEdgeStayClosed) {
+    const Shells shells =
+        find_shells(joined(triangulated(kUnitBox), triangulated(Box{{1, 1, 0}, {2, 2, 1}})));
+    EXPECT_EQ(shells.total_open_edges(), 0u);
+    EXPECT_EQ(shells.turned_edges, 0u);
+}
+
+TEST(Shells, AFlippedTriangleTurnsItsThreeEdges) {
+    Mesh mesh = triangulated(kUnitBox);
+    std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
+    const Shells shells = find_shells(mesh);
+    EXPECT_EQ(shells.total_open_edges(), 0u);
+    EXPECT_EQ(shells.turned_edges, 3u);
+}
+
+}  // namespace
+}  // namespace stilb

@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "io/mesh_checks.h"
+
+namespace stilb {
+namespace {
+
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+using Triangles = std::vector<Triangle>;
+
+MeshFile read(const std::string& content) { return read_obj(content, "room"); }
+
+TEST(ObjFile, triangle) {
+    const MeshFile file =
+        read("# a comment\nv 1 2.5 -3e-1\nv +4 5 6 0.5 0.5 0.5\n\tv  7 8 9 1.0 \n\nf 1 2 3\n");
+    EXPECT_EQ(file.mesh.vertices, (std::vector<Vec3>{{1, 2.5, -0.3}, {4, 5, 6}, {7, 8, 9}}));
+    EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));
+    EXPECT_EQ(file.degenerate_triangles, 0U);
+    EXPECT_EQ(file.material_names, std::vector<std::string>{""});
+    EXPECT_EQ(file.group_names, std::vector<std::string>{""});
+}
+
+TEST(ObjFile, what_is_written_is_read) {
+    const Mesh mesh{{{0, 0, 0}, {1.25, 0, 0}, {0, -3e-7, 1}, {1, 123456, 1}}, {{0, 1, 2}, {3, 2, 1}}};
+    const MeshFile file = read(to_obj(mesh));
+    EXPECT_EQ(file.mesh.vertices, mesh.vertices);
+    EXPECT_EQ(file.mesh.triangles, mesh.triangles);
+}
+
+TEST(ObjFile, all_forms_of_corners) {
+    for (const std::string face : {"1 2 3", "1/7 2/8 3/9", "1//7 2//8 3//9", "1/7/1 2/8/1 3/9/1", "-4 -3 -2",
+                                   "1/ 2/ 3/", "-4/-1/-1 2 3", "1 2 3 # the floor"}) {
+        EXPECT_EQ(read(kSquare + "f " + face).mesh.triangles, (Triangles{{0, 1, 2}})) << face;
+    }
+}
+
+TEST(ObjFile, relative_numbers_count_from_the_face) {
+    const MeshFile file = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -1 -2 -3\n");
+    EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}, {3, 2, 1}}));
+}
+
+TEST(ObjFile, concave_polygon_keeps_its_area_and_front) {
+    const MeshFile file = read("v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nf 1 2 3 4\n");
+    ASSERT_EQ(file.mesh.triangles.size(), 2U);
+    double area = 0;
+    for (const Triangle& t : file.mesh.triangles) {
+        const Vec3& a = file.mesh.vertices[t[0]];
+        const double part = cross(file.mesh.vertices[t[1]] - a, file.mesh.vertices[t[2]] - a).z / 2;
+        EXPECT_GT(part, 0);
+        area += part;
+    }
+    EXPECT_DOUBLE_EQ(area, 4);
+}
+
+TEST(ObjFile, line_ends_and_joined_lines) {
+    const MeshFile file = read(
+        "v 0 0 0\r\nv 1 0 \\\r\n0\r\n# C:\\rooms\\\r\nv 0 1 0\r\nusemtl wall paint \r\nf 1 \\\r\n 2\\\r\n "
+        "3\r\n");
+    EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));
+    EXPECT_EQ(file.material_names, std::vector<std::string>{"wall paint"});
+}
+
+TEST(ObjFile, byte_order_mark_and_names_in_utf8) {
+    EXPECT_EQ(read("\xef\xbb\xbf" + kSquare + "o T\xc3\xbcr\nf 1 2 3").group_names,
+              std::vector<std::string>{"T\xc3\xbcr"});
+}
+
+TEST(ObjFile, materials_and_groups_of_each_triangle) {
+    const MeshFile file =
+        read(kSquare +
+             "f 1 2 3\nusemtl wood\ng desk\nf 1 2 3 4\nusemtl unused\nusemtl steel\no lamp\nf 1 2 4\n"
+             "usemtl wood\nf 2 3 4\n");
+    EXPECT_EQ(file.material_names, (std::vector<std::string>{"", "wood", "steel"}));
+    EXPECT_EQ(file.material_of_triangle, (std::vector<std::uint32_t>{0, 1, 1, 2, 1}));
+    EXPECT_EQ(file.group_names, (std::vector<std::string>{"", "desk", "lamp"}));
+    EXPECT_EQ(file.group_of_triangle, (std::vector<std::uint32_t>{0, 1, 1, 2, 2}));
+}
+
+TEST(ObjFile, other_statements_change_nothing) {
+    const std::string others =
+        "mtllib a.mtl\nvt 0 0\nvn nan 0 1\nvp 0\ns off\nl 1 2\np 1\nlod 3\ncstype bezier\nend\n";
+    EXPECT_EQ(read(others + kSquare + "f 1 2 3\n").mesh.triangles.size(), 1U);
+}
+
+TEST(ObjFile, degenerate_triangles_are_left_out_and_counted) {
+    // A corner twice, corners on a line (also where rounding keeps them off it), and one good triangle.
+    const MeshFile file = read(
+        kSquare +
+        "v 0.1 0.1 0.1\nv 0.3 0.3 0.3\nv 0.7 0.7 0.7\nf 1 1 2\nf 5 6 7\nusemtl good\nf 1 2 3\nf 1 2 2 3\n");
+    EXPECT_EQ(file.degenerate_triangles, 3U);
+    EXPECT_EQ(file.mesh.triangles.size(), 2U);
+    EXPECT_EQ(file.material_names, std::vector<std::string>{"good"});
+}
+
+TEST(ObjFile, thin_triangles_stay) {
+    EXPECT_EQ(read("v 0 0 0\nv 10000 0 0\nv 0 0.0001 0\nf 1 2 3").mesh.triangles.size(), 1U);
+    EXPECT_EQ(read("v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3").mesh.triangles.size(), 1U);
+}
+
+void expect_refusal(const std::string& content, const std::string& message) {
+    EXPECT_EQ(refusal(read_obj, content), "room" + message);
+}
+
+TEST(ObjFile, wrong_vertices) {
+    const std::string rule = "; it must be a finite number, at most 1e30 in size";
+    expect_refusal("v 0 0 0\nv 1 nan 0\n", ":2: the vertex's y is \"nan\"" + rule);
+    expect_refusal("v -inf 0 0\n", ":1: the vertex's x is \"-inf\"" + rule);
+    expect_refusal("v 0 0 1e999\n", ":1: the vertex's z is \"1e999\"" + rule);
+    expect_refusal("v 0 0 -2e30\n", ":1: the vertex's z is \"-2e30\"" + rule);
+    expect_refusal("v 0 1,5 0\n", ":1: the vertex's y is \"1,5\"" + rule);
+    expect_refusal("v 0 0 0x10\n", ":1: the vertex's z is \"0x10\"" + rule);
+    expect_refusal("v 0 0 +-1\n", ":1: the vertex's z is \"+-1\"" + rule);
+    expect_refusal("v 0 0 1.2.3\n", ":1: the vertex's z is \"1.2.3\"" + rule);
+    expect_refusal("v 0 1\n", ":1: the vertex has 2 coordinates; it needs three: v x y z");
+    expect_refusal("v # none\n", ":1: the vertex has 0 coordinates; it needs three: v x y z");
+}
+
+TEST(ObjFile, wrong_faces) {
+    expect_refusal(kSquare + "f 1 2\n", ":5: the face has 2 corners; it needs three or more: f 1 2 3");
+    expect_refusal(kSquare + "f", ":5: the face has 0 corners; it needs three or more: f 1 2 3");
+    const std::string range = ", but 4 vertices stand before it; they count from 1, or backwards from -1";
+    expect_refusal(kSquare + "f 1 2 5\nv 9 9 9\n", ":5: the face's corner \"5\" names vertex 5" + range);
+    expect_refusal(kSquare + "f 1 2/1 -5/1\n", ":5: the face's corner \"-5/1\" names vertex -5" + range);
+    expect_refusal(kSquare + "f 0 1 2\n", ":5: the face's corner \"0\" names vertex 0" + range);
+    expect_refusal(kSquare + "f 1 2 4294967297\n",
+                   ":5: the face's corner \"4294967297\" names vertex 4294967297" + range);
+    const std::string form = "; it must be a vertex number, alone or as v/vt, v//vn or v/vt/vn";
+    for (const std::string corner :
+         {"x", "1.5", "/1", "1/2/3/4", "1/a", "1e0", "99999999999999999999", "--1"})
+        expect_refusal(kSquare + "\nf 1 2 " + corner, ":6: the face's corner is \"" + corner + "\"" + form);
+}
+
+TEST(ObjFile, lines_are_counted_through_joined_lines) {
+    expect_refusal("v 0 \\\n0 \\\n0\nf 1 \\\n2 3\n",
+                   ":4: the face's corner \"2\" names vertex 2, but 1 vertices stand before it; they count "
+                   "from 1, or backwards from -1");
+    expect_refusal("v 0 0 \\", ":1: the file ends after a backslash, which says that the line goes on");
+}
+
+TEST(ObjFile, what_is_no_obj) {
+    expect_refusal(
+        std::string("\x7f"
+                    "ELF\x02\x01\x01\0\0",
+                    9),
+        ":1: byte 0x02 is not text, so this is no OBJ file; it must be plain text (ASCII or UTF-8)");
+    expect_refusal(
+        std::string("v 0 0 0\nv 1 0 0\n\0", 17),
+        ":3: byte 0x00 is not text, so this is no OBJ file; it must be plain text (ASCII or UTF-8)");
+    expect_refusal("\x89PNG\r\n",
+                   ":1: \"\\x89PNG\" is no OBJ statement (is this a text file in the OBJ format?); allowed "
+                   "are v, f, g, o, usemtl and others that are ignored");
+    expect_refusal(kSquare + "face 1 2 3\n",
+                   ":5: \"face\" is no OBJ statement (is this a text file in the OBJ format?); allowed are "
+                   "v, f, g, o, usemtl and others that are ignored");
+    expect_refusal("surf 0 1 0 1 1 2 3 4\n",
+                   ":1: the statement \"surf\" is not read, and its surface would be missing; export "
+                   "polygons (f) instead");
+}
+
+TEST(ObjFile, no_triangle) {
+    expect_refusal(
+        "", ": no triangle in the file, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
+    expect_refusal(
+        kSquare,
+        ": no triangle in the file, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
+    expect_refusal(kSquare + "f 1 1 2\n",
+                   ": no triangle in the file (1 of no area left out), so there is no surface; an OBJ file "
+                   "needs faces, such as: f 1 2 3");
+}
+
+struct SharedMesh {
+    std::string name;
+    std::size_t vertices, triangles;  // as counted by grep -c "^v " and from the faces' corners
+};
+
+TEST(ObjFile, shared_meshes) {
+    if (!std::filesystem::exists(shared_mesh("spot.obj"))) GTEST_SKIP() << "../shared/data/meshes is absent";
+    for (const auto& [name, vertices, triangles] : {SharedMesh{"beetle.obj", 1148, 2053},
+                                                    {"spot.obj", 2930, 5856},
+                                                    {"stanford-bunny.obj", 35947, 69451},
+                                                    {"suzanne.obj", 507, 968}}) {
+        const MeshFile file = read_mesh_file(shared_mesh(name));
+        EXPECT_EQ(file.mesh.vertices.size(), vertices) << name;
+        EXPECT_EQ(file.mesh.triangles.size() + file.degenerate_triangles, triangles) << name;
+        EXPECT_EQ(file.material_of_triangle.size(), file.mesh.triangles.size()) << name;
+    }
+    const MeshFile spot = read_mesh_file(shared_mesh("spot.obj"));
+    EXPECT_EQ(open_edges(spot.mesh), 0U);
+    EXPECT_GT(enclosed_volume(spot.mesh), 0);
+}
+
+TEST(MeshFile, files_that_cannot_be_read) {
+    const auto message = [](const std::filesystem::path& path) {
+        try {
+            read_mesh_file(path);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    EXPECT_EQ(message("nowhere/room.obj"), "nowhere/room.obj: cannot be read: No such file or directory");
+    EXPECT_EQ(message("room.stl"),
+              "room.stl: the extension \".stl\" names no mesh format that is read: use .obj or .ply");
+    const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "folder.obj";
+    std::filesystem::create_directory(directory);
+    EXPECT_EQ(message(directory), directory.string() + ": cannot be read: Is a directory");
+}
+
+TEST(MeshFile, extension_in_any_case) {
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "square.OBJ";
+    std::ofstream(path) << kSquare << "f 1 2 3 4\n";
+    EXPECT_EQ(read_mesh_file(path).mesh.triangles.size(), 2U);
+}
+
+}  // namespace
+}  // namespace stilb

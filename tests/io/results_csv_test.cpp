@@ -1,0 +1,49 @@
+#include "io/results/results_csv.h"
+
+#include <gtest/gtest.h>
+
+#include "io/luminance_results.h"
+#include "io/text/text.h"
+
+namespace stilb {
+namespace {
+
+std::string csv_of(const HandMade& made, const std::string& sensor) {
+    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("stilb_csv_" + test);
+    write_results_csv(made.result, made.sensors, folder);
+    const std::string content = read_whole_file(folder / (sensor + ".csv"));
+    std::filesystem::remove_all(folder);
+    return content;
+}
+
+TEST(ResultsCsv, HasALineForEachLineOfSight) {
+    EXPECT_EQ(
+        csv_of(luminance_results(), "view"),
+        "x_m,y_m,z_m,direction_x,direction_y,direction_z,hit_x_m,hit_y_m,hit_z_m,luminance_cd_m2,"
+        "standard_error_cd_m2,interval_low_cd_m2,interval_high_cd_m2,red_cd_m2,green_cd_m2,blue_cd_m2\r\n"
+        "2,0,1,0,1,0,2,4,1,100,1,98,102,110,100,90\r\n"
+        "2,0,1,0,0,1,,,,200,1,198,202,210,200,190\r\n");
+}
+
+TEST(ResultsCsv, HasALineForEachDirectionOfAGoniometer) {
+    EXPECT_EQ(csv_of(luminance_results(), "solid"),
+              "x_m,y_m,z_m,normal_x,normal_y,normal_z,direction_x,direction_y,direction_z,theta_deg,phi_deg,"
+              "hit_x_m,hit_y_m,hit_z_m,luminance_cd_m2,standard_error_cd_m2,interval_low_cd_m2,"
+              "interval_high_cd_m2,red_cd_m2,green_cd_m2,blue_cd_m2\r\n"
+              "2,2,0,0,0,1,0,0,1,0,90,2,2,0,30,1,28,32,40,30,20\r\n"
+              "2,2,0,0,0,1,0.6,0,0.8,36.87,90,2,2,0,31,1,29,33,41,31,21\r\n");
+}
+
+TEST(ResultsCsv, HasALineForEachMeasuringPoint) {
+    HandMade made;
+    made.sensors = {{"eye", SensorType::illuminance, {MeasuringPoint{{1, 2, 3}, {0, 0, 1}}}}};
+    made.result.sensors = {{{reading(100)}, {}, {}, 0.02}};
+    EXPECT_EQ(csv_of(made, "eye"),
+              "x_m,y_m,z_m,normal_x,normal_y,normal_z,illuminance_lx,standard_error_lx,interval_low_lx,"
+              "interval_high_lx,red_lx,green_lx,blue_lx\r\n"
+              "1,2,3,0,0,1,100,1,98,102,110,100,90\r\n");
+}
+
+}  // namespace
+}  // namespace stilb

@@ -1,0 +1,121 @@
+#include "io/results/results_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "plot/grid_picture.h"
+
+namespace stilb {
+namespace {
+
+std::string value(double x, double y, const std::string& number) {
+    return "{\"position\":[" + std::to_string(x) + "," + std::to_string(y) +
+           ",0.75],\"normal\":[0,0,1],\"value\":" + number +
+           ",\"standard_error\":1,\"interval\":[0,1],\"rgb\":[1,1,1]}";
+}
+
+/// 3 x 2 cells of 0.5 m x 0.4 m.
+std::string grid(const std::string& name, const std::string& unit) {
+    std::string values;
+    for (int i = 0; i < 6; ++i) {
+        values += (i > 0 ? "," : "") +
+                  value(0.5 * (i % 3), 0.4 * (i / 3), i == 4 ? "null" : std::to_string(100 + i));
+    }
+    return "{\"name\":\"" + name + "\",\"type\":\"grid\",\"quantity\":\"illuminance\",\"unit\":\"" + unit +
+           "\",\"count\":[3,2],\"values\":[" + values +
+           "],\"summary\":{\"mean\":102.5,\"minimum\":100,\"maximum\":105,\"uniformity\":0.976}}";
+}
+
+std::string document(const std::string& sensors) {
+    return "{\"stilb\":\"0.1.0\",\n\"scene\":\"office.toml\",\n\"sensors\":[" + sensors + "]}";
+}
+
+TEST(ResultsFile, ReadsGridsAndTheirSize) {
+    const ResultsFile results = read_results(
+        document("{\"name\":\"eye\",\"type\":\"illuminance\"}," + grid("desk", "lx")), "office.json");
+    EXPECT_EQ(results.scene, "office.toml");
+    ASSERT_EQ(results.grids.size(), 1u);
+    const MeasuredGrid& desk = results.grids[0];
+    EXPECT_EQ(desk.name, "desk");
+    EXPECT_EQ(desk.unit, "lx");
+    EXPECT_EQ(desk.count, (std::array<int, 2>{3, 2}));
+    EXPECT_NEAR(desk.width_m, 1.5, 1e-9);
+    EXPECT_NEAR(desk.height_m, 0.8, 1e-9);
+    ASSERT_EQ(desk.values.size(), 6u);
+    EXPECT_EQ(desk.values[5], 105);
+    EXPECT_TRUE(std::isnan(desk.values[4]));
+    EXPECT_EQ(desk.summary.uniformity, 0.976);
+}
+
+TEST(ResultsFile, TakesARowOfCellsForSquares) {
+    std::string one_row = grid("row", "lx");
+    one_row.replace(one_row.find("[3,2]"), 5, "[6,1]");
+    const ResultsFile results = read_results(document(one_row), "office.json");
+    // From the first to the last position: (0, 0) to (1, 0.4), six cells.
+    EXPECT_NEAR(results.grids[0].width_m, std::hypot(1, 0.4) * 6 / 5, 1e-9);
+    EXPECT_NEAR(results.grids[0].height_m, std::hypot(1, 0.4) / 5, 1e-9);
+}
+
+std::string message_for(const std::string& content) {
+    try {
+        read_results(content, "office.json");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(ResultsFile, SaysWhatIsWrong) {
+    const std::string good = document(grid("desk", "lx"));
+    ASSERT_EQ(message_for(good), "no error");
+    const auto expect = [](const std::string& content, const std::string& part) {
+        EXPECT_NE(message_for(content).find(part), std::string::npos)
+            << part << " not in: " << message_for(content);
+    };
+    expect("", "office.json:1: not JSON");
+    expect("[scene]\nname = 1", "not JSON");
+    expect("{\"a\":1,\n\n}", "office.json:3: not JSON");
+    expect("{}", "there is no 'stilb'");
+    expect("[1]", "there is no 'stilb'");
+    expect(with(good, "\"scene\":\"office.toml\"", "\"scene\":7"), "'scene' is number");
+    expect(with(good, "\"sensors\"", "\"sensor\""), "'sensors' is missing");
+    expect(document("7"), "'sensors[0]' is number");
+    expect(with(good, "[3,2]", "[3,3]"), "'sensors[0].values' is array");
+    expect(with(good, "[3,2]", "[3,0]"), "'sensors[0].count[1]' is number");
+    expect(with(good, "[3,2]", "[-3,-2]"), "'sensors[0].count[0]'");
+    expect(with(good, "[3,2]", "[3]"), "array of 2 or more");
+    expect(with(good, "[3,2]", "[3000000000,2]"), "'sensors[0].count[0]'");
+    expect(good.substr(0, good.size() / 2), "office.json:3: not JSON");
+    expect(with(good, ":null", ":\"dark\""), "'sensors[0].values[4].value' is string");
+    expect(with(good, ":null", ":1e999"), "too large");
+    expect(with(good, "\"unit\":\"lx\",", ""), "'sensors[0].unit' is missing");
+    expect(with(good, "\"position\":[0", "\"position\":[true,0"), "'sensors[0].values[0].position[0]'");
+}
+
+TEST(GridPicture, SumsUpEachGrid) {
+    const FalseColour picture =
+        picture_of(read_results(document(grid("desk", "lx") + "," + grid("table", "lx")), "office.json"));
+    EXPECT_EQ(picture.title, "Illuminance, office.toml");
+    EXPECT_EQ(picture.unit, "lx");
+    ASSERT_EQ(picture.panels.size(), 2u);
+    EXPECT_EQ(picture.panels[1].name, "table");
+    EXPECT_EQ(picture.panels[0].subtitle, "mean 102 lx   minimum 100 lx   uniformity 0.98");
+    EXPECT_EQ(picture.panels[0].nu, 3);
+    EXPECT_EQ(picture.panels[0].nv, 2);
+}
+
+TEST(GridPicture, NeedsGridsOfOneUnit) {
+    EXPECT_THROW(picture_of(read_results(document(""), "office.json")), InputError);
+    EXPECT_THROW(
+        picture_of(read_results(document(grid("a", "lx") + "," + grid("b", "cd/m2")), "office.json")),
+        InputError);
+}
+
+}  // namespace
+}  // namespace stilb

@@ -1,0 +1,105 @@
+#include "io/results/results_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/luminance_results.h"
+#include "io/results/results_file.h"
+
+namespace stilb {
+namespace {
+
+using Json = nlohmann::json;
+
+Json json_of(const HandMade& made) {
+    return Json::parse(to_json(made.result, made.sensors, "room.toml"))["sensors"];
+}
+
+TEST(ResultsJson, LuminancesSayWhereTheLightComesFrom) {
+    const Json view = json_of(luminance_results())[0];
+    EXPECT_EQ(view["type"], "luminance");
+    EXPECT_EQ(view["quantity"], "luminance");
+    EXPECT_EQ(view["unit"], "cd/m2");
+    EXPECT_EQ(view["values"][0], Json::parse(R"({"position": [2.0, 0.0, 1.0], "direction": [0.0, 1.0, 0.0],
+        "hit": [2.0, 4.0, 1.0], "value": 100.0, "standard_error": 1.0, "interval": [98.0, 102.0],
+        "rgb": [110.0, 100.0, 90.0]})"));
+    EXPECT_TRUE(view["values"][1]["hit"].is_null());
+}
+
+TEST(ResultsJson, UnknownSubPointsAreNull) {
+    HandMade made = luminance_results();
+    made.result.sensors[0].sub_points.clear();
+    const Json values = json_of(made)[0]["values"];
+    ASSERT_FALSE(values.empty());
+    for (const Json& value : values) EXPECT_TRUE(value.at("hit").is_null());
+}
+
+TEST(ResultsJson, GoniometersHaveAngles) {
+    const Json solid = json_of(luminance_results())[1];
+    EXPECT_EQ(solid["type"], "goniometer");
+    EXPECT_EQ(solid["quantity"], "luminance");
+    EXPECT_EQ(solid["values"][1], Json::parse(R"({"position": [2.0, 2.0, 0.0], "normal": [0.0, 0.0, 1.0],
+        "direction": [0.6, 0.0, 0.8], "hit": [2.0, 2.0, 0.0], "theta": 36.87, "phi": 90.0, "value": 31.0,
+        "standard_error": 1.0, "interval": [29.0, 33.0], "rgb": [41.0, 31.0, 21.0]})"));
+}
+
+TEST(ResultsJson, LuminancesHaveNoUniformity) {
+    for (const Json& sensor : json_of(luminance_results())) {
+        EXPECT_EQ(sensor["summary"], Json::parse(R"({"mean": 150.0, "minimum": 100.0, "maximum": 200.0,
+            "mean_interval": [148.0, 152.0], "minimum_interval": [98.0, 102.0],
+            "maximum_interval": [198.0, 202.0]})"));
+    }
+}
+
+/// As of methods without chance.
+TEST(ResultsJson, UnknownErrorsAreNull) {
+    HandMade made = luminance_results();
+    made.result.stop_reason = StopReason::solved;
+    made.result.sensors[0].readings[0].estimate = without_error(100);
+    const Json value = json_of(made)[0]["values"][0];
+    EXPECT_EQ(value["value"], 100);
+    EXPECT_TRUE(value["standard_error"].is_null());
+    EXPECT_EQ(value["interval"], Json::parse("[null, null]"));
+    EXPECT_EQ(Json::parse(to_json(made.result, made.sensors, "room.toml"))["stopped"], "solved");
+}
+
+TEST(ResultsJson, PatchesSayWhatBecameOfLights) {
+    HandMade made = luminance_results();
+    made.result.patches = patch_report();
+    const Json json = Json::parse(to_json(made.result, made.sensors, "room.toml"));
+    EXPECT_EQ(json["first_shot_set_up_s"], 0.125);
+    EXPECT_EQ(json["patches"], Json::parse(R"({"count": 1000, "size_m": 0.25, "first_shot": {
+        "variant": "incoming", "resolution": 256, "missed": 3, "bytes_per_patch": 71.5, "lights": [
+        {"name": "bulb", "replaced": true, "samples": 1, "reason": "a point"},
+        {"name": "panel", "replaced": false, "samples": 0, "reason": "large"}]}})"));
+}
+
+TEST(ResultsJson, WithoutItemBuffersThereIsNoResolution) {
+    HandMade made = luminance_results();
+    made.result.patches = patch_report();
+    made.result.patches->resolution.reset();
+    const Json json = Json::parse(to_json(made.result, made.sensors, "room.toml"));
+    EXPECT_TRUE(json["patches"]["first_shot"].at("resolution").is_null());
+}
+
+TEST(ResultsJson, WithoutPatchesThereIsNoReport) {
+    const HandMade made = luminance_results();
+    const Json json = Json::parse(to_json(made.result, made.sensors, "room.toml"));
+    EXPECT_FALSE(json.contains("patches"));
+    EXPECT_FALSE(json.contains("first_shot_set_up_s"));
+}
+
+TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
+    HandMade made = luminance_results();
+    made.sensors.push_back(make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1}));
+    made.result.sensors.push_back({{reading(500), reading(510)}, {}, {}, 0.01});
+    const ResultsFile read = read_results(to_json(made.result, made.sensors, "room.toml"), "room.json");
+    ASSERT_EQ(read.grids.size(), 1u);
+    EXPECT_EQ(read.grids[0].name, "desk");
+    EXPECT_EQ(read.grids[0].values, (std::vector<double>{500, 510}));
+    EXPECT_EQ(read.grids[0].unit, "lx");
+}
+
+}  // namespace
+}  // namespace stilb

@@ -1,0 +1,231 @@
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "io/scene_text.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Eight lines before the light's table.
+constexpr const char* kPanel = R"([materials.m]
+type = "black"
+[objects.panel]
+shape = "rectangle"
+corner = [0, 0, 3]
+edge_u = [0, 2, 0]
+edge_v = [1, 0, 0]
+material = "m"
+)";
+
+std::string light(const std::string& keys) { return kPanel + ("[lights.a]\n" + keys); }
+
+double flux_lm(const SceneFile& file) { return flux_lm(file.scene, file.scene.lights.at(0)).luminance(); }
+
+TEST(SceneLights, PointByFluxOrIntensity) {
+    const SceneFile by_flux = read_text(light("type = \"point\"\nposition = [1, 2, 3]\nflux = 100"));
+    EXPECT_NEAR(flux_lm(by_flux), 100, 1e-9);
+    const SceneFile by_intensity =
+        read_text(light("type = \"point\"\nposition = [1, 2, 3]\nintensity = 100"));
+    const auto& point = std::get<PointLight>(by_intensity.scene.lights[0].source);
+    EXPECT_NEAR(point.intensity_cd.luminance(), 100, 1e-9);
+    EXPECT_EQ(point.position, (Vec3{1, 2, 3}));
+}
+
+TEST(SceneLights, AreaByFluxOrLuminance) {
+    EXPECT_NEAR(flux_lm(read_text(light("type = \"area\"\nobject = \"panel\"\nflux = 500"))), 500, 1e-9);
+    const SceneFile by_luminance = read_text(light("type = \"area\"\nobject = \"panel\"\nluminance = 500"));
+    EXPECT_NEAR(flux_lm(by_luminance), 500 * kPi * 2, 1e-9) << "on one side of 2 m2";
+}
+
+TEST(SceneLights, SphereAddsABlackObjectOfItsName) {
+    const SceneFile file =
+        read_text(light("type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nluminance = 1000"));
+    const Scene& scene = file.scene;
+    ASSERT_EQ(scene.objects.size(), 2u);
+    EXPECT_EQ(scene.objects[1].name, "a");
+    EXPECT_EQ(std::get<Sphere>(scene.objects[1].shape).radius, 0.1);
+    EXPECT_TRUE(std::holds_alternative<Black>(scene.material(scene.objects[1].materials.at(0))));
+    EXPECT_EQ(std::get<AreaLight>(scene.lights[0].source).object, ObjectId{1});
+    EXPECT_NEAR(flux_lm(file), 1000 * kPi * 4 * kPi * 0.01, 1e-9);
+}
+
+TEST(SceneLights, SpheresShareTheirMaterial) {
+    const std::string sphere = "type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nflux = 10\n";
+    const Scene scene = read_text(light(sphere) + "[lights.b]\n" + sphere).scene;
+    EXPECT_EQ(scene.materials.size(), 2u);
+    EXPECT_EQ(scene.objects[1].materials, scene.objects[2].materials);
+}
+
+TEST(SceneLights, ColourKeepsTheFlux) {
+    const std::string point = "type = \"point\"\nposition = [0, 0, 0]\nflux = 100\n";
+    for (const std::string colour :
+         {"color = [1, 0.5, 0.1]", "color = [100, 50, 10]", "cct = 3000", "color = 7"}) {
+        EXPECT_NEAR(flux_lm(read_text(light(point + colour))), 100, 1e-9) << colour;
+    }
+    const SceneFile file = read_text(light(point + "color = [2, 1, 0]"));
+    const Spectrum intensity = std::get<PointLight>(file.scene.lights[0].source).intensity_cd;
+    EXPECT_NEAR(intensity[0] / intensity[1], 2, 1e-12);
+    EXPECT_EQ(intensity[2], 0);
+}
+
+TEST(SceneLights, RefusesWrongColours) {
+    const std::string point = "type = \"point\"\nposition = [0, 0, 0]\nflux = 100\n";
+    EXPECT_REFUSAL(light(point + "cct = 500"),
+                   "s.toml:13: lights.a.cct: 500 is not allowed. Allowed: from 1000 to 25000 K.");
+    EXPECT_REFUSAL(
+        light(point + "color = [0, 0, 0]"),
+        "s.toml:13: lights.a.color: black has no colour. Allowed: [r, g, b] with a channel above 0.");
+    EXPECT_REFUSAL(light(point + "color = [1, -1, 0]"),
+                   "s.toml:13: lights.a.color[1]: -1 is not allowed. Allowed: from 0 to 1e6.");
+    EXPECT_REFUSAL(
+        light(point + "cct = 3000\ncolor = 1"),
+        "s.toml:14: lights.a.color: contradicts \"cct\", which is given too. Allowed: one of the two.");
+}
+
+TEST(SceneLights, RefusesUnknownTypesAndKeys) {
+    EXPECT_REFUSAL(
+        light("type = \"pont\""),
+        "s.toml:10: lights.a.type: unknown type \"pont\". Did you mean \"point\"? Allowed: point, area, "
+        "sphere, photometry.");
+    EXPECT_REFUSAL(
+        light("type = \"point\"\nflus = 1"),
+        "s.toml:11: lights.a: unknown key \"flus\" for type \"point\". Did you mean \"flux\"? Allowed: "
+        "type, position, flux, intensity, cct, color.");
+}
+
+TEST(SceneLights, RefusesWrongQuantities) {
+    const std::string point = "type = \"point\"\nposition = [0, 0, 0]\n";
+    const std::string allowed = " is not allowed. Allowed: a number above 0 (from 1e-15 to 1e15).";
+    EXPECT_REFUSAL(light(point + "flux = -1"), "s.toml:12: lights.a.flux: -1" + allowed);
+    EXPECT_REFUSAL(light(point + "flux = 0"), "s.toml:12: lights.a.flux: 0" + allowed);
+    EXPECT_REFUSAL(light(point + "intensity = inf"), "s.toml:12: lights.a.intensity: inf" + allowed);
+    EXPECT_REFUSAL(light("type = \"area\"\nobject = \"panel\"\nluminance = -5"),
+                   "s.toml:12: lights.a.luminance: -5" + allowed);
+    EXPECT_REFUSAL(light(point),
+                   "s.toml:9: lights.a: key \"flux\" or \"intensity\" is missing for type \"point\".");
+    EXPECT_REFUSAL(
+        light("type = \"area\"\nobject = \"panel\"\nflux = 1\nluminance = 1"),
+        "s.toml:13: lights.a.luminance: contradicts \"flux\", which is given too. Allowed: one of the two.");
+    EXPECT_REFUSAL(light("type = \"area\"\nobject = \"panel\""),
+                   "s.toml:9: lights.a: key \"flux\" or \"luminance\" is missing for type \"area\".");
+    EXPECT_REFUSAL(
+        light("type = \"point\"\nposition = [0, nan, 0]\nflux = 1"),
+        "s.toml:11: lights.a.position[1]: nan is not allowed. Allowed: a number from -1e9 to 1e9.");
+}
+
+TEST(SceneLights, RefusesAreaLightsWithoutTheirObject) {
+    EXPECT_REFUSAL(
+        light("type = \"area\"\nobject = \"pannel\"\nflux = 1"),
+        "s.toml:11: lights.a.object: unknown object \"pannel\". Did you mean \"panel\"? Allowed: panel.");
+    EXPECT_REFUSAL("[lights.a]\ntype = \"area\"\nobject = \"panel\"\nflux = 1",
+                   "s.toml:3: lights.a.object: unknown object \"panel\". There is none to choose from.");
+}
+
+TEST(SceneLights, RefusesTwoAreaLightsOnOneObject) {
+    const std::string area = "type = \"area\"\nobject = \"panel\"\nflux = 1\n";
+    EXPECT_REFUSAL(
+        light(area + "[lights.b]\n" + area),
+        "s.toml:15: lights.b.object: \"panel\" emits for the light \"a\" already. Allowed: one area light "
+        "for an object.");
+}
+
+TEST(SceneLights, RefusesFluxFromNoArea) {
+    std::string scene = light("type = \"area\"\nobject = \"panel\"\nflux = 1");
+    scene.replace(scene.find("[0, 2, 0]"), 9, "[0, 1e-99, 0]");
+    scene.replace(scene.find("[1, 0, 0]"), 9, "[1e-99, 0, 0]");
+    scene.insert(scene.find("material = "), "transform = [1e-90,0,0,0, 0,1e-90,0,0, 0,0,1e-90,0, 0,0,0,1]\n");
+    EXPECT_REFUSAL(scene, "s.toml:13: lights.a.flux: the object has no area that could emit a flux.");
+}
+
+TEST(SceneLights, RefusesASphereWithTheNameOfAnObject) {
+    EXPECT_REFUSAL(
+        kPanel + std::string("[lights.panel]\ntype = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nflux = 9"),
+        "s.toml:9: lights.panel: adds a sphere object of its own name, which the scene has already. Allowed: "
+        "another name.");
+    EXPECT_REFUSAL(
+        light("type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0\nflux = 9"),
+        "s.toml:12: lights.a.radius: 0 is not allowed. Allowed: a length above 0 (from 1e-9 to 1e9 m).");
+}
+
+TEST(SceneLights, RefusesPhotometryWithoutItsFile) {
+    EXPECT_REFUSAL(
+        light("type = \"photometry\"\nposition = [0, 0, 0]\nfile = \"spot.ies\""),
+        "s.toml:12: lights.a.file: there is no file \"spot.ies\". Paths are relative to the scene file; "
+        "looked for no-such-directory/spot.ies.");
+    EXPECT_REFUSAL(light("type = \"photometry\"\nposition = [0, 0, 0]\naim = [0, 0, 0]\nfile = \"spot.ies\""),
+                   "s.toml:12: lights.a.aim: [0, 0, 0] points nowhere. Allowed: any other direction.");
+}
+
+/// A file of 100 cd over the lower half space.
+class ScenePhotometry : public testing::Test {
+  protected:
+    void SetUp() override {
+        directory_ = std::filesystem::path(testing::TempDir()) /
+                     testing::UnitTest::GetInstance()->current_test_info()->name();
+        std::filesystem::create_directories(directory_);
+        std::ofstream(directory_ / "half.ies") << ies(1000);
+        std::ofstream(directory_ / "too_much.ies") << ies(100);
+        std::ofstream(directory_ / "broken.ies") << "IESNA:LM-63-2002\nTILT=NONE\n1 1000";
+    }
+    void TearDown() override { std::filesystem::remove_all(directory_); }
+
+    static std::string ies(int lamp_lm) {
+        return "IESNA:LM-63-2002\n[LUMINAIRE] half\nTILT=NONE\n1 " + std::to_string(lamp_lm) +
+               " 1 3 1 1 2 0 0 0\n1 1 0\n0 45 90\n0\n100 100 100\n";
+    }
+    SceneFile read(const std::string& keys) const {
+        return read_text("[lights.a]\ntype = \"photometry\"\nposition = [1, 2, 3]\n" + keys, directory_);
+    }
+    static PhotometryLight light_of(const SceneFile& file) {
+        return std::get<PhotometryLight>(file.scene.lights.at(0).source);
+    }
+
+    static constexpr double kFlux = 2 * kPi * 100;
+    std::filesystem::path directory_;
+};
+
+TEST_F(ScenePhotometry, HangsStraightDownWithTheFilesFlux) {
+    const SceneFile file = read("file = \"half.ies\"");
+    EXPECT_NEAR(flux_lm(file), kFlux, 1e-6 * kFlux);
+    EXPECT_EQ(file.scene.solids.at(0).luminaire, "half");
+    EXPECT_EQ(file.scene.solids[0].file, (directory_ / "half.ies").string());
+    EXPECT_EQ(light_of(file).position, (Vec3{1, 2, 3}));
+    EXPECT_EQ(light_of(file).nadir, (Vec3{0, 0, -1}));
+    EXPECT_LT(length(light_of(file).c0 - Vec3{1, 0, 0}), 1e-12);
+    EXPECT_LT(length(light_of(file).c90 - Vec3{0, 1, 0}), 1e-12);
+    EXPECT_TRUE(file.warnings.empty()) << file.warnings[0];
+}
+
+TEST_F(ScenePhotometry, AimSpinDimmingAndFlux) {
+    const SceneFile dimmed =
+        read("file = \"half.ies\"\naim = [0, 3, 0]\nspin = 90\ndimming = 0.5\ncct = 3000");
+    EXPECT_NEAR(flux_lm(dimmed), kFlux / 2, 1e-6 * kFlux);
+    EXPECT_LT(length(light_of(dimmed).nadir - Vec3{0, 1, 0}), 1e-12);
+    EXPECT_LT(length(light_of(dimmed).c0 - Vec3{0, 0, 1}), 1e-12);
+    EXPECT_NEAR(flux_lm(read("file = \"half.ies\"\nflux = 50")), 50, 1e-9);
+    EXPECT_NEAR(flux_lm(read("file = \"half.ies\"\nflux = 50\ndimming = 0.2")), 10, 1e-9);
+}
+
+TEST_F(ScenePhotometry, LightsWithTheSameFileShareItsSolid) {
+    const std::string second = "\n[lights.b]\ntype = \"photometry\"\nposition = [0, 0, 0]\nfile = ";
+    EXPECT_EQ(read("file = \"half.ies\"" + second + "\"./half.ies\"").scene.solids.size(), 1u);
+    EXPECT_EQ(read("file = \"half.ies\"" + second + "\"too_much.ies\"").scene.solids.size(), 2u);
+}
+
+TEST_F(ScenePhotometry, WarnsOfMoreFluxThanTheLampsHave) {
+    const SceneFile file = read("file = \"too_much.ies\"");
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_TRUE(file.warnings[0].starts_with("s.toml:4: lights.a.file: ")) << file.warnings[0];
+}
+
+TEST_F(ScenePhotometry, RefusesABrokenFile) {
+    const std::string message =
+        refusal("[lights.a]\ntype = \"photometry\"\nposition = [1, 2, 3]\nfile = \"broken.ies\"", directory_);
+    EXPECT_TRUE(message.starts_with((directory_ / "broken.ies").string() + ":3: ")) << message;
+}
+
+}  // namespace
+}  // namespace stilb

@@ -1,0 +1,137 @@
+#include "io/scene_text.h"
+
+namespace stilb {
+namespace {
+
+std::string material(const std::string& keys) { return "[materials.m]\n" + keys; }
+
+TEST(SceneMaterials, SuggestsTheNearestKey) {
+    EXPECT_REFUSAL(
+        material("type = \"phong\"\ndiffuse = 0.3\nexponnent = 60"),
+        "s.toml:4: materials.m: unknown key \"exponnent\" for type \"phong\". Did you mean \"exponent\"? "
+        "Allowed: type, diffuse, specular, exponent.");
+    EXPECT_REFUSAL(material("type = \"black\"\nreflectance = 0"),
+                   "s.toml:3: materials.m: unknown key \"reflectance\" for type \"black\". Allowed: type.");
+}
+
+TEST(SceneMaterials, RefusesUnknownTypes) {
+    EXPECT_REFUSAL(
+        material("type = \"difuse\""),
+        "s.toml:2: materials.m.type: unknown type \"difuse\". Did you mean \"diffuse\"? Allowed: diffuse, "
+        "phong, rough, ward, plastic, mirror, glass, pane, black.");
+}
+
+TEST(SceneMaterials, RefusesMissingKeys) {
+    EXPECT_REFUSAL("\n[materials.m]\nreflectance = 1",
+                   "s.toml:2: materials.m: key \"type\" is missing. Allowed: diffuse, phong, rough, ward, "
+                   "plastic, mirror, glass, pane, black.");
+    EXPECT_REFUSAL(material("type = \"diffuse\""),
+                   "s.toml:1: materials.m: key \"reflectance\" is missing for type \"diffuse\".");
+}
+
+TEST(SceneMaterials, RefusesWrongTypesOfValues) {
+    EXPECT_REFUSAL(
+        material("type = 3"),
+        "s.toml:2: materials.m.type: found the number 3 where a text in quotation marks is needed.");
+    EXPECT_REFUSAL(
+        material("type = \"diffuse\"\nreflectance = \"0.5\""),
+        "s.toml:3: materials.m.reflectance: found the text \"0.5\" where a number or a colour [r, g, b] is "
+        "needed.");
+    EXPECT_REFUSAL(
+        material("type = \"diffuse\"\nreflectance = [0.5, 0.5]"),
+        "s.toml:3: materials.m.reflectance: found an array of 2 where a number or a colour [r, g, b] is "
+        "needed.");
+    EXPECT_REFUSAL(material("type = \"diffuse\"\nreflectance = [0.5,\n true, 0.5]"),
+                   "s.toml:4: materials.m.reflectance[1]: found true where a number is needed.");
+}
+
+TEST(SceneMaterials, RefusesReflectancesOutOfRange) {
+    const std::string allowed =
+        " is not allowed. Allowed: from 0 to 1 (no surface reflects more light than it receives).";
+    const std::string diffuse = "type = \"diffuse\"\nreflectance = ";
+    EXPECT_REFUSAL(material(diffuse + "1.2"), "s.toml:3: materials.m.reflectance: 1.2" + allowed);
+    EXPECT_REFUSAL(material(diffuse + "-0.1"), "s.toml:3: materials.m.reflectance: -0.1" + allowed);
+    EXPECT_REFUSAL(material(diffuse + "[0, 0, 1.5]"), "s.toml:3: materials.m.reflectance[2]: 1.5" + allowed);
+    EXPECT_REFUSAL(material(diffuse + "nan"), "s.toml:3: materials.m.reflectance: nan" + allowed);
+    EXPECT_REFUSAL(material(diffuse + "inf"), "s.toml:3: materials.m.reflectance: inf" + allowed);
+    EXPECT_REFUSAL(material("type = \"mirror\"\nreflectance = 2"),
+                   "s.toml:3: materials.m.reflectance: 2" + allowed);
+}
+
+TEST(SceneMaterials, RefusesPhongThatGainsEnergy) {
+    EXPECT_REFUSAL(
+        material("type = \"phong\"\ndiffuse = [0.1, 0.6, 0.1]\nspecular = 0.5\nexponent = 10"),
+        "s.toml:1: materials.m: diffuse + specular is 1.1: no surface reflects more light than it receives. "
+        "Allowed: at most 1 in each channel.");
+    EXPECT_NO_THROW(read_text(material("type = \"phong\"\ndiffuse = 0.7\nspecular = 0.3\nexponent = 10")));
+    const std::string phong = "type = \"phong\"\ndiffuse = 0.7\nspecular = 0.3\nexponent = ";
+    const std::string allowed = " is not allowed. Allowed: from 0 to 1e6.";
+    EXPECT_REFUSAL(material(phong + "-1"), "s.toml:5: materials.m.exponent: -1" + allowed);
+    EXPECT_REFUSAL(material(phong + "2e6"), "s.toml:5: materials.m.exponent: 2000000" + allowed);
+}
+
+TEST(SceneMaterials, ReadsRough) {
+    const std::string rough = "type = \"rough\"\nreflectance = [0.9, 0.6, 0.3]\n";
+    const Material read = read_text(material(rough + "roughness = 0.25")).scene.materials[0].material;
+    EXPECT_EQ(std::get<Rough>(read).reflectance(), (Spectrum{{0.9, 0.6, 0.3}}));
+    EXPECT_EQ(std::get<Rough>(read).roughness(), 0.25);
+    const std::string allowed = " is not allowed. Allowed: from 0.001 to 1 (a mirror has type \"mirror\").";
+    EXPECT_REFUSAL(material(rough + "roughness = 0"), "s.toml:4: materials.m.roughness: 0" + allowed);
+    EXPECT_REFUSAL(material(rough + "roughness = 1.5"), "s.toml:4: materials.m.roughness: 1.5" + allowed);
+    EXPECT_REFUSAL(material(rough + "roughnes = 0.3"),
+                   "s.toml:4: materials.m: unknown key \"roughnes\" for type \"rough\". Did you mean "
+                   "\"roughness\"? Allowed: type, reflectance, roughness.");
+    EXPECT_REFUSAL(material(rough),
+                   "s.toml:1: materials.m: key \"roughness\" is missing for type \"rough\".");
+    EXPECT_REFUSAL(material("type = \"rough\"\nreflectance = 1.2\nroughness = 0.3"),
+                   "s.toml:3: materials.m.reflectance: 1.2 is not allowed. Allowed: from 0 to 1 (no surface "
+                   "reflects more light than it receives).");
+}
+
+TEST(SceneMaterials, ReadsWard) {
+    const std::string ward =
+        "type = \"ward\"\ndiffuse = 0.3\nspecular = [0.1, 0.2, 0.3]\nroughness = [0.05, 0.2]\n";
+    const Material read = read_text(material(ward + "rotation = -30")).scene.materials[0].material;
+    EXPECT_EQ(std::get<Ward>(read).diffuse(), Spectrum::grey(0.3));
+    EXPECT_EQ(std::get<Ward>(read).specular(), (Spectrum{{0.1, 0.2, 0.3}}));
+    EXPECT_EQ(std::get<Ward>(read).roughness().u, 0.05);
+    EXPECT_EQ(std::get<Ward>(read).roughness().v, 0.2);
+    EXPECT_EQ(std::get<Ward>(read).rotation_deg(), -30);
+    const Material straight = read_text(material(ward)).scene.materials[0].material;
+    EXPECT_EQ(std::get<Ward>(straight).rotation_deg(), 0);
+    const std::string start = "type = \"ward\"\ndiffuse = 0.3\nspecular = ";
+    EXPECT_REFUSAL(
+        material(start + "0.2\nroughness = [0.05, 2]"),
+        "s.toml:5: materials.m.roughness[1]: 2 is not allowed. Allowed: from 0.001 to 1 (a mirror has "
+        "type \"mirror\").");
+    EXPECT_REFUSAL(
+        material(start + "0.2\nroughness = 0.1"),
+        "s.toml:5: materials.m.roughness: found the number 0.1 where an array of 2 numbers is needed.");
+    EXPECT_REFUSAL(material(start + "0.8\nroughness = [0.1, 0.1]"),
+                   "s.toml:1: materials.m: diffuse + specular is 1.1: no surface reflects more light than it "
+                   "receives. Allowed: at most 1 in each channel.");
+    EXPECT_REFUSAL(
+        material(ward + "rotatoin = 3"),
+        "s.toml:6: materials.m: unknown key \"rotatoin\" for type \"ward\". Did you mean \"rotation\"? "
+        "Allowed: type, diffuse, specular, roughness, rotation.");
+}
+
+TEST(SceneMaterials, ReadsPlastic) {
+    const std::string plastic = "type = \"plastic\"\ndiffuse = [0.5, 0.4, 0.3]\n";
+    const Material read =
+        read_text(material(plastic + "ior = 1.5\nroughness = 0.1")).scene.materials[0].material;
+    EXPECT_EQ(std::get<Plastic>(read).diffuse(), (Spectrum{{0.5, 0.4, 0.3}}));
+    EXPECT_EQ(std::get<Plastic>(read).ior(), 1.5);
+    EXPECT_EQ(std::get<Plastic>(read).roughness(), 0.1);
+    EXPECT_REFUSAL(material(plastic + "ior = 0.9\nroughness = 0.1"),
+                   "s.toml:4: materials.m.ior: 0.9 is not allowed. Allowed: from 1 to 4 (1.5 is common).");
+    EXPECT_REFUSAL(
+        material(plastic + "ior = 1.5\nroughness = 0"),
+        "s.toml:5: materials.m.roughness: 0 is not allowed. Allowed: from 0.001 to 1 (a mirror has type "
+        "\"mirror\").");
+    EXPECT_REFUSAL(material(plastic + "roughness = 0.1"),
+                   "s.toml:1: materials.m: key \"ior\" is missing for type \"plastic\".");
+}
+
+}  // namespace
+}  // namespace stilb

@@ -1,0 +1,87 @@
+#include "io/scene_text.h"
+
+namespace stilb {
+namespace {
+
+std::string sensor(const std::string& keys) { return "[sensors.s]\n" + keys; }
+
+std::string grid(const std::string& keys) {
+    return sensor("type = \"grid\"\ncorner = [0, 0, 1]\nedge_u = [4, 0, 0]\nedge_v = [0, 2, 0]\n" + keys);
+}
+
+TEST(SceneSensors, GridMeasuresAtCellCentresUFastest) {
+    const Sensor s = read_text(grid("count = [4, 2]")).sensors.at(0);
+    EXPECT_EQ(s.type, SensorType::grid);
+    EXPECT_EQ(s.grid.count, (std::array{4, 2}));
+    ASSERT_EQ(s.measurands.size(), 8u);
+    EXPECT_EQ(place_of(s.measurands[0]).position, (Vec3{0.5, 0.5, 1}));
+    EXPECT_EQ(place_of(s.measurands[1]).position, (Vec3{1.5, 0.5, 1}));
+    EXPECT_EQ(place_of(s.measurands[4]).position, (Vec3{0.5, 1.5, 1}));
+    EXPECT_EQ(place_of(s.measurands[0]).normal, (Vec3{0, 0, 1})) << "edge_u x edge_v";
+}
+
+TEST(SceneSensors, GridMayHaveANormalOfItsOwn) {
+    const SceneFile file = read_text(grid("count = [1, 1]\nnormal = [0, 2, 0]"));
+    EXPECT_EQ(place_of(file.sensors[0].measurands[0]).normal, (Vec3{0, 1, 0}));
+    EXPECT_EQ(file.warnings.back(),
+              "s.toml:7: sensors.s.normal: of length 2; its direction is used, with length 1.");
+}
+
+TEST(SceneSensors, IlluminanceAtOnePointOrMany) {
+    const Sensor one =
+        read_text(sensor("type = \"illuminance\"\nposition = [1, 2, 3]\nnormal = [0, 0, 1]")).sensors[0];
+    ASSERT_EQ(one.measurands.size(), 1u);
+    EXPECT_EQ(place_of(one.measurands[0]).position, (Vec3{1, 2, 3}));
+    const Sensor two =
+        read_text(sensor("type = \"illuminance\"\npoints = [[1, 2, 3], [4, 5, 6]]\nnormal = [1, 0, 0]"))
+            .sensors[0];
+    ASSERT_EQ(two.measurands.size(), 2u);
+    EXPECT_EQ(place_of(two.measurands[1]).position, (Vec3{4, 5, 6}));
+    EXPECT_EQ(place_of(two.measurands[1]).normal, (Vec3{1, 0, 0}));
+}
+
+TEST(SceneSensors, RefusesUnknownTypesAndKeys) {
+    EXPECT_REFUSAL(sensor("type = \"gird\""),
+                   "s.toml:2: sensors.s.type: unknown type \"gird\". Did you mean \"grid\"? Allowed: "
+                   "illuminance, grid, luminance, goniometer, camera.");
+    EXPECT_REFUSAL(
+        grid("counts = [4, 2]"),
+        "s.toml:6: sensors.s: unknown key \"counts\" for type \"grid\". Did you mean \"count\"? Allowed: "
+        "type, corner, edge_u, edge_v, count, normal.");
+}
+
+TEST(SceneSensors, RefusesWrongCounts) {
+    EXPECT_REFUSAL(grid("count = 4"),
+                   "s.toml:6: sensors.s.count: found the number 4 where an array is needed.");
+    EXPECT_REFUSAL(grid("count = [4]"),
+                   "s.toml:6: sensors.s.count: found an array of 1 where [nu, nv] is needed.");
+    EXPECT_REFUSAL(
+        grid("count = [0, 4]"),
+        "s.toml:6: sensors.s.count[0]: found the number 0. Allowed: a whole number from 1 to 10000000.");
+    EXPECT_REFUSAL(
+        grid("count = [10000, 10000]"),
+        "s.toml:6: sensors.s.count: asks for 100000000 points. Allowed: 10000000 in all sensors together.");
+}
+
+TEST(SceneSensors, RefusesWrongGeometry) {
+    EXPECT_REFUSAL(grid("count = [1, 1]\nnormal = [0, 0, 0]"),
+                   "s.toml:7: sensors.s.normal: [0, 0, 0] points nowhere. Allowed: any other direction.");
+    EXPECT_REFUSAL(
+        sensor("type = \"grid\"\ncorner = [0, 0, 1]\nedge_u = [4, 0, 0]\nedge_v = [2, 0, 0]\ncount = [1, 1]"),
+        "s.toml:5: sensors.s.edge_v: is parallel to edge_u, so that they span no area. Allowed: any other "
+        "direction.");
+    EXPECT_REFUSAL(sensor("type = \"illuminance\"\nposition = [1, 2, 3]"),
+                   "s.toml:1: sensors.s: key \"normal\" is missing for type \"illuminance\".");
+    EXPECT_REFUSAL(
+        sensor("type = \"illuminance\"\nnormal = [0, 0, 1]"),
+        "s.toml:1: sensors.s: key \"position\" or \"points\" is missing for type \"illuminance\".");
+    EXPECT_REFUSAL(sensor("type = \"illuminance\"\nposition = [0, 0, 1]\npoints = []\nnormal = [0, 0, 1]"),
+                   "s.toml:4: sensors.s.points: contradicts \"position\", which is given too. Allowed: "
+                   "one of the two.");
+    EXPECT_REFUSAL(
+        sensor("type = \"illuminance\"\npoints = []\nnormal = [0, 0, 1]"),
+        "s.toml:3: sensors.s.points: found no point. Allowed: [[x, y, z], ...] with one point or more.");
+}
+
+}  // namespace
+}  // namespace stilb

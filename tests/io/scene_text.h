@@ -1,0 +1,33 @@
+// Scenes as text for the tests of their reader.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "base/error.h"
+#include "io/scene/scene_file.h"
+
+namespace stilb {
+
+inline SceneFile read_text(const std::string& toml,
+                           const std::filesystem::path& directory = "no-such-directory") {
+    return read_scene(toml, "s.toml", directory);
+}
+
+/// The message with which the text is refused; "accepted" where it is not.
+inline std::string refusal(const std::string& toml,
+                           const std::filesystem::path& directory = "no-such-directory") {
+    try {
+        read_text(toml, directory);
+        return "accepted";
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+/// The whole message is tested, and that it names file, line and key.
+#define EXPECT_REFUSAL(toml, message) EXPECT_EQ(refusal(toml), message)
+
+}  // namespace stilb

@@ -1,0 +1,137 @@
+#include "io/results/solution_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.h"
+#include "io/text/text.h"
+#include "run/solve.h"
+#include "support/scene_builder.h"
+
+namespace stilb {
+namespace {
+
+/// Of a room with a glossy floor and a lamp.
+StoredSolution sample_solution() {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {2, 2, 2}}, Diffuse{Spectrum::grey(0.5)});
+    add_object(scene, Rectangle{{0, 0, 0.1}, {2, 0, 0}, {0, 2, 0}},
+               Phong{Spectrum::grey(0.3), Spectrum::grey(0.4), 5});
+    add_point_light(scene, {1, 1, 1.5}, Spectrum::grey(100));
+    RunOptions options;
+    options.paths = 8;
+    options.patches.patch_m = 2;
+    SolveResult result = solve(scene, options, 2);
+    return {"0.1.0", "rooms/room.toml",         "0123456789abcdef", 7, result.steps,
+            0.02,    std::move(result.solution)};
+}
+
+const std::string& sample_bytes() {
+    static const std::string bytes = to_bytes(sample_solution());
+    return bytes;
+}
+
+std::string message_of(const std::string& bytes) {
+    try {
+        read_solution(bytes, "a.solution");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+/// With a header that fits.
+std::string message_of_body(const std::string& body) { return message_of(solution_header(body) + body); }
+
+constexpr std::size_t kHeaderSize = 28;
+
+TEST(SolutionFile, KeepsEveryBit) {
+    const StoredSolution written = sample_solution();
+    const StoredSolution read = read_solution(to_bytes(written), "a.solution");
+    EXPECT_EQ(read.version, written.version);
+    EXPECT_EQ(read.scene, written.scene);
+    EXPECT_EQ(read.light_hash, written.light_hash);
+    EXPECT_EQ(read.seed, written.seed);
+    EXPECT_EQ(read.steps, written.steps);
+    EXPECT_EQ(read.attained_error, written.attained_error);
+    EXPECT_EQ(read.solution.degree, written.solution.degree);
+    EXPECT_EQ(read.solution.lit_sides, written.solution.lit_sides);
+    EXPECT_EQ(read.solution.replicates, written.solution.replicates);
+    EXPECT_EQ(read.solution.patches.corners, written.solution.patches.corners);
+    ASSERT_TRUE(read.solution.factors);
+    EXPECT_EQ(to_bytes(read), to_bytes(written));
+}
+
+TEST(SolutionFile, SidesWithoutLightCostNothing) {
+    const StoredSolution stored = sample_solution();
+    const std::size_t patches = stored.solution.patches.count();
+    EXPECT_LT(stored.solution.lit_sides.size(), patches + patches / 4);
+}
+
+/// The offsets that the format's page states.
+TEST(SolutionFile, BeginsAsDocumented) {
+    const std::string& bytes = sample_bytes();
+    const auto number_at = [&](std::size_t offset, auto number) {
+        std::memcpy(&number, bytes.data() + offset, sizeof number);
+        return number;
+    };
+    EXPECT_EQ(bytes.substr(0, 8), "STILBSOL");
+    EXPECT_EQ(number_at(8, std::uint32_t{}), 1u);
+    EXPECT_EQ(number_at(12, std::uint64_t{}), bytes.size());
+    EXPECT_EQ(number_at(28, std::uint64_t{}), 5u);
+    EXPECT_EQ(bytes.substr(36, 5), "0.1.0");
+}
+
+TEST(SolutionFile, NamesWhatIsWrong) {
+    const std::string& good = sample_bytes();
+    EXPECT_EQ(message_of(good), "accepted");
+    EXPECT_EQ(message_of(""),
+              "a.solution: not a solution: it does not begin with STILBSOL. `stilb solve` writes them.");
+    EXPECT_EQ(message_of("[scene]\nname = \"a room\"\n"), message_of(""));
+    EXPECT_EQ(message_of("STILBSOL\1"),
+              "a.solution: damaged at byte 8: the file ends before the version. Solve the scene again.");
+    std::string other = good;
+    other[8] = 9;
+    EXPECT_EQ(message_of(other), "a.solution: a solution of version 9, and this is Stilb " STILB_VERSION
+                                 ", which reads version 1. Solve the scene again.");
+    EXPECT_EQ(message_of(good.substr(0, good.size() - 1)),
+              "a.solution: the file has " + std::to_string(good.size() - 1) + " bytes where it should have " +
+                  std::to_string(good.size()) +
+                  ": it was cut off or added to. Copy it anew, or solve the scene again.");
+    EXPECT_EQ(message_of(good + "x").substr(0, 26),
+              "a.solution: the file has " + std::to_string(good.size() + 1).substr(0, 1));
+    other = good;
+    other[good.size() / 2] ^= 1;
+    EXPECT_EQ(message_of(other),
+              "a.solution: damaged: its contents do not have the hash that it states. Copy it anew, "
+              "or solve the scene again.");
+}
+
+/// With a hash that fits: no memory is taken for what is not there.
+TEST(SolutionFile, CountsAreHeldAgainstTheFile) {
+    const std::string body = sample_bytes().substr(kHeaderSize);
+    std::string huge = body;
+    huge[6] = 0x7f;
+    EXPECT_EQ(message_of_body(huge),
+              "a.solution: damaged at byte 36: Stilb's version should be 35747322042253317 in number, "
+              "and only " +
+                  std::to_string(body.size() - 8) + " bytes are left. Solve the scene again.");
+    for (std::size_t length = 0; length < body.size(); length += 7)
+        EXPECT_NE(message_of_body(body.substr(0, length)).find("damaged at byte"), std::string::npos)
+            << length;
+    EXPECT_NE(message_of_body(body + "abc").find("3 bytes too many"), std::string::npos);
+}
+
+TEST(SolutionFile, IsWrittenAndRead) {
+    const auto path = std::filesystem::path(testing::TempDir()) / "a.solution";
+    write_solution_file(sample_solution(), path);
+    EXPECT_EQ(read_whole_file(path), sample_bytes());
+    EXPECT_EQ(read_solution_file(path).scene, "rooms/room.toml");
+    std::filesystem::remove(path);
+    EXPECT_THROW(read_solution_file(path), InputError);
+}
+
+}  // namespace
+}  // namespace stilb

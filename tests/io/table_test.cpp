@@ -1,0 +1,65 @@
+#include "io/text/table.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "base/error.h"
+#include "io/picture_pixels.h"
+
+namespace stilb {
+namespace {
+
+using Texts = std::vector<std::string>;
+using Numbers = std::vector<double>;
+
+TEST(Table, WritesColumnsAsRfc4180) {
+    const std::vector<Column> columns{{"radius [m]", Numbers{0, 0.25}},
+                                      {"say \"lx\", please", Texts{"plain", "a,b"}},
+                                      {"lines", Texts{"one\ntwo", ""}}};
+    EXPECT_EQ(to_csv(columns),
+              "radius [m],\"say \"\"lx\"\", please\",lines\r\n"
+              "0,plain,\"one\ntwo\"\r\n"
+              "0.25,\"a,b\",\r\n");
+}
+
+TEST(Table, NumbersComeBackBitForBit) {
+    std::mt19937_64 random(3);
+    Numbers numbers{0.1, 1.0 / 3, -0.0, 5e-324, std::numeric_limits<double>::max(), 1e22};
+    while (numbers.size() < 500) {
+        const double number = std::bit_cast<double>(random());
+        if (std::isfinite(number)) numbers.push_back(number);
+    }
+    const std::string csv = to_csv(std::vector<Column>{{"x", numbers}});
+    const char* at = csv.c_str() + 3;
+    for (const double number : numbers) {
+        char* end = nullptr;
+        const double back = std::strtod(at, &end);
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(back), std::bit_cast<std::uint64_t>(number));
+        at = end + 2;
+    }
+    EXPECT_EQ(*at, '\0');
+}
+
+TEST(Table, LeavesCellsWithoutANumberEmpty) {
+    EXPECT_EQ(to_csv(std::vector<Column>{{"a", Numbers{NAN, 1}}, {"b", Numbers{2, NAN}}}),
+              "a,b\r\n,2\r\n1,\r\n");
+}
+
+TEST(Table, RefusesColumnsOfDifferentLengths) {
+    EXPECT_THROW(to_csv(std::vector<Column>{{"a", Numbers{1}}, {"b", Texts{}}}), std::invalid_argument);
+}
+
+TEST(Table, WritesFiles) {
+    const std::vector<Column> columns{{"a", Numbers{1}}};
+    const auto path = picture_path(".csv");
+    write_csv(columns, path);
+    EXPECT_EQ(read_text(path), to_csv(columns));
+    EXPECT_THROW(write_csv(columns, "/no/such/folder/a.csv"), InputError);
+}
+
+}  // namespace
+}  // namespace stilb

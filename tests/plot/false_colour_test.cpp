@@ -1,0 +1,168 @@
+#include "plot/false_colour.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "io/picture_pixels.h"
+#include "plot/colour_map.h"
+
+namespace stilb {
+namespace {
+
+/// 5 x 5 cells at the scale's lower end but one: cell (u, v) has `value`. Drawn on a scale of 0 to 100.
+FalseColour with_one_cell(int u, int v, double value) {
+    FalseColourPanel panel{"desk", "", 5, 5, 1, 1, std::vector<double>(25, 0.0)};
+    panel.values[static_cast<std::size_t>(5 * v + u)] = value;
+    return {"Illuminance", "lx", {panel}};
+}
+
+FalseColourOptions zero_to_hundred() {
+    FalseColourOptions options;
+    options.minimum = 0;
+    options.maximum = 100;
+    return options;
+}
+
+Pixels draw(const FalseColour& picture, const FalseColourOptions& options) {
+    const auto path = picture_path(".png");
+    draw_false_colour(picture, options, path);
+    return read_png(path);
+}
+
+Colour colour_at(double fraction) { return ColourMap().at(fraction); }
+
+/// The cells' part of the picture, which leaves out the colour bar at the right.
+int cells_end(const Pixels& pixels) { return pixels.width * 87 / 100; }
+
+TEST(FalseColour, DrawsUToTheRightAndVUpwards) {
+    const Pixels origin = draw(with_one_cell(0, 0, 60), zero_to_hundred());
+    const Pixels along_u = draw(with_one_cell(4, 0, 60), zero_to_hundred());
+    const Pixels along_v = draw(with_one_cell(0, 4, 60), zero_to_hundred());
+    const Spot at_origin = find_colour(origin, colour_at(0.6), cells_end(origin));
+    const Spot at_u = find_colour(along_u, colour_at(0.6), cells_end(along_u));
+    const Spot at_v = find_colour(along_v, colour_at(0.6), cells_end(along_v));
+    const double cell = std::sqrt(double(at_origin.count));  // a square
+    ASSERT_GT(cell, 50);
+    EXPECT_NEAR((at_u.x - at_origin.x) / cell, 4, 0.1);
+    EXPECT_NEAR(at_u.y, at_origin.y, 2);
+    EXPECT_NEAR((at_origin.y - at_v.y) / cell, 4, 0.1);
+    EXPECT_NEAR(at_v.x, at_origin.x, 2);
+}
+
+TEST(FalseColour, GivesEveryValueItsColourOnTheScale) {
+    for (const auto& [value, fraction] : {std::pair{35.0, 0.35}, {90.0, 0.9}, {250.0, 1.0}}) {
+        const Pixels pixels = draw(with_one_cell(2, 2, value), zero_to_hundred());
+        EXPECT_GT(find_colour(pixels, colour_at(fraction), cells_end(pixels)).count, 2500) << value;
+    }
+    FalseColourOptions options = zero_to_hundred();
+    options.scale = ScaleType::logarithmic;
+    options.minimum = 1;
+    const Pixels pixels = draw(with_one_cell(2, 2, 10), options);  // the other cells are 0: the lowest colour
+    EXPECT_GT(find_colour(pixels, colour_at(0.5), cells_end(pixels)).count, 2500);
+    EXPECT_GT(find_colour(pixels, colour_at(0), cells_end(pixels)).count, 50000);
+}
+
+TEST(FalseColour, PanelsShareOneScale) {
+    FalseColour picture = with_one_cell(2, 2, 100);
+    picture.panels.push_back({"other", "", 1, 1, 1, 1, {50}});
+    const Pixels pixels = draw(picture, {});
+    EXPECT_GT(find_colour(pixels, colour_at(0.5)).count, 40000);
+}
+
+TEST(FalseColour, HatchesCellsWithoutAValue) {
+    const Pixels pixels = draw(with_one_cell(2, 2, NAN), zero_to_hundred());
+    const Spot hatched = find_colour(pixels, grey(0.86), cells_end(pixels));
+    const Spot bars = find_colour(pixels, grey(0.62), cells_end(pixels));
+    EXPECT_GT(hatched.count, 1000);
+    EXPECT_GT(bars.count, 20);
+}
+
+TEST(FalseColour, DrawsNumbersOnlyWhereTheyFit) {
+    FalseColourOptions options = zero_to_hundred();
+    // Nothing else on so dark cells is white.
+    const auto white_on_cells = [&](int count) {
+        FalseColourPanel panel{"", "", count, count, 0, 0, {}};
+        panel.values.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(count), 5.0);
+        const Pixels pixels = draw({"", "lx", {panel}}, options);
+        const Spot cells = find_colour(pixels, colour_at(0.05), cells_end(pixels));
+        int white = 0;
+        for (int y = int(cells.y) - 200; y < int(cells.y) + 200; ++y) {
+            for (int x = int(cells.x) - 200; x < int(cells.x) + 200; ++x)
+                white += pixels.at(x, y) == 0xffffff;
+        }
+        return white;
+    };
+    EXPECT_EQ(white_on_cells(8), 0);
+    options.numbers = true;
+    EXPECT_GT(white_on_cells(8), 50);
+    EXPECT_EQ(white_on_cells(200), 0);
+}
+
+TEST(FalseColour, DrawsIsolinesWhereTheyBelong) {
+    FalseColourPanel panel{"", "", 20, 10, 2, 1, {}};
+    for (int i = 0; i < 200; ++i) panel.values.push_back((i % 20 + 0.5) * 5);  // 0 to 100 along u
+    FalseColourOptions options = zero_to_hundred();
+    const Pixels without = draw({"", "lx", {panel}}, options);
+    options.isolines = true;
+    const Pixels with = draw({"", "lx", {panel}}, options);
+    ASSERT_EQ(with.width, without.width);
+    const Spot first = find_colour(without, colour_at(0.025), cells_end(without));
+    const Spot last = find_colour(without, colour_at(0.975), without.width * 9 / 10);
+    // Along a horizontal cut above the middle the changed columns gather around the multiples of 20 lx.
+    const double per_lux = (last.x - first.x) / 95;
+    int changed = 0;
+    const int y = int(first.y) - int(15 * per_lux);
+    for (int x = int(first.x); x < int(last.x); ++x) {
+        if (with.at(x, y) == without.at(x, y)) continue;
+        ++changed;
+        const double lux = 2.5 + (x - first.x) / per_lux;
+        EXPECT_LT(std::abs(lux - 20 * std::round(lux / 20)), 6 / per_lux) << lux;
+    }
+    EXPECT_GE(changed, 4 * 4);
+}
+
+TEST(FalseColour, WritesSvgOfTheSameProportions) {
+    const FalseColour picture = with_one_cell(1, 3, 60);
+    const Pixels pixels = draw(picture, zero_to_hundred());
+    const auto path = picture_path(".svg");
+    draw_false_colour(picture, zero_to_hundred(), path);
+    const std::string svg = read_text(path);
+    EXPECT_EQ(svg.rfind("<?xml", 0), 0u);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos);
+    double width = 0, height = 0;
+    ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox"), "viewBox=\"0 0 %lf %lf\"", &width, &height), 2);
+    EXPECT_NEAR(pixels.width, 2 * width, 1);
+    EXPECT_NEAR(pixels.height, 2 * height, 1);
+}
+
+TEST(FalseColour, SaysWhatIsWrong) {
+    const FalseColour picture = with_one_cell(0, 0, 60);
+    FalseColourOptions options = zero_to_hundred();
+    EXPECT_THROW(draw_false_colour(picture, options, "picture.jpg"), InputError);
+    EXPECT_THROW(draw_false_colour(picture, options, "/no/such/folder/picture.png"), InputError);
+    options.maximum = -1;
+    EXPECT_THROW(draw(picture, options), InputError);
+    options.maximum = 100;
+    options.scale = ScaleType::logarithmic;  // from 0
+    EXPECT_THROW(draw(picture, options), InputError);
+    FalseColour wrong = picture;
+    wrong.panels[0].values.pop_back();
+    EXPECT_THROW(draw(wrong, {}), std::invalid_argument);
+    EXPECT_THROW(draw({"", "lx", {}}, {}), std::invalid_argument);
+}
+
+TEST(FalseColour, DrawsManyPanelsOfAnyShape) {
+    FalseColour picture{"All", "lx", {}};
+    for (int i = 1; i <= 9; ++i) {
+        picture.panels.push_back({"panel", "mean 1 lx", i, 10 - i, 0.3 * i, 5.0 / i, {}});
+        picture.panels.back().values.assign(static_cast<std::size_t>(i * (10 - i)), 10.0 * i);
+    }
+    const Pixels pixels = draw(picture, {});
+    EXPECT_LT(pixels.width, 3000);
+    EXPECT_LT(pixels.height, 4000);
+}
+
+}  // namespace
+}  // namespace stilb

@@ -1,0 +1,105 @@
+#include "plot/polar_plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "io/picture_pixels.h"
+
+namespace stilb {
+namespace {
+
+Pixels draw(const PolarPlot& plot) {
+    const auto path = picture_path(".png");
+    draw_polar_plot(plot, path);
+    return read_png(path);
+}
+
+/// Markers in the palette's first colour, on a scale to 10: the last one, of another colour, stands there.
+Spot marker_at(double theta_deg, double value) {
+    const auto points = [](double x, double y) {
+        Series series{"", {x}, {y}};
+        series.line = LineStyle::none;
+        series.marker = MarkerStyle::circle;
+        return series;
+    };
+    return find_colour(draw({"", "", {points(theta_deg, value), points(-45, 10)}}), palette_colour(0));
+}
+
+constexpr double kRadius = 620;  // in pixels
+
+TEST(PolarPlot, PutsPointsWhereTheyBelong) {
+    const Spot centre = marker_at(0, 0);
+    ASSERT_GT(centre.count, 30);
+    for (const double theta_deg : {-90.0, -30.0, 0.0, 60.0, 90.0}) {
+        const double theta = theta_deg * std::numbers::pi / 180;
+        const Spot spot = marker_at(theta_deg, 5);
+        EXPECT_NEAR(spot.x - centre.x, kRadius / 2 * std::sin(theta), 1) << theta_deg;
+        EXPECT_NEAR(spot.y - centre.y, -kRadius / 2 * std::cos(theta), 1) << theta_deg;
+    }
+    EXPECT_NEAR(marker_at(40, -1).x, centre.x, 1);
+    EXPECT_EQ(marker_at(40, NAN).count, 0);
+}
+
+TEST(PolarPlot, EqualValuesAreAnArc) {
+    Series series{"", {}, {}};
+    for (int theta_deg = -90; theta_deg <= 90; ++theta_deg) {
+        series.x.push_back(theta_deg);
+        series.y.push_back(5);
+    }
+    const Spot arc = find_colour(draw({"", "", {series, {"", {0}, {10}}}}), palette_colour(0));
+    EXPECT_NEAR(arc.right - arc.left, kRadius, 6);
+    // The lines' 1.7 units, 3.4 pixels, less their soft edges.
+    EXPECT_NEAR(arc.count, std::numbers::pi * kRadius / 2 * 2.6, 0.25 * arc.count);
+}
+
+TEST(PolarPlot, DrawsBandsBetweenTheirEnds) {
+    Series series{"", {}, {}};
+    for (int theta_deg = -90; theta_deg <= 90; ++theta_deg) {
+        series.x.push_back(theta_deg);
+        series.y.push_back(7);
+        series.y_low.push_back(5);
+        series.y_high.push_back(10);
+    }
+    series.line = LineStyle::none;
+    const Colour ink = palette_colour(0);
+    const auto on_paper = [](double component) { return 0.25 * component + 0.75; };
+    const Colour band{on_paper(ink.red), on_paper(ink.green), on_paper(ink.blue)};
+    const double expected = std::numbers::pi / 2 * kRadius * kRadius * (1 - 0.25);
+    // But for the grid that shines through.
+    EXPECT_NEAR(find_colour(draw({"", "", {series}}), band).count / expected, 1, 0.06);
+}
+
+TEST(PolarPlot, TakesTheRoomThatItsTextsNeed) {
+    const PolarPlot plain{"", "", {{"", {0, 30}, {1, 2}}}};
+    PolarPlot with_texts = plain;
+    with_texts.title = "A title";
+    with_texts.series[0].name = "a curve";
+    const Pixels without = draw(plain), with = draw(with_texts);
+    EXPECT_GT(with.height, without.height + 60);
+    // The curve's swatch in the legend: 28 units of a line 1.7 wide.
+    EXPECT_GT(find_colour(with, palette_colour(0)).count,
+              find_colour(without, palette_colour(0)).count + 100);
+}
+
+TEST(PolarPlot, WritesSvg) {
+    const auto path = picture_path(".svg");
+    draw_polar_plot({"", "L", {{"line", {-90, 90}, {1, 2}}}}, path);
+    const std::string svg = read_text(path);
+    EXPECT_EQ(svg.rfind("<?xml", 0), 0u);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(PolarPlot, SaysWhatIsWrong) {
+    EXPECT_THROW(draw({"", "", {{"", {1, 2}, {1}}}}), std::invalid_argument);
+    EXPECT_THROW(draw({"", "", {{"", {91}, {1}}}}), std::invalid_argument);
+    EXPECT_THROW(draw({"", "", {{"", {NAN}, {1}}}}), std::invalid_argument);
+    EXPECT_THROW(draw_polar_plot({"", "", {}}, "polar.pdf"), InputError);
+}
+
+TEST(PolarPlot, DrawsNothingButItsFrameWithoutData) { EXPECT_NO_THROW(draw({})); }
+
+}  // namespace
+}  // namespace stilb
