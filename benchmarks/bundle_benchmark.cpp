@@ -27,13 +27,13 @@ constexpr int kTile = 4;
 /// Stilb.
 class BareScene {
   public:
-    explicit BareScene(const Patches& patches)
+    explicit BareScene(const patches::Patches& patches)
         : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
         rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(Float3), patches.vertices.size());
-        std::ranges::copy(patches.vertices, static_cast<Float3*>(vertices));
+                                                 sizeof(patches::Float3), patches.vertices.size());
+        std::ranges::copy(patches.vertices, static_cast<patches::Float3*>(vertices));
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                    patches.corners.data(), 0, sizeof(Triangle), patches.count());
         rtcCommitGeometry(geometry);
@@ -68,7 +68,7 @@ class BareScene {
 };
 
 /// Whole tiles only; at the rims of the grid rays are missing then.
-std::vector<RayPacket> packets_of(const LineGrid& grid, const Vec3& direction) {
+std::vector<RayPacket> packets_of(const patches::LineGrid& grid, const Vec3& direction) {
     std::vector<RayPacket> packets;
     for (int y = 0; y + kTile <= grid.height; y += kTile) {
         for (int x = 0; x + kTile <= grid.width; x += kTile) {
@@ -145,10 +145,10 @@ Measured bare_all_hits(const BareScene& scene, const std::vector<RayPacket>& pac
     });
 }
 
-Measured by(const Bundles& bundles, const Bundle& bundle) {
+Measured by(const patches::Bundles& bundles, const patches::Bundle& bundle) {
     return measured([&] {
         std::size_t crossings = 0;
-        bundles.cast(bundle, [&](const CrossedLines& lines) {
+        bundles.cast(bundle, [&](const patches::CrossedLines& lines) {
             for (std::size_t i = 0; i < lines.count(); ++i) crossings += lines.line(i).sides.size();
         });
         return crossings;
@@ -158,29 +158,29 @@ Measured by(const Bundles& bundles, const Bundle& bundle) {
 /// Who draws, or why nobody does.
 std::string renderer() {
     try {
-        return OpenGlBundles(Patches{}).renderer();
+        return patches::OpenGlBundles(patches::Patches{}).renderer();
     } catch (const InputError& error) {
         return error.what();
     }
 }
 
 /// [ms], or nothing where there is no OpenGL.
-std::string opengl_ms(const Patches& patches, const Bundle& bundle) {
+std::string opengl_ms(const patches::Patches& patches, const patches::Bundle& bundle) {
     try {
-        return fmt::format("{:.1f}", 1e3 * by(OpenGlBundles(patches), bundle).time_s);
+        return fmt::format("{:.1f}", 1e3 * by(patches::OpenGlBundles(patches), bundle).time_s);
     } catch (const InputError&) {
         return "-";
     }
 }
 
 void report(const Scene& scene, double count) {
-    const Patches patches = make_patches(scene, patch_size_m(scene, count));
-    const PatchCaster caster(patches);
+    const patches::Patches patches = patches::make_patches(scene, patches::patch_size_m(scene, count));
+    const patches::PatchCaster caster(patches);
     const BareScene bare(patches);
-    const Bundle bundle{Frame::around(normalized(Vec3{0.3, -0.5, 0.8})), 6.0 / 800, {0.3, 0.7}};
-    const auto packets = packets_of(LineGrid(bounds_of(patches), bundle), bundle.frame.w);
+    const patches::Bundle bundle{Frame::around(normalized(Vec3{0.3, -0.5, 0.8})), 6.0 / 800, {0.3, 0.7}};
+    const auto packets = packets_of(patches::LineGrid(bounds_of(patches), bundle), bundle.frame.w);
     const Measured first = bare_first_hits(bare, packets), all = bare_all_hits(bare, packets);
-    const Measured rays = by(RayBundles(caster), bundle);
+    const Measured rays = by(patches::RayBundles(caster), bundle);
     fmt::print("{:10} {:8.1f} {:11.1f} {:11.1f} {:11.1f} {:9.2f} {:9.2f} {:9.1f} {:>9}\n", patches.count(),
                static_cast<double>(all.crossings) / static_cast<double>(first.crossings),
                1e-6 * first.per_second(), 1e-6 * all.per_second(), 1e-6 * rays.per_second(),

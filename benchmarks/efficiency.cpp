@@ -34,7 +34,7 @@ Efficiency efficiency_of(const Measure& measure, std::uint64_t granularity) {
     const double elapsed_s = cpu_s() - start;
     std::vector<double> variances;
     double sum = 0;
-    for (const Estimate& e : estimate_readings({means, means.size() / kRounds})) {
+    for (const statistics::Estimate& e : statistics::estimate_readings({means, means.size() / kRounds})) {
         if (!(e.value > 0)) continue;
         const double relative_error = e.standard_error / e.value;
         variances.push_back(relative_error * relative_error);

@@ -17,10 +17,10 @@
 namespace stilb {
 namespace {
 
-Measure measure_with(const Estimator& estimator) {
+Measure measure_with(const estimators::Estimator& estimator) {
     return [&](std::uint64_t round, std::uint64_t samples) {
-        ReadingSums sums(estimator.known_part().size());
-        estimator.run_batch({RandomKey{3}.derived(round), 0, samples}, sums);
+        estimators::ReadingSums sums(estimator.known_part().size());
+        estimator.run_batch({math::RandomKey{3}.derived(round), 0, samples}, sums);
         std::vector<double> values;
         for (std::size_t j = 0; j < sums.sum.size(); ++j) {
             values.push_back(estimator.known_part()[j].luminance() +
@@ -30,24 +30,25 @@ Measure measure_with(const Estimator& estimator) {
     };
 }
 
-Efficiency of_readings(const EstimatorEntry& method, const Scene& scene,
+Efficiency of_readings(const estimators::EstimatorEntry& method, const Scene& scene,
                        const std::vector<Measurand>& measurands) {
-    const RayCaster caster(scene);
-    const auto estimator = method.make({scene, caster, measurands, kUnlimited, RandomKey{5}});
+    const rays::RayCaster caster(scene);
+    const auto estimator =
+        method.make({scene, caster, measurands, transport::kUnlimited, math::RandomKey{5}});
     return efficiency_of(measure_with(*estimator), estimator->batch_granularity());
 }
 
-Measure measure_with(const PictureEstimator& estimator, const std::array<int, 2>& resolution) {
+Measure measure_with(const estimators::PictureEstimator& estimator, const std::array<int, 2>& resolution) {
     return [&, resolution](std::uint64_t round, std::uint64_t passes) {
         std::vector<double> pixels;
         for (std::uint64_t index = 0; index < passes; ++index) {
-            const auto pass = estimator.start({RandomKey{3}.derived(round), index});
+            const auto pass = estimator.start({math::RandomKey{3}.derived(round), index});
             std::size_t first = 0;
-            for (const PixelBlock& block : blocks_of(resolution)) {
-                std::vector<Spectrum> samples(static_cast<std::size_t>(block.width * block.height));
+            for (const estimators::PixelBlock& block : estimators::blocks_of(resolution)) {
+                std::vector<Rgb> samples(static_cast<std::size_t>(block.width * block.height));
                 pass->sample(block, samples);
                 pixels.resize(std::max(pixels.size(), first + samples.size()));
-                for (const Spectrum& sample : samples) {
+                for (const Rgb& sample : samples) {
                     pixels[first++] += sample.luminance() / static_cast<double>(passes);
                 }
             }
@@ -56,18 +57,19 @@ Measure measure_with(const PictureEstimator& estimator, const std::array<int, 2>
     };
 }
 
-Efficiency of_picture(const EstimatorEntry& method, const Scene& scene, const Camera& camera) {
-    const RayCaster caster(scene);
-    const auto estimator = method.make_picture({scene, caster, camera, kUnlimited, RandomKey{5}});
+Efficiency of_picture(const estimators::EstimatorEntry& method, const Scene& scene, const Camera& camera) {
+    const rays::RayCaster caster(scene);
+    const auto estimator =
+        method.make_picture({scene, caster, camera, transport::kUnlimited, math::RandomKey{5}});
     return efficiency_of(measure_with(*estimator, camera.resolution), 1);
 }
 
 /// `efficiency`: of a method.
 template <typename EfficiencyOf>
 void compare(std::string_view what, const EfficiencyOf& efficiency) {
-    const Efficiency path = efficiency(find_estimator("path"));
+    const Efficiency path = efficiency(estimators::find_estimator("path"));
     for (const std::string_view name : {"auto", "double-local"}) {
-        const Efficiency e = efficiency(find_estimator(name));
+        const Efficiency e = efficiency(estimators::find_estimator(name));
         fmt::print("{:32} {:12} {:8.1f} {:8.1f} {:8.1f}   {:4.1f} {:4.1f}\n", what, name,
                    e.by_mean / path.by_mean, e.by_median / path.by_median,
                    e.by_95_percent / path.by_95_percent, e.cpu_s, path.cpu_s);
@@ -76,7 +78,8 @@ void compare(std::string_view what, const EfficiencyOf& efficiency) {
 }
 
 void compare_readings(std::string_view what, const Scene& scene, const std::vector<Measurand>& measurands) {
-    compare(what, [&](const EstimatorEntry& method) { return of_readings(method, scene, measurands); });
+    compare(what,
+            [&](const estimators::EstimatorEntry& method) { return of_readings(method, scene, measurands); });
 }
 
 /// Rows of 32 x 32 lines of sight from eye level onto the lower half of the room.
@@ -118,7 +121,7 @@ void compare_all() {
     compare_readings("goniometer, 289 directions", matt, goniometer());
     compare_readings("  the same, glossy surfaces", glossy, goniometer());
     const auto of_camera = [](const Scene& scene) {
-        return [&](const EstimatorEntry& method) { return of_picture(method, scene, camera()); };
+        return [&](const estimators::EstimatorEntry& method) { return of_picture(method, scene, camera()); };
     };
     compare("camera, 96 x 64 pixels", of_camera(matt));
     compare("  the same, glossy surfaces", of_camera(glossy));

@@ -49,16 +49,16 @@ struct PreparedRays {
 };
 
 /// The rays that the fan traces, in its order: by packets of points, then nodes.
-PreparedRays prepare_rays(const std::vector<Receiver>& points, const std::vector<ChainNode>& nodes,
-                          const Vec3& center) {
+PreparedRays prepare_rays(const std::vector<transport::Receiver>& points,
+                          const std::vector<transport::LightVertex>& nodes, const Vec3& center) {
     PreparedRays rays;
     for (std::size_t first = 0; first < points.size(); first += kPacketWidth) {
-        for (const ChainNode& node : nodes) {
+        for (const transport::LightVertex& node : nodes) {
             RayPacket packet;
             LaneMask lanes{};
             bool any = false;
             for (std::size_t i = 0; i < kPacketWidth; ++i) {
-                const Receiver& point = points[first + i];
+                const transport::Receiver& point = points[first + i];
                 const Vec3 segment = point.lifted() - node.lifted;
                 const Vec3 origin = node.lifted - center;
                 packet.origin_x[i] = static_cast<float>(origin.x);
@@ -81,18 +81,20 @@ PreparedRays prepare_rays(const std::vector<Receiver>& points, const std::vector
 }
 
 void compare(const Scene& scene) {
-    const RayCaster caster(scene);
-    const LightSampler lights(scene, caster);
-    std::vector<ChainNode> nodes = walk_light_chains(scene, caster, lights, 100, RandomKey{1}, 0, 256);
+    const rays::RayCaster caster(scene);
+    const transport::LightSampler lights(scene, caster);
+    std::vector<transport::LightVertex> nodes =
+        trace_light_paths(scene, caster, lights, 100, math::RandomKey{1}, 0, 256);
     nodes.resize(std::min<std::size_t>(nodes.size(), 256));
-    std::vector<Receiver> points;
+    std::vector<transport::Receiver> points;
     for (const Measurand& measurand : make_grid(32)) {
         points.emplace_back(static_cast<std::uint32_t>(points.size()), place_of(measurand), caster);
     }
     points = sorted_receivers(std::move(points));
     const std::vector<double> k(points.size(), 1.0);
-    const std::vector<PointTile> tiles = tiles_of(points, k, caster, kUnlimited);
-    const Fan fan(caster, tiles);
+    const std::vector<estimators::PointTile> tiles =
+        estimators::tiles_of(points, k, caster, transport::kUnlimited);
+    const estimators::Fan fan(caster, tiles);
     PreparedRays rays = prepare_rays(points, nodes, caster.center());
 
     const RTCDevice device = rtcNewDevice(nullptr);
@@ -101,7 +103,7 @@ void compare(const Scene& scene) {
     std::uint64_t traced = 0;
     constexpr int repetitions = 15;  // in turn, so that a change of the machine's speed meets both
     for (int repetition = 0; repetition < repetitions; ++repetition) {
-        ReadingSums sums(points.size());
+        estimators::ReadingSums sums(points.size());
         double start = now_s();
         fan.collect(nodes, sums);
         best_fan_s = std::min(best_fan_s, now_s() - start);

@@ -18,12 +18,12 @@ constexpr std::size_t kQueries = 100'000;
 /// A panel and nine points, all of which are replaced.
 void light(Scene& scene) {
     for (int i = 0; i < 8; ++i) {
-        scene.lights.push_back({"", PointLight{{0.5 + 0.4 * i, 3.4 - 0.3 * i, 2}, Spectrum::grey(40)}});
+        scene.lights.push_back({"", PointLight{{0.5 + 0.4 * i, 3.4 - 0.3 * i, 2}, Rgb::grey(40)}});
     }
     scene.objects.push_back(
         {"panel", Rectangle{{1.8, 1.8, 2.98}, {0, 0.2, 0}, {0.2, 0, 0}}, {MaterialId{0}}});
     const ObjectId panel{static_cast<std::uint32_t>(scene.objects.size() - 1)};
-    scene.lights.push_back({"", AreaLight{panel, Spectrum::grey(3000)}});
+    scene.lights.push_back({"", AreaLight{panel, Rgb::grey(3000)}});
 }
 
 struct Query {
@@ -31,23 +31,23 @@ struct Query {
     Vec3 position, out;
 };
 
-std::vector<Query> queries(const Patches& patches) {
+std::vector<Query> queries(const patches::Patches& patches) {
     std::vector<Query> all;
     for (std::uint64_t i = 0; i < kQueries; ++i) {
-        SampleStream stream(RandomKey{1}, i);
+        math::SampleStream stream(math::RandomKey{1}, i);
         const double sides = 2 * static_cast<double>(patches.count());
         const auto side = static_cast<std::uint32_t>(stream.next() * sides);
         const auto [u1, u2] = stream.next_two();
-        const Vec3 local = sample_cosine_hemisphere(u1, u2).direction;
+        const Vec3 local = math::sample_cosine_hemisphere(u1, u2).direction;
         all.push_back({side, patches.middle(patches.patch_of(side)),
                        Frame::around(patches.normal_of(side)).to_world(local)});
     }
     return all;
 }
 
-double query_us(const FirstShotPatches& patches) {
+double query_us(const estimators::FirstShotPatches& patches) {
     const std::vector<Query> all = queries(patches.patches);
-    Spectrum sum;
+    Rgb sum;
     const double time_s = best_time_s(3, [&] {
         for (const auto& [side, position, out] : all) {
             sum += patches.first_shot.reflected(side, position, {}, out);
@@ -56,14 +56,15 @@ double query_us(const FirstShotPatches& patches) {
     return sum.is_finite() ? 1e6 * time_s / static_cast<double>(kQueries) : 0;
 }
 
-void report(const Scene& scene, double count, FirstShotVariant variant, BufferBackend backend) {
-    const RayCaster caster(scene);
-    PatchOptions options;
-    options.patch_m = patch_size_m(scene, count);
+void report(const Scene& scene, double count, estimators::FirstShotVariant variant,
+            patches::BufferBackend backend) {
+    const rays::RayCaster caster(scene);
+    estimators::PatchOptions options;
+    options.patch_m = patches::patch_size_m(scene, count);
     options.first_shot.variant = variant;
     options.first_shot.shooting.backend = backend;
-    const FirstShotPatches patches(scene, caster, options);
-    const PatchReport report = patches.report();
+    const estimators::FirstShotPatches patches(scene, caster, options);
+    const estimators::PatchReport report = patches.report();
     fmt::print("{:22} {:>10} {:10} {:>10} {:>8} {:9.3f} {:9.1f} {:9.3f}\n", scene.name, name_of(variant),
                report.count, report.resolution.value_or(0), name_of(backend), report.set_up_s,
                report.bytes_per_patch, query_us(patches));
@@ -72,9 +73,11 @@ void report(const Scene& scene, double count, FirstShotVariant variant, BufferBa
 void report_all(Scene scene) {
     light(scene);
     for (const double count : {1e4, 1e5}) {
-        for (const BufferBackend backend : {BufferBackend::rays, BufferBackend::opengl}) {
-            for (const FirstShotVariant variant :
-                 {FirstShotVariant::classical, FirstShotVariant::diffuse, FirstShotVariant::incoming}) {
+        for (const patches::BufferBackend backend :
+             {patches::BufferBackend::rays, patches::BufferBackend::opengl}) {
+            for (const estimators::FirstShotVariant variant :
+                 {estimators::FirstShotVariant::classical, estimators::FirstShotVariant::diffuse,
+                  estimators::FirstShotVariant::incoming}) {
                 try {
                     report(scene, count, variant, backend);
                 } catch (const InputError& error) {  // there is no OpenGL
@@ -82,7 +85,7 @@ void report_all(Scene scene) {
                 }
             }
         }
-        report(scene, count, FirstShotVariant::on_the_fly, BufferBackend::rays);
+        report(scene, count, estimators::FirstShotVariant::on_the_fly, patches::BufferBackend::rays);
     }
 }
 

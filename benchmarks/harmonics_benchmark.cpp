@@ -42,7 +42,7 @@ double entry(const Bounds& box, const Ray& ray) {
 }
 
 /// From outside, aimed at the inside of the sphere around the surface.
-std::vector<Ray> rays_to(const HarmonicCells& cells) {
+std::vector<Ray> rays_to(const geometry::HarmonicCells& cells) {
     std::vector<Bounds> boxes;
     for (std::size_t cell = 0; cell < cells.count(); ++cell) boxes.push_back(cells.bounds_of(cell));
     Numbers numbers(3);
@@ -65,7 +65,7 @@ struct Walk {
 };
 
 /// Every ray on its way through the boxes until it has hit.
-Walk walk(const HarmonicCells& cells, const std::vector<Ray>& rays) {
+Walk walk(const geometry::HarmonicCells& cells, const std::vector<Ray>& rays) {
     Walk result;
     result.time_us = 1e6 * best_time_s(kRepetitions, [&] {
                          result.calls = result.hits = 0;
@@ -91,15 +91,15 @@ double time_by_series_us(const std::vector<Ray>& rays, const Cross& cross) {
     return hits > 0 ? 1e6 * time_s / kRaysBySeries : 0;
 }
 
-void report(const char* name, const HarmonicSurface& surface) {
-    const double start_s = best_time_s(1, [&] { (void)HarmonicCells(surface); });
-    const HarmonicCells cells(surface);
+void report(const char* name, const geometry::HarmonicSurface& surface) {
+    const double start_s = best_time_s(1, [&] { (void)geometry::HarmonicCells(surface); });
+    const geometry::HarmonicCells cells(surface);
     const std::vector<Ray> rays = rays_to(cells);
     const Walk all = walk(cells, rays);
     const double roots_us = time_by_series_us(rays, [&](const Ray& ray) {
         return surface.first_crossing(ray.origin, ray.direction, 0, kInfinity);
     });
-    const double step = kMarchedShare * surface.greatest_radius();
+    const double step = geometry::kMarchedShare * surface.greatest_radius();
     const double march_us = time_by_series_us(rays, [&](const Ray& ray) {
         return march_crossing(surface, ray.origin, ray.direction, 0, kInfinity, step);
     });

@@ -18,7 +18,7 @@
 namespace stilb {
 namespace {
 
-double bytes_per_patch(const Patches& patches) {
+double bytes_per_patch(const patches::Patches& patches) {
     const auto bytes_of = [](const auto& values) { return values.size() * sizeof values[0]; };
     const std::size_t bytes = bytes_of(patches.vertices) + bytes_of(patches.corners) +
                               bytes_of(patches.normals) + bytes_of(patches.areas_m2) +
@@ -27,43 +27,44 @@ double bytes_per_patch(const Patches& patches) {
 }
 
 void report_making(const Scene& scene, double size_m) {
-    const Patches patches = make_patches(scene, size_m);
+    const patches::Patches patches = patches::make_patches(scene, size_m);
     const auto count = static_cast<double>(patches.count());
-    const double making_s = best_time_s(3, [&] { make_patches(scene, size_m); });
-    const double interpolation_s = best_time_s(3, [&] { VertexInterpolation{patches}; });
-    const double caster_s = best_time_s(3, [&] { PatchCaster{patches}; });
+    const double making_s = best_time_s(3, [&] { patches::make_patches(scene, size_m); });
+    const double interpolation_s = best_time_s(3, [&] { patches::VertexInterpolation{patches}; });
+    const double caster_s = best_time_s(3, [&] { patches::PatchCaster{patches}; });
     fmt::print("{:10} {:9.3f} {:9.3f} {:9.3f} {:9.1f} {:9.1f}\n", patches.count(), making_s, interpolation_s,
-               caster_s, bytes_per_patch(patches), static_cast<double>(PatchCaster(patches).bytes()) / count);
+               caster_s, bytes_per_patch(patches),
+               static_cast<double>(patches::PatchCaster(patches).bytes()) / count);
 }
 
-double filling_ms(ItemBuffers& buffers, int resolution) {
-    const ItemBufferLayout layout(BufferShape::cube, resolution);
+double filling_ms(patches::ItemBuffers& buffers, int resolution) {
+    const patches::ItemBufferLayout layout(patches::BufferShape::cube, resolution);
     std::vector<std::uint32_t> sides(layout.pixel_count());
-    const Viewpoint bulb{{2.1, 1.9, 2.4}, Frame::around(normalized(Vec3{1, 2, 3}))};
+    const patches::Viewpoint bulb{{2.1, 1.9, 2.4}, Frame::around(normalized(Vec3{1, 2, 3}))};
     return 1e3 * best_time_s(5, [&] { buffers.fill(layout, bulb, sides); });
 }
 
 /// Who draws, or why nobody does.
 std::string renderer() {
     try {
-        return OpenGlItemBuffers(Patches{}).renderer();
+        return patches::OpenGlItemBuffers(patches::Patches{}).renderer();
     } catch (const InputError& error) {
         return error.what();
     }
 }
 
-std::unique_ptr<ItemBuffers> opengl_if_any(const Patches& patches) {
+std::unique_ptr<patches::ItemBuffers> opengl_if_any(const patches::Patches& patches) {
     try {
-        return std::make_unique<OpenGlItemBuffers>(patches);
+        return std::make_unique<patches::OpenGlItemBuffers>(patches);
     } catch (const InputError&) {
         return nullptr;
     }
 }
 
 void report_filling(const Scene& scene, double size_m) {
-    const Patches patches = make_patches(scene, size_m);
-    const PatchCaster caster(patches);
-    RayItemBuffers rays(caster);
+    const patches::Patches patches = patches::make_patches(scene, size_m);
+    const patches::PatchCaster caster(patches);
+    patches::RayItemBuffers rays(caster);
     const auto opengl = opengl_if_any(patches);
     for (const int resolution : {512, 1024}) {
         fmt::print("{:10} {:10} {:9.1f} {:>9}\n", patches.count(), resolution, filling_ms(rays, resolution),
@@ -76,8 +77,9 @@ void report_filling(const Scene& scene, double size_m) {
 
 int main() {
     const stilb::Scene scene = stilb::make_room(8);
-    const std::vector<double> sizes_m{stilb::patch_size_m(scene, 1e4), stilb::patch_size_m(scene, 1e5),
-                                      stilb::patch_size_m(scene, 1e6)};
+    const std::vector<double> sizes_m{stilb::patches::patch_size_m(scene, 1e4),
+                                      stilb::patches::patch_size_m(scene, 1e5),
+                                      stilb::patches::patch_size_m(scene, 1e6)};
     fmt::print("Making, one thread (Embree: all), best of 3   [s, bytes per patch]\n");
     fmt::print("{:>10} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "patches", "patches", "interpol.", "Embree",
                "patches", "Embree");

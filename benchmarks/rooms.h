@@ -35,12 +35,12 @@ inline void add_ball(Mesh& mesh, const Vec3& center, double radius, unsigned rin
 inline Scene make_room(unsigned balls) {
     Scene scene;
     scene.name = balls == 0 ? "empty room" : "room with clutter";
-    scene.materials.push_back({"wall", Diffuse{Spectrum::grey(0.6)}});
+    scene.materials.push_back({"wall", Diffuse{Rgb::grey(0.6)}});
     scene.objects.push_back({"room", Box{{0, 0, 0}, {4, 4, 3}}, {MaterialId{0}}});
-    scene.lights.push_back({"bulb", PointLight{{2.1, 1.9, 2.4}, Spectrum::grey(80)}});
+    scene.lights.push_back({"bulb", PointLight{{2.1, 1.9, 2.4}, Rgb::grey(80)}});
     Mesh clutter;
     for (unsigned i = 0; i < balls; ++i) {
-        SampleStream place(RandomKey{7}, i);
+        math::SampleStream place(math::RandomKey{7}, i);
         const auto [u, v] = place.next_two();
         const double height = place.next();
         add_ball(clutter, {0.3 + 3.4 * u, 0.3 + 3.4 * v, i % 2 ? 0.2 + 0.4 * height : 2.2 + 0.5 * height},
@@ -54,13 +54,14 @@ inline Scene make_room(unsigned balls) {
 inline Scene make_glossy_room(unsigned balls) {
     Scene scene = make_room(balls);
     scene.name = "glossy " + scene.name;
-    scene.materials.front().material = Phong{Spectrum::grey(0.4), Spectrum::grey(0.2), 50};
+    scene.materials.front().material = Phong{Rgb::grey(0.4), Rgb::grey(0.2), 50};
     return scene;
 }
 
 /// Points on a horizontal plane at desk height.
 inline std::vector<Measurand> make_grid(int cells) {
-    return make_grid_sensor("grid", {{0.05, 0.05, 0.8}, {3.9, 0, 0}, {0, 3.9, 0}, {cells, cells}}, {0, 0, 1})
+    return sensors::make_grid_sensor("grid", {{0.05, 0.05, 0.8}, {3.9, 0, 0}, {0, 3.9, 0}, {cells, cells}},
+                                     {0, 0, 1})
         .measurands;
 }
 

@@ -33,15 +33,15 @@ void add_object(Scene& scene, const Shape& shape, MaterialId material) {
 /// receive was reflected before.
 Scene room_with(const Material& material, bool has_large_light) {
     Scene scene;
-    scene.materials = {{"wall", Diffuse{Spectrum::grey(0.6)}}, {"glossy", material}, {"black", Black{}}};
+    scene.materials = {{"wall", Diffuse{Rgb::grey(0.6)}}, {"glossy", material}, {"black", Black{}}};
     add_object(scene, Box{{0, 0, -1}, {4, 3, 2.8}}, MaterialId{0});
     add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}, MaterialId{1});
     add_object(scene, Box{{2, 1, 0}, {2.8, 1.8, 0.9}}, MaterialId{1});
     if (has_large_light) {
         add_object(scene, Rectangle{{1, 0.6, 2.75}, {0, 1.6, 0}, {2, 0, 0}}, MaterialId{2});
-        scene.lights.push_back({"large", AreaLight{ObjectId{3}, Spectrum::grey(100)}});
+        scene.lights.push_back({"large", AreaLight{ObjectId{3}, Rgb::grey(100)}});
     } else {
-        scene.lights.push_back({"small", PointLight{{3.2, 2.4, 2}, Spectrum::grey(100)}});
+        scene.lights.push_back({"small", PointLight{{3.2, 2.4, 2}, Rgb::grey(100)}});
     }
     return scene;
 }
@@ -53,9 +53,10 @@ struct Reflected {
 };
 
 /// What is exact and what terms keep of it comes from the same steps, so that most of the noise is the same.
-Reflected reflected_in(const PatchTransport& transport, RandomKey key) {
-    const TermLayout layout(transport, ZernikeBasis::kMostDegree, reflecting_sides(transport));
-    TermSums sums(transport, layout);
+Reflected reflected_in(const estimators::PatchTransport& transport, math::RandomKey key) {
+    const estimators::TermLayout layout(transport, math::ZernikeBasis::kMostDegree,
+                                        reflecting_sides(transport));
+    estimators::TermSums sums(transport, layout);
     std::vector<std::pair<std::uint32_t, Vec3>> seen;
     for (const std::uint32_t patch : transport.glossy_patches) {
         const Vec3 out = normalized(kEye - transport.patches.middle(patch));
@@ -63,7 +64,7 @@ Reflected reflected_in(const PatchTransport& transport, RandomKey key) {
     }
     Reflected result;
     result.exact.resize(seen.size());
-    BundleIteration iteration(transport, key);
+    estimators::BundleIteration iteration(transport, key);
     for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
     for (int step = 0; step < kSteps; ++step) {
         iteration.step();
@@ -71,14 +72,14 @@ Reflected reflected_in(const PatchTransport& transport, RandomKey key) {
         for (std::size_t i = 0; i < seen.size(); ++i)
             result.exact[i] += iteration.reflected(seen[i].first, seen[i].second).luminance() / kSteps;
     }
-    const std::vector<Rgb> terms = sums.mean();
+    const std::vector<estimators::FloatRgb> terms = sums.mean();
     for (std::size_t i = 0; i < seen.size(); ++i) {
         const auto& [side, out] = seen[i];
-        const std::vector<Rgb> factors = reflection_factors(transport, layout, side, out);
+        const std::vector<estimators::FloatRgb> factors = reflection_factors(transport, layout, side, out);
         const std::span own = std::span(terms).subspan(layout.first_of(side), factors.size());
         for (std::size_t d = 0; d < kDegrees.size(); ++d) {
-            const std::size_t count = ZernikeBasis(kDegrees[d]).count();  // lower degrees come first
-            const Spectrum kept = reflected_cd_m2(own.first(count), std::span(factors).first(count));
+            const std::size_t count = math::ZernikeBasis(kDegrees[d]).count();  // lower degrees come first
+            const Rgb kept = estimators::reflected_cd_m2(own.first(count), std::span(factors).first(count));
             result.kept_too_much[d].push_back(kept.luminance() - result.exact[i]);
         }
     }
@@ -89,13 +90,13 @@ Reflected reflected_in(const PatchTransport& transport, RandomKey key) {
 /// shot left out. The product of what two independent walks have too much is without noise.
 Errors errors_of(const Material& material, bool has_large_light) {
     const Scene scene = room_with(material, has_large_light);
-    const RayCaster caster(scene);
-    PatchOptions options;
+    const rays::RayCaster caster(scene);
+    estimators::PatchOptions options;
     options.patch_m = 0.35;
-    const PatchTransport transport(scene, caster, options);
+    const estimators::PatchTransport transport(scene, caster, options);
     std::array<Reflected, 2> walks;
     tbb::parallel_for(std::size_t{0}, walks.size(),
-                      [&](std::size_t w) { walks[w] = reflected_in(transport, RandomKey{w}); });
+                      [&](std::size_t w) { walks[w] = reflected_in(transport, math::RandomKey{w}); });
     const auto& exact = walks[0].exact;
     const auto sides = static_cast<double>(exact.size());
     const double mean = std::accumulate(exact.begin(), exact.end(), 0.0) / sides;
@@ -109,8 +110,8 @@ Errors errors_of(const Material& material, bool has_large_light) {
     return errors;
 }
 
-Material phong(double exponent) { return Phong{Spectrum::grey(0.2), Spectrum::grey(0.4), exponent}; }
-Material rough(double roughness) { return Rough(Spectrum::grey(0.7), roughness); }
+Material phong(double exponent) { return Phong{Rgb::grey(0.2), Rgb::grey(0.4), exponent}; }
+Material rough(double roughness) { return RoughConductor(Rgb::grey(0.7), roughness); }
 
 void print_table() {
     const std::vector<std::pair<std::string, Material>> materials{

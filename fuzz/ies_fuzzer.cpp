@@ -2,5 +2,5 @@
 #include "photometry_fuzzer.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return stilb::fuzz_photometry(stilb::read_ies, data, size);
+    return stilb::fuzz_photometry(stilb::io::read_ies, data, size);
 }

@@ -14,7 +14,7 @@
 namespace stilb {
 
 /// What a reader accepts must make a solid, and sampling it must give unit directions of finite density.
-inline void check_solid(const PhotometryFile& file) {
+inline void check_solid(const io::PhotometryFile& file) {
     const PhotometricSolid solid(file.grid);
     check_flux(file, solid.flux_lm()).description();
     for (const double u1 : {0.0, 0.3, 1 - 0x1p-53}) {
@@ -26,9 +26,9 @@ inline void check_solid(const PhotometryFile& file) {
     }
 }
 
-inline int fuzz_photometry(PhotometryFile (*read)(std::string_view, const std::string&),
+inline int fuzz_photometry(io::PhotometryFile (*read)(std::string_view, const std::string&),
                            const std::uint8_t* data, std::size_t size) {
-    PhotometryFile file;
+    io::PhotometryFile file;
     try {
         file = read(std::string_view(reinterpret_cast<const char*>(data), size), "input");
     } catch (const InputError&) {

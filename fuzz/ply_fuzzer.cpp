@@ -2,6 +2,6 @@
 #include "mesh_promises.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    stilb::check_mesh_reader(stilb::read_ply, data, size);
+    stilb::check_mesh_reader(stilb::io::read_ply, data, size);
     return 0;
 }

@@ -13,13 +13,12 @@ namespace {
 /// The scene of the corpus: a box of two materials with a lamp.
 stilb::Scene lamp_in_box() {
     stilb::Scene scene;
-    scene.materials.push_back({"wall", stilb::Diffuse{stilb::Spectrum::grey(0.5)}});
-    scene.materials.push_back(
-        {"floor", stilb::Phong{stilb::Spectrum::grey(0.3), stilb::Spectrum::grey(0.4), 5}});
+    scene.materials.push_back({"wall", stilb::Diffuse{stilb::Rgb::grey(0.5)}});
+    scene.materials.push_back({"floor", stilb::Phong{stilb::Rgb::grey(0.3), stilb::Rgb::grey(0.4), 5}});
     scene.objects.push_back({"room", stilb::Box{{0, 0, 0}, {2, 2, 2}}, {stilb::MaterialId{0}}});
     scene.objects.push_back(
         {"floor", stilb::Rectangle{{0, 0, 0.1}, {2, 0, 0}, {0, 2, 0}}, {stilb::MaterialId{1}}});
-    scene.lights.push_back({"lamp", stilb::PointLight{{1, 1, 1.5}, stilb::Spectrum::grey(100)}});
+    scene.lights.push_back({"lamp", stilb::PointLight{{1, 1, 1.5}, stilb::Rgb::grey(100)}});
     return scene;
 }
 
@@ -28,19 +27,19 @@ stilb::Scene lamp_in_box() {
 /// The input is the contents after the header, which states their hash.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const stilb::Scene scene = lamp_in_box();
-    static const stilb::RayCaster caster(scene);
+    static const stilb::rays::RayCaster caster(scene);
     const std::string_view body(reinterpret_cast<const char*>(data), size);
-    const std::string bytes = stilb::solution_header(body) + std::string(body);
-    stilb::StoredSolution stored;
+    const std::string bytes = stilb::io::solution_header(body) + std::string(body);
+    stilb::io::StoredSolution stored;
     try {
-        stored = stilb::read_solution(bytes, "fuzzed");
+        stored = stilb::io::read_solution(bytes, "fuzzed");
     } catch (const stilb::InputError& error) {
         if (!std::string_view(error.what()).starts_with("fuzzed:")) std::abort();
         return 0;
     }
-    if (stilb::to_bytes(stored) != bytes) std::abort();
+    if (stilb::io::to_bytes(stored) != bytes) std::abort();
     try {
-        stilb::require_consistency(stored.solution, scene, caster);
+        stilb::estimators::require_consistency(stored.solution, scene, caster);
     } catch (const stilb::InputError&) {
     }
     return 0;

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const std::string_view slash : slashes)
         if (text.find(slash) != std::string_view::npos) return 0;
     try {
-        stilb::read_scene(text, "scene.toml", "no-such-directory");
+        stilb::io::read_scene(text, "scene.toml", "no-such-directory");
     } catch (const stilb::InputError&) {
     }
     return 0;

@@ -9,16 +9,17 @@
 #include "plot/series.h"
 #include "run/run.h"
 
-namespace stilb {
+namespace stilb::papers {
 
-std::vector<Estimate> estimates_of(const SensorResult& result);
-Estimate scaled(const Estimate& estimate, double factor);
+std::vector<statistics::Estimate> estimates_of(const SensorResult& result);
+statistics::Estimate scaled(const statistics::Estimate& estimate, double factor);
 
 /// A curve with the intervals as its band.
-Series series_of(const std::string& name, const std::vector<double>& x, std::span<const Estimate> estimates);
+plot::Series series_of(const std::string& name, const std::vector<double>& x,
+                       std::span<const statistics::Estimate> estimates);
 
 /// Four columns: NAME_UNIT, NAME_standard_error_UNIT, NAME_lower_UNIT and NAME_upper_UNIT.
-void add_columns(std::vector<Column>& columns, const std::string& name, const std::string& unit,
-                 std::span<const Estimate> estimates);
+void add_columns(std::vector<io::Column>& columns, const std::string& name, const std::string& unit,
+                 std::span<const statistics::Estimate> estimates);
 
-}  // namespace stilb
+}  // namespace stilb::papers

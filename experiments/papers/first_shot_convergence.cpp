@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "estimators/patch_light/patch_location.h"
 #include "estimators/patch_light/patch_picture.h"
-#include "estimators/patch_light/patch_place.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 #include "run/clock.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 constexpr std::uint64_t kReferenceWalks = 8;
@@ -19,51 +19,55 @@ constexpr int kReferenceSteps = 1000;
 enum Purpose : std::uint64_t { kReference, kWalk };
 
 /// Pixels that show each side.
-std::vector<double> pixels_of_sides(const PictureTracing& tracing, const PatchTransport& transport) {
+std::vector<double> pixels_of_sides(const estimators::PictureTracing& tracing,
+                                    const estimators::PatchTransport& transport) {
     std::vector<double> pixels(2 * transport.patches.count());
-    const PixelBlock all{0, 0, tracing.camera.resolution[0], tracing.camera.resolution[1]};
-    std::vector<SeenPoint> points;
-    for (Path& path : tracing.start_paths(pixels_of(all), {RandomKey{1}, 0}).paths) {
+    const estimators::PixelBlock all{0, 0, tracing.camera.resolution[0], tracing.camera.resolution[1]};
+    std::vector<estimators::ViewedHit> points;
+    for (transport::Path& path : tracing.start_paths(pixels_of(all), {math::RandomKey{1}, 0}).paths) {
         if (tracing.tracer.look_through(path)) points.push_back({path.hit, path.outgoing});
     }
-    for (const auto& seen : find_places(transport.patch_caster, points)) {
+    for (const auto& seen : find_patch_locations(transport.patch_caster, points)) {
         if (seen) pixels[seen->side] += 1;
     }
     return pixels;
 }
 
 /// What first shot does not store, as from the patches' middles.
-void add_not_stored(const PatchTransport& transport, const Vec3& eye, std::vector<Rgb>& sides) {
+void add_not_stored(const estimators::PatchTransport& transport, const Vec3& eye,
+                    std::vector<estimators::FloatRgb>& sides) {
     for (std::uint32_t side = 0; side < sides.size(); ++side) {
         const Vec3 middle = transport.patches.middle(transport.patches.patch_of(side));
-        add_to(sides[side], transport.first_reflected_at(side, middle, {}, normalized(eye - middle)));
+        estimators::add_to(sides[side],
+                           transport.first_reflected_at(side, middle, {}, normalized(eye - middle)));
     }
 }
 
-double difference(const std::vector<Rgb>& sides, const std::vector<Rgb>& reference,
-                  const std::vector<double>& pixels) {
+double difference(const std::vector<estimators::FloatRgb>& sides,
+                  const std::vector<estimators::FloatRgb>& reference, const std::vector<double>& pixels) {
     double sum = 0, all = 0;
     for (std::size_t side = 0; side < pixels.size(); ++side) {
         if (pixels[side] == 0) continue;
-        const double expected = spectrum_of(reference[side]).luminance();
-        sum += pixels[side] * std::abs(spectrum_of(sides[side]).luminance() - expected);
+        const double expected = estimators::to_rgb(reference[side]).luminance();
+        sum += pixels[side] * std::abs(estimators::to_rgb(sides[side]).luminance() - expected);
         all += pixels[side] * expected;
     }
     return sum / all;
 }
 
-std::vector<Rgb> reference_of(const PatchTransport& transport, const SeenSides& seen) {
-    std::array<std::vector<Rgb>, kReferenceWalks> sums;
+std::vector<estimators::FloatRgb> reference_of(const estimators::PatchTransport& transport,
+                                               const estimators::VisibleSides& seen) {
+    std::array<std::vector<estimators::FloatRgb>, kReferenceWalks> sums;
     tbb::parallel_for(std::uint64_t{0}, kReferenceWalks, [&](std::uint64_t walk) {
         sums[walk].resize(seen.count());
-        BundleIteration iteration(transport, RandomKey{kReference}.derived(walk));
+        estimators::BundleIteration iteration(transport, math::RandomKey{kReference}.derived(walk));
         for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
         for (int step = 0; step < kReferenceSteps; ++step) {
             iteration.step();
             seen.add(iteration, sums[walk]);
         }
     });
-    for (std::size_t walk = 1; walk < sums.size(); ++walk) add_to(sums[0], sums[walk]);
+    for (std::size_t walk = 1; walk < sums.size(); ++walk) estimators::add_to(sums[0], sums[walk]);
     return seen.mean_cd_m2(sums[0], double{kReferenceWalks} * kReferenceSteps);
 }
 
@@ -78,22 +82,23 @@ bool is_looked_at(int step, int last) {
 
 }  // namespace
 
-std::vector<ConvergenceCurve> converge(const PictureTracing& tracing,
+std::vector<ConvergenceCurve> converge(const estimators::PictureTracing& tracing,
                                        const std::vector<ConvergenceMethod>& methods, int steps,
                                        double most_time_s,
                                        const std::function<void(const ConvergenceState&)>& look) {
-    const PatchTransport best(tracing.scene, tracing.caster, {});
+    const estimators::PatchTransport best(tracing.scene, tracing.caster, {});
     const Vec3& eye = tracing.view.position();
     const std::vector<double> pixels = pixels_of_sides(tracing, best);
-    const std::vector<Rgb> reference = reference_of(best, SeenSides(best, eye));
+    const std::vector<estimators::FloatRgb> reference =
+        reference_of(best, estimators::VisibleSides(best, eye));
     std::vector<ConvergenceCurve> curves;
     for (const ConvergenceMethod& method : methods) {
         ConvergenceCurve curve{method.name, {}};
-        const PatchTransport transport(tracing.scene, tracing.caster, method.options);
-        const Clock clock;
-        BundleIteration iteration(transport, RandomKey{kWalk});
-        const SeenSides seen(transport, eye);
-        std::vector<Rgb> sums(seen.count()), not_stored(seen.count());
+        const estimators::PatchTransport transport(tracing.scene, tracing.caster, method.options);
+        const run::Clock clock;
+        estimators::BundleIteration iteration(transport, math::RandomKey{kWalk});
+        const estimators::VisibleSides seen(transport, eye);
+        std::vector<estimators::FloatRgb> sums(seen.count()), not_stored(seen.count());
         add_not_stored(transport, eye, not_stored);
         double looking_s = 0;
         for (int step = 1; step <= steps; ++step) {
@@ -102,8 +107,8 @@ std::vector<ConvergenceCurve> converge(const PictureTracing& tracing,
             if (!is_looked_at(step, steps)) continue;
             const double elapsed_s = clock.elapsed_s() - looking_s;
             const ConvergenceState state{method, transport, step, seen.mean_cd_m2(sums, step)};
-            std::vector<Rgb> sides = state.sides_cd_m2;
-            add_to(sides, not_stored);
+            std::vector<estimators::FloatRgb> sides = state.sides_cd_m2;
+            estimators::add_to(sides, not_stored);
             curve.points.push_back({static_cast<double>(step), transport.first_shot.set_up_s() + elapsed_s,
                                     difference(sides, reference, pixels)});
             if (elapsed_s > most_time_s) break;
@@ -115,4 +120,4 @@ std::vector<ConvergenceCurve> converge(const PictureTracing& tracing,
     return curves;
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

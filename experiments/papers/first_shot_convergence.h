@@ -9,7 +9,7 @@
 #include "estimators/patch_light/patch_options.h"
 #include "estimators/patch_light/patch_transport.h"
 
-namespace stilb {
+namespace stilb::papers {
 
 /// The error of a picture that is the mean of so many steps: mean absolute difference from the reference's
 /// pixels, over their mean.
@@ -26,24 +26,24 @@ struct ConvergenceCurve {
 
 struct ConvergenceMethod {
     std::string name;
-    PatchOptions options;
+    estimators::PatchOptions options;
     bool is_shown = false;  ///< by pictures
 };
 
 /// What sides reflect towards the eye [cd/m2], as a mean over so many steps of a method.
 struct ConvergenceState {
     const ConvergenceMethod& method;
-    const PatchTransport& transport;
+    const estimators::PatchTransport& transport;
     int steps;
-    std::vector<Rgb> sides_cd_m2;
+    std::vector<estimators::FloatRgb> sides_cd_m2;
 };
 
 /// One walk for each method from darkness, no step left out, and the same number of steps for all but those
 /// that take longer than `most_time_s`. The reference is the mean of several walks by incoming first shot
 /// over the same patches. `look` sees what has a point on the curve; its time is not counted.
-std::vector<ConvergenceCurve> converge(const PictureTracing& tracing,
+std::vector<ConvergenceCurve> converge(const estimators::PictureTracing& tracing,
                                        const std::vector<ConvergenceMethod>& methods, int steps,
                                        double most_time_s,
                                        const std::function<void(const ConvergenceState&)>& look);
 
-}  // namespace stilb
+}  // namespace stilb::papers

@@ -7,7 +7,7 @@
 #include "papers/paper_room.h"
 #include "rays/ray_caster.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 constexpr double kSize_m = 1.2;
@@ -16,7 +16,7 @@ constexpr Vec3 kEye_m{0.9, 2.1, 1.45};
 constexpr double kFov_deg = 26;
 constexpr double kReflectance = 0.6;
 
-SceneFile paper_room() { return read_scene(kPaperRoom, "scenes/paper/room.toml", {}); }
+io::SceneFile paper_room() { return io::read_scene(kPaperRoom, "scenes/paper/room.toml", {}); }
 
 /// Of each vertex: the sum of its triangles' normals, weighted by area.
 std::vector<Vec3> vertex_normals(const Mesh& mesh) {
@@ -29,7 +29,7 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
     return normals;
 }
 
-Vec3 smooth_normal_at(const Hit& hit, const Mesh& mesh, const std::vector<Vec3>& normals) {
+Vec3 smooth_normal_at(const rays::Hit& hit, const Mesh& mesh, const std::vector<Vec3>& normals) {
     const Triangle& corners = mesh.triangles[hit.triangle];
     Vec3 sum;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -56,7 +56,7 @@ Mesh placed_in_room(Mesh head) {
 Scene room_with(Shape head) {
     Scene scene = paper_room().scene;
     const MaterialId clay{static_cast<std::uint32_t>(scene.materials.size())};
-    scene.materials.push_back({"clay", Diffuse{Spectrum::grey(kReflectance)}});
+    scene.materials.push_back({"clay", Diffuse{Rgb::grey(kReflectance)}});
     scene.objects.push_back({"head", std::move(head), {clay}});
     return scene;
 }
@@ -77,8 +77,8 @@ Sensor view_of_head(const std::array<int, 2>& resolution) {
 }
 
 std::vector<HeadPoint> visible_points(const Scene& room_with_mesh, const Camera& camera) {
-    const RayCaster caster(room_with_mesh);
-    const CameraView view(camera);
+    const rays::RayCaster caster(room_with_mesh);
+    const sensors::CameraView view(camera);
     const auto& mesh = std::get<Mesh>(room_with_mesh.objects.back().shape);
     const std::vector<Vec3> normals = vertex_normals(mesh);
     const auto [width, height] = camera.resolution;
@@ -94,4 +94,4 @@ std::vector<HeadPoint> visible_points(const Scene& room_with_mesh, const Camera&
     return points;
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

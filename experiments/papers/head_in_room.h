@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::papers {
 
 /// Puts a mesh, y up and its face along z as most files have it, into the room: upright, with the face to
 /// the wall behind the camera, and the longest edge of its box 1.2 m whatever its size was.
@@ -30,4 +30,4 @@ struct HeadPoint {
 /// Of a room with a mesh whose fronts are outside.
 std::vector<HeadPoint> visible_points(const Scene& room_with_mesh, const Camera& camera);
 
-}  // namespace stilb
+}  // namespace stilb::papers

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 constexpr double kPercent = 100, kDegrees = 180 / std::numbers::pi;
@@ -19,8 +19,9 @@ std::vector<double> of_each(const HeadStudy& study, const Number& number) {
 }
 
 /// Over the degrees from 1 to the highest.
-Series curve(const FitReport& report, const std::string& name, const std::function<double(int)>& number) {
-    Series series{name, {}, {}};
+plot::Series curve(const cli::FitReport& report, const std::string& name,
+                   const std::function<double(int)>& number) {
+    plot::Series series{name, {}, {}};
     for (int degree = 1; degree <= report.degree(); ++degree) {
         series.x.push_back(degree);
         series.y.push_back(number(degree));
@@ -29,17 +30,17 @@ Series curve(const FitReport& report, const std::string& name, const std::functi
 }
 
 /// Over those that there are pictures of.
-Series points(const HeadStudy& study, const std::string& name, const Number& number) {
-    Series series{name, of_each(study, [](const HeadSeries& one) { return one.degree; }),
-                  of_each(study, number)};
-    series.marker = MarkerStyle::circle;
+plot::Series points(const HeadStudy& study, const std::string& name, const Number& number) {
+    plot::Series series{name, of_each(study, [](const HeadSeries& one) { return one.degree; }),
+                        of_each(study, number)};
+    series.marker = plot::MarkerStyle::circle;
     return series;
 }
 
 }  // namespace
 
 std::string to_text(const HeadStudy& study) {
-    const FitReport& report = study.report;
+    const cli::FitReport& report = study.report;
     std::string text = fmt::format(
         "{}: {} vertices, {} faces; {} bytes as bare vertices and faces\n"
         "\n"
@@ -51,7 +52,7 @@ std::string to_text(const HeadStudy& study) {
         text +=
             fmt::format("{:6}  {:8.3g}  {:10.3g}  {:10}  {:10.4g}  {:11.3g}  {:5.2g}  {:10.3g}  {:13.3g}\n",
                         one.degree, kPercent * report.rms_error(one.degree),
-                        kPercent * report.largest_error(one.degree), FitReport::bare_bytes(one.degree),
+                        kPercent * report.largest_error(one.degree), cli::FitReport::bare_bytes(one.degree),
                         report.bare_ratio(one.degree), kPercent * one.luminance_difference,
                         kPercent * one.noise, kDegrees * one.normal_error_rad, study.time_ratio(one));
     }
@@ -68,33 +69,34 @@ std::string to_text(const HeadStudy& study) {
                       study.room_degree, study.room_time_ratio());
 }
 
-std::vector<Column> columns_of(const HeadStudy& study) {
-    const FitReport& report = study.report;
+std::vector<io::Column> columns_of(const HeadStudy& study) {
+    const cli::FitReport& report = study.report;
     const auto column = [&](const char* name, const Number& number) {
-        return Column{name, of_each(study, number)};
+        return io::Column{name, of_each(study, number)};
     };
     const auto bytes = static_cast<double>(report.bare_mesh_bytes());
-    return {
-        column("degree", [](const HeadSeries& one) { return one.degree; }),
-        column("rms_error", [&](const HeadSeries& one) { return report.rms_error(one.degree); }),
-        column("largest_error", [&](const HeadSeries& one) { return report.largest_error(one.degree); }),
-        column("bytes",
-               [](const HeadSeries& one) { return static_cast<double>(FitReport::bare_bytes(one.degree)); }),
-        column("mesh_bytes", [&](const HeadSeries&) { return bytes; }),
-        column("storage_ratio", [&](const HeadSeries& one) { return report.bare_ratio(one.degree); }),
-        column("luminance_difference", [](const HeadSeries& one) { return one.luminance_difference; }),
-        column("noise", [](const HeadSeries& one) { return one.noise; }),
-        column("normal_error_deg", [](const HeadSeries& one) { return kDegrees * one.normal_error_rad; }),
-        column("time_s", [](const HeadSeries& one) { return one.rendered.processor_s; }),
-        column("mesh_time_s", [&](const HeadSeries&) { return study.mesh.processor_s; }),
-        column("time_ratio", [&](const HeadSeries& one) { return study.time_ratio(one); }),
-        column("set_up_s", [](const HeadSeries& one) { return one.rendered.set_up_s; }),
-        column("mesh_set_up_s", [&](const HeadSeries&) { return study.mesh.set_up_s; })};
+    return {column("degree", [](const HeadSeries& one) { return one.degree; }),
+            column("rms_error", [&](const HeadSeries& one) { return report.rms_error(one.degree); }),
+            column("largest_error", [&](const HeadSeries& one) { return report.largest_error(one.degree); }),
+            column("bytes",
+                   [](const HeadSeries& one) {
+                       return static_cast<double>(cli::FitReport::bare_bytes(one.degree));
+                   }),
+            column("mesh_bytes", [&](const HeadSeries&) { return bytes; }),
+            column("storage_ratio", [&](const HeadSeries& one) { return report.bare_ratio(one.degree); }),
+            column("luminance_difference", [](const HeadSeries& one) { return one.luminance_difference; }),
+            column("noise", [](const HeadSeries& one) { return one.noise; }),
+            column("normal_error_deg", [](const HeadSeries& one) { return kDegrees * one.normal_error_rad; }),
+            column("time_s", [](const HeadSeries& one) { return one.rendered.processor_s; }),
+            column("mesh_time_s", [&](const HeadSeries&) { return study.mesh.processor_s; }),
+            column("time_ratio", [&](const HeadSeries& one) { return study.time_ratio(one); }),
+            column("set_up_s", [](const HeadSeries& one) { return one.rendered.set_up_s; }),
+            column("mesh_set_up_s", [&](const HeadSeries&) { return study.mesh.set_up_s; })};
 }
 
-Plot plot_of(const HeadStudy& study) {
-    const FitReport& report = study.report;
-    PlotPanel errors{{"error", ScaleType::logarithmic}, {}, 320};
+plot::Plot plot_of(const HeadStudy& study) {
+    const cli::FitReport& report = study.report;
+    plot::PlotPanel errors{{"error", plot::ScaleType::logarithmic}, {}, 320};
     errors.series = {curve(report, "distance, rms [% of the size]",
                            [&](int degree) { return kPercent * report.rms_error(degree); }),
                      curve(report, "distance, largest [% of the size]",
@@ -103,9 +105,11 @@ Plot plot_of(const HeadStudy& study) {
                             [](const HeadSeries& one) { return kPercent * one.luminance_difference; }),
                      points(study, "normals, rms [°]",
                             [](const HeadSeries& one) { return kDegrees * one.normal_error_rad; })};
-    PlotPanel bytes{{"bytes, mesh / series", ScaleType::logarithmic}, {}, 180};
+    plot::PlotPanel bytes{{"bytes, mesh / series", plot::ScaleType::logarithmic}, {}, 180};
     bytes.series = {curve(report, "", [&](int degree) { return report.bare_ratio(degree); })};
-    return {"A head as a series of spherical harmonics", {"degree", ScaleType::logarithmic}, {errors, bytes}};
+    return {"A head as a series of spherical harmonics",
+            {"degree", plot::ScaleType::logarithmic},
+            {errors, bytes}};
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

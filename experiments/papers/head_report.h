@@ -8,12 +8,12 @@
 #include "papers/head_study.h"
 #include "plot/plot.h"
 
-namespace stilb {
+namespace stilb::papers {
 
 std::string to_text(const HeadStudy& study);
 /// A row for each series; docs/reproduce.md has the columns.
-std::vector<Column> columns_of(const HeadStudy& study);
+std::vector<io::Column> columns_of(const HeadStudy& study);
 /// Errors and the ratio of bytes over degrees.
-Plot plot_of(const HeadStudy& study);
+plot::Plot plot_of(const HeadStudy& study);
 
-}  // namespace stilb
+}  // namespace stilb::papers

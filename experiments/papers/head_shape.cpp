@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 constexpr int kMeridians = 154, kSteps = 107;  // steps from pole to pole
@@ -140,4 +140,4 @@ Mesh head_mesh() {
     return mesh;
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

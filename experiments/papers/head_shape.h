@@ -4,7 +4,7 @@
 #include "base/vec.h"
 #include "geometry/shape.h"
 
-namespace stilb {
+namespace stilb::papers {
 
 /// The distance [m] of the surface from a point between the ears, in a unit direction: y is up, the face
 /// looks along z. Above 0 everywhere, so the head is star-shaped about the origin.
@@ -14,4 +14,4 @@ double head_radius(const Vec3& direction);
 /// [LocalEstimation 6] has 32 654; closed, fronts outside.
 Mesh head_mesh();
 
-}  // namespace stilb
+}  // namespace stilb::papers

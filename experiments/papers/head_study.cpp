@@ -17,27 +17,29 @@
 #include "rays/ray_caster.h"
 #include "run/clock.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 constexpr int kPaperDegree = 32;
 
-FitReport fit_report_of(const Mesh& mesh, const std::string& name, int degree) {
-    FitReport report;
+cli::FitReport fit_report_of(const Mesh& mesh, const std::string& name, int degree) {
+    cli::FitReport report;
     report.mesh = name;
     report.faces = mesh.triangles.size();
     report.vertices = mesh.vertices.size();
-    const Clock clock;
-    report.fit = fit_mesh(mesh, {.degree = degree, .otherwise = NotStarShaped::take_outermost}, name);
+    const run::Clock clock;
+    report.fit =
+        fit::fit_mesh(mesh, {.degree = degree, .otherwise = fit::NotStarShaped::take_outermost}, name);
     report.elapsed_s = clock.elapsed_s();
     return report;
 }
 
 /// The series cut off at a degree.
-Harmonics series_of(const MeshFit& fit, int degree, const std::string& name) {
+Harmonics series_of(const fit::MeshFit& fit, int degree, const std::string& name) {
     try {
         const std::span<const double> all(fit.coefficients);
-        Harmonics series(HarmonicSurface(HarmonicSeries<double>(all.first(harmonic_count(degree)))));
+        Harmonics series(
+            geometry::HarmonicSurface(math::HarmonicSeries<double>(all.first(math::harmonic_count(degree)))));
         series.center = fit.center;
         return series;
     } catch (const InputError& error) {
@@ -51,7 +53,7 @@ double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 double set_up_s(const Scene& scene) {
     const double start_s = processor_s();
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     return processor_s() - start_s;
 }
 
@@ -78,7 +80,7 @@ std::vector<RenderedHead> render_in_turn(const std::vector<Scene>& scenes, const
 
 double luminance_cd_m2(const RenderResult& picture, std::size_t pixel) {
     const auto& [red, green, blue] = picture.pixels.rgb_cd_m2[pixel];
-    return Spectrum{{red, green, blue}}.luminance();
+    return Rgb{{red, green, blue}}.luminance();
 }
 
 /// The rounds' differences have the same noise each. So half the difference between the means of even and of
@@ -139,7 +141,7 @@ void study_room(const Scene& with_mesh, const Scene& with_series, const HeadStud
 
 HeadStudy study_head(const Mesh& head, const std::string& name, const HeadStudyOptions& options,
                      PictureSink* progress) {
-    const Mesh mesh = placed_in_room(outward(head).mesh);
+    const Mesh mesh = placed_in_room(fit::outward(head).mesh);
     HeadStudy study;
     study.report = fit_report_of(mesh, name, options.degrees.back());
     std::vector<Scene> scenes{room_with(mesh)};
@@ -153,4 +155,4 @@ HeadStudy study_head(const Mesh& head, const std::string& name, const HeadStudyO
     return study;
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

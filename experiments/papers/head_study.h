@@ -11,7 +11,7 @@
 #include "run/render.h"
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::papers {
 
 struct HeadStudyOptions {
     std::vector<int> degrees{4, 8, 16, 32, 64};  ///< growing
@@ -41,7 +41,7 @@ struct HeadSeries {
 };
 
 struct HeadStudy {
-    FitReport report;  ///< of the highest degree; the lower ones are the same series, cut off
+    cli::FitReport report;  ///< of the highest degree; the lower ones are the same series, cut off
     RenderedHead mesh;
     std::vector<HeadSeries> series;
     double head_share = 0;  ///< of the pixels
@@ -58,4 +58,4 @@ struct HeadStudy {
 HeadStudy study_head(const Mesh& head, const std::string& name, const HeadStudyOptions& options,
                      PictureSink* progress = nullptr);
 
-}  // namespace stilb
+}  // namespace stilb::papers

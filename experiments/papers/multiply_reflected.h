@@ -5,13 +5,13 @@
 
 #include "run/run.h"
 
-namespace stilb {
+namespace stilb::papers {
 
 /// The luminance [cd/m2] of at least two reflections at each of the readings of a luminance sensor. Of
 /// `options`, paths are those of each of `runs` pairs of runs, whose seeds follow on the given one; bounces
 /// does not count.
-std::vector<Estimate> multiply_reflected_cd_m2(const Scene& scene, const Sensor& sensor,
-                                               const RunOptions& options, int runs,
-                                               ProgressSink* progress = nullptr);
+std::vector<statistics::Estimate> multiply_reflected_cd_m2(const Scene& scene, const Sensor& sensor,
+                                                           const RunOptions& options, int runs,
+                                                           ProgressSink* progress = nullptr);
 
-}  // namespace stilb
+}  // namespace stilb::papers

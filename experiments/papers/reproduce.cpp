@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "cli/commands.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,7 +78,7 @@ int run_reproduce(const Request& request) {
         figure.reproduce(request);
         fmt::print("{}: {} are in {}\n", figure.name, figure.files, request.directory);
     }
-    return kExitDone;
+    return cli::kExitDone;
 }
 
 }  // namespace
@@ -86,10 +86,10 @@ int run_reproduce(const Request& request) {
 void add_reproduce(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "reproduce", "The figures of the papers on local estimations and on first shot, computed anew");
-    set_examples(*command,
-                 "  stilb reproduce sobolev -o figures\n"
-                 "  stilb reproduce harmonics --mesh head.ply -o figures\n"
-                 "  stilb reproduce -o figures\n");
+    cli::set_examples(*command,
+                      "  stilb reproduce sobolev -o figures\n"
+                      "  stilb reproduce harmonics --mesh head.ply -o figures\n"
+                      "  stilb reproduce -o figures\n");
     std::string description = "Figure (default: all)";
     for (const Figure& figure : kFigures)
         description += fmt::format("\n  {}: {}", figure.name, figure.summary);
@@ -106,4 +106,4 @@ void add_reproduce(CLI::App& app, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = run_reproduce(*request); });
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

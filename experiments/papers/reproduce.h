@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace stilb {
+namespace stilb::papers {
 
 /// [LocalEstimation], figure 4.
 void reproduce_sobolev(const std::filesystem::path& directory);
@@ -25,4 +25,4 @@ void reproduce_directions(const std::filesystem::path& directory);
 /// Declares the command `reproduce`.
 void add_reproduce(CLI::App& app, int& exit_code);
 
-}  // namespace stilb
+}  // namespace stilb::papers

@@ -13,11 +13,12 @@
 #include "papers/reproduce.h"
 #include "plot/plot.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 constexpr std::array kReflectances{0.3, 0.5, 0.7, 0.8, 0.9, 0.95};
-constexpr std::array kWays{BundleDirections::single, BundleDirections::pair, BundleDirections::frame};
+constexpr std::array kWays{estimators::BundleDirections::single, estimators::BundleDirections::pair,
+                           estimators::BundleDirections::frame};
 constexpr std::uint64_t kWalks = 32, kReferenceWalks = 32;
 constexpr int kMostSteps = 1024;
 constexpr double kEdge_m = 4, kPatch_m = 1.2;
@@ -25,10 +26,10 @@ constexpr double kEdge_m = 4, kPatch_m = 1.2;
 /// A cube with a lamp at its centre.
 Scene lamp_in_cube(double reflectance) {
     Scene scene;
-    scene.materials.push_back({"walls", Diffuse{Spectrum::grey(reflectance)}});
+    scene.materials.push_back({"walls", Diffuse{Rgb::grey(reflectance)}});
     scene.objects.push_back({"cube", Box{{0, 0, 0}, {kEdge_m, kEdge_m, kEdge_m}}, {MaterialId{0}}});
     const Vec3 center{kEdge_m / 2, kEdge_m / 2, kEdge_m / 2};
-    scene.lights.push_back({"lamp", PointLight{center, Spectrum::grey(1000 / (4 * std::numbers::pi))}});
+    scene.lights.push_back({"lamp", PointLight{center, Rgb::grey(1000 / (4 * std::numbers::pi))}});
     return scene;
 }
 
@@ -39,8 +40,8 @@ struct WalkSums {
 };
 
 /// One walk's sums after 1, 2, 4 ... steps that count.
-std::vector<WalkSums> walk(const PatchTransport& transport, RandomKey key) {
-    BundleIteration iteration(transport, key);
+std::vector<WalkSums> walk(const estimators::PatchTransport& transport, math::RandomKey key) {
+    estimators::BundleIteration iteration(transport, key);
     for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
     const auto first_rays = static_cast<double>(iteration.rays());
     WalkSums now{std::vector<double>(transport.patches.count()), 0};
@@ -58,7 +59,7 @@ std::vector<WalkSums> walk(const PatchTransport& transport, RandomKey key) {
     return looks;
 }
 
-std::vector<std::vector<WalkSums>> walks(const PatchTransport& transport, RandomKey key,
+std::vector<std::vector<WalkSums>> walks(const estimators::PatchTransport& transport, math::RandomKey key,
                                          std::uint64_t count) {
     std::vector<std::vector<WalkSums>> all(count);
     tbb::parallel_for(std::uint64_t{0}, count,
@@ -66,18 +67,20 @@ std::vector<std::vector<WalkSums>> walks(const PatchTransport& transport, Random
     return all;
 }
 
-PatchTransport make_transport(const Scene& scene, const RayCaster& caster, BundleDirections directions) {
-    PatchOptions options;
+estimators::PatchTransport make_transport(const Scene& scene, const rays::RayCaster& caster,
+                                          estimators::BundleDirections directions) {
+    estimators::PatchOptions options;
     options.patch_m = kPatch_m;
     options.directions = directions;
     return {scene, caster, options};
 }
 
 /// Of the patches [cd/m2], by frames.
-std::vector<double> reference(const Scene& scene, const RayCaster& caster) {
-    const PatchTransport transport = make_transport(scene, caster, BundleDirections::frame);
+std::vector<double> reference(const Scene& scene, const rays::RayCaster& caster) {
+    const estimators::PatchTransport transport =
+        make_transport(scene, caster, estimators::BundleDirections::frame);
     std::vector<double> mean(transport.patches.count());
-    for (const auto& looks : walks(transport, RandomKey{1}, kReferenceWalks)) {
+    for (const auto& looks : walks(transport, math::RandomKey{1}, kReferenceWalks)) {
         for (std::size_t patch = 0; patch < mean.size(); ++patch) {
             mean[patch] += looks.back().sums_cd_m2[patch] / (double{kReferenceWalks} * kMostSteps);
         }
@@ -116,17 +119,18 @@ Curve error_curve(const std::vector<std::vector<WalkSums>>& walks, const std::ve
 void reproduce_directions(const std::filesystem::path& directory) {
     std::vector<double> reflectances, rays, errors;
     std::vector<std::string> ways;
-    Plot plot{"Error of a cube's patches over rays, by the directions of a step",
-              {"rays", ScaleType::logarithmic},
-              {}};
+    plot::Plot plot{"Error of a cube's patches over rays, by the directions of a step",
+                    {"rays", plot::ScaleType::logarithmic},
+                    {}};
     for (const double reflectance : kReflectances) {
         const Scene scene = lamp_in_cube(reflectance);
-        const RayCaster caster(scene);
+        const rays::RayCaster caster(scene);
         const std::vector<double> expected = reference(scene, caster);
-        PlotPanel panel{{fmt::format("error, reflectance {}", reflectance), ScaleType::logarithmic}, {}, 180};
-        for (const BundleDirections way : kWays) {
-            const PatchTransport transport = make_transport(scene, caster, way);
-            const Curve curve = error_curve(walks(transport, RandomKey{2}, kWalks), expected);
+        plot::PlotPanel panel{
+            {fmt::format("error, reflectance {}", reflectance), plot::ScaleType::logarithmic}, {}, 180};
+        for (const estimators::BundleDirections way : kWays) {
+            const estimators::PatchTransport transport = make_transport(scene, caster, way);
+            const Curve curve = error_curve(walks(transport, math::RandomKey{2}, kWalks), expected);
             panel.series.push_back({std::string(name_of(way)), curve.rays, curve.errors});
             for (std::size_t i = 0; i < curve.rays.size(); ++i) {
                 reflectances.push_back(reflectance), ways.emplace_back(name_of(way));
@@ -136,7 +140,7 @@ void reproduce_directions(const std::filesystem::path& directory) {
         plot.panels.push_back(std::move(panel));
     }
     write_csv(
-        std::vector<Column>{
+        std::vector<io::Column>{
             {"reflectance", reflectances}, {"directions", ways}, {"rays", rays}, {"relative_error", errors}},
         directory / "directions.csv");
     for (const char* extension : {"svg", "png"}) {
@@ -144,4 +148,4 @@ void reproduce_directions(const std::filesystem::path& directory) {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

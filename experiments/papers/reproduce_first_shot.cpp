@@ -16,7 +16,7 @@
 #include "papers/reproduce.h"
 #include "plot/plot.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 constexpr int kSteps = 1000;
@@ -26,30 +26,33 @@ constexpr double kExposure = 0.03;  ///< of all pictures
 constexpr const char* kSceneFile = "scenes/paper/furnished.toml";
 
 /// With only the lights whose names begin so.
-SceneFile furnished_room(std::string_view lights) {
-    SceneFile file = read_scene(kFurnishedRoom, kSceneFile, {});
+io::SceneFile furnished_room(std::string_view lights) {
+    io::SceneFile file = io::read_scene(kFurnishedRoom, kSceneFile, {});
     std::erase_if(file.scene.lights, [&](const Light& light) { return !light.name.starts_with(lights); });
     return file;
 }
 
-ConvergenceMethod method(const std::string& name, FirstShotVariant variant,
-                         BundleDirections directions = BundleDirections::frame) {
-    PatchOptions options;
+ConvergenceMethod method(const std::string& name, estimators::FirstShotVariant variant,
+                         estimators::BundleDirections directions = estimators::BundleDirections::frame) {
+    estimators::PatchOptions options;
     options.first_shot.variant = variant;
     options.directions = directions;
     return {name, options,
-            directions == BundleDirections::frame &&
-                (variant == FirstShotVariant::incoming || variant == FirstShotVariant::none)};
+            directions == estimators::BundleDirections::frame &&
+                (variant == estimators::FirstShotVariant::incoming ||
+                 variant == estimators::FirstShotVariant::none)};
 }
 
 /// Without first shot a point light lights nothing.
 std::vector<ConvergenceMethod> methods_for(bool are_points) {
     std::vector<ConvergenceMethod> methods{
-        method("incoming first shot", FirstShotVariant::incoming),
-        method("classical", FirstShotVariant::classical), method("diffuse", FirstShotVariant::diffuse),
-        method("on the fly", FirstShotVariant::on_the_fly),
-        method("incoming, single directions", FirstShotVariant::incoming, BundleDirections::single)};
-    if (!are_points) methods.push_back(method("no first shot", FirstShotVariant::none));
+        method("incoming first shot", estimators::FirstShotVariant::incoming),
+        method("classical", estimators::FirstShotVariant::classical),
+        method("diffuse", estimators::FirstShotVariant::diffuse),
+        method("on the fly", estimators::FirstShotVariant::on_the_fly),
+        method("incoming, single directions", estimators::FirstShotVariant::incoming,
+               estimators::BundleDirections::single)};
+    if (!are_points) methods.push_back(method("no first shot", estimators::FirstShotVariant::none));
     return methods;
 }
 
@@ -57,11 +60,13 @@ void write_curves(const std::vector<ConvergenceCurve>& curves, const std::filesy
                   const std::string& name) {
     std::vector<std::string> names;
     std::vector<double> steps, times_s, errors;
-    Plot over_steps{"Error of the picture over steps, " + name, {"steps", ScaleType::logarithmic}, {}};
-    Plot over_time{"Error of the picture over time, " + name, {"time [s]", ScaleType::logarithmic}, {}};
-    PlotPanel step_panel{{"relative error", ScaleType::logarithmic}, {}}, time_panel = step_panel;
+    plot::Plot over_steps{
+        "Error of the picture over steps, " + name, {"steps", plot::ScaleType::logarithmic}, {}};
+    plot::Plot over_time{
+        "Error of the picture over time, " + name, {"time [s]", plot::ScaleType::logarithmic}, {}};
+    plot::PlotPanel step_panel{{"relative error", plot::ScaleType::logarithmic}, {}}, time_panel = step_panel;
     for (const ConvergenceCurve& curve : curves) {
-        Series by_steps{curve.name, {}, {}}, by_time = by_steps;
+        plot::Series by_steps{curve.name, {}, {}}, by_time = by_steps;
         for (const auto& [step, elapsed_s, error] : curve.points) {
             names.push_back(curve.name), steps.push_back(step), times_s.push_back(elapsed_s);
             errors.push_back(error);
@@ -72,7 +77,7 @@ void write_curves(const std::vector<ConvergenceCurve>& curves, const std::filesy
     }
     over_steps.panels = {step_panel}, over_time.panels = {time_panel};
     write_csv(
-        std::vector<Column>{
+        std::vector<io::Column>{
             {"first_shot", names}, {"steps", steps}, {"time_s", times_s}, {"relative_error", errors}},
         directory / fmt::format("first-shot-{}.csv", name));
     for (const char* extension : {"svg", "png"}) {
@@ -81,23 +86,24 @@ void write_curves(const std::vector<ConvergenceCurve>& curves, const std::filesy
     }
 }
 
-Picture picture_of(const PictureTracing& tracing, const ConvergenceState& state) {
+io::Picture picture_of(const estimators::PictureTracing& tracing, const ConvergenceState& state) {
     constexpr std::uint64_t passes = 4;
     const auto [width, height] = tracing.camera.resolution;
-    Picture picture;
+    io::Picture picture;
     picture.width = width, picture.height = height;
     picture.rgb_cd_m2.resize(picture.pixel_count());
     const auto row = static_cast<std::size_t>(width);
     for (std::uint64_t i = 0; i < passes; ++i) {
-        const PatchPass pass(tracing, state.transport, {RandomKey{1}, i}, state.sides_cd_m2);
-        for (const PixelBlock& block : blocks_of(tracing.camera.resolution)) {
-            const std::vector<Pixel> places = pixels_of(block);
-            std::vector<Spectrum> values(places.size());
+        const estimators::PatchPass pass(tracing, state.transport, {math::RandomKey{1}, i},
+                                         state.sides_cd_m2);
+        for (const estimators::PixelBlock& block : estimators::blocks_of(tracing.camera.resolution)) {
+            const std::vector<estimators::Pixel> places = pixels_of(block);
+            std::vector<Rgb> values(places.size());
             pass.sample(block, values);
             for (std::size_t k = 0; k < places.size(); ++k) {
                 const std::size_t pixel =
                     static_cast<std::size_t>(places[k].y) * row + static_cast<std::size_t>(places[k].x);
-                add_to(picture.rgb_cd_m2[pixel], values[k] * (1. / passes));
+                estimators::add_to(picture.rgb_cd_m2[pixel], values[k] * (1. / passes));
             }
         }
     }
@@ -105,9 +111,10 @@ Picture picture_of(const PictureTracing& tracing, const ConvergenceState& state)
 }
 
 void reproduce_scene(std::string_view lights, const std::filesystem::path& directory) {
-    const SceneFile file = furnished_room(lights);
-    const RayCaster caster(file.scene);
-    const PictureTracing tracing({file.scene, caster, file.sensors.front().camera, kUnlimited, RandomKey{1}});
+    const io::SceneFile file = furnished_room(lights);
+    const rays::RayCaster caster(file.scene);
+    const estimators::PictureTracing tracing(
+        {file.scene, caster, file.sensors.front().camera, transport::kUnlimited, math::RandomKey{1}});
     const auto look = [&](const ConvergenceState& state) {
         if (!state.method.is_shown || std::ranges::find(kShownSteps, state.steps) == kShownSteps.end())
             return;
@@ -126,4 +133,4 @@ void reproduce_first_shot(const std::filesystem::path& directory) {
     for (const std::string_view lights : {"point", "panel"}) reproduce_scene(lights, directory);
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

@@ -20,7 +20,7 @@
 #include "papers/reproduce.h"
 #include "plot/picture_sheet.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,15 +28,15 @@ namespace fs = std::filesystem;
 constexpr std::size_t kColumns = 3;  // of the sheet
 
 /// The mean of the rounds.
-Picture picture_of(const RenderedHead& head, const std::string& name) {
+io::Picture picture_of(const RenderedHead& head, const std::string& name) {
     const RenderResult& first = head.rounds.front();
-    PictureOrigin origin;
+    io::PictureOrigin origin;
     origin.scene = "scenes/paper/room.toml with " + name;
     origin.sensor = head.view.name;
     origin.method = first.method;
     origin.command = "stilb reproduce harmonics";
     origin.version = STILB_VERSION;
-    Picture mean = picture_of(first, head.view.camera, origin);
+    io::Picture mean = cli::picture_of(first, head.view.camera, origin);
     const auto rounds = static_cast<float>(head.rounds.size());
     for (std::size_t i = 0; i < mean.pixel_count(); ++i) {
         std::array<float, 3> sum{};
@@ -53,8 +53,8 @@ Picture picture_of(const RenderedHead& head, const std::string& name) {
     return mean;
 }
 
-void write_both(const Picture& picture, const fs::path& directory, const std::string& name,
-                const ToneOptions& tone) {
+void write_both(const io::Picture& picture, const fs::path& directory, const std::string& name,
+                const io::ToneOptions& tone) {
     for (const char* extension : {"exr", "png"}) {
         write_picture(picture, directory / fmt::format("harmonics-{}.{}", name, extension), tone);
     }
@@ -62,7 +62,7 @@ void write_both(const Picture& picture, const fs::path& directory, const std::st
 
 /// All by one exposure: the mesh's.
 void write_pictures(const HeadStudy& study, const fs::path& directory) {
-    std::vector<LabelledPicture> pictures{
+    std::vector<plot::LabelledPicture> pictures{
         {fmt::format("mesh, {} faces", study.report.faces), picture_of(study.mesh, "the mesh")}};
     std::vector<std::string> names{"mesh"};
     for (const HeadSeries& series : study.series) {
@@ -74,15 +74,15 @@ void write_pictures(const HeadStudy& study, const fs::path& directory) {
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         write_both(pictures[i].picture, directory, names[i], {exposure});
     }
-    draw_picture_sheet(pictures, kColumns, ToneCurve(exposure), directory / "harmonics-degrees.png");
+    draw_picture_sheet(pictures, kColumns, io::ToneCurve(exposure), directory / "harmonics-degrees.png");
 }
 
 /// The mesh and its name.
 std::pair<Mesh, std::string> read_or_make_head(const fs::path& directory, const std::string& file) {
-    if (!file.empty()) return {read_mesh_file(file).mesh, file};
+    if (!file.empty()) return {io::read_mesh_file(file).mesh, file};
     Mesh mesh = head_mesh();
     const fs::path path = directory / "head.obj";
-    write_file(path, to_obj(mesh));
+    io::write_file(path, io::to_obj(mesh));
     return {std::move(mesh), path.string()};
 }
 
@@ -90,7 +90,7 @@ std::pair<Mesh, std::string> read_or_make_head(const fs::path& directory, const 
 
 void reproduce_harmonics(const fs::path& directory, const std::string& mesh_file) {
     const auto [mesh, name] = read_or_make_head(directory, mesh_file);
-    TerminalPictureProgress progress;
+    cli::TerminalPictureProgress progress;
     const HeadStudy study = study_head(mesh, name, {}, &progress);
     for (const std::string& warning : warnings_of(study.report)) fmt::print(stderr, "warning: {}\n", warning);
     fmt::print("{}", to_text(study));
@@ -102,4 +102,4 @@ void reproduce_harmonics(const fs::path& directory, const std::string& mesh_file
                directory, "room", {});
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

@@ -15,7 +15,7 @@
 #include "sensors/goniometer.h"
 #include "verification/sobolev_scene.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 // What the paper leaves open: everything but the kinds of surface and source.
@@ -29,39 +29,39 @@ constexpr std::uint64_t kChains = 16384;  // of each run
 constexpr int kRuns = 16;
 
 Material phong(double reflectance, double exponent) {
-    return Phong{Spectrum::grey(reflectance - kSpecular), Spectrum::grey(kSpecular), exponent};
+    return Phong{Rgb::grey(reflectance - kSpecular), Rgb::grey(kSpecular), exponent};
 }
 
 /// The surfaces are `first` and `second`, the source is a sphere of the same intensity.
 Scene scene_with(const Material& first, const Material& second) {
-    Scene scene = make_sobolev_scene(kPlanes, kRadius_m);
+    Scene scene = verification::make_sobolev_scene(kPlanes, kRadius_m);
     scene.materials[0].material = first;
     scene.materials[1].material = second;
     scene.materials.push_back({"source", Black{}});
     scene.objects.push_back(
         {"source", Sphere{{0, 0, kPlanes.distance_1_m}, kSourceRadius_m}, {MaterialId{2}}});
     const double disk_m2 = std::numbers::pi * kSourceRadius_m * kSourceRadius_m;
-    scene.lights = {{"source", AreaLight{ObjectId{2}, Spectrum::grey(kPlanes.intensity_cd / disk_m2)}}};
+    scene.lights = {{"source", AreaLight{ObjectId{2}, Rgb::grey(kPlanes.intensity_cd / disk_m2)}}};
     return scene;
 }
 
 struct Distribution {
     std::string name, column;  ///< in the legend, in the table
-    std::vector<Estimate> luminance_cd_m2;
+    std::vector<statistics::Estimate> luminance_cd_m2;
 };
 
-std::vector<Estimate> measure(const Scene& scene, const Sensor& sensor) {
+std::vector<statistics::Estimate> measure(const Scene& scene, const Sensor& sensor) {
     RunOptions options;
     options.method = "double-local";
     options.paths = kChains;
     options.replicates = 4;
-    TerminalProgress progress;
+    cli::TerminalProgress progress;
     return multiply_reflected_cd_m2(scene, sensor, options, kRuns, &progress);
 }
 
 std::vector<Distribution> distributions(const Sensor& sensor) {
-    const Material diffuse_1 = Diffuse{Spectrum::grey(kPlanes.reflectance_1)};
-    const Material diffuse_2 = Diffuse{Spectrum::grey(kPlanes.reflectance_2)};
+    const Material diffuse_1 = Diffuse{Rgb::grey(kPlanes.reflectance_1)};
+    const Material diffuse_2 = Diffuse{Rgb::grey(kPlanes.reflectance_2)};
     std::vector<Distribution> all{
         {"diffuse 0.5", "diffuse", measure(scene_with(diffuse_1, diffuse_2), sensor)}};
     for (const int exponent : {5, 15, 40}) {
@@ -76,13 +76,14 @@ std::vector<Distribution> distributions(const Sensor& sensor) {
 }  // namespace
 
 void reproduce_polar(const std::filesystem::path& directory) {
-    const Sensor sensor = make_goniometer_sensor("polar", {{kRadius_m, 0, 0}, {0, 0, 1}, 0.0, kStep_deg});
+    const Sensor sensor =
+        sensors::make_goniometer_sensor("polar", {{kRadius_m, 0, 0}, {0, 0, 1}, 0.0, kStep_deg});
     std::vector<double> theta_deg;
     for (const PolarAngles& angles : sensor.angles) theta_deg.push_back(angles.theta_deg);
-    std::vector<Column> columns{{"theta_deg", theta_deg}};
-    PolarPlot plot{"Sobolev's problem with Phong surfaces: light reflected more than once",
-                   "luminance, cd/m²; r = h1 + h2 = 1 m, h1 = h2, source of 1 cd; θ > 0: away from it",
-                   {}};
+    std::vector<io::Column> columns{{"theta_deg", theta_deg}};
+    plot::PolarPlot plot{"Sobolev's problem with Phong surfaces: light reflected more than once",
+                         "luminance, cd/m²; r = h1 + h2 = 1 m, h1 = h2, source of 1 cd; θ > 0: away from it",
+                         {}};
     for (const Distribution& distribution : distributions(sensor)) {
         plot.series.push_back(series_of(distribution.name, theta_deg, distribution.luminance_cd_m2));
         add_columns(columns, distribution.column, "cd_m2", distribution.luminance_cd_m2);
@@ -91,4 +92,4 @@ void reproduce_polar(const std::filesystem::path& directory) {
     for (const char* name : {"polar.svg", "polar.png"}) draw_polar_plot(plot, directory / name);
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

@@ -9,21 +9,22 @@
 #include "papers/paper_room.h"
 #include "papers/reproduce.h"
 
-namespace stilb {
+namespace stilb::papers {
 
 void reproduce_room(const std::filesystem::path& directory) {
-    PictureOrigin origin;
+    io::PictureOrigin origin;
     origin.scene = "scenes/paper/room.toml";
     origin.command = "stilb reproduce room";
     origin.version = STILB_VERSION;
-    const SceneFile file = read_scene(kPaperRoom, origin.scene, {});
+    const io::SceneFile file = io::read_scene(kPaperRoom, origin.scene, {});
     const Sensor& view = file.sensors.front();
     origin.sensor = view.name;
     origin.method = file.run.method;
     origin.seed = file.run.seed;
-    TerminalPictureProgress progress;
-    const Picture picture = picture_of(render(file.scene, view, file.run, &progress), view.camera, origin);
+    cli::TerminalPictureProgress progress;
+    const io::Picture picture =
+        cli::picture_of(render(file.scene, view, file.run, &progress), view.camera, origin);
     for (const char* name : {"room.exr", "room.png"}) write_picture(picture, directory / name);
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

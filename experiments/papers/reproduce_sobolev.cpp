@@ -13,7 +13,7 @@
 #include "plot/plot.h"
 #include "verification/sobolev_scene.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 constexpr exact::ParallelPlanes kPlanes{0.5, 0.5, 0.5, 0.5, 1};
@@ -28,7 +28,7 @@ constexpr double kEyeHeight = 0.25;
 struct Profile {
     std::string name, column;  ///< in the legend, in the table
     double axis_end_percent;   ///< of its deviations
-    std::vector<Estimate> illuminance_lx;
+    std::vector<statistics::Estimate> illuminance_lx;
 };
 
 std::vector<double> radii_m() {
@@ -45,39 +45,40 @@ std::vector<double> exact_lx(const std::vector<double>& radii) {
 }
 
 /// All points from the same chains: the errors of neighbours go together.
-std::vector<Estimate> measure(const Sensor& sensor, const std::string& method, std::uint64_t chains,
-                              std::uint64_t seed) {
+std::vector<statistics::Estimate> measure(const Sensor& sensor, const std::string& method,
+                                          std::uint64_t chains, std::uint64_t seed) {
     RunOptions options;
     options.method = method;
     options.paths = chains;
     options.seed = seed;
     options.replicates = kReplicates;
-    TerminalProgress progress;
-    return estimates_of(
-        run(make_sobolev_scene(kPlanes, kLargestRadius), {&sensor, 1}, options, &progress).sensors[0]);
+    cli::TerminalProgress progress;
+    return estimates_of(run::measure(verification::make_sobolev_scene(kPlanes, kLargestRadius), {&sensor, 1},
+                                     options, &progress)
+                            .sensors[0]);
 }
 
-std::vector<Estimate> local_lx(const std::vector<double>& radii, std::uint64_t chains) {
+std::vector<statistics::Estimate> local_lx(const std::vector<double>& radii, std::uint64_t chains) {
     Sensor sensor{"radius", SensorType::illuminance, {}};
     for (const double r : radii)
-        sensor.measurands.push_back(sobolev_point(kPlanes, exact::Plane::first, r, 0));
+        sensor.measurands.push_back(verification::sobolev_point(kPlanes, exact::Plane::first, r, 0));
     return measure(sensor, "local", chains, 1);
 }
 
 /// By the luminance L of the diffuse plane, which is looked at from above: E = pi L / p1.
-std::vector<Estimate> double_local_lx(const std::vector<double>& radii, std::uint64_t seed) {
+std::vector<statistics::Estimate> double_local_lx(const std::vector<double>& radii, std::uint64_t seed) {
     Sensor sensor{"radius", SensorType::luminance, {}};
     for (const double r : radii) sensor.measurands.push_back(LineOfSight{{r, 0, kEyeHeight}, {0, 0, -1}});
-    std::vector<Estimate> estimates = measure(sensor, "double-local", kFewChains, seed);
-    for (Estimate& estimate : estimates)
+    std::vector<statistics::Estimate> estimates = measure(sensor, "double-local", kFewChains, seed);
+    for (statistics::Estimate& estimate : estimates)
         estimate = scaled(estimate, std::numbers::pi / kPlanes.reflectance_1);
     return estimates;
 }
 
 /// A run of its own for each radius.
-std::vector<Estimate> separate_double_local_lx(const std::vector<double>& radii) {
+std::vector<statistics::Estimate> separate_double_local_lx(const std::vector<double>& radii) {
     constexpr std::uint64_t kFirstSeed = 1000;
-    std::vector<Estimate> estimates;
+    std::vector<statistics::Estimate> estimates;
     for (std::size_t i = 0; i < radii.size(); ++i)
         estimates.push_back(double_local_lx({radii[i]}, kFirstSeed + i)[0]);
     return estimates;
@@ -96,34 +97,34 @@ std::vector<Profile> profiles_of(const std::vector<double>& radii) {
              local_lx(radii, kManyChains)}};
 }
 
-Series deviation_series(const Profile& profile, const std::vector<double>& radii,
-                        const std::vector<double>& exact) {
-    Series series = series_of("", radii, profile.illuminance_lx);
+plot::Series deviation_series(const Profile& profile, const std::vector<double>& radii,
+                              const std::vector<double>& exact) {
+    plot::Series series = series_of("", radii, profile.illuminance_lx);
     for (auto* list : {&series.y, &series.y_low, &series.y_high}) {
         for (std::size_t i = 0; i < list->size(); ++i) (*list)[i] = 100 * ((*list)[i] / exact[i] - 1);
     }
     return series;
 }
 
-Plot make_plot(const std::vector<double>& radii, const std::vector<double>& exact,
-               const std::vector<Profile>& profiles) {
+plot::Plot make_plot(const std::vector<double>& radii, const std::vector<double>& exact,
+                     const std::vector<Profile>& profiles) {
     constexpr double kDeviationHeight = 150;
-    const PlotAxis radius{"r / (h1 + h2), where p1 = p2 = 0.5 and h1 = h2", ScaleType::linear, 0,
-                          kLargestRadius};
-    PlotPanel values{{"illuminance E (h1 + h2)² / I", ScaleType::logarithmic}, {}};
-    std::vector<PlotPanel> deviations;
+    const plot::PlotAxis radius{"r / (h1 + h2), where p1 = p2 = 0.5 and h1 = h2", plot::ScaleType::linear, 0,
+                                kLargestRadius};
+    plot::PlotPanel values{{"illuminance E (h1 + h2)² / I", plot::ScaleType::logarithmic}, {}};
+    std::vector<plot::PlotPanel> deviations;
     for (std::size_t p = 0; p < profiles.size(); ++p) {
         values.series.push_back(series_of(profiles[p].name, radii, profiles[p].illuminance_lx));
         const double end = profiles[p].axis_end_percent;
-        const PlotAxis deviation{"deviation, %", ScaleType::linear, -end, end};
+        const plot::PlotAxis deviation{"deviation, %", plot::ScaleType::linear, -end, end};
         deviations.push_back({deviation, {deviation_series(profiles[p], radii, exact)}, kDeviationHeight});
-        values.series.back().colour = deviations.back().series[0].colour = palette_colour(p + 1);
+        values.series.back().colour = deviations.back().series[0].colour = plot::palette_colour(p + 1);
     }
-    Series curve{"exact", radii, exact};
-    curve.colour = palette_colour(0);
-    curve.line = LineStyle::dashed;
+    plot::Series curve{"exact", radii, exact};
+    curve.colour = plot::palette_colour(0);
+    curve.line = plot::LineStyle::dashed;
     values.series.push_back(curve);
-    Plot plot{"Sobolev's problem: local and double local estimation, exact solution", radius, {values}};
+    plot::Plot plot{"Sobolev's problem: local and double local estimation, exact solution", radius, {values}};
     plot.panels.insert(plot.panels.end(), deviations.begin(), deviations.end());
     return plot;
 }
@@ -134,12 +135,12 @@ void reproduce_sobolev(const std::filesystem::path& directory) {
     const std::vector<double> radii = radii_m();
     const std::vector<double> exact = exact_lx(radii);
     const std::vector<Profile> profiles = profiles_of(radii);
-    std::vector<Column> columns{{"radius_m", radii}, {"exact_lx", exact}};
+    std::vector<io::Column> columns{{"radius_m", radii}, {"exact_lx", exact}};
     for (const Profile& profile : profiles)
         add_columns(columns, profile.column, "lx", profile.illuminance_lx);
     write_csv(columns, directory / "sobolev.csv");
-    const Plot plot = make_plot(radii, exact, profiles);
+    const plot::Plot plot = make_plot(radii, exact, profiles);
     for (const char* name : {"sobolev.svg", "sobolev.png"}) draw_plot(plot, directory / name);
 }
 
-}  // namespace stilb
+}  // namespace stilb::papers

@@ -43,12 +43,12 @@ struct alignas(64) RayPacket {
 };
 
 /// What single precision tells for certain of a ray and a part of a surface.
-enum class Verdict : std::int32_t {
+enum class Classification : std::int32_t {
     unclear,
     misses,  ///< the part
     meets,   ///< the surface, there or next to the part
 };
-struct alignas(64) LaneVerdicts : std::array<Verdict, kPacketWidth> {};
+struct alignas(64) LaneVerdicts : std::array<Classification, kPacketWidth> {};
 
 /// Takes packets to the axes and units of a body: x goes to axes (x - center).
 struct PacketPlacement {

@@ -13,26 +13,26 @@ inline constexpr std::size_t kBands = 3;
 /// Rec. 709 luminance weights; they add up to 1.
 inline constexpr std::array<double, kBands> kLuminanceWeights{0.2126, 0.7152, 0.0722};
 
-struct Spectrum {
+struct Rgb {
     std::array<double, kBands> band{};
 
-    static constexpr Spectrum grey(double value) { return {{value, value, value}}; }
+    static constexpr Rgb grey(double value) { return {{value, value, value}}; }
 
     constexpr double operator[](std::size_t b) const { return band[b]; }
     constexpr double& operator[](std::size_t b) { return band[b]; }
-    constexpr Spectrum& operator+=(const Spectrum& o) {
+    constexpr Rgb& operator+=(const Rgb& o) {
         for (std::size_t b = 0; b < kBands; ++b) band[b] += o.band[b];
         return *this;
     }
-    constexpr Spectrum& operator*=(const Spectrum& o) {
+    constexpr Rgb& operator*=(const Rgb& o) {
         for (std::size_t b = 0; b < kBands; ++b) band[b] *= o.band[b];
         return *this;
     }
-    constexpr Spectrum& operator*=(double s) {
+    constexpr Rgb& operator*=(double s) {
         for (double& value : band) value *= s;
         return *this;
     }
-    constexpr bool operator==(const Spectrum&) const = default;
+    constexpr bool operator==(const Rgb&) const = default;
 
     constexpr double luminance() const {
         return kLuminanceWeights[0] * band[0] + kLuminanceWeights[1] * band[1] +
@@ -45,9 +45,9 @@ struct Spectrum {
     }
 };
 
-constexpr Spectrum operator+(Spectrum a, const Spectrum& b) { return a += b; }
-constexpr Spectrum operator*(Spectrum a, const Spectrum& b) { return a *= b; }
-constexpr Spectrum operator*(Spectrum a, double s) { return a *= s; }
-constexpr Spectrum operator*(double s, Spectrum a) { return a *= s; }
+constexpr Rgb operator+(Rgb a, const Rgb& b) { return a += b; }
+constexpr Rgb operator*(Rgb a, const Rgb& b) { return a *= b; }
+constexpr Rgb operator*(Rgb a, double s) { return a *= s; }
+constexpr Rgb operator*(double s, Rgb a) { return a *= s; }
 
 }  // namespace stilb

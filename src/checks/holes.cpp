@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace stilb {
+namespace stilb::checks {
 namespace {
 
 /// The vector area of a closed surface is 0; that of an open one is as large as its holes, seen flat. A box
@@ -13,7 +13,7 @@ struct Hole {
     std::size_t shells = 0, edges = 0;
 };
 
-Hole holes_of(const Mesh& mesh, const Shells& shells) {
+Hole holes_of(const Mesh& mesh, const geometry::ConnectedComponents& shells) {
     std::vector<Vec3> vector_area(shells.count());
     std::vector<double> area(shells.count());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -33,7 +33,8 @@ Hole holes_of(const Mesh& mesh, const Shells& shells) {
 
 }  // namespace
 
-std::vector<std::string> hole_warnings(const Scene& scene, const std::vector<Shells>& shells) {
+std::vector<std::string> hole_warnings(const Scene& scene,
+                                       const std::vector<geometry::ConnectedComponents>& shells) {
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
@@ -61,4 +62,4 @@ std::vector<std::string> hole_warnings(const Scene& scene, const std::vector<She
     return warnings;
 }
 
-}  // namespace stilb
+}  // namespace stilb::checks

@@ -11,7 +11,7 @@
 
 #include "base/bounds.h"
 
-namespace stilb {
+namespace stilb::checks {
 namespace {
 
 /// Shared area that counts, as a part of the smaller triangle's.
@@ -166,11 +166,12 @@ std::vector<Overlap> find_overlaps(const Scene& scene) {
     return overlaps;
 }
 
-std::vector<std::string> overlap_warnings(const Scene& scene, const RayCaster& caster, const Spaces& spaces) {
+std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
+                                          const Enclosures& spaces) {
     const auto is_lit = [&](const Overlap& overlap) {
         const Vec3 offset = 2 * caster.offset_m(overlap.position, caster.half_extent_m()) * overlap.normal;
-        return spaces.is_lit(spaces.space_of({overlap.position + offset, overlap.normal})) ||
-               spaces.is_lit(spaces.space_of({overlap.position - offset, -overlap.normal}));
+        return spaces.is_lit(spaces.enclosure_of({overlap.position + offset, overlap.normal})) ||
+               spaces.is_lit(spaces.enclosure_of({overlap.position - offset, -overlap.normal}));
     };
     struct Found {
         std::size_t count = 0;
@@ -199,4 +200,4 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const RayCaster& c
     return warnings;
 }
 
-}  // namespace stilb
+}  // namespace stilb::checks

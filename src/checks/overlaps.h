@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "checks/spaces.h"
+#include "checks/enclosures.h"
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::checks {
 
 /// Two triangles that lie over each other in one plane and do not look alike: rounding decides which of them
 /// a ray meets.
@@ -24,6 +24,7 @@ inline constexpr std::size_t kMostOverlaps = 1000;
 
 /// A sentence for each pair of objects that overlap where light comes: not for the bottom of a cabinet in the
 /// floor.
-std::vector<std::string> overlap_warnings(const Scene& scene, const RayCaster& caster, const Spaces& spaces);
+std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
+                                          const Enclosures& spaces);
 
-}  // namespace stilb
+}  // namespace stilb::checks

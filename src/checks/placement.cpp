@@ -6,19 +6,19 @@
 #include <map>
 #include <optional>
 
-namespace stilb {
+namespace stilb::checks {
 namespace {
 
-using SpaceList = std::vector<Space>;
+using EnclosureList = std::vector<Enclosure>;
 
-bool contains(const SpaceList& spaces, const Space& space) {
+bool contains(const EnclosureList& spaces, const Enclosure& space) {
     return std::find(spaces.begin(), spaces.end(), space) != spaces.end();
 }
 
 /// A shell that the point of `space` lies in and nothing in the `others` does.
-std::optional<ShellId> only_around(const Space& space, const SpaceList& others) {
-    const auto place = std::find_if(space.begin(), space.end(), [&](const ShellId& shell) {
-        return std::none_of(others.begin(), others.end(), [&](const Space& other) {
+std::optional<ComponentId> only_around(const Enclosure& space, const EnclosureList& others) {
+    const auto place = std::find_if(space.begin(), space.end(), [&](const ComponentId& shell) {
+        return std::none_of(others.begin(), others.end(), [&](const Enclosure& other) {
             return std::binary_search(other.begin(), other.end(), shell);
         });
     });
@@ -26,7 +26,7 @@ std::optional<ShellId> only_around(const Space& space, const SpaceList& others) 
 }
 
 /// Where a point without light lies, next to where the lights are.
-std::string whereabouts(const Space& dark, const SpaceList& lit, const Scene& scene) {
+std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const Scene& scene) {
     if (const auto shell = only_around(dark, lit))
         return fmt::format("inside object \"{}\", where no light is", scene.object(shell->object).name);
     if (const auto shell = only_around(lit.front(), {dark}))
@@ -37,16 +37,16 @@ std::string whereabouts(const Space& dark, const SpaceList& lit, const Scene& sc
 
 std::vector<MeasuringPoint> places_of(const Sensor& sensor) {
     const Camera& camera = sensor.camera;
-    if (sensor.type == SensorType::camera) return {{camera.position, CameraView(camera).forward()}};
+    if (sensor.type == SensorType::camera) return {{camera.position, sensors::CameraView(camera).forward()}};
     std::vector<MeasuringPoint> places;
     for (const Measurand& measurand : sensor.measurands) places.push_back(place_of(measurand));
     return places;
 }
 
-std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Space, std::size_t>& counts,
-                                    const SpaceList& lit, const Scene& scene) {
+std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosure, std::size_t>& counts,
+                                    const EnclosureList& lit, const Scene& scene) {
     std::size_t dark_points = 0, points = 0;
-    const Space* most = nullptr;
+    const Enclosure* most = nullptr;
     for (const auto& [space, count] : counts) {
         points += count;
         if (contains(lit, space)) continue;
@@ -62,10 +62,10 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Space, 
                        points == 1 ? "it" : "them");
 }
 
-std::optional<std::string> fault_of(const Light& light, const SpaceList& of_light,
-                                    const SpaceList& of_sensors, const Scene& scene) {
+std::optional<std::string> fault_of(const Light& light, const EnclosureList& of_light,
+                                    const EnclosureList& of_sensors, const Scene& scene) {
     const bool is_measured = std::any_of(of_light.begin(), of_light.end(),
-                                         [&](const Space& space) { return contains(of_sensors, space); });
+                                         [&](const Enclosure& space) { return contains(of_sensors, space); });
     if (is_measured) return std::nullopt;
     const auto shell = only_around(of_light.front(), of_sensors);
     if (!shell) return std::nullopt;
@@ -77,24 +77,24 @@ std::optional<std::string> fault_of(const Light& light, const SpaceList& of_ligh
 
 }  // namespace
 
-std::vector<std::string> placement_warnings(const Scene& scene, const RayCaster& caster,
+std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,
                                             std::span<const Sensor> sensors) {
-    const Spaces spaces(scene, caster);
-    SpaceList lit, of_sensors;
-    for (const SpaceList& of_light : spaces.of_lights())
+    const Enclosures spaces(scene, caster);
+    EnclosureList lit, of_sensors;
+    for (const EnclosureList& of_light : spaces.of_lights())
         lit.insert(lit.end(), of_light.begin(), of_light.end());
     if (lit.empty()) return {};
 
     std::vector<std::string> warnings;
     for (const Sensor& sensor : sensors) {
-        std::map<Space, std::size_t> counts;
+        std::map<Enclosure, std::size_t> counts;
         for (const MeasuringPoint& point : places_of(sensor))
-            ++counts[spaces.space_of({lifted_position(point, caster), point.normal})];
+            ++counts[spaces.enclosure_of({lifted_position(point, caster), point.normal})];
         for (const auto& [space, count] : counts) of_sensors.push_back(space);
         if (auto fault = fault_of(sensor, counts, lit, scene)) warnings.push_back(std::move(*fault));
     }
     const bool some_are_lit = std::any_of(of_sensors.begin(), of_sensors.end(),
-                                          [&](const Space& space) { return contains(lit, space); });
+                                          [&](const Enclosure& space) { return contains(lit, space); });
     if (!some_are_lit) return warnings;  // one mistake, one message
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         if (auto fault = fault_of(scene.lights[i], spaces.of_lights()[i], of_sensors, scene))
@@ -103,4 +103,4 @@ std::vector<std::string> placement_warnings(const Scene& scene, const RayCaster&
     return warnings;
 }
 
-}  // namespace stilb
+}  // namespace stilb::checks

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "checks/spaces.h"
+#include "checks/enclosures.h"
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::checks {
 
 /// A sentence for every sensor with points that no light can reach, because a closed surface lies around the
 /// point and no light in it (or around all lights and not the point), and for every light that likewise
 /// reaches no point of any sensor.
-std::vector<std::string> placement_warnings(const Scene& scene, const RayCaster& caster,
+std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,
                                             std::span<const Sensor> sensors);
 
-}  // namespace stilb
+}  // namespace stilb::checks

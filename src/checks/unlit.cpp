@@ -5,7 +5,7 @@
 #include "math/sampling.h"
 #include "transport/light_sampler.h"
 
-namespace stilb {
+namespace stilb::checks {
 namespace {
 
 constexpr std::uint64_t kParticles = 4096;
@@ -26,12 +26,12 @@ struct Traced {
 };
 
 /// Every surface reflects diffusely here, black ones too: it is the geometry that is asked for.
-Traced trace_particles(const Scene& scene, const RayCaster& caster) {
-    const LightSampler lights(scene, caster);
+Traced trace_particles(const Scene& scene, const rays::RayCaster& caster) {
+    const transport::LightSampler lights(scene, caster);
     Traced traced{{}, std::vector<bool>(scene.objects.size())};
     for (std::uint64_t i = 0; i < kParticles; ++i) {
-        SampleStream stream(RandomKey{}.derived(kTracing), i);
-        const EmittedParticle particle = lights.sample_emission(stream);
+        math::SampleStream stream(math::RandomKey{}.derived(kTracing), i);
+        const transport::EmittedParticle particle = lights.sample_emission(stream);
         Place from{particle.origin, particle.direction};
         Vec3 direction = particle.direction;
         for (int reflection = 0; reflection <= kReflections; ++reflection) {
@@ -41,51 +41,51 @@ Traced trace_particles(const Scene& scene, const RayCaster& caster) {
             traced.is_object_hit[index_of(hit->object)] = true;
             from = {hit->lifted, hit->normal};
             const auto [u1, u2] = stream.next_two();
-            direction = Frame::around(hit->normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
+            direction = Frame::around(hit->normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
         }
     }
     return traced;
 }
 
-Place place_on(const Mesh& mesh, SampleStream& stream) {
+Place place_on(const Mesh& mesh, math::SampleStream& stream) {
     const auto count = static_cast<double>(mesh.triangles.size());
     const auto [i, j, k] = mesh.triangles[static_cast<std::size_t>(stream.next() * count)];
     const auto [u1, u2] = stream.next_two();
-    const Barycentric w = sample_triangle(u1, u2);
+    const math::Barycentric w = math::sample_triangle(u1, u2);
     const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
     return {w.b0 * a + w.b1 * b + w.b2 * c, normalized(cross(b - a, c - a))};
 }
-Place place_on(const Rectangle& rectangle, SampleStream& stream) {
+Place place_on(const Rectangle& rectangle, math::SampleStream& stream) {
     return place_on(triangulated(rectangle), stream);
 }
-Place place_on(const Box& box, SampleStream& stream) { return place_on(triangulated(box), stream); }
-Place place_on(const Sphere& sphere, SampleStream& stream) {
+Place place_on(const Box& box, math::SampleStream& stream) { return place_on(triangulated(box), stream); }
+Place place_on(const Sphere& sphere, math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
-    const Vec3 normal = sample_sphere(u1, u2).direction;
+    const Vec3 normal = math::sample_sphere(u1, u2).direction;
     return {sphere.center + sphere.radius * normal, normal};
 }
-Place place_on(const Harmonics& harmonics, SampleStream& stream) {
+Place place_on(const Harmonics& harmonics, math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
-    const Vec3 direction = sample_sphere(u1, u2).direction;
+    const Vec3 direction = math::sample_sphere(u1, u2).direction;
     return {harmonics.point_towards(direction), harmonics.normal_towards(direction)};
 }
-Place place_on(const Disk& disk, SampleStream& stream) {
+Place place_on(const Disk& disk, math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
-    const DiskPoint p = sample_unit_disk(u1, u2);
+    const math::DiskPoint p = math::sample_unit_disk(u1, u2);
     const Frame frame = Frame::around(disk.normal);
     return {disk.center + disk.radius * (p.x * frame.u + p.y * frame.v), disk.normal};
 }
 
-bool sees(const Place& from, const Place& to, const RayCaster& caster) {
+bool sees(const Place& from, const Place& to, const rays::RayCaster& caster) {
     const Vec3 way = to.position - from.position;
     return dot(way, from.normal) > 0 && dot(way, to.normal) < 0 &&
            !caster.occluded(from.position, to.position);
 }
 
-bool is_seen(const Object& object, const std::vector<Place>& lit, const RayCaster& caster) {
+bool is_seen(const Object& object, const std::vector<Place>& lit, const rays::RayCaster& caster) {
     const std::size_t stride = std::max<std::size_t>(1, lit.size() / kPlacesTried);
     for (std::uint64_t i = 0; i < kPointsOnObject; ++i) {
-        SampleStream stream(RandomKey{}.derived(kLooking), i);
+        math::SampleStream stream(math::RandomKey{}.derived(kLooking), i);
         const Place place = std::visit([&](const auto& s) { return place_on(s, stream); }, object.shape);
         const double offset = caster.offset_m(place.position, caster.half_extent_m());
         for (const Vec3& normal : {place.normal, -place.normal}) {
@@ -100,7 +100,7 @@ bool is_seen(const Object& object, const std::vector<Place>& lit, const RayCaste
 
 }  // namespace
 
-std::vector<ObjectId> unlit_objects(const Scene& scene, const RayCaster& caster) {
+std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& caster) {
     if (scene.lights.empty()) return {};  // then all are, and the reader of scene files says so
     Traced traced = trace_particles(scene, caster);
     for (const Light& light : scene.lights) {
@@ -115,4 +115,4 @@ std::vector<ObjectId> unlit_objects(const Scene& scene, const RayCaster& caster)
     return unlit;
 }
 
-}  // namespace stilb
+}  // namespace stilb::checks

@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 void set_examples(CLI::App& command, const std::string& examples) {
     command.formatter_fn([examples](const CLI::App* app, std::string name, CLI::AppFormatMode mode) {
@@ -8,4 +8,4 @@ void set_examples(CLI::App& command, const std::string& examples) {
     });
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

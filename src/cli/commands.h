@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace stilb {
+namespace stilb::cli {
 
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitCheckFailed = 1;
@@ -25,4 +25,4 @@ void add_info(CLI::App& app, int& exit_code);
 void add_falsecolor(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);
 
-}  // namespace stilb
+}  // namespace stilb::cli

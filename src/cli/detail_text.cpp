@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-namespace stilb {
+namespace stilb::cli {
 
-std::string detail_text(std::span<const LevelOfDetail> levels) {
+std::string detail_text(std::span<const run::LevelOfDetail> levels) {
     std::string text;
-    for (const LevelOfDetail& level : levels) {
+    for (const run::LevelOfDetail& level : levels) {
         if (level.degree == level.full_degree) {
             text += fmt::format("{}: all {} degrees; fewer would show by more than {:.2g} mm\n", level.object,
                                 level.full_degree, 1e3 * level.allowed_m);
@@ -19,4 +19,4 @@ std::string detail_text(std::span<const LevelOfDetail> levels) {
     return text;
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

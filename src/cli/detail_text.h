@@ -6,9 +6,9 @@
 
 #include "run/level_of_detail.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 /// A line for each.
-std::string detail_text(std::span<const LevelOfDetail> levels);
+std::string detail_text(std::span<const run::LevelOfDetail> levels);
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace stilb {
+namespace stilb::cli {
 
 std::string ending(StopReason reason, std::string_view all) {
     switch (reason) {
@@ -20,4 +20,4 @@ std::string ending(StopReason reason, std::string_view all) {
     return "solved";
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -6,9 +6,9 @@
 
 #include "run/run.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 /// `all`: what was done where a number of it was asked for, such as "passes".
 std::string ending(StopReason reason, std::string_view all);
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -15,19 +15,19 @@
 #include "plot/false_colour_picture.h"
 #include "plot/grid_picture.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 struct FalseColourRequest {
     std::string input;
     std::string output;
     std::vector<std::string> sensors;
-    FalseColourOptions options;
+    plot::FalseColourOptions options;
 };
 
-void keep_only(const std::vector<std::string>& wanted, ResultsFile& results, const std::string& file) {
+void keep_only(const std::vector<std::string>& wanted, io::ResultsFile& results, const std::string& file) {
     std::vector<std::string_view> names;
-    for (const MeasuredGrid& grid : results.grids) names.push_back(grid.name);
+    for (const io::MeasuredGrid& grid : results.grids) names.push_back(grid.name);
     for (const std::string& name : wanted) {
         if (std::find(names.begin(), names.end(), name) != names.end()) continue;
         const std::string nearest = nearest_name(name, names);
@@ -35,7 +35,7 @@ void keep_only(const std::vector<std::string>& wanted, ResultsFile& results, con
                                                    : fmt::format("Did you mean '{}'?", nearest);
         throw InputError(fmt::format("no grid '{}' among the results. {}", name, advice), {file});
     }
-    std::erase_if(results.grids, [&](const MeasuredGrid& grid) {
+    std::erase_if(results.grids, [&](const io::MeasuredGrid& grid) {
         return std::find(wanted.begin(), wanted.end(), grid.name) == wanted.end();
     });
 }
@@ -45,8 +45,8 @@ void draw_picture(const FalseColourRequest& request) {
         throw InputError("--sensor chooses among measured grids, and a picture has none. Leave it out.",
                          {request.input});
     }
-    const Picture picture = read_picture(request.input);
-    const PictureOrigin& origin = picture.origin;
+    const io::Picture picture = io::read_picture(request.input);
+    const io::PictureOrigin& origin = picture.origin;
     const std::string source =
         origin.scene.empty() ? std::filesystem::path(request.input).filename().string() : origin.scene;
     const std::string sensor = origin.sensor.empty() ? "" : fmt::format(", {}", origin.sensor);
@@ -55,14 +55,14 @@ void draw_picture(const FalseColourRequest& request) {
 }
 
 int run_falsecolor(const FalseColourRequest& request) {
-    require_picture_path(request.output);
-    if (is_picture_file(request.input)) {
+    plot::require_picture_path(request.output);
+    if (io::is_picture_file(request.input)) {
         draw_picture(request);
         return kExitDone;
     }
-    ResultsFile results = read_results_file(request.input);
+    io::ResultsFile results = io::read_results_file(request.input);
     if (!request.sensors.empty()) keep_only(request.sensors, results, request.input);
-    draw_false_colour(picture_of(results), request.options, request.output);
+    draw_false_colour(plot::picture_of(results), request.options, request.output);
     return kExitDone;
 }
 
@@ -77,7 +77,7 @@ void add_falsecolor(CLI::App& app, int& exit_code) {
                  "  stilb falsecolor office.json -o desk.svg --sensor desk --numbers --min 0 --max 750\n"
                  "  stilb falsecolor view.exr -o luminance.png --log --isolines\n");
     auto request = std::make_shared<FalseColourRequest>();
-    FalseColourOptions& options = request->options;
+    plot::FalseColourOptions& options = request->options;
     command
         ->add_option("IN", request->input,
                      "Results of 'stilb measure --json', or a picture: OpenEXR or Radiance HDR")
@@ -86,7 +86,7 @@ void add_falsecolor(CLI::App& app, int& exit_code) {
     command->add_option("--sensor", request->sensors, "Of results, draw this grid only (may be repeated)")
         ->allow_extra_args(false);
     command->add_flag_callback(
-        "--log", [&options] { options.scale = ScaleType::logarithmic; }, "Logarithmic scale");
+        "--log", [&options] { options.scale = plot::ScaleType::logarithmic; }, "Logarithmic scale");
     command->add_option("--min", options.minimum, "Lower end of the scale; a round number by default");
     command->add_option("--max", options.maximum, "Upper end of the scale");
     command->add_flag("--isolines", options.isolines, "Lines of equal value, labelled");
@@ -95,4 +95,4 @@ void add_falsecolor(CLI::App& app, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = run_falsecolor(*request); });
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -17,7 +17,7 @@
 #include "run/clock.h"
 #include "run/relative_error.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 struct FitRequest {
@@ -32,41 +32,42 @@ std::optional<Vec3> center_of(const FitRequest& request) {
     const std::string& text = request.center;
     const std::size_t first = text.find(','), second = text.find(',', first + 1);
     if (second != std::string::npos) {
-        const auto x = parse_number(text.substr(0, first));
-        const auto y = parse_number(text.substr(first + 1, second - first - 1));
-        const auto z = parse_number(text.substr(second + 1));
+        const auto x = io::parse_number(text.substr(0, first));
+        const auto y = io::parse_number(text.substr(first + 1, second - first - 1));
+        const auto z = io::parse_number(text.substr(second + 1));
         if (x && y && z) return Vec3{*x, *y, *z};
     }
-    throw InputError(fmt::format(
-        "--center {} is no point. Write x,y,z (0.1,0,2.5), or auto to have it searched.", in_quotes(text)));
+    throw InputError(
+        fmt::format("--center {} is no point. Write x,y,z (0.1,0,2.5), or auto to have it searched.",
+                    io::in_quotes(text)));
 }
 
 double tolerance_of(const FitRequest& request) {
     if (request.tolerance == "0") return 0;
-    if (const auto share = parse_relative_error(request.tolerance)) return *share;
+    if (const auto share = run::parse_relative_error(request.tolerance)) return *share;
     throw InputError(
         fmt::format("--tolerance {} is no share of directions. Write 0.5% or 0.005; it is below 1.",
-                    in_quotes(request.tolerance)));
+                    io::in_quotes(request.tolerance)));
 }
 
-MeshFitOptions options_of(const FitRequest& request) {
+fit::MeshFitOptions options_of(const FitRequest& request) {
     return {request.degree, center_of(request), tolerance_of(request),
-            request.force ? NotStarShaped::take_outermost : NotStarShaped::refuse};
+            request.force ? fit::NotStarShaped::take_outermost : fit::NotStarShaped::refuse};
 }
 
 void check_outputs(const FitRequest& request) {
-    require_folder_of(request.output);
+    io::require_folder_of(request.output);
     if (request.plot.empty()) return;
-    require_picture_path(request.plot);
+    plot::require_picture_path(request.plot);
     if (request.degree == 0)
         throw InputError("--plot shows errors from degree 1 on, and this is --degree 0. Leave it out.");
 }
 
 int run_fit(const FitRequest& request) {
-    const MeshFitOptions options = options_of(request);
+    const fit::MeshFitOptions options = options_of(request);
     check_outputs(request);
-    const MeshFile file = read_mesh_file(request.mesh);
-    const Clock clock;
+    const io::MeshFile file = io::read_mesh_file(request.mesh);
+    const run::Clock clock;
     FitReport report;
     report.mesh = request.mesh;
     report.output = request.output;
@@ -75,10 +76,11 @@ int run_fit(const FitRequest& request) {
     report.faces = file.mesh.triangles.size();
     report.vertices = file.mesh.vertices.size();
     report.tolerated_share = options.tolerated_share;
-    const MeshFit& fit = report.fit;
-    write_harmonics({fit.coefficients, fit.center, std::filesystem::path(request.mesh).filename().string(),
-                     fit.errors.back().rms / fit.size},
-                    request.output);
+    const fit::MeshFit& fit = report.fit;
+    io::write_harmonics(
+        {fit.coefficients, fit.center, std::filesystem::path(request.mesh).filename().string(),
+         fit.errors.back().rms / fit.size},
+        request.output);
     report.mesh_bytes = std::filesystem::file_size(request.mesh);
     report.output_bytes = std::filesystem::file_size(request.output);
     if (!request.plot.empty()) draw_plot(error_plot(report), request.plot);
@@ -106,7 +108,7 @@ void add_fit(CLI::App& app, int& exit_code) {
         ->type_name("FILE");
     command->add_option("--degree", request->degree, "Of the harmonics: (degree + 1)^2 coefficients")
         ->required()
-        ->check(CLI::Range(0, kMostHarmonicDegree))
+        ->check(CLI::Range(0, math::kMostHarmonicDegree))
         ->type_name("N");
     command
         ->add_option("--center", request->center,
@@ -127,4 +129,4 @@ void add_fit(CLI::App& app, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = run_fit(*request); });
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -6,7 +6,7 @@
 
 #include "math/spherical_harmonics.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -21,7 +21,7 @@ std::vector<int> degrees_of(const FitReport& report) {
 
 double ratio(std::uintmax_t a, std::uintmax_t b) { return static_cast<double>(a) / static_cast<double>(b); }
 
-std::string center_text(const MeshFit& fit) {
+std::string center_text(const fit::MeshFit& fit) {
     std::string text =
         fmt::format("centre ({:.6g}, {:.6g}, {:.6g}): ", fit.center.x, fit.center.y, fit.center.z);
     if (!fit.margin) return text + "as given";
@@ -32,30 +32,31 @@ std::string center_text(const MeshFit& fit) {
     return text + "searched for the fewest crossings too many, as no point sees all faces from their front";
 }
 
-std::string star_text(const MeshFit& fit) {
-    const StarSurvey& survey = fit.survey;
+std::string star_text(const fit::MeshFit& fit) {
+    const fit::StarSurvey& survey = fit.survey;
     std::string text =
         fmt::format("directions that meet the surface more than once: {:.3f} %; not at all: {:.3f} %\n",
                     100 * survey.folded_share, 100 * survey.missed_share);
-    for (const Fold& fold : survey.worst_folds) {
-        text += fmt::format("  {}: {:.2g} % of the size deep\n", named_direction(fold.direction),
+    for (const fit::Fold& fold : survey.worst_folds) {
+        text += fmt::format("  {}: {:.2g} % of the size deep\n", fit::named_direction(fold.direction),
                             100 * fold.depth / fit.size);
     }
-    for (const Vec3& miss : survey.misses) text += fmt::format("  {}: no surface\n", named_direction(miss));
+    for (const Vec3& miss : survey.misses)
+        text += fmt::format("  {}: no surface\n", fit::named_direction(miss));
     return text;
 }
 
 Json direction_json(const Vec3& direction) {
-    const Angles angles = angles_of(direction);
+    const fit::Angles angles = fit::angles_of(direction);
     return {{"direction", {direction.x, direction.y, direction.z}},
             {"theta_deg", angles.theta_deg},
             {"phi_deg", angles.phi_deg}};
 }
 
 Json star_json(const FitReport& report) {
-    const StarSurvey& survey = report.fit.survey;
+    const fit::StarSurvey& survey = report.fit.survey;
     Json folds = Json::array(), misses = Json::array();
-    for (const Fold& fold : survey.worst_folds) {
+    for (const fit::Fold& fold : survey.worst_folds) {
         folds.push_back(direction_json(fold.direction));
         folds.back()["depth"] = fold.depth / report.fit.size;
     }
@@ -69,7 +70,7 @@ Json errors_json(const FitReport& report) {
     Json errors = Json::array();
     for (int degree = 0; degree <= report.degree(); ++degree) {
         errors.push_back({{"degree", degree},
-                          {"coefficients", harmonic_count(degree)},
+                          {"coefficients", math::harmonic_count(degree)},
                           {"rms", report.rms_error(degree)},
                           {"maximum", report.largest_error(degree)}});
     }
@@ -79,8 +80,8 @@ Json errors_json(const FitReport& report) {
 }  // namespace
 
 std::vector<std::string> warnings_of(const FitReport& report) {
-    const MeshFit& fit = report.fit;
-    const StarSurvey& survey = fit.survey;
+    const fit::MeshFit& fit = report.fit;
+    const fit::StarSurvey& survey = fit.survey;
     std::vector<std::string> warnings;
     if (fit.turned > 0) {
         warnings.push_back(fmt::format(
@@ -108,7 +109,7 @@ std::vector<std::string> warnings_of(const FitReport& report) {
 }
 
 std::string to_text(const FitReport& report) {
-    const MeshFit& fit = report.fit;
+    const fit::MeshFit& fit = report.fit;
     std::string text = fmt::format(
         "{}: {} vertices, {} faces, {} part{}; size {:.6g} (longest edge of its box)\n", report.mesh,
         report.vertices, report.faces, fit.parts, fit.parts == 1 ? "" : "s", fit.size);
@@ -116,8 +117,9 @@ std::string to_text(const FitReport& report) {
     text += "\ndegree  coefficients     bytes    mesh / series    rms error   largest error\n";
     for (const int degree : degrees_of(report)) {
         text += fmt::format("{:6} {:13} {:9} {:16.4g} {:10.3g} % {:13.3g} %\n", degree,
-                            harmonic_count(degree), FitReport::bare_bytes(degree), report.bare_ratio(degree),
-                            100 * report.rms_error(degree), 100 * report.largest_error(degree));
+                            math::harmonic_count(degree), FitReport::bare_bytes(degree),
+                            report.bare_ratio(degree), 100 * report.rms_error(degree),
+                            100 * report.largest_error(degree));
     }
     text += fmt::format(
         "errors along rays from the centre, in {} directions, as shares of the size\n"
@@ -132,7 +134,7 @@ std::string to_text(const FitReport& report) {
 }
 
 std::string to_json(const FitReport& report) {
-    const MeshFit& fit = report.fit;
+    const fit::MeshFit& fit = report.fit;
     Json json;
     json["stilb"] = STILB_VERSION;
     json["mesh"] = {
@@ -156,18 +158,19 @@ std::string to_json(const FitReport& report) {
     return json.dump(1) + "\n";
 }
 
-Plot error_plot(const FitReport& report) {
-    Series rms{"root mean square", {}, {}}, maximum{"largest", {}, {}};
+plot::Plot error_plot(const FitReport& report) {
+    plot::Series rms{"root mean square", {}, {}}, maximum{"largest", {}, {}};
     for (int degree = 1; degree <= report.degree(); ++degree) {
         rms.x.push_back(degree);
         rms.y.push_back(100 * report.rms_error(degree));
         maximum.x.push_back(degree);
         maximum.y.push_back(100 * report.largest_error(degree));
     }
-    Plot plot{fmt::format("Error of the series, {}", report.mesh.substr(report.mesh.find_last_of('/') + 1)),
-              {"degree", ScaleType::logarithmic},
-              {{{"% of the size", ScaleType::logarithmic}, {maximum, rms}}}};
+    plot::Plot plot{
+        fmt::format("Error of the series, {}", report.mesh.substr(report.mesh.find_last_of('/') + 1)),
+        {"degree", plot::ScaleType::logarithmic},
+        {{{"% of the size", plot::ScaleType::logarithmic}, {maximum, rms}}}};
     return plot;
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -9,7 +9,7 @@
 #include "math/spherical_harmonics.h"
 #include "plot/plot.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 struct FitReport {
     std::string mesh, output;  ///< files as typed
@@ -17,7 +17,7 @@ struct FitReport {
     std::uintmax_t mesh_bytes = 0, output_bytes = 0;
     double tolerated_share = 0;
     double elapsed_s = 0;  ///< from the mesh that is read to its series
-    MeshFit fit;
+    fit::MeshFit fit;
 
     int degree() const { return static_cast<int>(fit.errors.size()) - 1; }
     /// As single-precision coordinates and 32-bit corners.
@@ -30,10 +30,12 @@ struct FitReport {
         return static_cast<double>(bare_mesh_bytes()) / static_cast<double>(bare_bytes(of_degree));
     }
     /// In single precision.
-    static std::uintmax_t bare_bytes(int degree) { return 4 * harmonic_count(degree); }
+    static std::uintmax_t bare_bytes(int degree) { return 4 * math::harmonic_count(degree); }
 
   private:
-    const DegreeError& error(int of_degree) const { return fit.errors[static_cast<std::size_t>(of_degree)]; }
+    const geometry::DegreeError& error(int of_degree) const {
+        return fit.errors[static_cast<std::size_t>(of_degree)];
+    }
 };
 
 /// What was found odd and what is lost, a sentence each.
@@ -43,6 +45,6 @@ std::string to_text(const FitReport& report);
 /// docs/fit.md has the keys.
 std::string to_json(const FitReport& report);
 /// Errors over degrees 1 to the fit's, which is 1 or more.
-Plot error_plot(const FitReport& report);
+plot::Plot error_plot(const FitReport& report);
 
-}  // namespace stilb
+}  // namespace stilb::cli

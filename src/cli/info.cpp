@@ -9,7 +9,7 @@
 #include "cli/info_report.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 struct InfoRequest {
@@ -18,13 +18,13 @@ struct InfoRequest {
 };
 
 InfoReport report_file(const std::string& file) {
-    const std::string extension = extension_of(file);
+    const std::string extension = io::extension_of(file);
     const auto is_one_of = [&](const auto& extensions) {
         return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
     };
     if (is_one_of(std::array{".ies", ".ldt"})) return report_luminaire(file);
     if (is_one_of(std::array{".obj", ".ply"})) return report_mesh(file);
-    return report_scene(read_scene_file(file), file);
+    return report_scene(io::read_scene_file(file), file);
 }
 
 }  // namespace
@@ -51,4 +51,4 @@ void add_info(CLI::App& app, int& exit_code) {
     });
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

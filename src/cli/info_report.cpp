@@ -12,7 +12,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/photometry/photometry_file.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 using Json = InfoReport;
@@ -33,7 +33,7 @@ struct MaterialReport {
                 {"specular", m.specular.luminance()},
                 {"exponent", m.exponent}};
     }
-    Json operator()(const Rough& m) const {
+    Json operator()(const RoughConductor& m) const {
         return {{"type", "rough"},
                 {"reflectance", m.reflectance().luminance()},
                 {"rgb", m.reflectance().band},
@@ -57,11 +57,11 @@ struct MaterialReport {
     Json operator()(const Mirror& m) const {
         return {{"type", "mirror"}, {"reflectance", m.reflectance.luminance()}, {"rgb", m.reflectance.band}};
     }
-    Json operator()(const Glass& m) const {
+    Json operator()(const Dielectric& m) const {
         return {{"type", "glass"}, {"reflectance", normal_reflectance(m)}, {"ior", m.ior}};
     }
-    Json operator()(const Pane& m) const {
-        const PaneShares shares = pane_shares(m, 1);
+    Json operator()(const ThinDielectric& m) const {
+        const materials::PaneShares shares = pane_shares(m, 1);
         return {{"type", "pane"},
                 {"reflectance", shares.reflectance.luminance()},
                 {"transmittance", shares.transmittance.luminance()},
@@ -71,8 +71,11 @@ struct MaterialReport {
     Json operator()(const Black&) const { return {{"type", "black"}, {"reflectance", 0.0}}; }
 
   private:
-    static double normal_reflectance(const Glass& glass) {
-        return specular_branches(glass, LightSide::outside, {0, 0, 1}).list().front().share.luminance();
+    static double normal_reflectance(const Dielectric& glass) {
+        return specular_branches(glass, materials::LightSide::outside, {0, 0, 1})
+            .list()
+            .front()
+            .share.luminance();
     }
 };
 
@@ -94,7 +97,7 @@ struct ShapeReport {
     }
 };
 
-Json shape_json(const std::string& name, const Shape& shape, const Shells& shells) {
+Json shape_json(const std::string& name, const Shape& shape, const geometry::ConnectedComponents& shells) {
     Json json{{"name", name}};
     json.update(std::visit(ShapeReport{}, shape));
     json["extent"] = extent_json(bounds_of(shape));
@@ -105,7 +108,7 @@ Json shape_json(const std::string& name, const Shape& shape, const Shells& shell
     return json;
 }
 
-Json object_json(const Object& object, const Shells& shells, const Scene& scene) {
+Json object_json(const Object& object, const geometry::ConnectedComponents& shells, const Scene& scene) {
     Json json = shape_json(object.name, object.shape, shells);
     std::vector<bool> is_used(scene.materials.size());
     for (const MaterialId material : object.materials) is_used[index_of(material)] = true;
@@ -122,7 +125,7 @@ struct LightReport {
     Json operator()(const PointLight& light) const {
         return {{"type", "point"}, {"intensity_cd", light.intensity_cd.luminance()}};
     }
-    Json operator()(const PhotometryLight& light) const {
+    Json operator()(const Luminaire& light) const {
         return {{"type", "photometry"},
                 {"file", scene.solids[index_of(light.solid)].file},
                 {"peak_intensity_cd", scene.solid(light.solid).peak_cd() * light.factor.luminance()}};
@@ -208,15 +211,16 @@ Json list_json(const List& list, const Describe& describe) {
     return json;
 }
 
-std::vector<std::string> checked(const SceneFile& file, const RayCaster& caster, const Spaces& spaces) {
+std::vector<std::string> checked(const io::SceneFile& file, const rays::RayCaster& caster,
+                                 const checks::Enclosures& spaces) {
     std::vector<std::string> warnings = file.warnings;
     const auto add = [&](const std::vector<std::string>& more) {
         warnings.insert(warnings.end(), more.begin(), more.end());
     };
-    add(hole_warnings(file.scene, spaces.shells()));
+    add(checks::hole_warnings(file.scene, spaces.shells()));
     add(overlap_warnings(file.scene, caster, spaces));
-    add(placement_warnings(file.scene, caster, file.sensors));
-    for (const ObjectId object : unlit_objects(file.scene, caster))
+    add(checks::placement_warnings(file.scene, caster, file.sensors));
+    for (const ObjectId object : checks::unlit_objects(file.scene, caster))
         warnings.push_back(
             fmt::format("object \"{}\": no light reaches it.", file.scene.object(object).name));
     return warnings;
@@ -224,10 +228,10 @@ std::vector<std::string> checked(const SceneFile& file, const RayCaster& caster,
 
 }  // namespace
 
-InfoReport report_scene(const SceneFile& file, const std::string& name) {
+InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     const Scene& scene = file.scene;
-    const RayCaster caster(scene);
-    const Spaces spaces(scene, caster);
+    const rays::RayCaster caster(scene);
+    const checks::Enclosures spaces(scene, caster);
     double total_flux_lm = 0;
     for (const Light& light : scene.lights) total_flux_lm += flux_lm(scene, light).luminance();
 
@@ -251,7 +255,7 @@ InfoReport report_scene(const SceneFile& file, const std::string& name) {
 }
 
 InfoReport report_luminaire(const std::filesystem::path& path) {
-    const PhotometryFile file = read_photometry_file(path);
+    const io::PhotometryFile file = io::read_photometry_file(path);
     const PhotometricSolid solid(file.grid);
     const std::string statement = check_flux(file, solid.flux_lm()).description();
     Json luminaire = luminaire_json({path.string(), file.luminaire, solid, file.format, statement});
@@ -266,8 +270,8 @@ InfoReport report_luminaire(const std::filesystem::path& path) {
 }
 
 InfoReport report_mesh(const std::filesystem::path& path) {
-    MeshFile file = read_mesh_file(path);
-    Json object = shape_json(path.filename().string(), file.mesh, find_shells(file.mesh));
+    io::MeshFile file = io::read_mesh_file(path);
+    Json object = shape_json(path.filename().string(), file.mesh, find_components(file.mesh));
     object["vertices"] = file.mesh.vertices.size();
     object["degenerate_triangles_left_out"] = file.degenerate_triangles;
     object["materials"] = file.material_names;
@@ -277,8 +281,8 @@ InfoReport report_mesh(const std::filesystem::path& path) {
     return {{"stilb", STILB_VERSION},
             {"file", path.string()},
             {"objects", Json::array({object})},
-            {"warnings", hole_warnings(scene, {find_shells(scene.objects[0].shape)})},
+            {"warnings", checks::hole_warnings(scene, {find_components(scene.objects[0].shape)})},
             {"memory", {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}}}};
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -3,7 +3,7 @@
 
 #include "cli/info_report.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 using Json = InfoReport;
@@ -176,4 +176,4 @@ std::string to_text(const InfoReport& report) {
     return report["warnings"].empty() ? result + "No warnings\n" : result;
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -37,28 +37,28 @@ int main(int argument_count, char** arguments) {
     app.name("stilb");
     app.set_version_flag("--version", STILB_VERSION);
     app.require_subcommand(0, 1);
-    int exit_code = stilb::kExitDone;
+    int exit_code = stilb::cli::kExitDone;
     try {
-        stilb::add_measure(app, exit_code);
-        stilb::add_solve(app, exit_code);
-        stilb::add_render(app, command_line(argument_count, arguments), exit_code);
-        stilb::add_fit(app, exit_code);
-        stilb::add_info(app, exit_code);
-        stilb::add_falsecolor(app, exit_code);
-        stilb::add_verify(app, exit_code);
-        stilb::add_reproduce(app, exit_code);
+        stilb::cli::add_measure(app, exit_code);
+        stilb::cli::add_solve(app, exit_code);
+        stilb::cli::add_render(app, command_line(argument_count, arguments), exit_code);
+        stilb::cli::add_fit(app, exit_code);
+        stilb::cli::add_info(app, exit_code);
+        stilb::cli::add_falsecolor(app, exit_code);
+        stilb::cli::add_verify(app, exit_code);
+        stilb::papers::add_reproduce(app, exit_code);
         app.allow_extras();  // for an unknown command's own message; the commands take none
         app.parse(argument_count, arguments);
         if (app.get_subcommands().empty()) throw no_command(app);
         return exit_code;
     } catch (const CLI::ParseError& error) {
         const int code = app.exit(error);
-        return code == 0 ? stilb::kExitDone : stilb::kExitWrongInput;
+        return code == 0 ? stilb::cli::kExitDone : stilb::cli::kExitWrongInput;
     } catch (const stilb::InputError& error) {
         fmt::print(stderr, "stilb: {}\n", error.what());
-        return stilb::kExitWrongInput;
+        return stilb::cli::kExitWrongInput;
     } catch (const std::exception& error) {
         fmt::print(stderr, "stilb: {}\n", error.what());
-        return stilb::kExitCheckFailed;
+        return stilb::cli::kExitCheckFailed;
     }
 }

@@ -18,7 +18,7 @@
 #include "plot/canvas.h"
 #include "plot/grid_picture.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 struct MeasureRequest {
@@ -73,27 +73,28 @@ std::vector<Sensor> chosen_sensors(const std::vector<Sensor>& all, const std::ve
 }
 
 int run_measure(const MeasureRequest& request) {
-    const SceneFile file = read_scene_file(request.scene);
+    const io::SceneFile file = io::read_scene_file(request.scene);
     const std::vector<Sensor> sensors = chosen_sensors(file.sensors, request.sensors, request.scene);
     const RunOptions options = request.flags.over(file.run);
-    if (!request.picture.empty()) require_picture_path(request.picture);
+    if (!request.picture.empty()) plot::require_picture_path(request.picture);
     RunResult result;
     {
         TerminalProgress progress;
-        result = run(file.scene, sensors, options, request.flags.quiet ? nullptr : &progress,
-                     &watch_for_interrupt());
+        result = run::measure(file.scene, sensors, options, request.flags.quiet ? nullptr : &progress,
+                              &watch_for_interrupt());
     }
     result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
     if (!request.flags.quiet) {
         for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
     }
-    const std::string json = to_json(result, sensors, request.scene);
+    const std::string json = io::to_json(result, sensors, request.scene);
     fmt::print("{}", request.json ? json : to_table(result, sensors));
-    if (!request.csv_directory.empty()) write_results_csv(result, sensors, request.csv_directory);
+    if (!request.csv_directory.empty()) io::write_results_csv(result, sensors, request.csv_directory);
     if (!request.picture.empty()) {
-        FalseColourOptions picture_options;
+        plot::FalseColourOptions picture_options;
         picture_options.isolines = true;
-        draw_false_colour(picture_of(read_results(json, request.scene)), picture_options, request.picture);
+        draw_false_colour(plot::picture_of(io::read_results(json, request.scene)), picture_options,
+                          request.picture);
     }
     return result.converged ? kExitDone : kExitStoppedEarly;
 }
@@ -124,4 +125,4 @@ void add_measure(CLI::App& app, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = run_measure(*request); });
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

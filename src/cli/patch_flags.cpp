@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "estimators/estimator_list.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 constexpr std::array<std::string_view, 3> kWindowNames{"cube", "hemicube", "tetrahedron"};
@@ -68,11 +68,11 @@ std::vector<std::string_view> PatchFlags::given() const {
     return names;
 }
 
-void PatchFlags::require_known_to(const EstimatorEntry& method) const {
+void PatchFlags::require_known_to(const estimators::EstimatorEntry& method) const {
     for (const std::string_view flag : given()) {
         if (std::ranges::find(method.patch_flags, flag) != method.patch_flags.end()) continue;
         std::vector<std::string_view> methods;
-        for (const EstimatorEntry& entry : estimator_list()) {
+        for (const estimators::EstimatorEntry& entry : estimators::estimator_list()) {
             if (std::ranges::find(entry.patch_flags, flag) != entry.patch_flags.end())
                 methods.push_back(entry.name);
         }
@@ -85,22 +85,24 @@ void PatchFlags::require_known_to(const EstimatorEntry& method) const {
     }
 }
 
-PatchOptions PatchFlags::options_for(const std::string& method) const {
-    require_known_to(find_estimator(method));
-    PatchOptions options;
+estimators::PatchOptions PatchFlags::options_for(const std::string& method) const {
+    require_known_to(estimators::find_estimator(method));
+    estimators::PatchOptions options;
     options.patch_m = patch_m;
-    options.first_shot.variant = first_shot == "auto"
-                                     ? kUsualFirstShot
-                                     : read<FirstShotVariant>("--first-shot", first_shot, kFirstShotNames);
-    ShootingOptions& shooting = options.first_shot.shooting;
-    shooting.window = read<BufferShape>("--window", window, kWindowNames).value_or(shooting.window);
-    shooting.backend =
-        read<BufferBackend>("--visibility", visibility, kBufferBackendNames).value_or(shooting.backend);
-    options.directions = read<BundleDirections>("--directions", directions, kBundleDirectionsNames)
-                             .value_or(options.directions);
+    options.first_shot.variant =
+        first_shot == "auto"
+            ? estimators::kUsualFirstShot
+            : read<estimators::FirstShotVariant>("--first-shot", first_shot, estimators::kFirstShotNames);
+    estimators::ShootingOptions& shooting = options.first_shot.shooting;
+    shooting.window = read<patches::BufferShape>("--window", window, kWindowNames).value_or(shooting.window);
+    shooting.backend = read<patches::BufferBackend>("--visibility", visibility, patches::kBufferBackendNames)
+                           .value_or(shooting.backend);
+    options.directions =
+        read<estimators::BundleDirections>("--directions", directions, estimators::kBundleDirectionsNames)
+            .value_or(options.directions);
     options.resolution = resolution;
     if (resolution) options.shot_resolution = *resolution;
     return options;
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -9,7 +9,7 @@
 
 #include "estimators/estimator_list.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 struct PatchFlags {
     std::optional<double> patch_m;
@@ -18,12 +18,12 @@ struct PatchFlags {
 
     void add_to(CLI::App& command);
     /// Throws InputError where one of them is given that means nothing to the method, or has no such value.
-    PatchOptions options_for(const std::string& method) const;
+    estimators::PatchOptions options_for(const std::string& method) const;
     /// What was typed.
     std::vector<std::string_view> given() const;
 
   private:
-    void require_known_to(const EstimatorEntry& method) const;
+    void require_known_to(const estimators::EstimatorEntry& method) const;
 };
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -5,9 +5,9 @@
 
 #include "estimators/patch_light/patch_report.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 /// A line on patches and first shot, and one on the lights that are not replaced, if there are any.
-std::string patch_text(const PatchReport& report);
+std::string patch_text(const estimators::PatchReport& report);
 
-}  // namespace stilb
+}  // namespace stilb::cli

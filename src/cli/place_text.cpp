@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 struct PlaceText {
@@ -24,4 +24,4 @@ std::string direction_text(const Vec3& d) { return fmt::format("({:.3g}, {:.3g},
 
 std::string place_text(const Measurand& measurand) { return std::visit(PlaceText{}, measurand); }
 
-}  // namespace stilb
+}  // namespace stilb::cli

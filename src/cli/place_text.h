@@ -5,7 +5,7 @@
 
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 std::string place_text(const Vec3& position);
 std::string direction_text(const Vec3& direction);
@@ -13,4 +13,4 @@ std::string direction_text(const Vec3& direction);
 /// Where a reading is made and which way it looks: "at ... facing ...".
 std::string place_text(const Measurand& measurand);
 
-}  // namespace stilb
+}  // namespace stilb::cli

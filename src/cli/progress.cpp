@@ -7,7 +7,7 @@
 #include <csignal>
 #include <cstdio>
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 std::atomic<bool> interrupted{false};  // a signal handler can reach nothing else
@@ -52,4 +52,4 @@ const std::atomic<bool>& watch_for_interrupt() {
     return interrupted;
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -8,7 +8,7 @@
 #include "run/render.h"
 #include "run/run.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 /// Rewrites one line of stderr; shows nothing where stderr is no terminal, and clears the line at the end.
 class ProgressLine {
@@ -49,4 +49,4 @@ class TerminalPictureProgress : public PictureSink {
 /// Set by the first Ctrl-C after the call; a second one ends the program at once.
 const std::atomic<bool>& watch_for_interrupt();
 
-}  // namespace stilb
+}  // namespace stilb::cli

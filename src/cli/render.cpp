@@ -24,18 +24,18 @@
 #include "io/scene/scene_file.h"
 #include "io/text/content_hash.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 constexpr double kPreviewEvery_s = 3;
 
 struct RenderRequest {
     std::string scene, solution, sensor, output, preview, command;
-    ToneOptions tone;
+    io::ToneOptions tone;
     RunFlags flags;
 };
 
-Sensor chosen_camera(const SceneFile& file, const RenderRequest& request) {
+Sensor chosen_camera(const io::SceneFile& file, const RenderRequest& request) {
     std::vector<Sensor> cameras;
     std::vector<std::string_view> names;
     for (const Sensor& sensor : file.sensors) {
@@ -64,7 +64,7 @@ Sensor chosen_camera(const SceneFile& file, const RenderRequest& request) {
 /// Progress on the terminal, and the preview file.
 class RenderProgress final : public TerminalPictureProgress {
   public:
-    RenderProgress(const RenderRequest& request, const Camera& camera, const PictureOrigin& origin)
+    RenderProgress(const RenderRequest& request, const Camera& camera, const io::PictureOrigin& origin)
         : request_(request), camera_(camera), origin_(origin) {}
 
     void report(const Progress& progress) override {
@@ -82,7 +82,7 @@ class RenderProgress final : public TerminalPictureProgress {
   private:
     const RenderRequest& request_;
     const Camera& camera_;
-    const PictureOrigin& origin_;
+    const io::PictureOrigin& origin_;
     double elapsed_s_ = 0, shown_s_ = 0;
 };
 
@@ -114,9 +114,9 @@ void require_no_run_flags(const RunFlags& flags) {
 }
 
 /// The solution that --from names; its scene becomes that of the request, unless one is given.
-StoredSolution read_solution_for(RenderRequest& request) {
+io::StoredSolution read_solution_for(RenderRequest& request) {
     require_no_run_flags(request.flags);
-    StoredSolution stored = read_solution_file(request.solution);
+    io::StoredSolution stored = io::read_solution_file(request.solution);
     if (!request.scene.empty()) return stored;
     const auto scene = std::filesystem::path(request.solution).parent_path() / stored.scene;
     if (!std::filesystem::exists(scene)) {
@@ -129,8 +129,9 @@ StoredSolution read_solution_for(RenderRequest& request) {
     return stored;
 }
 
-void require_same_light(const StoredSolution& stored, const SceneFile& file, const RenderRequest& request) {
-    if (light_hash(file.sources) == stored.light_hash) return;
+void require_same_light(const io::StoredSolution& stored, const io::SceneFile& file,
+                        const RenderRequest& request) {
+    if (io::light_hash(file.sources) == stored.light_hash) return;
     throw InputError(fmt::format("materials, objects or lights of '{0}', or files that it refers to, changed "
                                  "since it was solved (sensors may). Solve it again: stilb solve {0} -o {1}",
                                  request.scene, request.solution),
@@ -138,8 +139,8 @@ void require_same_light(const StoredSolution& stored, const SceneFile& file, con
 }
 
 /// Everything between the request and the picture: the light is computed, or known where there is `stored`.
-RenderResult rendered(const RenderRequest& request, const SceneFile& file, const Sensor& sensor,
-                      std::optional<StoredSolution> stored, PictureOrigin& origin) {
+RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, const Sensor& sensor,
+                      std::optional<io::StoredSolution> stored, io::PictureOrigin& origin) {
     if (stored) {
         origin.method = "solution";
         origin.seed = stored->seed;
@@ -156,19 +157,19 @@ RenderResult rendered(const RenderRequest& request, const SceneFile& file, const
 }
 
 int run_render(RenderRequest request) {
-    std::optional<StoredSolution> stored;
+    std::optional<io::StoredSolution> stored;
     if (!request.solution.empty()) stored = read_solution_for(request);
     if (request.scene.empty()) {
         throw InputError("which scene? stilb render SCENE -o FILE, or a solution: --from FILE.");
     }
-    const SceneFile file = read_scene_file(request.scene);
+    const io::SceneFile file = io::read_scene_file(request.scene);
     if (stored) require_same_light(*stored, file, request);
     const Sensor sensor = chosen_camera(file, request);
-    require_luminance_picture_path(request.output);
-    if (!request.preview.empty()) require_luminance_picture_path(request.preview);
-    PictureOrigin origin;
+    io::require_luminance_picture_path(request.output);
+    if (!request.preview.empty()) io::require_luminance_picture_path(request.preview);
+    io::PictureOrigin origin;
     origin.scene = request.scene;
-    origin.scene_hash = content_hash(file.sources);
+    origin.scene_hash = io::content_hash(file.sources);
     origin.sensor = sensor.name;
     origin.command = request.command;
     origin.version = STILB_VERSION;
@@ -177,7 +178,7 @@ int run_render(RenderRequest request) {
     if (!request.flags.quiet) {
         for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
     }
-    const Picture picture = picture_of(result, sensor.camera, origin);
+    const io::Picture picture = picture_of(result, sensor.camera, origin);
     const auto curve = write_picture(picture, request.output, request.tone);
     if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
     print_summary(result, sensor);
@@ -220,4 +221,4 @@ void add_render(CLI::App& app, const std::string& command_line, int& exit_code) 
     command->callback([request, &exit_code] { exit_code = run_render(*request); });
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

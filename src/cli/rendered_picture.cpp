@@ -1,9 +1,9 @@
 #include "cli/rendered_picture.h"
 
-namespace stilb {
+namespace stilb::cli {
 
-Picture picture_of(const Pixels& pixels, const Camera& camera, const PictureOrigin& origin) {
-    Picture picture;
+io::Picture picture_of(const Pixels& pixels, const Camera& camera, const io::PictureOrigin& origin) {
+    io::Picture picture;
     picture.width = camera.resolution[0];
     picture.height = camera.resolution[1];
     picture.rgb_cd_m2 = pixels.rgb_cd_m2;
@@ -13,7 +13,7 @@ Picture picture_of(const Pixels& pixels, const Camera& camera, const PictureOrig
     return picture;
 }
 
-Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrigin origin) {
+io::Picture picture_of(const RenderResult& result, const Camera& camera, io::PictureOrigin origin) {
     origin.paths = result.passes;
     origin.replicates = result.replicates;
     origin.elapsed_s = result.elapsed_s;
@@ -22,10 +22,10 @@ Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrig
         origin.patch_size_m = result.patches->size_m;
         origin.first_shot = name_of(result.patches->first_shot);
     }
-    Picture picture = picture_of(result.pixels, camera, origin);
+    io::Picture picture = picture_of(result.pixels, camera, origin);
     picture.normals = result.normals;
     picture.depth_m = result.depth_m;
     return picture;
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -4,11 +4,11 @@
 #include "io/image/picture.h"
 #include "run/render.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 /// Of a picture that is not finished.
-Picture picture_of(const Pixels& pixels, const Camera& camera, const PictureOrigin& origin);
+io::Picture picture_of(const Pixels& pixels, const Camera& camera, const io::PictureOrigin& origin);
 /// Of a finished one, with normals and depth; how it went is added to the origin.
-Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrigin origin);
+io::Picture picture_of(const RenderResult& result, const Camera& camera, io::PictureOrigin origin);
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -10,7 +10,7 @@
 #include "cli/patch_text.h"
 #include "cli/place_text.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 /// Columns and rows up to which a grid's values are printed one by one.
@@ -19,10 +19,10 @@ constexpr int kMostRows = 40;
 /// Readings of a list that are printed one by one.
 constexpr std::size_t kMostReadings = 40;
 
-double half_width(const Estimate& e) { return (e.upper - e.lower) / 2; }
+double half_width(const statistics::Estimate& e) { return (e.upper - e.lower) / 2; }
 
 /// Two digits of the error, at most six of the value.
-int decimals_for(const Estimate& e) {
+int decimals_for(const statistics::Estimate& e) {
     const double error = half_width(e);
     if (!(error > 0) || !std::isfinite(error)) return std::abs(e.value) >= 1000 ? 1 : 2;
     return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 6);
@@ -84,13 +84,13 @@ std::string size_text(const Sensor& sensor) {
     }
 }
 
-std::string summary_text(const GridSummary& summary, const Sensor& sensor) {
+std::string summary_text(const statistics::GridSummary& summary, const Sensor& sensor) {
     const std::string unit = unit_of(sensor);
     std::string text =
         fmt::format("    mean {} {}   minimum {} {}   maximum {} {}", with_error(summary.mean), unit,
                     with_error(summary.minimum), unit, with_error(summary.maximum), unit);
     if (!sensor.measures_luminance()) {
-        const Estimate& uniformity = summary.uniformity;
+        const statistics::Estimate& uniformity = summary.uniformity;
         text += "   uniformity " + (std::isnan(uniformity.value) ? "-" : with_error(uniformity));
     }
     return text + '\n';
@@ -131,7 +131,7 @@ std::string ending_with_error(const RunResult& result) {
 
 }  // namespace
 
-std::string with_error(const Estimate& estimate) {
+std::string with_error(const statistics::Estimate& estimate) {
     const int decimals = decimals_for(estimate);
     if (std::isnan(estimate.standard_error)) return fmt::format("{:.{}f}", estimate.value, decimals);
     return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, half_width(estimate), decimals);
@@ -149,4 +149,4 @@ std::string to_table(const RunResult& result, std::span<const Sensor> sensors) {
     return result.patches ? text + patch_text(*result.patches) : text;
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

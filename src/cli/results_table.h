@@ -6,12 +6,12 @@
 
 #include "run/run.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 /// A table with every sensor's summary, small grids' values, and how the run ended.
 std::string to_table(const RunResult& result, std::span<const Sensor> sensors);
 
 /// A value with its interval's half-width, both with the digits that the interval leaves: "498.2 +- 1.1".
-std::string with_error(const Estimate& estimate);
+std::string with_error(const statistics::Estimate& estimate);
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -9,7 +9,7 @@
 #include "estimators/estimator_list.h"
 #include "run/relative_error.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 /// As in scene files.
@@ -20,7 +20,7 @@ constexpr std::int64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
 
 void RunFlags::add_to(CLI::App& command) {
     std::string methods = "How to compute (default: auto)";
-    for (const EstimatorEntry& entry : estimator_list()) {
+    for (const estimators::EstimatorEntry& entry : estimators::estimator_list()) {
         methods += fmt::format("\n  {:12} {}", entry.name, entry.summary);
     }
     command.add_option("--method", method, methods)->type_name("NAME");
@@ -69,14 +69,14 @@ std::vector<std::string_view> RunFlags::given() const {
 
 RunOptions RunFlags::over(RunOptions options) const {
     if (method) options.method = *method;
-    find_estimator(options.method);
+    estimators::find_estimator(options.method);
     if (paths) {
         options.paths = *paths;
         options.error.reset();
         options.time_s.reset();
     }
     if (error) {
-        options.error = parse_relative_error(*error);
+        options.error = run::parse_relative_error(*error);
         if (!options.error) {
             throw InputError(
                 fmt::format("--error {}: a share between 0 and 1 is needed, such as 0.01 or 1%", *error));
@@ -90,4 +90,4 @@ RunOptions RunFlags::over(RunOptions options) const {
     return options;
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

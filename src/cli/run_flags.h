@@ -10,7 +10,7 @@
 #include "cli/patch_flags.h"
 #include "run/options.h"
 
-namespace stilb {
+namespace stilb::cli {
 
 /// What was typed; each flag replaces the same key of the scene's [run].
 struct RunFlags {
@@ -30,4 +30,4 @@ struct RunFlags {
     RunOptions over(RunOptions options) const;
 };
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -18,21 +18,21 @@
 #include "io/text/write_file.h"
 #include "math/zernike.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 struct SolveRequest {
     std::string scene, output;
-    int degree = kDefaultDegree;
+    int degree = run::kDefaultDegree;
     RunFlags flags;
 };
 
-StoredSolution stored(SolveResult& result, const SceneFile& file, const SolveRequest& request) {
-    StoredSolution stored;
+io::StoredSolution stored(SolveResult& result, const io::SceneFile& file, const SolveRequest& request) {
+    io::StoredSolution stored;
     stored.version = STILB_VERSION;
     const auto folder = std::filesystem::absolute(request.output).parent_path();
     stored.scene = std::filesystem::proximate(request.scene, folder).generic_string();
-    stored.light_hash = light_hash(file.sources);
+    stored.light_hash = io::light_hash(file.sources);
     stored.seed = result.seed;
     stored.steps = result.steps;
     stored.attained_error = result.attained_error;
@@ -40,7 +40,7 @@ StoredSolution stored(SolveResult& result, const SceneFile& file, const SolveReq
     return stored;
 }
 
-void print_summary(const SolveResult& result, const StoredSolution& stored, const std::string& output) {
+void print_summary(const SolveResult& result, const io::StoredSolution& stored, const std::string& output) {
     fmt::print("{}: {} sides with light, {:.1f} MB\n", output, stored.solution.lit_sides.size(),
                1e-6 * static_cast<double>(std::filesystem::file_size(output)));
     fmt::print("95 % of the light falls on sides with a 95 % interval within {:.2g} % of their illuminance\n",
@@ -51,10 +51,10 @@ void print_summary(const SolveResult& result, const StoredSolution& stored, cons
 }
 
 int run_solve(const SolveRequest& request) {
-    SceneFile file = read_scene_file(request.scene);
+    io::SceneFile file = io::read_scene_file(request.scene);
     file.run.method = "ray-bundle";
     const RunOptions options = request.flags.over(file.run);
-    require_folder_of(request.output);
+    io::require_folder_of(request.output);
     SolveResult result;
     {
         TerminalProgress progress("steps");
@@ -65,7 +65,7 @@ int run_solve(const SolveRequest& request) {
     if (!request.flags.quiet) {
         for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
     }
-    const StoredSolution solution = stored(result, file, request);
+    const io::StoredSolution solution = stored(result, file, request);
     write_solution_file(solution, request.output);
     print_summary(result, solution, request.output);
     return result.converged ? kExitDone : kExitStoppedEarly;
@@ -87,8 +87,8 @@ void add_solve(CLI::App& app, int& exit_code) {
         ->add_option("--degree", request->degree,
                      fmt::format("Of the functions that keep the light of glossy surfaces (default: {}): "
                                  "more are sharper, and take more room",
-                                 kDefaultDegree))
-        ->check(CLI::Range(0, ZernikeBasis::kMostDegree))
+                                 run::kDefaultDegree))
+        ->check(CLI::Range(0, math::ZernikeBasis::kMostDegree))
         ->type_name("N");
     request->flags.add_those_of_one_method(*command);
     command->get_option("--error")->description(
@@ -101,4 +101,4 @@ void add_solve(CLI::App& app, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = run_solve(*request); });
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

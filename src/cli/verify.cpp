@@ -18,7 +18,7 @@
 #include "run/relative_error.h"
 #include "verification/verification.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
 struct VerifyRequest {
@@ -35,16 +35,16 @@ constexpr const char* kTableHeader =
     "      z   time s\n";
 
 /// A row that shows the reading farthest from its exact value, and the widest interval of all.
-std::string row(const Verification& v) {
-    const CheckedReading& worst = v.worst();
+std::string row(const verification::Verification& v) {
+    const verification::CheckedReading& worst = v.worst();
     return fmt::format("{:19} {:34} {:12} {:8.5g} {:10.5g}  {:5} {:7.2g} {:6.2f} {:8.2f}\n", v.name,
                        v.variant, v.method, worst.exact.value, worst.measured.value, v.unit,
                        100 * v.widest_interval(), worst.z, v.elapsed_s);
 }
 
-std::string reading_rows(const Verification& v) {
+std::string reading_rows(const verification::Verification& v) {
     std::string text;
-    for (const CheckedReading& reading : v.readings) {
+    for (const verification::CheckedReading& reading : v.readings) {
         text += fmt::format("    {:63} {:8.5g} {:10.5g}  {:5} {:7.2g} {:6.2f}\n",
                             place_text(reading.exact.measurand), reading.exact.value, reading.measured.value,
                             v.unit, 100 * relative_half_width(reading.measured), reading.z);
@@ -52,11 +52,11 @@ std::string reading_rows(const Verification& v) {
     return text;
 }
 
-nlohmann::ordered_json to_json(const Verification& v) {
+nlohmann::ordered_json to_json(const verification::Verification& v) {
     nlohmann::ordered_json readings = nlohmann::ordered_json::array();
-    for (const CheckedReading& reading : v.readings) {
-        const Estimate& measured = reading.measured;
-        nlohmann::ordered_json json = place_json(reading.exact.measurand);
+    for (const verification::CheckedReading& reading : v.readings) {
+        const statistics::Estimate& measured = reading.measured;
+        nlohmann::ordered_json json = io::place_json(reading.exact.measurand);
         json["exact"] = reading.exact.value;
         json["tolerance"] = reading.exact.tolerance;
         json["value"] = measured.value;
@@ -74,9 +74,10 @@ nlohmann::ordered_json to_json(const Verification& v) {
             {"readings", std::move(readings)}};
 }
 
-void require_known(const std::vector<std::string>& names, const std::vector<VerificationCase>& cases) {
+void require_known(const std::vector<std::string>& names,
+                   const std::vector<verification::VerificationCase>& cases) {
     std::vector<std::string_view> known;
-    for (const VerificationCase& c : cases) {
+    for (const verification::VerificationCase& c : cases) {
         if (known.empty() || known.back() != c.name) known.push_back(c.name);
     }
     for (const std::string& name : names) {
@@ -89,14 +90,15 @@ void require_known(const std::vector<std::string>& names, const std::vector<Veri
 }
 
 /// Those of these names (empty: of all) that one of the methods is for.
-std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names,
-                                           const std::vector<EstimatorEntry>& methods) {
-    std::vector<VerificationCase> cases = verification_cases();
+std::vector<verification::VerificationCase> chosen_cases(
+    const std::vector<std::string>& names, const std::vector<estimators::EstimatorEntry>& methods) {
+    std::vector<verification::VerificationCase> cases = verification::verification_cases();
     require_known(names, cases);
-    std::erase_if(cases, [&](const VerificationCase& c) {
+    std::erase_if(cases, [&](const verification::VerificationCase& c) {
         const bool is_named = names.empty() || std::find(names.begin(), names.end(), c.name) != names.end();
-        return !is_named || std::none_of(methods.begin(), methods.end(),
-                                         [&](const EstimatorEntry& method) { return c.is_for(method); });
+        return !is_named ||
+               std::none_of(methods.begin(), methods.end(),
+                            [&](const estimators::EstimatorEntry& method) { return c.is_for(method); });
     });
     if (cases.empty()) {
         throw InputError(
@@ -105,11 +107,11 @@ std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names
     return cases;
 }
 
-std::vector<EstimatorEntry> chosen_methods(const std::vector<std::string>& names) {
-    if (names.empty()) return unbiased_estimators();
-    std::vector<EstimatorEntry> methods;
+std::vector<estimators::EstimatorEntry> chosen_methods(const std::vector<std::string>& names) {
+    if (names.empty()) return estimators::unbiased_estimators();
+    std::vector<estimators::EstimatorEntry> methods;
     for (const std::string& name : names) {
-        methods.push_back(find_estimator(name));
+        methods.push_back(estimators::find_estimator(name));
         if (methods.back().is_deterministic) {
             throw InputError(fmt::format("--method {}: it knows no errors to judge its readings by.", name));
         }
@@ -119,7 +121,7 @@ std::vector<EstimatorEntry> chosen_methods(const std::vector<std::string>& names
 
 RunOptions run_options(const VerifyRequest& request) {
     RunOptions options;
-    options.error = parse_relative_error(request.error);
+    options.error = run::parse_relative_error(request.error);
     if (!options.error) {
         throw InputError(
             fmt::format("--error {}: a share between 0 and 1 is needed, such as 0.01 or 1%", request.error));
@@ -131,9 +133,9 @@ RunOptions run_options(const VerifyRequest& request) {
 }
 
 /// What is wrong with the results; empty where nothing is.
-std::string complaints(const std::vector<Verification>& results, double error) {
+std::string complaints(const std::vector<verification::Verification>& results, double error) {
     std::string text;
-    for (const Verification& v : results) {
+    for (const verification::Verification& v : results) {
         const std::string who = fmt::format("{}, {}, {}", v.name, v.variant, v.method);
         if (v.contradicts()) text += fmt::format("CONTRADICTION: {}: z = {:.2f}\n", who, v.worst().z);
         if (!(v.widest_interval() <= error)) {
@@ -144,39 +146,42 @@ std::string complaints(const std::vector<Verification>& results, double error) {
     return text;
 }
 
-std::string notes(const std::vector<VerificationCase>& cases) {
+std::string notes(const std::vector<verification::VerificationCase>& cases) {
     std::string text;
     std::string_view last_name;
-    for (const VerificationCase& c : cases) {
+    for (const verification::VerificationCase& c : cases) {
         if (c.name != last_name && !c.note.empty()) text += fmt::format("{}: {}\n", c.name, c.note);
         last_name = c.name;
     }
     return text;
 }
 
-std::string closing_words(const std::vector<Verification>& results,
-                          const std::vector<VerificationCase>& cases, double error) {
+std::string closing_words(const std::vector<verification::Verification>& results,
+                          const std::vector<verification::VerificationCase>& cases, double error) {
     std::size_t readings = 0;
-    for (const Verification& v : results) readings += v.readings.size();
+    for (const verification::Verification& v : results) readings += v.readings.size();
     const std::string wrong = complaints(results, error);
     return fmt::format(
         "\nEach row shows its reading with the largest |z| and its widest 95 % interval. {} readings; if "
         "all\n"
         "methods are right, one of them has |z| > {:g} with a chance of {:.2g} %.\n{}\n{}",
-        readings, kContradictionZ, 100 * false_alarm_chance(readings), notes(cases),
+        readings, verification::kContradictionZ, 100 * verification::false_alarm_chance(readings),
+        notes(cases),
         wrong.empty()
             ? fmt::format("All readings agree with the exact values, within ± {:g} %.\n", 100 * error)
             : wrong);
 }
 
 /// Shows every row as soon as it is known.
-std::vector<Verification> verify_all(const VerifyRequest& request, const std::vector<VerificationCase>& cases,
-                                     const std::vector<EstimatorEntry>& methods, RunOptions options) {
+std::vector<verification::Verification> verify_all(const VerifyRequest& request,
+                                                   const std::vector<verification::VerificationCase>& cases,
+                                                   const std::vector<estimators::EstimatorEntry>& methods,
+                                                   RunOptions options) {
     const std::atomic<bool>& interrupt = watch_for_interrupt();
-    std::vector<Verification> results;
+    std::vector<verification::Verification> results;
     if (!request.json) fmt::print("{}", kTableHeader);
-    for (const VerificationCase& c : cases) {
-        for (const EstimatorEntry& method : methods) {
+    for (const verification::VerificationCase& c : cases) {
+        for (const estimators::EstimatorEntry& method : methods) {
             if (interrupt || !c.is_for(method)) continue;
             options.method = method.name;
             {
@@ -193,12 +198,12 @@ std::vector<Verification> verify_all(const VerifyRequest& request, const std::ve
 
 int run_verify(const VerifyRequest& request) {
     const RunOptions options = run_options(request);
-    const std::vector<EstimatorEntry> methods = chosen_methods(request.methods);
-    const std::vector<VerificationCase> cases = chosen_cases(request.cases, methods);
-    const std::vector<Verification> results = verify_all(request, cases, methods, options);
+    const std::vector<estimators::EstimatorEntry> methods = chosen_methods(request.methods);
+    const std::vector<verification::VerificationCase> cases = chosen_cases(request.cases, methods);
+    const std::vector<verification::Verification> results = verify_all(request, cases, methods, options);
     if (request.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
-        for (const Verification& v : results) all.push_back(to_json(v));
+        for (const verification::Verification& v : results) all.push_back(to_json(v));
         fmt::print("{}\n", all.dump(2));
     } else {
         fmt::print("{}", closing_words(results, cases, *options.error));
@@ -234,4 +239,4 @@ void add_verify(CLI::App& app, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = run_verify(*request); });
 }
 
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// The numbers of a pixel's sample. Sobol' points for the place in the pixel and the first light and
 /// direction.
-SampleStream stream_of(const Pixel& pixel, int width, const Pass& pass) {
+math::SampleStream stream_of(const Pixel& pixel, int width, const Pass& pass) {
     constexpr unsigned sobol_dimensions = 8;
     const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(width) +
                         static_cast<std::uint64_t>(pixel.x);
@@ -17,7 +17,8 @@ SampleStream stream_of(const Pixel& pixel, int width, const Pass& pass) {
 }
 
 /// The unit direction that a sample of a pixel looks along; nothing beside what the camera shows.
-std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pixel, SampleStream& stream) {
+std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pixel,
+                                 math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
     if (tracing.camera.filter == PixelFilter::box) {
         return tracing.view.direction_at(pixel.x + u1, pixel.y + u2);
@@ -42,23 +43,23 @@ PictureTracing::PictureTracing(const PictureInput& input)
       tracer(scene, caster, lights) {}
 
 CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pass& pass) const {
-    std::vector<Ray> rays;
-    std::vector<SampleStream> streams;
+    std::vector<rays::Ray> rays;
+    std::vector<math::SampleStream> streams;
     std::vector<std::size_t> pixel_of_ray;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        SampleStream stream = stream_of(pixels[i], camera.resolution[0], pass);
+        math::SampleStream stream = stream_of(pixels[i], camera.resolution[0], pass);
         const auto direction = sample_pixel(*this, pixels[i], stream);
         if (!direction) continue;
         rays.push_back({view.position(), *direction});
         streams.push_back(stream);
         pixel_of_ray.push_back(i);
     }
-    std::vector<std::optional<Hit>> hits(rays.size());
-    caster.closest(rays, Coherence::coherent, hits);
+    std::vector<std::optional<rays::Hit>> hits(rays.size());
+    caster.closest(rays, rays::Coherence::coherent, hits);
     CameraPaths started;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!hits[i]) continue;
-        Path path{*hits[i], -rays[i].direction, streams[i], max_reflections};
+        transport::Path path{*hits[i], -rays[i].direction, streams[i], max_reflections};
         path.luminance_cd_m2 = lights.emitted_luminance(path.hit);
         started.paths.push_back(path);
         started.pixels.push_back(pixel_of_ray[i]);
@@ -66,11 +67,11 @@ CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pas
     return started;
 }
 
-std::uint64_t CameraPaths::write_to(std::span<Spectrum> luminances_cd_m2) const {
-    std::ranges::fill(luminances_cd_m2, Spectrum{});
+std::uint64_t CameraPaths::write_to(std::span<Rgb> luminances_cd_m2) const {
+    std::ranges::fill(luminances_cd_m2, Rgb{});
     std::uint64_t invalid = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        const Spectrum& luminance = paths[i].luminance_cd_m2;
+        const Rgb& luminance = paths[i].luminance_cd_m2;
         if (luminance.is_finite()) {
             luminances_cd_m2[pixels[i]] = luminance;
         } else {
@@ -88,4 +89,4 @@ std::vector<Pixel> pixels_of(const PixelBlock& block) {
     return pixels;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -7,7 +7,7 @@
 #include "estimators/picture_estimator.h"
 #include "transport/path_tracer.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// What of a pass's key the pixels' own numbers are derived by; other purposes take other numbers.
 inline constexpr std::uint64_t kPixels = 1;
@@ -18,12 +18,12 @@ struct Pixel {
 
 /// Paths that stand on what pixels see. The emission that is seen is in their luminances.
 struct CameraPaths {
-    std::vector<Path> paths;
+    std::vector<transport::Path> paths;
     std::vector<std::size_t> pixels;  ///< of each path: which of the pixels asked for
 
     /// Writes what the paths have gathered, and 0 for the others of `luminances_cd_m2`, one for each pixel
     /// asked for. Returns the number that were not finite: these are 0.
-    std::uint64_t write_to(std::span<Spectrum> luminances_cd_m2) const;
+    std::uint64_t write_to(std::span<Rgb> luminances_cd_m2) const;
 };
 
 /// Keeps references to the scene and its ray caster. Immutable.
@@ -34,15 +34,15 @@ struct PictureTracing {
     CameraPaths start_paths(std::span<const Pixel> pixels, const Pass& pass) const;
 
     const Scene& scene;
-    const RayCaster& caster;
+    const rays::RayCaster& caster;
     Camera camera;
-    CameraView view;
+    sensors::CameraView view;
     int max_reflections;
-    LightSampler lights;
-    PathTracer tracer;
+    transport::LightSampler lights;
+    transport::PathTracer tracer;
 };
 
 /// The pixels of a block, row by row.
 std::vector<Pixel> pixels_of(const PixelBlock& block);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

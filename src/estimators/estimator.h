@@ -14,19 +14,19 @@
 #include "math/random.h"
 #include "transport/receiver.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// The unit of work: samples first ... first + count - 1 of the replicate that `key` stands for. What a batch
 /// adds depends on these alone.
 struct Batch {
-    RandomKey key;
+    math::RandomKey key;
     std::uint64_t first = 0;
     std::uint64_t count = 0;
 };
 
 /// What batches of one replicate add up to. The value of a reading is known part + sum / samples.
 struct ReadingSums {
-    std::vector<Spectrum> sum;    ///< one for each reading [lx or cd/m2, x samples]
+    std::vector<Rgb> sum;         ///< one for each reading [lx or cd/m2, x samples]
     std::vector<double> largest;  ///< largest single contribution to each reading, before division
     std::uint64_t rays = 0;
     std::uint64_t invalid = 0;  ///< contributions that were not finite, left out
@@ -34,7 +34,7 @@ struct ReadingSums {
     explicit ReadingSums(std::size_t readings) : sum(readings), largest(readings) {}
 
     /// Adds a contribution to a reading.
-    void add(std::size_t reading, const Spectrum& contribution) {
+    void add(std::size_t reading, const Rgb& contribution) {
         if (!contribution.is_finite()) {
             ++invalid;
             return;
@@ -51,7 +51,7 @@ class Estimator {
     /// Adds a batch. Batches may run in parallel on different sums.
     virtual void run_batch(const Batch& batch, ReadingSums& sums) const = 0;
     /// The part of each reading that is known without sampling [lx or cd/m2].
-    virtual std::span<const Spectrum> known_part() const = 0;
+    virtual std::span<const Rgb> known_part() const = 0;
     /// The number of samples of a batch is a multiple of this.
     virtual std::uint64_t batch_granularity() const = 0;
     /// Rays that one sample costs, roughly, over all readings: batches are made long or short by it.
@@ -62,4 +62,4 @@ class Estimator {
     virtual std::optional<PatchReport> patch_report() const { return std::nullopt; }
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

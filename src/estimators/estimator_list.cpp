@@ -17,7 +17,7 @@
 #include "estimators/path/path.h"
 #include "estimators/path/picture_path.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr std::array<std::string_view, 6> kBundleFlags{"--patch",      "--first-shot", "--window",
@@ -85,4 +85,4 @@ const EstimatorEntry& find_estimator(std::string_view name) {
                                  fmt::join(names, ", ")));
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

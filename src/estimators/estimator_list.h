@@ -12,17 +12,17 @@
 #include "rays/ray_caster.h"
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// What every estimator is made from. The estimator keeps references to scene and caster, and copies the
 /// measurands.
 struct EstimatorInput {
     const Scene& scene;
-    const RayCaster& caster;
+    const rays::RayCaster& caster;
     std::span<const Measurand> measurands;
     int max_reflections;
     /// For decisions that are taken before sampling starts; independent of all batches' keys.
-    RandomKey preparation_key;
+    math::RandomKey preparation_key;
     /// How much each point's relative variance matters beside the others'. Empty: all alike.
     std::span<const double> weights = {};
     /// For methods that light patches, and first shot.
@@ -58,4 +58,4 @@ std::vector<std::string_view> luminance_methods();
 /// Throws InputError, with the nearest name, where there is no such method.
 const EstimatorEntry& find_estimator(std::string_view name);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

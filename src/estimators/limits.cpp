@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "estimators/estimator.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what) {
@@ -73,7 +73,7 @@ void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::
 }
 
 void require_all_reflections(int max_reflections, std::string_view method) {
-    if (max_reflections == kUnlimited) return;
+    if (max_reflections == transport::kUnlimited) return;
     throw InputError(
         fmt::format("method {} makes all reflections at once: it cannot limit them (--bounces).", method));
 }
@@ -87,4 +87,4 @@ std::vector<std::string> local_warnings(const Scene& scene) {
                              "by a mirror or glass last");
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

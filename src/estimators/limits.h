@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 bool has_specular_surfaces(const Scene& scene);
 
@@ -27,4 +27,4 @@ void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::
 /// Throws InputError where reflections are limited.
 void require_all_reflections(int max_reflections, std::string_view method);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

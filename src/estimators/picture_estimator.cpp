@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 struct Range {
@@ -29,4 +29,4 @@ std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution, const st
     return blocks;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

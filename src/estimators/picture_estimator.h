@@ -16,7 +16,7 @@
 #include "rays/ray_caster.h"
 #include "sensors/camera.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// A part of the picture that is worked on at a time.
 struct PixelBlock {
@@ -33,7 +33,7 @@ std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution,
 /// Sample `index` of the replicate that `key` stands for. What a pass makes of a block depends on these and
 /// the block alone.
 struct Pass {
-    RandomKey key;
+    math::RandomKey key;
     std::uint64_t index = 0;
     std::uint64_t replicate = 0;  ///< its number, for what was computed before
 };
@@ -45,7 +45,7 @@ class PicturePass {
 
     /// One unbiased sample of every pixel's luminance [cd/m2] of a block, row by row; returns the number of
     /// samples that were not finite: these are 0. Blocks may run in parallel.
-    virtual std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const = 0;
+    virtual std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const = 0;
 };
 
 class PictureEstimator {
@@ -63,13 +63,13 @@ class PictureEstimator {
 /// The estimator keeps references to scene and caster.
 struct PictureInput {
     const Scene& scene;
-    const RayCaster& caster;
+    const rays::RayCaster& caster;
     Camera camera;
     int max_reflections;
     /// For decisions that are taken before sampling starts; independent of all passes' keys.
-    RandomKey preparation_key;
+    math::RandomKey preparation_key;
     /// For methods that light patches.
     PatchOptions patches = {};
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 using Four = std::array<double, 4>;
@@ -108,4 +108,4 @@ InnerBall largest_ball(std::span<const HalfSpace> walls, double reach) {
     return {ball.center, nearest_wall(walls, ball.center).second};
 }
 
-}  // namespace stilb
+}  // namespace stilb::fit

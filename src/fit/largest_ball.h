@@ -5,7 +5,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::fit {
 
 /// The points x with dot(normal, x) <= offset; `normal` is a unit vector.
 struct HalfSpace {
@@ -25,4 +25,4 @@ struct InnerBall {
 /// centre, and the greatest but for 1e-6 of `reach`.
 InnerBall largest_ball(std::span<const HalfSpace> walls, double reach);
 
-}  // namespace stilb
+}  // namespace stilb::fit

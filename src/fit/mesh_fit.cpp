@@ -9,7 +9,7 @@
 #include "fit/outward.h"
 #include "geometry/harmonics/surface.h"
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 constexpr int kFewestParallels = 128;
@@ -57,12 +57,12 @@ void require_star_shape(const MeshFit& fit, const MeshFitOptions& options, const
 
 void require_positive_radius(const MeshFit& fit, const std::string& name) {
     try {
-        const HarmonicSurface surface{HarmonicSeries<double>(fit.coefficients)};
+        const geometry::HarmonicSurface surface{math::HarmonicSeries<double>(fit.coefficients)};
     } catch (const InputError& error) {
         throw InputError(
             fmt::format("the series of degree {} about ({:.4g}, {:.4g}, {:.4g}) is no surface: {}. Give a "
                         "--center farther from the mesh, or another --degree (a lower one swings less).",
-                        HarmonicSeries<double>(fit.coefficients).degree(), fit.center.x, fit.center.y,
+                        math::HarmonicSeries<double>(fit.coefficients).degree(), fit.center.x, fit.center.y,
                         fit.center.z, error.what()),
             {name});
     }
@@ -95,7 +95,7 @@ MeshFit fit_mesh(const Mesh& mesh, const MeshFitOptions& options, const std::str
     require_star_shape(fit, options, name);
 
     fit.parallels = parallels_for(options.degree);
-    const ParallelGrid grid = gauss_grid(fit.parallels);
+    const geometry::ParallelGrid grid = geometry::gauss_grid(fit.parallels);
     std::vector<double> radii = caster.outermost(fit.center, grid.directions());
     fill_holes(grid, radii);
     fit.coefficients = project(grid, radii, options.degree);
@@ -105,4 +105,4 @@ MeshFit fit_mesh(const Mesh& mesh, const MeshFitOptions& options, const std::str
     return fit;
 }
 
-}  // namespace stilb
+}  // namespace stilb::fit

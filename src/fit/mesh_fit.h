@@ -9,7 +9,7 @@
 #include "fit/star_survey.h"
 #include "geometry/harmonics/projection.h"
 
-namespace stilb {
+namespace stilb::fit {
 
 /// What to do with a mesh that is not star-shaped in more directions than are tolerated.
 enum class NotStarShaped { refuse, take_outermost };
@@ -31,7 +31,7 @@ struct MeshFit {
     std::vector<double> coefficients;  ///< rounded to single precision
     /// Distances along rays from the centre, per degree that the series might end with, in the directions of
     /// the survey that meet the mesh.
-    std::vector<DegreeError> errors;
+    std::vector<geometry::DegreeError> errors;
 };
 
 /// Gauss-Legendre parallels for a degree: four times what is needed, so that of the mesh's higher degrees
@@ -42,4 +42,4 @@ int parallels_for(int degree);
 /// where the series' radius comes to 0.
 MeshFit fit_mesh(const Mesh& mesh, const MeshFitOptions& options, const std::string& name);
 
-}  // namespace stilb
+}  // namespace stilb::fit

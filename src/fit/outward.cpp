@@ -6,7 +6,7 @@
 
 #include "geometry/mesh_edges.h"
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 /// Per triangle, those beyond its edges, and whether their fronts lie on different sides.
@@ -16,11 +16,11 @@ struct Neighbour {
 };
 using Neighbours = std::vector<std::vector<Neighbour>>;
 
-Neighbours neighbours_of(const std::vector<EdgeUse>& uses, std::size_t triangles) {
+Neighbours neighbours_of(const std::vector<geometry::EdgeUse>& uses, std::size_t triangles) {
     Neighbours neighbours(triangles);
     for_each_edge(uses, [&](auto first, auto last) {
         if (last - first != 2) return;
-        const EdgeUse &a = *first, &b = *(first + 1);
+        const geometry::EdgeUse &a = *first, &b = *(first + 1);
         const bool is_turned = a.upwards == b.upwards;
         neighbours[a.triangle].push_back({b.triangle, is_turned});
         neighbours[b.triangle].push_back({a.triangle, is_turned});
@@ -83,7 +83,8 @@ double volume_of(const Mesh& mesh, const std::vector<std::uint32_t>& part, const
 }  // namespace
 
 OutwardMesh outward(const Mesh& mesh) {
-    const std::vector<EdgeUse> uses = edge_uses(mesh.triangles, welded(mesh.vertices));
+    const std::vector<geometry::EdgeUse> uses =
+        geometry::edge_uses(mesh.triangles, geometry::welded(mesh.vertices));
     OutwardMesh result{mesh};
     for_each_edge(uses, [&](auto first, auto last) { result.open_edges += last - first == 2 ? 0 : 1; });
     const Neighbours neighbours = neighbours_of(uses, mesh.triangles.size());
@@ -102,4 +103,4 @@ OutwardMesh outward(const Mesh& mesh) {
     return result;
 }
 
-}  // namespace stilb
+}  // namespace stilb::fit

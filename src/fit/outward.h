@@ -5,7 +5,7 @@
 
 #include "geometry/shape.h"
 
-namespace stilb {
+namespace stilb::fit {
 
 struct OutwardMesh {
     Mesh mesh;
@@ -19,4 +19,4 @@ struct OutwardMesh {
 /// one-sided have no outside, and keep some edges with different sides.
 OutwardMesh outward(const Mesh& mesh);
 
-}  // namespace stilb
+}  // namespace stilb::fit

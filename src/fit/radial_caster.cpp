@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 Scene scene_of(const Mesh& mesh) {
@@ -19,14 +19,14 @@ RadialCaster::RadialCaster(const Mesh& mesh) : scene_(scene_of(mesh)), caster_(s
 
 std::vector<double> RadialCaster::outermost(const Vec3& center, std::span<const Vec3> directions) const {
     const double beyond = 1.01 * (length(center - caster_.center()) + 2 * caster_.half_extent_m());
-    std::vector<Ray> rays;
+    std::vector<rays::Ray> rays;
     rays.reserve(directions.size());
     for (const Vec3& direction : directions) rays.push_back({center + beyond * direction, -direction});
     return distances(center, directions, rays);
 }
 
 std::vector<double> RadialCaster::innermost(const Vec3& center, std::span<const Vec3> directions) const {
-    std::vector<Ray> rays;
+    std::vector<rays::Ray> rays;
     rays.reserve(directions.size());
     for (const Vec3& direction : directions) rays.push_back({center, direction});
     return distances(center, directions, rays);
@@ -34,11 +34,11 @@ std::vector<double> RadialCaster::innermost(const Vec3& center, std::span<const 
 
 /// Rays from outside may go on through the centre to the other side: then they met nothing.
 std::vector<double> RadialCaster::distances(const Vec3& center, std::span<const Vec3> directions,
-                                            std::span<const Ray> rays) const {
-    std::vector<std::optional<Hit>> hits(rays.size());
+                                            std::span<const rays::Ray> rays) const {
+    std::vector<std::optional<rays::Hit>> hits(rays.size());
     // Coherent packets about an axis, where a component of the directions nearly vanishes, lose rays in
     // Embree 3.13.
-    caster_.closest(rays, Coherence::scattered, hits);
+    caster_.closest(rays, rays::Coherence::scattered, hits);
     std::vector<double> distances;
     distances.reserve(hits.size());
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -48,4 +48,4 @@ std::vector<double> RadialCaster::distances(const Vec3& center, std::span<const 
     return distances;
 }
 
-}  // namespace stilb
+}  // namespace stilb::fit

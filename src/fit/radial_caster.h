@@ -7,7 +7,7 @@
 
 #include "rays/ray_caster.h"
 
-namespace stilb {
+namespace stilb::fit {
 
 /// Where a direction meets nothing.
 inline constexpr double kNoSurface = std::numeric_limits<double>::quiet_NaN();
@@ -23,10 +23,10 @@ class RadialCaster {
 
   private:
     std::vector<double> distances(const Vec3& center, std::span<const Vec3> directions,
-                                  std::span<const Ray> rays) const;
+                                  std::span<const rays::Ray> rays) const;
 
     Scene scene_;
-    RayCaster caster_;
+    rays::RayCaster caster_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::fit

@@ -9,7 +9,7 @@
 #include "fit/largest_ball.h"
 #include "geometry/harmonics/parallel_grid.h"
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 /// Steps of the search, as parts of the size.
@@ -69,7 +69,7 @@ class Search {
           caster_(caster),
           bounds_(bounds),
           size_(2 * bounds.half_extent()),
-          directions_(even_grid(kParallels).directions()) {}
+          directions_(geometry::even_grid(kParallels).directions()) {}
 
     Candidate from(const Vec3& start) const {
         Candidate best{start, cost_at(start)};
@@ -151,4 +151,4 @@ StarCenter find_star_center(const Mesh& mesh, const RadialCaster& caster) {
     return {(from_volume.cost <= from_ball.cost ? from_volume : from_ball).center, ball.radius};
 }
 
-}  // namespace stilb
+}  // namespace stilb::fit

@@ -5,7 +5,7 @@
 #include "base/vec.h"
 #include "fit/radial_caster.h"
 
-namespace stilb {
+namespace stilb::fit {
 
 struct StarCenter {
     Vec3 center;
@@ -29,4 +29,4 @@ double superfluous_crossings(const Mesh& mesh, const Vec3& from);
 /// volume and from that of the ball. Fronts are outside; `caster` is that of the same mesh.
 StarCenter find_star_center(const Mesh& mesh, const RadialCaster& caster);
 
-}  // namespace stilb
+}  // namespace stilb::fit

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 constexpr int kParallels = 317;
@@ -31,7 +31,7 @@ std::vector<Fold> separate(const std::vector<Fold>& folds) {
 }  // namespace
 
 StarSurvey survey(const RadialCaster& caster, const Vec3& center, double size) {
-    StarSurvey survey{even_grid(kParallels), {}, 0, 0, {}, {}};
+    StarSurvey survey{geometry::even_grid(kParallels), {}, 0, 0, {}, {}};
     const std::vector<Vec3> directions = survey.grid.directions();
     survey.outermost = caster.outermost(center, directions);
     const std::vector<double> innermost = caster.innermost(center, directions);
@@ -66,4 +66,4 @@ std::string named_direction(const Vec3& direction) {
                        direction.z, angles.theta_deg, angles.phi_deg);
 }
 
-}  // namespace stilb
+}  // namespace stilb::fit

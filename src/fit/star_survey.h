@@ -7,7 +7,7 @@
 #include "fit/radial_caster.h"
 #include "geometry/harmonics/parallel_grid.h"
 
-namespace stilb {
+namespace stilb::fit {
 
 /// A direction that meets the surface more than once.
 struct Fold {
@@ -16,7 +16,7 @@ struct Fold {
 };
 
 struct StarSurvey {
-    ParallelGrid grid;
+    geometry::ParallelGrid grid;
     std::vector<double> outermost;  ///< distances on the grid; kNoSurface where nothing is met
     /// Shares of all directions.
     double folded_share = 0, missed_share = 0;
@@ -43,4 +43,4 @@ Angles angles_of(const Vec3& direction);
 /// "(0.1, 0.2, 0.97), theta 12.9, phi 63.4 degrees"
 std::string named_direction(const Vec3& direction);
 
-}  // namespace stilb
+}  // namespace stilb::fit

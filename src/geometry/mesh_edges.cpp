@@ -3,7 +3,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace stilb {
+namespace stilb::geometry {
 
 std::vector<std::uint32_t> welded(std::span<const Vec3> vertices) {
     std::vector<std::uint32_t> order(vertices.size());
@@ -37,4 +37,4 @@ std::vector<EdgeUse> edge_uses(std::span<const Triangle> triangles,
     return uses;
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -8,7 +8,7 @@
 
 #include "geometry/shape.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// Per vertex, the first of those at the same place: files often repeat them.
 std::vector<std::uint32_t> welded(std::span<const Vec3> vertices);
@@ -36,4 +36,4 @@ void for_each_edge(const std::vector<EdgeUse>& uses, const Visitor& visit) {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -9,7 +9,7 @@
 #include "geometry/harmonics/cells.h"
 #include "geometry/harmonics/surface.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 double area(const Mesh& mesh) {
@@ -140,4 +140,4 @@ Vec3 Harmonics::normal_towards(const Vec3& direction) const {
     return axes.to_world(surface->normal_at(normalized(axes.to_local(direction))));
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -10,8 +10,11 @@
 #include "base/vec.h"
 
 namespace stilb {
-
 struct Bounds;
+}
+
+namespace stilb::geometry {
+
 class HarmonicArea;
 class HarmonicCells;
 class HarmonicSurface;
@@ -91,4 +94,16 @@ Mesh inscribed_icosahedron(const Sphere& sphere);
 /// The same of a surface by harmonics.
 Mesh inscribed_icosahedron(const Harmonics& harmonics);
 
+}  // namespace stilb::geometry
+
+namespace stilb {
+using geometry::Box;
+using geometry::Disk;
+using geometry::HarmonicMethod;
+using geometry::Harmonics;
+using geometry::Mesh;
+using geometry::Rectangle;
+using geometry::Shape;
+using geometry::Sphere;
+using geometry::Triangle;
 }  // namespace stilb

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 /// What a similarity multiplies lengths by.
@@ -90,4 +90,4 @@ Shape transformed(const Shape& shape, const Transform& transform) {
     return std::visit([&](const auto& s) { return moved(s, transform); }, shape);
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -3,7 +3,7 @@
 
 #include "geometry/shape.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// p -> x_axis p.x + y_axis p.y + z_axis p.z + translation.
 struct Transform {
@@ -33,4 +33,4 @@ Transform compose(const Transform& second, const Transform& first);
 /// stay put. For spheres, disks and harmonics the caller makes sure that the transform is a similarity.
 Shape transformed(const Shape& shape, const Transform& transform);
 
-}  // namespace stilb
+}  // namespace stilb::geometry

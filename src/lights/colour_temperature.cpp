@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace stilb {
+namespace stilb::lights {
 namespace {
 
 constexpr double kPlanckianUpTo_k = 4000;
@@ -33,21 +33,21 @@ Chromaticity daylight_chromaticity(double t) {
 }
 
 /// XYZ to linear Rec. 709 [IEC 61966-2-1]; cut to the gamut, luminance 1.
-Spectrum unit_luminance_colour(const Chromaticity& c) {
+Rgb unit_luminance_colour(const Chromaticity& c) {
     const double x = c.x / c.y;
     const double z = (1 - c.x - c.y) / c.y;
-    Spectrum rgb{{3.2406 * x - 1.5372 - 0.4986 * z, -0.9689 * x + 1.8758 + 0.0415 * z,
-                  0.0557 * x - 0.2040 + 1.0570 * z}};
+    Rgb rgb{{3.2406 * x - 1.5372 - 0.4986 * z, -0.9689 * x + 1.8758 + 0.0415 * z,
+             0.0557 * x - 0.2040 + 1.0570 * z}};
     for (double& value : rgb.band) value = std::max(value, 0.0);
     return rgb * (1 / rgb.luminance());
 }
 
 }  // namespace
 
-Spectrum colour_of_temperature(double temperature_k) {
+Rgb colour_of_temperature(double temperature_k) {
     const double daylight_share =
         std::clamp((temperature_k - kPlanckianUpTo_k) / (kDaylightFrom_k - kPlanckianUpTo_k), 0.0, 1.0);
-    Spectrum colour;
+    Rgb colour;
     if (daylight_share < 1) {
         colour += (1 - daylight_share) * unit_luminance_colour(planckian_chromaticity(temperature_k));
     }
@@ -57,4 +57,4 @@ Spectrum colour_of_temperature(double temperature_k) {
     return colour;
 }
 
-}  // namespace stilb
+}  // namespace stilb::lights

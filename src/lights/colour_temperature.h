@@ -3,7 +3,7 @@
 
 #include "base/rgb.h"
 
-namespace stilb {
+namespace stilb::lights {
 
 inline constexpr double kMinColourTemperature_k = 1000;
 inline constexpr double kMaxColourTemperature_k = 25000;
@@ -12,6 +12,6 @@ inline constexpr double kMaxColourTemperature_k = 25000;
 /// the caller). Up to 4000 K the Planckian radiator, from 5000 K daylight of the CIE, between them their
 /// mixture in proportion, as in [IES TM-30-18]: lamps are made to match the two. Below about 1900 K the
 /// colour lies outside of Rec. 709; its negative blue is cut to 0 and the luminance made 1 again.
-Spectrum colour_of_temperature(double temperature_k);
+Rgb colour_of_temperature(double temperature_k);
 
-}  // namespace stilb
+}  // namespace stilb::lights

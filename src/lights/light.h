@@ -8,33 +8,40 @@
 #include "base/rgb.h"
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::lights {
 
 /// Isotropic.
 struct PointLight {
     Vec3 position;
-    Spectrum intensity_cd;
+    Rgb intensity_cd;
 };
 
 /// A luminaire with an intensity distribution, small against its distance from everything.
-struct PhotometryLight {
+struct Luminaire {
     Vec3 position;
     SolidId solid{};
     /// Columns of the luminaire's frame in world coordinates: towards C0, towards C90, towards the nadir.
     Vec3 c0, c90, nadir;
     /// Multiplies the solid's intensity: colour (luminance 1) times dimming or flux override.
-    Spectrum factor;
+    Rgb factor;
 };
 
 /// One-sided diffuse emitter on the front of an object. A luminous sphere is one on a sphere.
 struct AreaLight {
     ObjectId object{};
-    Spectrum luminance_cd_m2;
+    Rgb luminance_cd_m2;
 };
 
 struct Light {
     std::string name;
-    std::variant<PointLight, PhotometryLight, AreaLight> source;
+    std::variant<PointLight, Luminaire, AreaLight> source;
 };
 
+}  // namespace stilb::lights
+
+namespace stilb {
+using lights::AreaLight;
+using lights::Light;
+using lights::Luminaire;
+using lights::PointLight;
 }  // namespace stilb

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::lights {
 namespace {
 
 /// The unit vector in the middle between the nadir of a hanging luminaire, -z, and the aim.
@@ -28,4 +28,4 @@ LuminaireFrame aim_luminaire(const Vec3& unit_aim, double spin_deg) {
     return {reflected(-hanging_c0, axis), reflected(-hanging_c90, axis), unit_aim};
 }
 
-}  // namespace stilb
+}  // namespace stilb::lights

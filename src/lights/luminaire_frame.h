@@ -3,7 +3,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::lights {
 
 /// Unit vectors of a luminaire's (left-handed) frame in the scene: towards C0, C90 and the nadir.
 struct LuminaireFrame {
@@ -15,4 +15,4 @@ struct LuminaireFrame {
 /// on the shortest way. For an aim of exactly +z that way is a half turn about the x axis.
 LuminaireFrame aim_luminaire(const Vec3& unit_aim, double spin_deg);
 
-}  // namespace stilb
+}  // namespace stilb::lights

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::lights {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
@@ -281,4 +281,4 @@ Vec3 PhotometricSolid::sample_direction(double u1, double u2) const {
         {equator * std::cos(plane_angle), equator * std::sin(plane_angle), std::cos(polar)});
 }
 
-}  // namespace stilb
+}  // namespace stilb::lights

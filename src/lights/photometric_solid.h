@@ -7,7 +7,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::lights {
 
 /// The axis that the planes of a photometric file turn about: A and C the vertical, B a horizontal one.
 enum class PhotometryType { A, B, C };
@@ -69,4 +69,8 @@ class PhotometricSolid {
     double peak_cd_ = 0;
 };
 
+}  // namespace stilb::lights
+
+namespace stilb {
+using lights::PhotometricSolid;
 }  // namespace stilb

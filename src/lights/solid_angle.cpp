@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::lights {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -71,7 +71,7 @@ class SphericalTriangle {
     double height_m() const { return std::abs(determinant_) / length(normal_); }
 
     Vec3 offset_by_area(double u1, double u2) const {
-        const Barycentric share = sample_triangle(u1, u2);
+        const math::Barycentric share = math::sample_triangle(u1, u2);
         return share.b1 * ab_ + share.b2 * ac_;
     }
 
@@ -297,4 +297,4 @@ std::optional<SolidAngleSample> sample_by_solid_angle(const Disk& disk, const Ve
     return sample;
 }
 
-}  // namespace stilb
+}  // namespace stilb::lights

@@ -9,7 +9,7 @@
 #include "geometry/shape.h"
 #include "math/sampling.h"
 
-namespace stilb {
+namespace stilb::lights {
 
 /// A point of an emitter, seen from a given point. pdf_per_sr is the density of the direction towards it.
 struct SolidAngleSample {
@@ -32,4 +32,4 @@ std::optional<SolidAngleSample> sample_by_solid_angle(const std::array<Vec3, 3>&
 std::optional<SolidAngleSample> sample_by_solid_angle(const Disk& disk, const Vec3& from, double u1,
                                                       double u2);
 
-}  // namespace stilb
+}  // namespace stilb::lights

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stilb {
+namespace stilb::materials {
 namespace {
 
 /// Gauss-Legendre on [0, 1].
@@ -64,4 +64,4 @@ double AlbedoTable::pdf_of_cosine(double cosine) const {
     return (cumulative_[cell + 1] - cumulative_[cell]) * 2 * cosine / (high * high - low * low);
 }
 
-}  // namespace stilb
+}  // namespace stilb::materials

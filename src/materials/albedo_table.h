@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace stilb {
+namespace stilb::materials {
 
 /// Piecewise linear in log(1 + cosine / alpha), so that what happens at cosines near alpha, where facets hide
 /// each other, is resolved as well for alpha = 0.001 as for 1.
@@ -39,4 +39,4 @@ class AlbedoTable {
     double average_ = 0;
 };
 
-}  // namespace stilb
+}  // namespace stilb::materials

@@ -6,7 +6,7 @@
 #include "base/vec.h"
 #include "materials/scatter_sample.h"
 
-namespace stilb {
+namespace stilb::materials {
 
 /// pi f / albedo at normal incidence, averaged over the reflected light: 1 for a diffuse material, large for
 /// a narrow lobe, 0 where nothing is reflected. By an even grid of samples; to a few per cent.
@@ -27,4 +27,4 @@ double concentration_at_normal_incidence(const Material& material) {
     return reflected > 0 ? squared / (reflected * reflected) : 0;
 }
 
-}  // namespace stilb
+}  // namespace stilb::materials

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stilb {
+namespace stilb::materials {
 
 double refracted_cosine(double cosine, double ior) {
     return std::sqrt(std::max(0.0, 1 - (1 - cosine) * (1 + cosine) / (ior * ior)));
@@ -17,4 +17,4 @@ FresnelReflectance fresnel_reflectance(double cosine, double ior) {
     return {across * across, along * along};
 }
 
-}  // namespace stilb
+}  // namespace stilb::materials

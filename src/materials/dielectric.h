@@ -1,7 +1,7 @@
 // What a smooth surface between two transparent media does to light.
 #pragma once
 
-namespace stilb {
+namespace stilb::materials {
 
 /// Shares of the flux that are reflected, for light polarised across (s) and along (p) the plane of
 /// incidence.
@@ -19,4 +19,4 @@ double refracted_cosine(double cosine, double ior);
 /// reflection.
 FresnelReflectance fresnel_reflectance(double cosine, double ior);
 
-}  // namespace stilb
+}  // namespace stilb::materials

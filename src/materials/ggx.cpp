@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace stilb {
+namespace stilb::materials {
 
-Vec3 Ggx::visible_normal(const Vec3& in, const DiskPoint& point) const {
+Vec3 Ggx::visible_normal(const Vec3& in, const math::DiskPoint& point) const {
     // On the hemisphere that the facets become when the surface is stretched by 1/alpha, a visible normal is
     // a point of the hemisphere's projection along the stretched direction.
     const Vec3 view = normalized(Vec3{alpha_ * in.x, alpha_ * in.y, in.z});
@@ -19,4 +19,4 @@ Vec3 Ggx::visible_normal(const Vec3& in, const DiskPoint& point) const {
     return normalized(Vec3{alpha_ * normal.x, alpha_ * normal.y, std::max(normal.z, 1e-12)});
 }
 
-}  // namespace stilb
+}  // namespace stilb::materials

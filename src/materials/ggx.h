@@ -9,7 +9,7 @@
 #include "base/vec.h"
 #include "math/sampling.h"
 
-namespace stilb {
+namespace stilb::materials {
 
 /// Half-vector of two directions above the surface: the normal of the facet that mirrors one to the other.
 inline Vec3 half_vector(const Vec3& in, const Vec3& out) {
@@ -44,7 +44,7 @@ class Ggx {
     }
     /// A normal of those visible from `in`, with their density where the point is uniform over the unit disk
     /// [Heitz 2018, Sampling the GGX distribution of visible normals].
-    Vec3 visible_normal(const Vec3& in, const DiskPoint& point) const;
+    Vec3 visible_normal(const Vec3& in, const math::DiskPoint& point) const;
 
   private:
     /// cos(theta) sqrt(1 + alpha^2 tan^2(theta)).
@@ -76,4 +76,4 @@ double mean_over_visible_normals(const Ggx& facets, double cosine, const Functio
     return sum / (kRings * kRays);
 }
 
-}  // namespace stilb
+}  // namespace stilb::materials

@@ -4,7 +4,7 @@
 
 #include "math/sampling.h"
 
-namespace stilb {
+namespace stilb::materials {
 namespace {
 
 /// Probability of drawing from the diffuse part; nothing where the material reflects nothing. In proportion
@@ -16,14 +16,14 @@ std::optional<double> diffuse_probability(const Phong& material) {
     return diffuse / total;
 }
 
-double pdf(const Diffuse&, const Vec3&, const Vec3& out) { return cosine_hemisphere_pdf_per_sr(out.z); }
+double pdf(const Diffuse&, const Vec3&, const Vec3& out) { return math::cosine_hemisphere_pdf_per_sr(out.z); }
 
 double pdf(const Phong& material, const Vec3& in, const Vec3& out) {
     const std::optional<double> diffuse = diffuse_probability(material);
     if (!diffuse) return 0;
     const double lobe_per_sr =
         (material.exponent + 1) / (2 * std::numbers::pi) * phong_lobe(material, in, out);
-    return *diffuse * cosine_hemisphere_pdf_per_sr(out.z) + (1 - *diffuse) * lobe_per_sr;
+    return *diffuse * math::cosine_hemisphere_pdf_per_sr(out.z) + (1 - *diffuse) * lobe_per_sr;
 }
 
 /// Rough, Ward, Plastic: classes that know their own.
@@ -32,12 +32,12 @@ double pdf(const Own& material, const Vec3& in, const Vec3& out) {
     return material.pdf_per_sr(in, out);
 }
 double pdf(const Mirror&, const Vec3&, const Vec3&) { return 0; }
-double pdf(const Glass&, const Vec3&, const Vec3&) { return 0; }
-double pdf(const Pane&, const Vec3&, const Vec3&) { return 0; }
+double pdf(const Dielectric&, const Vec3&, const Vec3&) { return 0; }
+double pdf(const ThinDielectric&, const Vec3&, const Vec3&) { return 0; }
 double pdf(const Black&, const Vec3&, const Vec3&) { return 0; }
 
 std::optional<ScatterSample> sample(const Diffuse& material, const Vec3&, double u1, double u2) {
-    const DirectionSample drawn = sample_cosine_hemisphere(u1, u2);
+    const math::DirectionSample drawn = math::sample_cosine_hemisphere(u1, u2);
     if (drawn.direction.z <= 0) return std::nullopt;
     return ScatterSample{drawn.direction, material.reflectance, drawn.pdf_per_sr};
 }
@@ -47,11 +47,11 @@ std::optional<ScatterSample> sample(const Phong& material, const Vec3& in, doubl
     if (!diffuse) return std::nullopt;
     Vec3 out;
     if (u1 < *diffuse) {
-        out = sample_cosine_hemisphere(u1 / *diffuse, u2).direction;
+        out = math::sample_cosine_hemisphere(u1 / *diffuse, u2).direction;
     } else {
-        const double u_lobe = std::min((u1 - *diffuse) / (1 - *diffuse), kBelowOne);
+        const double u_lobe = std::min((u1 - *diffuse) / (1 - *diffuse), math::kBelowOne);
         const Frame lobe = Frame::around({-in.x, -in.y, in.z});
-        out = lobe.to_world(sample_cosine_power(material.exponent, u_lobe, u2).direction);
+        out = lobe.to_world(math::sample_cosine_power(material.exponent, u_lobe, u2).direction);
     }
     if (out.z <= 0) return std::nullopt;
     const double density = pdf(material, in, out);
@@ -65,8 +65,10 @@ std::optional<ScatterSample> sample(const Own& material, const Vec3& in, double 
 }
 
 std::optional<ScatterSample> sample(const Mirror&, const Vec3&, double, double) { return std::nullopt; }
-std::optional<ScatterSample> sample(const Glass&, const Vec3&, double, double) { return std::nullopt; }
-std::optional<ScatterSample> sample(const Pane&, const Vec3&, double, double) { return std::nullopt; }
+std::optional<ScatterSample> sample(const Dielectric&, const Vec3&, double, double) { return std::nullopt; }
+std::optional<ScatterSample> sample(const ThinDielectric&, const Vec3&, double, double) {
+    return std::nullopt;
+}
 std::optional<ScatterSample> sample(const Black&, const Vec3&, double, double) { return std::nullopt; }
 
 double concentration(const Diffuse& material) { return material.reflectance.max() > 0 ? 1 : 0; }
@@ -83,19 +85,19 @@ double concentration(const Own& material) {
     return material.concentration();
 }
 double concentration(const Mirror&) { return 0; }
-double concentration(const Glass&) { return 0; }
-double concentration(const Pane&) { return 0; }
+double concentration(const Dielectric&) { return 0; }
+double concentration(const ThinDielectric&) { return 0; }
 double concentration(const Black&) { return 0; }
 
-Spectrum bound(const Diffuse& material) { return material.reflectance; }
-Spectrum bound(const Phong& material) { return material.diffuse + material.specular; }
-Spectrum bound(const Rough& material) { return material.reflectance(); }
-Spectrum bound(const Ward& material) { return material.diffuse() + material.specular(); }
-Spectrum bound(const Plastic& material) { return material.mean_reflectance(); }
-Spectrum bound(const Mirror& material) { return material.reflectance; }
-Spectrum bound(const Glass&) { return Spectrum::grey(1); }
-Spectrum bound(const Pane&) { return Spectrum::grey(1); }
-Spectrum bound(const Black&) { return {}; }
+Rgb bound(const Diffuse& material) { return material.reflectance; }
+Rgb bound(const Phong& material) { return material.diffuse + material.specular; }
+Rgb bound(const RoughConductor& material) { return material.reflectance(); }
+Rgb bound(const Ward& material) { return material.diffuse() + material.specular(); }
+Rgb bound(const Plastic& material) { return material.mean_reflectance(); }
+Rgb bound(const Mirror& material) { return material.reflectance; }
+Rgb bound(const Dielectric&) { return Rgb::grey(1); }
+Rgb bound(const ThinDielectric&) { return Rgb::grey(1); }
+Rgb bound(const Black&) { return {}; }
 
 }  // namespace
 
@@ -114,20 +116,20 @@ double mean_concentration(const Material& material) {
 }
 
 bool is_specular(const Material& material) {
-    return std::holds_alternative<Mirror>(material) || std::holds_alternative<Glass>(material) ||
-           std::holds_alternative<Pane>(material);
+    return std::holds_alternative<Mirror>(material) || std::holds_alternative<Dielectric>(material) ||
+           std::holds_alternative<ThinDielectric>(material);
 }
 
 SpecularBranches specular_branches(const Material& material, LightSide side, const Vec3& in) {
     if (in.z <= 0) return {};
     if (const auto* mirror = std::get_if<Mirror>(&material)) return specular_branches(*mirror, side, in);
-    if (const auto* glass = std::get_if<Glass>(&material)) return specular_branches(*glass, side, in);
-    if (const auto* pane = std::get_if<Pane>(&material)) return specular_branches(*pane, side, in);
+    if (const auto* glass = std::get_if<Dielectric>(&material)) return specular_branches(*glass, side, in);
+    if (const auto* pane = std::get_if<ThinDielectric>(&material)) return specular_branches(*pane, side, in);
     return {};
 }
 
-Spectrum reflectance_bound(const Material& material) {
+Rgb reflectance_bound(const Material& material) {
     return std::visit([](const auto& m) { return bound(m); }, material);
 }
 
-}  // namespace stilb
+}  // namespace stilb::materials

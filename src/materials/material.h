@@ -18,25 +18,26 @@
 #include "materials/specular.h"
 #include "materials/ward.h"
 
-namespace stilb {
+namespace stilb::materials {
 
 /// f = reflectance / pi.
 struct Diffuse {
-    Spectrum reflectance;
+    Rgb reflectance;
 };
 
 /// Energy-normalised modified Phong: f = diffuse/pi + specular (n+2)/(2 pi) cos+^n(alpha), where alpha is the
 /// angle to the mirrored direction and n the exponent; diffuse + specular <= 1 in every band.
 struct Phong {
-    Spectrum diffuse;
-    Spectrum specular;
+    Rgb diffuse;
+    Rgb specular;
     double exponent = 1;
 };
 
 /// Reflects nothing.
 struct Black {};
 
-using Material = std::variant<Diffuse, Phong, Rough, Ward, Plastic, Mirror, Glass, Pane, Black>;
+using Material =
+    std::variant<Diffuse, Phong, RoughConductor, Ward, Plastic, Mirror, Dielectric, ThinDielectric, Black>;
 
 /// cos+^n(alpha): the unnormalised lobe.
 inline double phong_lobe(const Phong& material, const Vec3& in, const Vec3& out) {
@@ -46,10 +47,10 @@ inline double phong_lobe(const Phong& material, const Vec3& in, const Vec3& out)
 
 /// BRDF [1/sr]; 0 for directions below the surface and for delta functions. Reciprocal. One overload per
 /// material too, so that a loop over many directions can pick the material outside.
-inline Spectrum evaluate_brdf_per_sr(const Diffuse& material, const Vec3& in, const Vec3& out) {
-    return in.z > 0 && out.z > 0 ? material.reflectance * std::numbers::inv_pi : Spectrum{};
+inline Rgb evaluate_brdf_per_sr(const Diffuse& material, const Vec3& in, const Vec3& out) {
+    return in.z > 0 && out.z > 0 ? material.reflectance * std::numbers::inv_pi : Rgb{};
 }
-inline Spectrum evaluate_brdf_per_sr(const Phong& material, const Vec3& in, const Vec3& out) {
+inline Rgb evaluate_brdf_per_sr(const Phong& material, const Vec3& in, const Vec3& out) {
     if (in.z <= 0 || out.z <= 0) return {};
     const double lobe_per_sr =
         (material.exponent + 2) / (2 * std::numbers::pi) * phong_lobe(material, in, out);
@@ -57,14 +58,14 @@ inline Spectrum evaluate_brdf_per_sr(const Phong& material, const Vec3& in, cons
 }
 /// Rough, Ward, Plastic.
 template <typename Own>
-Spectrum evaluate_brdf_per_sr(const Own& material, const Vec3& in, const Vec3& out) {
-    return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Spectrum{};
+Rgb evaluate_brdf_per_sr(const Own& material, const Vec3& in, const Vec3& out) {
+    return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Rgb{};
 }
-inline Spectrum evaluate_brdf_per_sr(const Mirror&, const Vec3&, const Vec3&) { return {}; }
-inline Spectrum evaluate_brdf_per_sr(const Glass&, const Vec3&, const Vec3&) { return {}; }
-inline Spectrum evaluate_brdf_per_sr(const Pane&, const Vec3&, const Vec3&) { return {}; }
-inline Spectrum evaluate_brdf_per_sr(const Black&, const Vec3&, const Vec3&) { return {}; }
-inline Spectrum evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
+inline Rgb evaluate_brdf_per_sr(const Mirror&, const Vec3&, const Vec3&) { return {}; }
+inline Rgb evaluate_brdf_per_sr(const Dielectric&, const Vec3&, const Vec3&) { return {}; }
+inline Rgb evaluate_brdf_per_sr(const ThinDielectric&, const Vec3&, const Vec3&) { return {}; }
+inline Rgb evaluate_brdf_per_sr(const Black&, const Vec3&, const Vec3&) { return {}; }
+inline Rgb evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
     return std::visit([&](const auto& m) { return evaluate_brdf_per_sr(m, in, out); }, material);
 }
 
@@ -82,6 +83,13 @@ SpecularBranches specular_branches(const Material& material, LightSide side, con
 double mean_concentration(const Material& material);
 /// Largest share of arriving light that is reflected, per band (a bound over directions); but for plastic,
 /// whose share rises to 1 along the surface, that of light from everywhere.
-Spectrum reflectance_bound(const Material& material);
+Rgb reflectance_bound(const Material& material);
 
+}  // namespace stilb::materials
+
+namespace stilb {
+using materials::Black;
+using materials::Diffuse;
+using materials::Material;
+using materials::Phong;
 }  // namespace stilb

@@ -6,7 +6,7 @@
 #include "materials/dielectric.h"
 #include "math/sampling.h"
 
-namespace stilb {
+namespace stilb::materials {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -21,8 +21,8 @@ double transmission_at(const Ggx& facets, double ior, double cosine) {
     return 1 - reflectance;
 }
 
-Spectrum reflectance_from_within(const Spectrum& diffuse, double coat_from_within) {
-    Spectrum result;
+Rgb reflectance_from_within(const Rgb& diffuse, double coat_from_within) {
+    Rgb result;
     for (std::size_t b = 0; b < kBands; ++b) {
         result[b] = diffuse[b] * (1 - coat_from_within) / (1 - diffuse[b] * coat_from_within);
     }
@@ -31,7 +31,7 @@ Spectrum reflectance_from_within(const Spectrum& diffuse, double coat_from_withi
 
 }  // namespace
 
-Plastic::Plastic(const Spectrum& diffuse, double ior, double roughness)
+Plastic::Plastic(const Rgb& diffuse, double ior, double roughness)
     : diffuse_(diffuse),
       ior_(ior),
       facets_(roughness),
@@ -40,8 +40,8 @@ Plastic::Plastic(const Spectrum& diffuse, double ior, double roughness)
     concentration_ = concentration_at_normal_incidence(*this);
 }
 
-Spectrum Plastic::mean_reflectance() const {
-    return Spectrum::grey(1 - transmission_.average()) + transmission_.average() * base_;
+Rgb Plastic::mean_reflectance() const {
+    return Rgb::grey(1 - transmission_.average()) + transmission_.average() * base_;
 }
 
 double Plastic::coat_probability(const Vec3& in) const {
@@ -50,31 +50,32 @@ double Plastic::coat_probability(const Vec3& in) const {
     return total > 0 ? (1 - through) / total : 0;
 }
 
-Spectrum Plastic::brdf_per_sr(const Vec3& in, const Vec3& out) const {
+Rgb Plastic::brdf_per_sr(const Vec3& in, const Vec3& out) const {
     const Vec3 half = half_vector(in, out);
     const double coat =
         fresnel_reflectance(dot(in, half), ior_).unpolarised() * facets_.brdf_per_sr(in, out, half);
     const double through = transmission_.at(in.z) * transmission_.at(out.z) / (kPi * transmission_.average());
-    return Spectrum::grey(coat) + base_ * through;
+    return Rgb::grey(coat) + base_ * through;
 }
 
 double Plastic::pdf_per_sr(const Vec3& in, const Vec3& out) const {
     const double coat = coat_probability(in);
     return coat * facets_.pdf_per_sr(in, half_vector(in, out)) +
-           (1 - coat) * cosine_hemisphere_pdf_per_sr(out.z);
+           (1 - coat) * math::cosine_hemisphere_pdf_per_sr(out.z);
 }
 
 std::optional<ScatterSample> Plastic::sample(const Vec3& in, double u1, double u2) const {
     const double coat = coat_probability(in);
     Vec3 out;
     if (u1 < coat) {
-        out = normalized(reflected(in, facets_.visible_normal(in, sample_unit_disk(u1 / coat, u2))));
+        out = normalized(reflected(in, facets_.visible_normal(in, math::sample_unit_disk(u1 / coat, u2))));
     } else {
-        out = sample_cosine_hemisphere(std::min((u1 - coat) / (1 - coat), kBelowOne), u2).direction;
+        out =
+            math::sample_cosine_hemisphere(std::min((u1 - coat) / (1 - coat), math::kBelowOne), u2).direction;
     }
     if (out.z <= 0) return std::nullopt;
     const double density = pdf_per_sr(in, out);
     return ScatterSample{out, brdf_per_sr(in, out) * (out.z / density), density};
 }
 
-}  // namespace stilb
+}  // namespace stilb::materials

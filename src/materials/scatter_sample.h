@@ -4,13 +4,13 @@
 #include "base/rgb.h"
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::materials {
 
 /// A scattered direction and what the light is multiplied by: weight = f cos(theta_out) / pdf.
 struct ScatterSample {
     Vec3 direction;
-    Spectrum weight;
+    Rgb weight;
     double pdf_per_sr = 0;
 };
 
-}  // namespace stilb
+}  // namespace stilb::materials

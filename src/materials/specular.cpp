@@ -4,7 +4,7 @@
 
 #include "materials/dielectric.h"
 
-namespace stilb {
+namespace stilb::materials {
 namespace {
 
 Vec3 mirrored(const Vec3& in) { return {-in.x, -in.y, in.z}; }
@@ -29,19 +29,19 @@ SpecularBranches specular_branches(const Mirror& material, LightSide, const Vec3
     return branches;
 }
 
-SpecularBranches specular_branches(const Glass& material, LightSide side, const Vec3& in) {
+SpecularBranches specular_branches(const Dielectric& material, LightSide side, const Vec3& in) {
     const double ior = side == LightSide::outside ? material.ior : 1 / material.ior;
     const double reflectance = fresnel_reflectance(in.z, ior).unpolarised();
     SpecularBranches branches;
-    branches.add({mirrored(in), Spectrum::grey(reflectance)});
+    branches.add({mirrored(in), Rgb::grey(reflectance)});
     if (reflectance < 1) {
         const Vec3 refracted = normalized(Vec3{-in.x / ior, -in.y / ior, -refracted_cosine(in.z, ior)});
-        branches.add({refracted, Spectrum::grey(1 - reflectance), 1 / (ior * ior)});
+        branches.add({refracted, Rgb::grey(1 - reflectance), 1 / (ior * ior)});
     }
     return branches;
 }
 
-SpecularBranches specular_branches(const Pane& material, LightSide, const Vec3& in) {
+SpecularBranches specular_branches(const ThinDielectric& material, LightSide, const Vec3& in) {
     const PaneShares shares = pane_shares(material, in.z);
     SpecularBranches branches;
     branches.add({mirrored(in), shares.reflectance});
@@ -49,7 +49,7 @@ SpecularBranches specular_branches(const Pane& material, LightSide, const Vec3& 
     return branches;
 }
 
-PaneShares pane_shares(const Pane& material, double cosine) {
+PaneShares pane_shares(const ThinDielectric& material, double cosine) {
     const FresnelReflectance face = fresnel_reflectance(cosine, material.ior);
     const double length = 1 / refracted_cosine(cosine, material.ior);
     PaneShares shares;
@@ -63,4 +63,4 @@ PaneShares pane_shares(const Pane& material, double cosine) {
     return shares;
 }
 
-}  // namespace stilb
+}  // namespace stilb::materials

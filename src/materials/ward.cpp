@@ -5,14 +5,14 @@
 #include "materials/concentration.h"
 #include "math/sampling.h"
 
-namespace stilb {
+namespace stilb::materials {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
 }  // namespace
 
-Ward::Ward(const Spectrum& diffuse, const Spectrum& specular, const Roughness& roughness, double rotation_deg)
+Ward::Ward(const Rgb& diffuse, const Rgb& specular, const Roughness& roughness, double rotation_deg)
     : diffuse_(diffuse),
       specular_(specular),
       roughness_(roughness),
@@ -35,12 +35,12 @@ Ward::Lobe Ward::lobe(const Vec3& in, const Vec3& out) const {
     return {spread / (h.z * h.z), spread / (2 * h.z)};
 }
 
-Spectrum Ward::brdf_per_sr(const Vec3& in, const Vec3& out) const {
+Rgb Ward::brdf_per_sr(const Vec3& in, const Vec3& out) const {
     return diffuse_ * std::numbers::inv_pi + specular_ * lobe(in, out).brdf_per_sr;
 }
 
 double Ward::pdf_per_sr(const Vec3& in, const Vec3& out) const {
-    return diffuse_probability_ * cosine_hemisphere_pdf_per_sr(out.z) +
+    return diffuse_probability_ * math::cosine_hemisphere_pdf_per_sr(out.z) +
            (1 - diffuse_probability_) * lobe(in, out).pdf_per_sr;
 }
 
@@ -56,10 +56,10 @@ std::optional<ScatterSample> Ward::sample(const Vec3& in, double u1, double u2) 
     if ((diffuse_ + specular_).max() <= 0) return std::nullopt;
     Vec3 out;
     if (u1 < diffuse_probability_) {
-        out = sample_cosine_hemisphere(u1 / diffuse_probability_, u2).direction;
+        out = math::sample_cosine_hemisphere(u1 / diffuse_probability_, u2).direction;
     } else {
         const double u_lobe = (u1 - diffuse_probability_) / (1 - diffuse_probability_);
-        out = mirrored_at_drawn_facet(in, std::min(u_lobe, kBelowOne), u2);
+        out = mirrored_at_drawn_facet(in, std::min(u_lobe, math::kBelowOne), u2);
     }
     if (out.z <= 0) return std::nullopt;
     const double density = pdf_per_sr(in, out);
@@ -67,4 +67,4 @@ std::optional<ScatterSample> Ward::sample(const Vec3& in, double u1, double u2) 
     return ScatterSample{out, brdf_per_sr(in, out) * (out.z / density), density};
 }
 
-}  // namespace stilb
+}  // namespace stilb::materials

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace stilb {
+namespace stilb::math {
 
 DiscreteDistribution::DiscreteDistribution(std::span<const double> weights) : cumulative_(weights.size()) {
     std::partial_sum(weights.begin(), weights.end(), cumulative_.begin());
@@ -26,4 +26,4 @@ double DiscreteDistribution::probability(std::size_t index) const {
     return (cumulative_[index] - (index == 0 ? 0 : cumulative_[index - 1])) / total();
 }
 
-}  // namespace stilb
+}  // namespace stilb::math

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace stilb {
+namespace stilb::math {
 
 /// Draws indices in proportion to fixed weights, by inversion: neighbouring numbers give neighbouring
 /// indices, and what is left of the number can be used again.
@@ -29,4 +29,4 @@ class DiscreteDistribution {
     std::vector<double> cumulative_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::math

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace stilb {
+namespace stilb::math {
 
 /// At first every member 0 ... count - 1 is a set of its own.
 class DisjointSets {
@@ -40,4 +40,4 @@ class DisjointSets {
     std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::math

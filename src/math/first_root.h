@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-namespace stilb {
+namespace stilb::math {
 
 /// Of a monotone function between `low` and `high`, where the signs differ; `guess` lies there, too. By
 /// Newton's steps, or halves where those lead out or hardly on. The last of Newton's steps is at most 1e-9 of
@@ -64,4 +64,4 @@ std::optional<double> first_root(const Function& f, double curvature, double nar
     return found ? found : first_root(f, curvature, narrowest, middle, high, is_negative_at_low);
 }
 
-}  // namespace stilb
+}  // namespace stilb::math

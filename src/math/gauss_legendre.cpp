@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 /// Legendre's polynomial of degree n, and its derivative, within (-1, 1).
@@ -48,4 +48,4 @@ GaussLegendre gauss_legendre(int n) {
     return rule;
 }
 
-}  // namespace stilb
+}  // namespace stilb::math

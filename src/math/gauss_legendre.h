@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace stilb {
+namespace stilb::math {
 
 /// For integrals over [-1, 1]: exact for polynomials up to degree 2 n - 1.
 struct GaussLegendre {
@@ -14,4 +14,4 @@ struct GaussLegendre {
 /// n nodes, 1 or more; time goes with n^2.
 GaussLegendre gauss_legendre(int n);
 
-}  // namespace stilb
+}  // namespace stilb::math

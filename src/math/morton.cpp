@@ -5,7 +5,7 @@
 
 #include "base/bounds.h"
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 /// The lowest 21 bits, moved to every third place.
@@ -35,4 +35,4 @@ std::vector<std::uint64_t> morton_codes(std::span<const Vec3> points) {
     return codes;
 }
 
-}  // namespace stilb
+}  // namespace stilb::math

@@ -7,9 +7,9 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::math {
 
 /// Places of points on the Morton curve through the cube about their bounding box: 63-bit codes.
 std::vector<std::uint64_t> morton_codes(std::span<const Vec3> points);
 
-}  // namespace stilb
+}  // namespace stilb::math

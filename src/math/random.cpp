@@ -2,7 +2,7 @@
 
 #include <Random123/philox.h>
 
-namespace stilb {
+namespace stilb::math {
 
 std::array<std::uint32_t, 4> random_block(RandomKey key, std::uint64_t index, std::uint64_t block) {
     const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
@@ -19,4 +19,4 @@ RandomKey RandomKey::derived(std::uint64_t part) const {
     return {words[0] | std::uint64_t{words[1]} << 32};
 }
 
-}  // namespace stilb
+}  // namespace stilb::math

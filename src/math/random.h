@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace stilb {
+namespace stilb::math {
 
 /// Names an independent family of random numbers; made from the run's seed by derived().
 struct RandomKey {
@@ -21,4 +21,4 @@ std::array<std::uint32_t, 4> random_block(RandomKey key, std::uint64_t index, st
 /// A number in [0, 1) on the grid of 2^-32.
 constexpr double unit_interval(std::uint32_t word) { return word * 0x1p-32; }
 
-}  // namespace stilb
+}  // namespace stilb::math

@@ -3,7 +3,7 @@
 #include <bit>
 #include <boost/random/detail/sobol_table.hpp>
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 constexpr unsigned kBits = 32;
@@ -86,4 +86,4 @@ std::array<std::uint32_t, 4> SampleStream::words_from(unsigned dimension) const 
     return words;
 }
 
-}  // namespace stilb
+}  // namespace stilb::math

@@ -7,7 +7,7 @@
 
 #include "math/random.h"
 
-namespace stilb {
+namespace stilb::math {
 
 /// Coordinate `dimension` of Sobol' point `index` [Joe and Kuo 2008], scrambled after Owen by hashing under
 /// `scramble` [Laine and Karras 2011; Burley 2020], as a 32-bit fraction. Every point by itself is uniform.
@@ -56,4 +56,4 @@ class SampleStream {
     std::array<std::uint32_t, 4> words_{};
 };
 
-}  // namespace stilb
+}  // namespace stilb::math

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -56,4 +56,4 @@ Barycentric sample_triangle(double u1, double u2) {
     return {1 - root, root * (1 - u2), root * u2};
 }
 
-}  // namespace stilb
+}  // namespace stilb::math

@@ -5,7 +5,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::math {
 
 /// The largest number below 1: what rounding may not carry a number in [0, 1) beyond.
 inline constexpr double kBelowOne = 0x1.fffffffffffffp-1;
@@ -43,4 +43,4 @@ struct Barycentric {
 };
 Barycentric sample_triangle(double u1, double u2);
 
-}  // namespace stilb
+}  // namespace stilb::math

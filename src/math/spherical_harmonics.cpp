@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 /// q_l+1 = a z q_l - b q_l-1, for one m: what is left of normalised Legendre functions without sin^m(theta).
@@ -211,4 +211,4 @@ HarmonicRange range_of(const HarmonicSeries<double>& series) {
     return {range.least - margin, range.greatest + margin};
 }
 
-}  // namespace stilb
+}  // namespace stilb::math

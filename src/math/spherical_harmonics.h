@@ -15,7 +15,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::math {
 
 inline constexpr int kMostHarmonicDegree = 128;
 
@@ -78,4 +78,4 @@ struct HarmonicRange {
 };
 HarmonicRange range_of(const HarmonicSeries<double>& series);
 
-}  // namespace stilb
+}  // namespace stilb::math

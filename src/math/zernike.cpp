@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 std::size_t number_of(int n, int m) { return static_cast<std::size_t>((n * (n + 2) + m) / 2); }
@@ -50,4 +50,4 @@ void ZernikeBasis::evaluate(const Vec3& direction, std::span<double> values) con
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::math

@@ -16,7 +16,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::math {
 
 class ZernikeBasis {
   public:
@@ -46,4 +46,4 @@ class ZernikeBasis {
     std::vector<Recurrence> recurrences_;  ///< m by m, each for k = 0, 1 ... while m + 2 k <= degree
 };
 
-}  // namespace stilb
+}  // namespace stilb::math

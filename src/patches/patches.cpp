@@ -12,7 +12,7 @@
 #include "patches/refinement.h"
 #include "patches/smooth_vertices.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// The area of a patch in squares of the longest edge, about: halving leaves edges anywhere between half of
@@ -27,7 +27,7 @@ struct Division {
 };
 
 Division division_of(const Mesh& mesh, double longest_edge_m) {
-    const std::vector<std::uint32_t> vertex_at = welded(mesh.vertices);
+    const std::vector<std::uint32_t> vertex_at = geometry::welded(mesh.vertices);
     Division division{{mesh.vertices, mesh.triangles}, longest_edge_m};
     for (Triangle& t : division.coarse.triangles) t = {vertex_at[t[0]], vertex_at[t[1]], vertex_at[t[2]]};
     return division;
@@ -144,7 +144,7 @@ ObjectId Patches::object_of(std::uint32_t patch) const {
     return ObjectId{static_cast<std::uint32_t>(after - first_of_object.begin() - 1)};
 }
 
-Vec3 Patches::position(std::uint32_t patch, const Barycentric& place) const {
+Vec3 Patches::position(std::uint32_t patch, const math::Barycentric& place) const {
     const auto& [a, b, c] = corners[patch];
     return center + place.b0 * Vec3(vertices[a]) + place.b1 * Vec3(vertices[b]) +
            place.b2 * Vec3(vertices[c]);
@@ -183,4 +183,4 @@ double patch_size_m(const Scene& scene, double count) {
     return std::sqrt(surface_area_m2(scene) / (kMeanArea * count));
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

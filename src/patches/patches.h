@@ -21,7 +21,7 @@
 #include "math/sampling.h"
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// Single precision, for what there is much of.
 struct Float3 {
@@ -47,7 +47,7 @@ struct Patches {
     std::size_t count() const { return corners.size(); }
     ObjectId object_of(std::uint32_t patch) const;
     /// In world coordinates [m], rounded to 2^-24 of the scene's size.
-    Vec3 position(std::uint32_t patch, const Barycentric& place) const;
+    Vec3 position(std::uint32_t patch, const math::Barycentric& place) const;
     Vec3 middle(std::uint32_t patch) const;
 
     /// Of sides that are some, not kNoSide.
@@ -74,4 +74,4 @@ Bounds bounds_of(const Patches& patches);
 /// are large against that).
 double patch_size_m(const Scene& scene, double count = 10'000);
 
-}  // namespace stilb
+}  // namespace stilb::patches

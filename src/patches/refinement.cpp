@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 constexpr std::uint32_t kNone = ~0u;
@@ -126,4 +126,4 @@ RefinedMesh refined(Mesh coarse, double longest_edge_m, const MiddleOf& middle_o
     return result;
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -12,7 +12,7 @@
 
 #include "geometry/shape.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// The place of a new vertex between two others; the same for (a, b) and (b, a).
 using MiddleOf = std::function<Vec3(const Vec3& a, const Vec3& b)>;
@@ -28,4 +28,4 @@ struct RefinedMesh {
 /// keep their front.
 RefinedMesh refined(Mesh coarse, double longest_edge_m, const MiddleOf& middle_of);
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -8,7 +8,7 @@
 #include "geometry/mesh_edges.h"
 #include "math/disjoint_sets.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// Corners of triangles are numbered 3 triangle + place.
@@ -17,12 +17,12 @@ std::uint32_t corner_at(std::span<const Triangle> triangles, std::uint32_t trian
     return 3 * triangle + static_cast<std::uint32_t>(std::ranges::find(corners, vertex) - corners.begin());
 }
 
-std::vector<EdgeUse> sorted_edges(std::span<const Triangle> triangles) {
+std::vector<geometry::EdgeUse> sorted_edges(std::span<const Triangle> triangles) {
     std::uint32_t vertices = 0;
     for (const Triangle& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
     std::vector<std::uint32_t> itself(vertices);
     std::iota(itself.begin(), itself.end(), 0u);
-    return edge_uses(triangles, itself);
+    return geometry::edge_uses(triangles, itself);
 }
 
 }  // namespace
@@ -30,11 +30,11 @@ std::vector<EdgeUse> sorted_edges(std::span<const Triangle> triangles) {
 SmoothVertices divide_at_creases(std::span<const Triangle> triangles, std::span<const Vec3> normals,
                                  std::span<const MaterialId> materials) {
     const double least_cosine = std::cos(kCreaseAngle_deg * std::numbers::pi / 180);
-    const auto is_smooth = [&](const EdgeUse& a, const EdgeUse& b) {
+    const auto is_smooth = [&](const geometry::EdgeUse& a, const geometry::EdgeUse& b) {
         return a.upwards != b.upwards && materials[a.triangle] == materials[b.triangle] &&
                dot(normals[a.triangle], normals[b.triangle]) >= least_cosine;
     };
-    DisjointSets corners(3 * triangles.size());
+    math::DisjointSets corners(3 * triangles.size());
     for_each_edge(sorted_edges(triangles), [&](auto first, auto last) {
         if (last - first != 2 || !is_smooth(first[0], first[1])) return;
         for (const std::uint32_t vertex : {first->low, first->high}) {
@@ -54,4 +54,4 @@ SmoothVertices divide_at_creases(std::span<const Triangle> triangles, std::span<
     return smooth;
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -8,7 +8,7 @@
 #include "base/ids.h"
 #include "geometry/shape.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// Where neighbours' normals differ by more, their common edge is one of the object's own and not a step of a
 /// curve made of triangles: a cylinder of ten sides is round, one of eight has edges.
@@ -26,4 +26,4 @@ struct SmoothVertices {
 SmoothVertices divide_at_creases(std::span<const Triangle> triangles, std::span<const Vec3> normals,
                                  std::span<const MaterialId> materials);
 
-}  // namespace stilb
+}  // namespace stilb::patches

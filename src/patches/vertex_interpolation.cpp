@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// Sums over the patches around a vertex; d is the way from the vertex to a patch's middle.
@@ -108,4 +108,4 @@ VertexInterpolation::VertexInterpolation(const Patches& patches)
     });
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -15,7 +15,7 @@
 
 #include "patches/patches.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// Keeps the weights, 12 bytes for each patch, and a reference to the patches.
 class VertexInterpolation {
@@ -37,7 +37,7 @@ class VertexInterpolation {
 
     /// The value at a point of a patch, by what at_vertices() made.
     template <typename Value>
-    Value at(std::span<const Value> of_vertices, std::uint32_t patch, const Barycentric& place) const {
+    Value at(std::span<const Value> of_vertices, std::uint32_t patch, const math::Barycentric& place) const {
         const auto& [a, b, c] = patches_.corners[patch];
         Value value = static_cast<float>(place.b0) * of_vertices[a];
         value += static_cast<float>(place.b1) * of_vertices[b];
@@ -48,7 +48,7 @@ class VertexInterpolation {
     /// A point of a patch, and what the patches around it share in its value: the weights of at().
     struct Place {
         std::uint32_t patch = 0;
-        Barycentric place;
+        math::Barycentric place;
     };
     struct Share {
         std::uint32_t patch = 0;
@@ -62,4 +62,4 @@ class VertexInterpolation {
     std::vector<std::array<float, 3>> weights_;  ///< per patch and corner: the patch's share of that vertex
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 /// Absorbs rounding where a tick falls on an end of the scale; a share of the distance between ticks.
@@ -203,4 +203,4 @@ int three_digit_decimals(double value) {
     return std::clamp(2 - static_cast<int>(std::floor(std::log10(std::abs(value)))), 0, 9);
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace stilb {
+namespace stilb::plot {
 
 enum class ScaleType { linear, logarithmic };
 
@@ -55,4 +55,4 @@ std::string number_text(double value, int decimals);
 /// Places after the point that give `value` at least three significant digits.
 int three_digit_decimals(double value);
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr double kTickLength = 5;
@@ -54,4 +54,4 @@ double axis_extent(const Ticks& ticks, Side side) {
     return kTickLength + kGap + labels;
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -6,11 +6,11 @@
 #include "plot/axis.h"
 #include "plot/canvas.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 inline constexpr double kAxisTextSize = 10;
-inline constexpr Colour kInk = grey(0.15);
-inline constexpr Colour kFaintInk = grey(0.4);
+inline constexpr io::Colour kInk = io::grey(0.15);
+inline constexpr io::Colour kFaintInk = io::grey(0.4);
 
 /// The side of the frame that the axis runs along.
 enum class Side { left, right, bottom };
@@ -24,4 +24,4 @@ void draw_axis(Canvas& canvas, const Scale& scale, const Ticks& ticks, Side side
 /// Room that ticks and labels take beyond the frame, away from it.
 double axis_extent(const Ticks& ticks, Side side);
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -12,7 +12,7 @@
 #include "io/text/text.h"
 #include "io/text/write_file.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr double kPixelsPerUnit = 2;
@@ -58,7 +58,7 @@ double advance(cairo_t* context, const std::string& text) {
     return extents.x_advance;
 }
 
-void set_colour(cairo_t* context, const Colour& colour) {
+void set_colour(cairo_t* context, const io::Colour& colour) {
     cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, colour.alpha);
 }
 
@@ -71,7 +71,7 @@ void set_stroke(cairo_t* context, const Stroke& stroke) {
 
 /// The extension in lower case; InputError where no picture can have it.
 std::string picture_extension(const std::filesystem::path& path) {
-    std::string extension = extension_of(path);
+    std::string extension = io::extension_of(path);
     if (extension != ".png" && extension != ".svg") {
         throw InputError(fmt::format(
             "cannot tell the kind of picture from '{}'. End the name in .png or .svg.", path.string()));
@@ -83,7 +83,7 @@ std::string picture_extension(const std::filesystem::path& path) {
 
 void require_picture_path(const std::filesystem::path& path) {
     picture_extension(path);
-    require_folder_of(path);
+    io::require_folder_of(path);
 }
 
 struct Canvas::Cairo {
@@ -107,14 +107,14 @@ Canvas::Canvas(std::filesystem::path path, double width, double height)
     }
     cairo_->context.reset(cairo_create(cairo_->surface.get()));
     require_success(cairo_status(cairo_->context.get()));
-    fill_rectangle({0, 0, width, height}, grey(1));
+    fill_rectangle({0, 0, width, height}, io::grey(1));
 }
 
 Canvas::~Canvas() = default;
 Canvas::Canvas(Canvas&&) noexcept = default;
 Canvas& Canvas::operator=(Canvas&&) noexcept = default;
 
-void Canvas::fill_rectangle(const PageRectangle& rectangle, const Colour& colour) {
+void Canvas::fill_rectangle(const PageRectangle& rectangle, const io::Colour& colour) {
     cairo_t* context = cairo_->context.get();
     set_colour(context, colour);
     cairo_set_antialias(context, CAIRO_ANTIALIAS_NONE);
@@ -164,13 +164,13 @@ void Canvas::polyline(std::span<const Point> points, const Stroke& stroke) {
     cairo_stroke(cairo_->context.get());
 }
 
-void Canvas::fill_polygon(std::span<const Point> points, const Colour& colour) {
+void Canvas::fill_polygon(std::span<const Point> points, const io::Colour& colour) {
     trace(points);
     set_colour(cairo_->context.get(), colour);
     cairo_fill(cairo_->context.get());
 }
 
-void Canvas::fill_circle(const Point& center, double radius, const Colour& colour) {
+void Canvas::fill_circle(const Point& center, double radius, const io::Colour& colour) {
     cairo_t* context = cairo_->context.get();
     cairo_new_path(context);
     cairo_arc(context, center.x, center.y, radius, 0, 2 * std::numbers::pi);
@@ -222,7 +222,7 @@ void Canvas::save() {
     if (!is_svg) require_success(cairo_surface_write_to_png_stream(surface, append, &png));
     cairo_surface_finish(surface);
     require_success(cairo_surface_status(surface));
-    write_file(path_, is_svg ? cairo_->svg : png);
+    io::write_file(path_, is_svg ? cairo_->svg : png);
 }
 
 void Canvas::trace(std::span<const Point> points) {
@@ -238,4 +238,4 @@ double text_width(const std::string& text, double size, Weight weight) {
     return advance(context.get(), text);
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -14,7 +14,7 @@
 
 #include "io/image/colour.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 /// All lengths are in units of 1/96 inch; y grows downwards. A PNG has two pixels to the unit.
 struct Point {
@@ -30,7 +30,7 @@ struct PageRectangle {
 };
 
 struct Stroke {
-    Colour colour;
+    io::Colour colour;
     double width = 1;
     std::vector<double> dashes{};  ///< lengths on, off, ...; solid where empty
 };
@@ -42,12 +42,12 @@ enum class VerticalPart { top, middle, baseline };
 
 struct TextStyle {
     double size = 11;
-    Colour colour{};
+    io::Colour colour{};
     Weight weight = Weight::regular;
     HorizontalPart horizontal = HorizontalPart::left;
     VerticalPart vertical = VerticalPart::baseline;
     double angle_rad = 0;  ///< clockwise
-    std::optional<Colour> halo{};
+    std::optional<io::Colour> halo{};
 };
 
 /// Pixels row by row from the top: 0xRRGGBB, or kTransparent.
@@ -76,15 +76,15 @@ class Canvas {
     Canvas& operator=(Canvas&&) noexcept;
 
     /// With hard edges, so that neighbours leave no seam.
-    void fill_rectangle(const PageRectangle& rectangle, const Colour& colour);
+    void fill_rectangle(const PageRectangle& rectangle, const io::Colour& colour);
     /// Pixels stay sharp, however large they are drawn.
     void image(const PageRectangle& place, const PixelImage& image);
     void stroke_rectangle(const PageRectangle& rectangle, const Stroke& stroke);
     void line(const Point& from, const Point& to, const Stroke& stroke);
     /// Open and with round joins.
     void polyline(std::span<const Point> points, const Stroke& stroke);
-    void fill_polygon(std::span<const Point> points, const Colour& colour);
-    void fill_circle(const Point& center, double radius, const Colour& colour);
+    void fill_polygon(std::span<const Point> points, const io::Colour& colour);
+    void fill_circle(const Point& center, double radius, const io::Colour& colour);
     void text(const Point& at, const std::string& text, const TextStyle& style);
     /// What `draw` draws shows only inside the rectangle.
     void clipped(const PageRectangle& rectangle, const std::function<void()>& draw);
@@ -100,4 +100,4 @@ class Canvas {
     std::unique_ptr<Cairo> cairo_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -5,7 +5,7 @@
 
 #include "io/image/colour.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 /// From almost black over blue, magenta and orange to pale yellow. Lightness grows all the way, so that the
 /// order survives grey print and colour blindness, and equal steps of the argument are equal steps in OKLab.
@@ -14,11 +14,11 @@ class ColourMap {
     ColourMap();
 
     /// The colour at 0 (least) to 1 (most); what lies outside gets the end's colour.
-    Colour at(double fraction) const;
+    io::Colour at(double fraction) const;
 
   private:
     /// At equal distances along the curve, both ends included.
-    std::vector<Oklab> samples_;
+    std::vector<io::Oklab> samples_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -12,7 +12,7 @@
 #include "plot/canvas.h"
 #include "plot/false_colour_painter.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr double kNameGap = 12;
@@ -264,4 +264,4 @@ void draw_false_colour(const FalseColour& picture, const FalseColourOptions& opt
     canvas.save();
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -8,7 +8,7 @@
 
 #include "plot/axis.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 /// One grid. Row v = 0 is drawn at the bottom, u to the right.
 struct FalseColourPanel {
@@ -46,4 +46,4 @@ struct FalseColourOptions {
 void draw_false_colour(const FalseColour& picture, const FalseColourOptions& options,
                        const std::filesystem::path& path);
 
-}  // namespace stilb
+}  // namespace stilb::plot

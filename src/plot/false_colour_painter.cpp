@@ -7,7 +7,7 @@
 #include "plot/isolines.h"
 #include "plot/label_placer.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr int kMostDecades = 4;
@@ -22,7 +22,7 @@ double length_of(std::span<const Point> line) {
     return sum;
 }
 
-std::uint32_t to_rgb(const Colour& colour) {
+std::uint32_t to_rgb(const io::Colour& colour) {
     const auto byte = [](double component) {
         return static_cast<std::uint32_t>(std::lround(255 * std::clamp(component, 0.0, 1.0)));
     };
@@ -87,14 +87,14 @@ void FalseColourPainter::draw_cells(const FalseColourPanel& panel, const PageRec
 
 void FalseColourPainter::draw_hatching(const PageRectangle& place) {
     constexpr double kSpacing = 6;
-    canvas_.fill_rectangle(place, grey(0.86));
+    canvas_.fill_rectangle(place, io::grey(0.86));
     canvas_.clipped(place, [&] {
         // Lines x + y = n * spacing.
         const double last = place.right() + place.bottom();
         for (double sum = std::ceil((place.left + place.top) / kSpacing) * kSpacing; sum < last;
              sum += kSpacing) {
             canvas_.line({sum - place.top, place.top}, {sum - place.bottom(), place.bottom()},
-                         {grey(0.62), 1});
+                         {io::grey(0.62), 1});
         }
     });
 }
@@ -118,8 +118,8 @@ std::vector<Isoline> FalseColourPainter::draw_isolines(const FalseColourPanel& p
             }
             if (length_of(line) < kSmallSize) continue;
             // White in a dark casing: seen on every colour.
-            canvas_.polyline(line, {with_alpha(grey(0), 0.5), 2.6});
-            canvas_.polyline(line, {grey(1), 1.2});
+            canvas_.polyline(line, {io::with_alpha(io::grey(0), 0.5), 2.6});
+            canvas_.polyline(line, {io::grey(1), 1.2});
             isolines.push_back({std::move(line), tick.label});
         }
     }
@@ -133,18 +133,18 @@ void FalseColourPainter::label_isolines(std::span<const Isoline> isolines, const
         if (!place) continue;
         canvas_.text(place->center, isoline.label,
                      {.size = kSmallSize,
-                      .colour = grey(0),
+                      .colour = io::grey(0),
                       .horizontal = HorizontalPart::center,
                       .vertical = VerticalPart::middle,
                       .angle_rad = place->angle_rad,
-                      .halo = grey(1)});
+                      .halo = io::grey(1)});
     }
 }
 
 void FalseColourPainter::draw_number(const Point& center, double value, int decimals, double size) {
     if (std::isnan(value)) return;
     // The halo is seen only where an isoline passes behind, or the surroundings differ.
-    const Colour background = map_.at(scale_.fraction_of(value));
+    const io::Colour background = map_.at(scale_.fraction_of(value));
     canvas_.text(center, number_text(value, decimals),
                  {.size = size,
                   .colour = readable_on(background),
@@ -165,4 +165,4 @@ void FalseColourPainter::draw_bar(const PageRectangle& bar, const std::string& u
     canvas_.text({bar.left, bar.top - 10}, unit, {.size = kNameSize, .colour = kInk, .weight = Weight::bold});
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

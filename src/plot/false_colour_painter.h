@@ -8,7 +8,7 @@
 #include "plot/colour_map.h"
 #include "plot/false_colour.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 inline constexpr double kSheetMargin = 24;
 inline constexpr double kTitleSize = 17;
@@ -56,4 +56,4 @@ class FalseColourPainter {
     ColourMap map_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::plot

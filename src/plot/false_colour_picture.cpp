@@ -10,7 +10,7 @@
 #include "plot/canvas.h"
 #include "plot/false_colour_painter.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr const char* kUnit = "cd/m²";
@@ -22,8 +22,8 @@ constexpr double kNumberWidth = 70, kNumberHeight = 44;
 constexpr double kHeaderHeight = 38;
 
 /// Rows from the bottom, as panels have them.
-FalseColourPanel panel_of(const Picture& picture) {
-    std::optional<CameraView> view;
+FalseColourPanel panel_of(const io::Picture& picture) {
+    std::optional<sensors::CameraView> view;
     if (picture.camera) view.emplace(*picture.camera);
     FalseColourPanel panel;
     panel.nu = picture.width;
@@ -101,7 +101,7 @@ PageRectangle frame_of(const FalseColourPanel& panel) {
             panel.nu * magnification / kPixelsPerUnit, panel.nv * magnification / kPixelsPerUnit};
 }
 
-std::string headline_of(const Picture& picture, const FalseColourPanel& panel) {
+std::string headline_of(const io::Picture& picture, const FalseColourPanel& panel) {
     double least = std::numeric_limits<double>::infinity();
     double most = -least;
     double sum = 0;
@@ -141,8 +141,8 @@ void draw_numbers(FalseColourPainter& painter, const FalseColourPanel& panel, co
 
 }  // namespace
 
-void draw_false_colour(const Picture& picture, const std::string& title, const FalseColourOptions& options,
-                       const std::filesystem::path& path) {
+void draw_false_colour(const io::Picture& picture, const std::string& title,
+                       const FalseColourOptions& options, const std::filesystem::path& path) {
     require_consistency(picture);
     const FalseColourPanel whole = panel_of(picture);
     const Scale scale = choose_scale(whole.values, options);
@@ -173,4 +173,4 @@ void draw_false_colour(const Picture& picture, const std::string& title, const F
     canvas.save();
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

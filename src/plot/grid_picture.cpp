@@ -7,16 +7,16 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
-std::string subtitle_of(const MeasuredGrid& grid) {
+std::string subtitle_of(const io::MeasuredGrid& grid) {
     std::string text;
     const auto add = [&](const char* name, double value, int decimals, const std::string& unit) {
         if (std::isnan(value)) return;
         text += fmt::format("{}{} {}{}", text.empty() ? "" : "   ", name, number_text(value, decimals), unit);
     };
-    const MeasuredSummary& summary = grid.summary;
+    const io::MeasuredSummary& summary = grid.summary;
     add("mean", summary.mean, three_digit_decimals(summary.mean), " " + grid.unit);
     add("minimum", summary.minimum, three_digit_decimals(summary.minimum), " " + grid.unit);
     add("uniformity", summary.uniformity, 2, "");
@@ -30,14 +30,14 @@ std::string capitalized(std::string text) {
 
 }  // namespace
 
-FalseColour picture_of(const ResultsFile& results) {
+FalseColour picture_of(const io::ResultsFile& results) {
     if (results.grids.empty()) {
         throw InputError(
             "no grid among the results (only grids can be drawn). Measure a sensor of type \"grid\".");
     }
-    const MeasuredGrid& first = results.grids.front();
+    const io::MeasuredGrid& first = results.grids.front();
     FalseColour picture{capitalized(first.quantity) + ", " + results.scene, first.unit, {}};
-    for (const MeasuredGrid& grid : results.grids) {
+    for (const io::MeasuredGrid& grid : results.grids) {
         if (grid.unit != first.unit) {
             throw InputError(
                 fmt::format("'{}' is in {} and '{}' in {} (one scale cannot hold both). Choose with "
@@ -50,4 +50,4 @@ FalseColour picture_of(const ResultsFile& results) {
     return picture;
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -4,10 +4,10 @@
 #include "io/results/results_file.h"
 #include "plot/false_colour.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 /// A panel for each grid, with mean, minimum and uniformity. Throws InputError where there is no grid or
 /// their units differ: one scale cannot hold them.
-FalseColour picture_of(const ResultsFile& results);
+FalseColour picture_of(const io::ResultsFile& results);
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 /// An edge between neighbouring nodes; each is crossed at most once.
@@ -147,4 +147,4 @@ std::vector<std::vector<Point>> find_isolines(std::span<const double> values, in
     return lines;
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

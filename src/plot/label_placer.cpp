@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr double kLeastStraightness = 0.8;
@@ -74,4 +74,4 @@ bool LabelPlacer::is_free(const Point& center, double radius) const {
            });
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

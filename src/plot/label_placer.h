@@ -7,7 +7,7 @@
 
 #include "plot/canvas.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 struct LabelPlace {
     Point center;
@@ -34,4 +34,4 @@ class LabelPlacer {
     std::vector<Disk> taken_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -5,14 +5,14 @@
 #include "plot/axis_drawing.h"
 #include "plot/canvas.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr double kUnitsPerPixel = 0.5;  // a PNG has two pixels to the unit
 constexpr double kGap = 4, kLabel = 14;
 constexpr double kTextSize = 8;
 
-PixelImage image_of(const Picture& picture, const ToneCurve& curve) {
+PixelImage image_of(const io::Picture& picture, const io::ToneCurve& curve) {
     PixelImage image{picture.width, picture.height, {}};
     for (const auto& rgb : picture.rgb_cd_m2) {
         const auto [red, green, blue] = curve.srgb(rgb);
@@ -24,7 +24,7 @@ PixelImage image_of(const Picture& picture, const ToneCurve& curve) {
 }  // namespace
 
 void draw_picture_sheet(const std::vector<LabelledPicture>& pictures, std::size_t columns,
-                        const ToneCurve& curve, const std::filesystem::path& path) {
+                        const io::ToneCurve& curve, const std::filesystem::path& path) {
     const double width = kUnitsPerPixel * pictures.front().picture.width;
     const double height = kUnitsPerPixel * pictures.front().picture.height;
     const std::size_t across = std::min(columns, pictures.size());
@@ -41,4 +41,4 @@ void draw_picture_sheet(const std::vector<LabelledPicture>& pictures, std::size_
     canvas.save();
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -8,16 +8,16 @@
 #include "io/image/picture.h"
 #include "io/image/tone_curve.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 struct LabelledPicture {
     std::string label;
-    Picture picture;
+    io::Picture picture;
 };
 
 /// Writes a .png or .svg: rows of `columns` pictures, all of one size and by one curve, each pixel a pixel of
 /// the .png. Throws InputError where it cannot be written.
 void draw_picture_sheet(const std::vector<LabelledPicture>& pictures, std::size_t columns,
-                        const ToneCurve& curve, const std::filesystem::path& path);
+                        const io::ToneCurve& curve, const std::filesystem::path& path);
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -9,7 +9,7 @@
 #include "plot/canvas.h"
 #include "plot/series_drawing.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr double kWidth = 620;  // of the frames
@@ -171,4 +171,4 @@ void draw_plot(const Plot& plot, const std::filesystem::path& path) {
     canvas.save();
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -9,7 +9,7 @@
 #include "plot/axis.h"
 #include "plot/series.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 struct PlotAxis {
     std::string label;
@@ -35,4 +35,4 @@ struct Plot {
 /// be written; std::invalid_argument where a series' lists differ in length or there is no panel.
 void draw_plot(const Plot& plot, const std::filesystem::path& path);
 
-}  // namespace stilb
+}  // namespace stilb::plot

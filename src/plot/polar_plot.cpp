@@ -12,7 +12,7 @@
 #include "plot/axis_drawing.h"
 #include "plot/series_drawing.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr double kRadius = 310;  // of the half disk
@@ -127,4 +127,4 @@ void draw_polar_plot(const PolarPlot& plot, const std::filesystem::path& path) {
     canvas.save();
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

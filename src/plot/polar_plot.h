@@ -7,7 +7,7 @@
 
 #include "plot/series.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 /// A half disk: theta = 0 points upwards, 90 degrees to the right, -90 to the left. The distance from its
 /// centre is the value, on a linear scale from 0 to a round number; values below 0 are drawn at the centre.
@@ -21,4 +21,4 @@ struct PolarPlot {
 /// series' lists differ in length or a theta is out of range.
 void draw_polar_plot(const PolarPlot& plot, const std::filesystem::path& path);
 
-}  // namespace stilb
+}  // namespace stilb::plot

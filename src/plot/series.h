@@ -8,7 +8,7 @@
 
 #include "io/image/colour.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 enum class LineStyle { none, solid, dashed };
 enum class MarkerStyle { none, circle, square };
@@ -24,10 +24,10 @@ struct Series {
     MarkerStyle marker = MarkerStyle::none;
     IntervalStyle interval = IntervalStyle::band;
     /// Otherwise the palette's next, by position in the plot or panel.
-    std::optional<Colour> colour{};
+    std::optional<io::Colour> colour{};
 };
 
 /// The palette's colours, told apart by colour-blind readers too [Okabe and Ito 2008]; repeats after seven.
-Colour palette_colour(std::size_t index);
+io::Colour palette_colour(std::size_t index);
 
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -6,7 +6,7 @@
 
 #include "plot/axis_drawing.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr double kLegendSize = 10.5;
@@ -30,14 +30,14 @@ void for_each_stretch(const std::vector<Point>& points, Visit visit) {
     }
 }
 
-Stroke line_stroke(LineStyle style, const Colour& colour) {
+Stroke line_stroke(LineStyle style, const io::Colour& colour) {
     return {colour, kLineWidth,
             style == LineStyle::dashed ? std::vector<double>{6, 4} : std::vector<double>{}};
 }
 
-void draw_marker(Canvas& canvas, MarkerStyle style, const Point& at, const Colour& colour) {
+void draw_marker(Canvas& canvas, MarkerStyle style, const Point& at, const io::Colour& colour) {
     // The white rim sets neighbours and the curve behind apart.
-    const auto draw = [&](double radius, const Colour& fill) {
+    const auto draw = [&](double radius, const io::Colour& fill) {
         if (style == MarkerStyle::circle) canvas.fill_circle(at, radius, fill);
         if (style == MarkerStyle::square) {
             const double side = 1.8 * radius;
@@ -49,12 +49,12 @@ void draw_marker(Canvas& canvas, MarkerStyle style, const Point& at, const Colou
             canvas.fill_polygon(corners, fill);
         }
     };
-    draw(kMarkerReach, grey(1));
+    draw(kMarkerReach, io::grey(1));
     draw(kMarkerRadius, colour);
 }
 
 /// With caps across it, whichever way it runs.
-void draw_bar(Canvas& canvas, const Point& low, const Point& high, const Colour& colour) {
+void draw_bar(Canvas& canvas, const Point& low, const Point& high, const io::Colour& colour) {
     constexpr double kCap = 3;
     const Stroke stroke{colour, 1.1};
     const double length = std::hypot(high.x - low.x, high.y - low.y);
@@ -166,8 +166,8 @@ PageRectangle legend_box(std::span<const PlacedSeries> all) {
 
 void draw_legend(Canvas& canvas, std::span<const PlacedSeries> all, const PageRectangle& box) {
     if (box.height == 0) return;
-    canvas.fill_rectangle(box, with_alpha(grey(1), 0.88));
-    canvas.stroke_rectangle(box, {grey(0.8), 0.8});
+    canvas.fill_rectangle(box, io::with_alpha(io::grey(1), 0.88));
+    canvas.stroke_rectangle(box, {io::grey(0.8), 0.8});
     Point at{box.left + kLegendPadding, box.top + (kLegendPadding + kLegendLine) / 2};
     for (const PlacedSeries& placed : all) {
         if (placed.series.name.empty()) continue;
@@ -178,7 +178,7 @@ void draw_legend(Canvas& canvas, std::span<const PlacedSeries> all, const PageRe
     }
 }
 
-Colour palette_colour(std::size_t index) {
+io::Colour palette_colour(std::size_t index) {
     static constexpr std::array<std::array<int, 3>, 7> kPalette{{{0, 114, 178},
                                                                  {213, 94, 0},
                                                                  {0, 158, 115},
@@ -190,4 +190,4 @@ Colour palette_colour(std::size_t index) {
     return {red / 255.0, green / 255.0, blue / 255.0};
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

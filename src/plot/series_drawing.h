@@ -9,12 +9,12 @@
 #include "plot/canvas.h"
 #include "plot/series.h"
 
-namespace stilb {
+namespace stilb::plot {
 
 inline constexpr double kMargin = 20;  // of the sheet
 inline constexpr double kTitleSize = 15;
 inline constexpr double kLabelSize = 11.5;
-inline constexpr Colour kGridColour = grey(0.9);
+inline constexpr io::Colour kGridColour = io::grey(0.9);
 /// How far markers reach beyond their point.
 inline constexpr double kMarkerReach = 4;
 
@@ -24,7 +24,7 @@ void require_consistency(std::span<const Series> series);
 /// A series with places on the sheet, NaN where a point has none.
 struct PlacedSeries {
     const Series& series;
-    Colour colour;
+    io::Colour colour;
     std::vector<Point> points;
     std::vector<Point> low, high;  ///< ends of the intervals; both NaN where either has no place
 };
@@ -65,4 +65,4 @@ PlacedSeries place_series(const Series& series, std::size_t index, const Frame& 
     return placed;
 }
 
-}  // namespace stilb
+}  // namespace stilb::plot

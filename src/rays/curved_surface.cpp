@@ -9,7 +9,7 @@
 #include "geometry/harmonics/march.h"
 #include "geometry/harmonics/surface.h"
 
-namespace stilb {
+namespace stilb::rays {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -58,12 +58,12 @@ class RoundSurface final : public CurvedSurface {
     explicit RoundSurface(Round shape) : shape_(shape) {}
 
     std::size_t part_count() const override { return 1; }
-    Bounds bounds_of(std::size_t) const override { return stilb::bounds_of(Shape{shape_}); }
+    Bounds bounds_of(std::size_t) const override { return stilb::geometry::bounds_of(Shape{shape_}); }
     double intersect(std::size_t, const RayInterval& ray) const override {
         return intersect_shape(shape_, ray).value_or(kInfinity);
     }
     SurfacePoint nearest_point(std::size_t, const Vec3& near_by) const override {
-        return stilb::nearest_point(shape_, near_by);
+        return rays::nearest_point(shape_, near_by);
     }
 
   private:
@@ -77,7 +77,7 @@ class WholeHarmonics final : public CurvedSurface {
 
     std::size_t part_count() const override { return 1; }
     Bounds bounds_of(std::size_t) const override {
-        return stilb::bounds_of(
+        return stilb::geometry::bounds_of(
             Shape{Sphere{shape_.center, shape_.scale * shape_.surface->greatest_radius()}});
     }
     double intersect(std::size_t, const RayInterval& ray) const override {
@@ -86,10 +86,11 @@ class WholeHarmonics final : public CurvedSurface {
         const Vec3 origin = shape_.to_own(ray.origin);
         const Vec3 direction = normalized(shape_.axes.to_local(ray.direction));
         const double start = ray.start / length_of_unit, end = ray.end / length_of_unit;
-        const auto crossing = shape_.method == HarmonicMethod::march
-                                  ? march_crossing(*shape_.surface, origin, direction, start, end,
-                                                   kMarchedShare * shape_.surface->greatest_radius())
-                                  : shape_.surface->first_crossing(origin, direction, start, end);
+        const auto crossing =
+            shape_.method == HarmonicMethod::march
+                ? march_crossing(*shape_.surface, origin, direction, start, end,
+                                 geometry::kMarchedShare * shape_.surface->greatest_radius())
+                : shape_.surface->first_crossing(origin, direction, start, end);
         if (!crossing) return kInfinity;
         return crossing->distance * length_of_unit;
     }
@@ -130,8 +131,8 @@ class HarmonicsInCells final : public CurvedSurface {
                                to_own_.to_local(ray.direction), ray.start, ray.end);
     }
     bool has_verdicts() const override { return true; }
-    LaneVerdicts verdicts(std::size_t part, const RayPacket& rays) const override {
-        return cells_.verdicts(part, rays, in_packets_);
+    LaneVerdicts classifications(std::size_t part, const RayPacket& rays) const override {
+        return cells_.classifications(part, rays, in_packets_);
     }
     SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const override {
         const auto [position, normal] = cells_.place_at(part, shape_.to_own(near_by));
@@ -140,9 +141,9 @@ class HarmonicsInCells final : public CurvedSurface {
 
   private:
     Harmonics shape_;
-    const HarmonicCells& cells_;  ///< the shape's
-    Frame to_own_;                ///< axes over scale
-    PacketPlacement in_packets_;  ///< the same
+    const geometry::HarmonicCells& cells_;  ///< the shape's
+    Frame to_own_;                          ///< axes over scale
+    PacketPlacement in_packets_;            ///< the same
 };
 
 struct Maker {
@@ -172,4 +173,4 @@ std::unique_ptr<CurvedSurface> curved_surface(const Shape& shape, const Vec3& or
     return std::visit(Maker{origin}, shape);
 }
 
-}  // namespace stilb
+}  // namespace stilb::rays

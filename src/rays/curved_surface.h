@@ -8,7 +8,7 @@
 #include "base/ray_packet.h"
 #include "geometry/shape.h"
 
-namespace stilb {
+namespace stilb::rays {
 
 /// The points origin + t direction, start < t < end; the direction need not be a unit vector.
 struct RayInterval {
@@ -33,7 +33,7 @@ class CurvedSurface {
     virtual double intersect(std::size_t part, const RayInterval& ray) const = 0;
     virtual bool has_verdicts() const { return false; }
     /// What intersect() would find, as far as a surface can tell that sooner.
-    virtual LaneVerdicts verdicts(std::size_t, const RayPacket&) const { return {}; }
+    virtual LaneVerdicts classifications(std::size_t, const RayPacket&) const { return {}; }
     /// `near_by` (a hit with the rounding error of single precision) projected onto the part.
     virtual SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
 };
@@ -41,4 +41,4 @@ class CurvedSurface {
 /// The surface of a shape relative to `origin`; null where it is made of triangles.
 std::unique_ptr<CurvedSurface> curved_surface(const Shape& shape, const Vec3& origin);
 
-}  // namespace stilb
+}  // namespace stilb::rays

@@ -5,7 +5,7 @@
 
 #include "rays/ray_caster.h"
 
-namespace stilb {
+namespace stilb::rays {
 
 inline RTCIntersectContext context_for(Coherence coherence) {
     RTCIntersectContext context;
@@ -15,4 +15,4 @@ inline RTCIntersectContext context_for(Coherence coherence) {
     return context;
 }
 
-}  // namespace stilb
+}  // namespace stilb::rays

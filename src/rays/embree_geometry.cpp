@@ -5,7 +5,7 @@
 #include <limits>
 #include <variant>
 
-namespace stilb {
+namespace stilb::rays {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -55,7 +55,7 @@ RayPacket packet_of(RTCRayN* rays, unsigned width) {
 /// Unclear for single rays, which are quicker without.
 LaneVerdicts verdicts_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays, unsigned width) {
     if (width == 1 || !surface.has_verdicts()) return {};
-    return surface.verdicts(part, packet_of(rays, width));
+    return surface.classifications(part, packet_of(rays, width));
 }
 
 /// The normal is found once the ray's closest hit is known.
@@ -63,9 +63,9 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
-    const LaneVerdicts verdicts = verdicts_of(surface, args->primID, rays, args->N);
+    const LaneVerdicts classifications = verdicts_of(surface, args->primID, rays, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
-        if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
+        if (args->valid[lane] == 0 || classifications[lane] == Classification::misses) continue;
         const double t = surface.intersect(args->primID, interval_of(rays, args->N, lane));
         if (t == std::numeric_limits<double>::infinity()) continue;
         RTCRayN_tfar(rays, args->N, lane) = static_cast<float>(t);
@@ -77,10 +77,10 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
 
 void curved_occluded(const RTCOccludedFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
-    const LaneVerdicts verdicts = verdicts_of(surface, args->primID, args->ray, args->N);
+    const LaneVerdicts classifications = verdicts_of(surface, args->primID, args->ray, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
-        if (args->valid[lane] == 0 || verdicts[lane] == Verdict::misses) continue;
-        if (verdicts[lane] == Verdict::meets ||
+        if (args->valid[lane] == 0 || classifications[lane] == Classification::misses) continue;
+        if (classifications[lane] == Classification::meets ||
             surface.intersect(args->primID, interval_of(args->ray, args->N, lane)) <
                 std::numeric_limits<double>::infinity())
             RTCRayN_tfar(args->ray, args->N, lane) = -kInfinity;
@@ -125,4 +125,4 @@ RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origi
     return new_mesh(device, std::get<Mesh>(shape), origin, kept);
 }
 
-}  // namespace stilb
+}  // namespace stilb::rays

@@ -9,7 +9,7 @@
 #include "geometry/shape.h"
 #include "rays/curved_surface.h"
 
-namespace stilb {
+namespace stilb::rays {
 
 /// What rays that met a geometry need to know of it: a mesh in single precision, or a curved surface.
 struct EmbreeGeometry {
@@ -22,4 +22,4 @@ struct EmbreeGeometry {
 /// where it is. A curved surface's parts are the geometry's primitives.
 RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origin, EmbreeGeometry& kept);
 
-}  // namespace stilb
+}  // namespace stilb::rays

@@ -13,7 +13,7 @@
 #include "rays/embree_context.h"
 #include "rays/embree_geometry.h"
 
-namespace stilb {
+namespace stilb::rays {
 namespace {
 
 static_assert(sizeof(RayPacket) == sizeof(RTCRay16));
@@ -40,7 +40,7 @@ Bounds bounds_of_scene(const Scene& scene) {
     }
     for (const Light& light : scene.lights) {
         if (const auto* point = std::get_if<PointLight>(&light.source)) all.include(point->position);
-        if (const auto* solid = std::get_if<PhotometryLight>(&light.source)) all.include(solid->position);
+        if (const auto* solid = std::get_if<Luminaire>(&light.source)) all.include(solid->position);
     }
     return all.is_empty() ? Bounds{{}, {}} : all;
 }
@@ -219,8 +219,10 @@ struct RayCaster::Implementation {
         return materials.size() == 1 ? materials[0] : materials[primitive];
     }
 
-    const Pane* pane_of(MaterialId id) const { return std::get_if<Pane>(&scene.material(id)); }
-    const Pane* pane_at(const Hit& hit) const { return pane_of(hit.material); }
+    const ThinDielectric* pane_of(MaterialId id) const {
+        return std::get_if<ThinDielectric>(&scene.material(id));
+    }
+    const ThinDielectric* pane_at(const Hit& hit) const { return pane_of(hit.material); }
 
     /// As RayCaster::offset_m, for a position relative to the centre.
     double offset(const Vec3& relative, double size_m) const {
@@ -331,13 +333,13 @@ bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
     return implementation_->occluded(from - center(), to - center());
 }
 
-Spectrum RayCaster::transmittance(const Segment& segment) const {
-    if (!occluded(segment.from, segment.to)) return Spectrum::grey(1);
-    return implementation_->has_panes ? transmittance_of_panes(segment) : Spectrum{};
+Rgb RayCaster::transmittance(const Segment& segment) const {
+    if (!occluded(segment.from, segment.to)) return Rgb::grey(1);
+    return implementation_->has_panes ? transmittance_of_panes(segment) : Rgb{};
 }
 
 void RayCaster::transmittances(std::span<const Segment> segments, Coherence coherence,
-                               std::span<Spectrum> transmittances) const {
+                               std::span<Rgb> transmittances) const {
     for (std::size_t first = 0; first < segments.size(); first += kPacketWidth) {
         const std::size_t count = std::min<std::size_t>(kPacketWidth, segments.size() - first);
         RayPacket packet;
@@ -349,7 +351,7 @@ void RayCaster::transmittances(std::span<const Segment> segments, Coherence cohe
         }
         occlude(packet, lanes, coherence);
         for (std::size_t i = 0; i < count; ++i) {
-            Spectrum& left = transmittances[first + i] = Spectrum::grey(packet.end[i] < 0 ? 0 : 1);
+            Rgb& left = transmittances[first + i] = Rgb::grey(packet.end[i] < 0 ? 0 : 1);
             if (packet.end[i] < 0 && implementation_->has_panes) {
                 left = transmittance_of_panes(segments[first + i]);
             }
@@ -357,13 +359,13 @@ void RayCaster::transmittances(std::span<const Segment> segments, Coherence cohe
     }
 }
 
-Spectrum RayCaster::transmittance_of_panes(const Segment& segment) const {
-    Spectrum left = Spectrum::grey(1);
+Rgb RayCaster::transmittance_of_panes(const Segment& segment) const {
+    Rgb left = Rgb::grey(1);
     const Vec3 direction = normalized(segment.to - segment.from);
     Vec3 from = segment.from;
     while (occluded(from, segment.to)) {
         const auto hit = closest(from, direction);
-        const Pane* pane = hit ? implementation_->pane_at(*hit) : nullptr;
+        const ThinDielectric* pane = hit ? implementation_->pane_at(*hit) : nullptr;
         if (pane == nullptr) return {};
         left *= pane_shares(*pane, -dot(direction, hit->normal)).transmittance;
         from = hit->lifted_behind();
@@ -377,7 +379,7 @@ std::optional<RayCaster::Seen> RayCaster::seen(const Ray& ray) const {
     for (;;) {
         const auto hit = closest(origin, ray.direction);
         if (!hit) return std::nullopt;
-        const Pane* pane = implementation_->pane_at(*hit);
+        const ThinDielectric* pane = implementation_->pane_at(*hit);
         if (pane == nullptr) {
             seen.hit = *hit;
             return seen;
@@ -406,4 +408,4 @@ void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence cohe
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::rays

@@ -22,7 +22,7 @@
 #include "base/vec.h"
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::rays {
 
 /// Where a ray met a surface.
 struct Hit {
@@ -72,15 +72,15 @@ class RayCaster {
     bool occluded(const Vec3& from, const Vec3& to) const;
     /// What is left of light that goes straight: 0 where something lies in between, the panes' transmittance
     /// where it is nothing but panes.
-    Spectrum transmittance(const Segment& segment) const;
+    Rgb transmittance(const Segment& segment) const;
     /// The same of many segments.
     void transmittances(std::span<const Segment> segments, Coherence coherence,
-                        std::span<Spectrum> transmittances) const;
+                        std::span<Rgb> transmittances) const;
 
     /// The first surface but panes that light along a ray comes straight from, and what panes leave of it.
     struct Seen {
         Hit hit;
-        Spectrum transmittance = Spectrum::grey(1);
+        Rgb transmittance = Rgb::grey(1);
     };
     std::optional<Seen> seen(const Ray& ray) const;
 
@@ -96,10 +96,10 @@ class RayCaster {
 
   private:
     /// Of a segment that meets something.
-    Spectrum transmittance_of_panes(const Segment& segment) const;
+    Rgb transmittance_of_panes(const Segment& segment) const;
 
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::rays

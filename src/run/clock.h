@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace stilb {
+namespace stilb::run {
 
 class Clock {
   public:
@@ -15,4 +15,4 @@ class Clock {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace stilb
+}  // namespace stilb::run

@@ -7,7 +7,7 @@
 
 #include "geometry/harmonics/surface.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -16,7 +16,7 @@ constexpr double kFootprint_rad = 1e-3;  ///< of sensors that are no camera
 constexpr double kMostOfRadius = 0.3;
 
 double pixel_rad(const Camera& camera) {
-    const CameraView view(camera);
+    const sensors::CameraView view(camera);
     const double x = camera.resolution[0] / 2., y = camera.resolution[1] / 2.;
     return std::acos(std::min(1.0, dot(*view.direction_at(x, y), *view.direction_at(x + 1, y))));
 }
@@ -37,14 +37,14 @@ double allowed_m(const Harmonics& object, std::span<const Sensor> sensors) {
 }
 
 /// Bound of what the degrees above `degree` make of R.
-double remainder_of(const HarmonicSeries<double>& radius, int degree) {
+double remainder_of(const math::HarmonicSeries<double>& radius, int degree) {
     if (degree == radius.degree()) return 0;
-    const HarmonicRange range = range_of(radius.part(degree + 1, radius.degree()));
+    const math::HarmonicRange range = range_of(radius.part(degree + 1, radius.degree()));
     return std::max(std::abs(range.least), std::abs(range.greatest));
 }
 
 /// The lowest degree from which on the bound is kept.
-int least_degree(const HarmonicSeries<double>& radius, double allowed) {
+int least_degree(const math::HarmonicSeries<double>& radius, double allowed) {
     int degree = radius.degree();
     while (degree > 0 && remainder_of(radius, degree - 1) <= allowed) --degree;
     return degree;
@@ -53,14 +53,14 @@ int least_degree(const HarmonicSeries<double>& radius, double allowed) {
 LevelOfDetail reduce(Object& object, std::span<const Sensor> sensors) {
     auto& harmonics = std::get<Harmonics>(object.shape);
     harmonics.has_levels_of_detail = false;  // done, once and for all
-    const HarmonicSeries<double>& radius = harmonics.surface->radius();
+    const math::HarmonicSeries<double>& radius = harmonics.surface->radius();
     LevelOfDetail level{object.name, radius.degree(), radius.degree(), 0, allowed_m(harmonics, sensors)};
     const double allowed =
         std::min(level.allowed_m / harmonics.scale, kMostOfRadius * harmonics.surface->least_radius());
     level.degree = least_degree(radius, allowed);
     if (level.degree == level.full_degree) return level;
     level.error_m = harmonics.scale * remainder_of(radius, level.degree);
-    Harmonics reduced(HarmonicSurface(radius.part(0, level.degree)));
+    Harmonics reduced(geometry::HarmonicSurface(radius.part(0, level.degree)));
     reduced.center = harmonics.center, reduced.scale = harmonics.scale, reduced.axes = harmonics.axes;
     reduced.method = harmonics.method;
     object.shape = std::move(reduced);
@@ -84,4 +84,4 @@ DetailedScene with_levels_of_detail(Scene scene, std::span<const Sensor> sensors
     return detailed;
 }
 
-}  // namespace stilb
+}  // namespace stilb::run

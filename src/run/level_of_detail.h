@@ -15,7 +15,7 @@
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::run {
 
 /// What an object was given.
 struct LevelOfDetail {
@@ -33,4 +33,4 @@ struct DetailedScene {
 bool has_levels_of_detail(const Scene& scene);
 DetailedScene with_levels_of_detail(Scene scene, std::span<const Sensor> sensors);
 
-}  // namespace stilb
+}  // namespace stilb::run

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::run {
 
 void require_valid(const RunOptions& options) {
     const auto positive = [](const char* name, double value) {
@@ -22,4 +22,4 @@ void require_valid(const RunOptions& options) {
     if (options.replicates < 2) throw InputError("replicates: at least 2 are needed");
 }
 
-}  // namespace stilb
+}  // namespace stilb::run

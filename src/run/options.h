@@ -7,7 +7,7 @@
 
 #include "estimators/patch_light/patch_options.h"
 
-namespace stilb {
+namespace stilb::run {
 
 struct RunOptions {
     std::string method = "auto";
@@ -23,10 +23,14 @@ struct RunOptions {
     int threads = 0;
     /// Independent repetitions that standard errors come from (theory 6).
     int replicates = 32;
-    PatchOptions patches;
+    estimators::PatchOptions patches;
 };
 
 /// Throws InputError where one of them makes no sense.
 void require_valid(const RunOptions& options);
 
+}  // namespace stilb::run
+
+namespace stilb {
+using run::RunOptions;
 }  // namespace stilb

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-namespace stilb {
+namespace stilb::run {
 
 std::optional<double> parse_relative_error(std::string_view text) {
     double number = 0;
@@ -15,4 +15,4 @@ std::optional<double> parse_relative_error(std::string_view text) {
     return number;
 }
 
-}  // namespace stilb
+}  // namespace stilb::run

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace stilb {
+namespace stilb::run {
 
 double remaining_time_s(const RunOptions& options, double elapsed_s, double attained_error,
                         double share_done) {
@@ -17,4 +17,4 @@ double remaining_time_s(const RunOptions& options, double elapsed_s, double atta
     return remaining_s;
 }
 
-}  // namespace stilb
+}  // namespace stilb::run

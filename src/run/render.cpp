@@ -22,7 +22,7 @@
 #include "run/threads.h"
 #include "statistics/stopping.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 /// Fewer than for readings: a pixel's error matters less than memory for them all.
@@ -51,7 +51,7 @@ class PictureSums {
         for (std::size_t i = 0; i < rgb_.size(); ++i) {
             for (std::size_t b = 0; b < kBands; ++b) rgb_[i][b] += pass[i][b];
             luminance_[i * replicates_ + replicate] +=
-                static_cast<float>(Spectrum{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
+                static_cast<float>(Rgb{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
         }
         ++passes_;
     }
@@ -98,7 +98,7 @@ class PictureSums {
 
 /// Pixels that the camera shows nothing in.
 std::vector<bool> blind_pixels(const Camera& camera) {
-    const CameraView view(camera);
+    const sensors::CameraView view(camera);
     std::vector<bool> blind;
     for (int y = 0; y < camera.resolution[1]; ++y) {
         for (int x = 0; x < camera.resolution[0]; ++x) blind.push_back(!view.direction_at(x + 0.5, y + 0.5));
@@ -109,35 +109,36 @@ std::vector<bool> blind_pixels(const Camera& camera) {
 double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
     const std::uint64_t used = sums.replicates();
     if (used < 2) return std::numeric_limits<double>::infinity();
-    const double t = student_t_quantile((1 + kStoppedConfidence) / 2, static_cast<int>(used) - 1);
+    const double t =
+        statistics::student_t_quantile((1 + statistics::kStoppedConfidence) / 2, static_cast<int>(used) - 1);
     std::vector<double> half_widths;
     for (std::size_t i = 0; i < blind.size(); ++i) {
         if (blind[i]) continue;
         const double error = t * sums.standard_error_cd_m2(i);
         half_widths.push_back(error > 0 ? error / sums.luminance_cd_m2(i) : 0);
     }
-    return attained_error_of(std::move(half_widths));
+    return statistics::attained_error_of(std::move(half_widths));
 }
 
 /// One pass after another over all blocks.
 class Passes {
   public:
-    Passes(const PictureEstimator& estimator, const Camera& camera, std::uint64_t replicates,
+    Passes(const estimators::PictureEstimator& estimator, const Camera& camera, std::uint64_t replicates,
            std::uint64_t seed, const std::atomic<bool>* interrupt)
         : estimator_(estimator),
           replicates_(replicates),
           resolution_(camera.resolution),
           width_(static_cast<std::size_t>(camera.resolution[0])),
-          key_(RandomKey{seed}.derived(kSamples)),
-          offset_key_(RandomKey{seed}.derived(kOffset)),
+          key_(math::RandomKey{seed}.derived(kSamples)),
+          offset_key_(math::RandomKey{seed}.derived(kOffset)),
           interrupt_(interrupt),
           pixels_(width_ * static_cast<std::size_t>(camera.resolution[1])) {}
 
     /// The next pass; false where it was interrupted: then nothing is added.
     bool add_to(PictureSums& sums) {
         const std::uint64_t p = sums.passes();
-        const Pass pass{key_.derived(p % replicates_), p / replicates_, p % replicates_};
-        const std::vector<PixelBlock> blocks = blocks_of(resolution_, offset_of(p));
+        const estimators::Pass pass{key_.derived(p % replicates_), p / replicates_, p % replicates_};
+        const std::vector<estimators::PixelBlock> blocks = estimators::blocks_of(resolution_, offset_of(p));
         const auto started = estimator_.start(pass);
         tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
             // The first two are always made: there is no picture without one, and no error without two.
@@ -157,12 +158,13 @@ class Passes {
   private:
     /// Blocks lie elsewhere in every pass, for their edges not to show.
     std::array<int, 2> offset_of(std::uint64_t pass) const {
-        const auto [u, v] = SampleStream(offset_key_, pass).next_two();
-        return {1 + static_cast<int>(u * kBlockSize), 1 + static_cast<int>(v * kBlockSize)};
+        const auto [u, v] = math::SampleStream(offset_key_, pass).next_two();
+        return {1 + static_cast<int>(u * estimators::kBlockSize),
+                1 + static_cast<int>(v * estimators::kBlockSize)};
     }
 
-    void sample(const PixelBlock& block, const PicturePass& pass) {
-        std::array<Spectrum, std::size_t{kBlockSize} * kBlockSize> samples;
+    void sample(const estimators::PixelBlock& block, const estimators::PicturePass& pass) {
+        std::array<Rgb, std::size_t{estimators::kBlockSize} * estimators::kBlockSize> samples;
         const std::size_t count =
             static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height);
         invalid_ += pass.sample(block, {samples.data(), count});
@@ -177,11 +179,11 @@ class Passes {
         }
     }
 
-    const PictureEstimator& estimator_;
+    const estimators::PictureEstimator& estimator_;
     std::uint64_t replicates_;
     std::array<int, 2> resolution_;
     std::size_t width_;
-    RandomKey key_, offset_key_;
+    math::RandomKey key_, offset_key_;
     const std::atomic<bool>* interrupt_;
     std::vector<std::array<float, 3>> pixels_;
     std::atomic<std::uint64_t> invalid_ = 0;
@@ -238,8 +240,8 @@ class PictureSchedule {
     double last_look_ = std::numeric_limits<double>::infinity();
 };
 
-void add_geometry(const Camera& camera, const RayCaster& caster, RenderResult& result) {
-    const CameraView view(camera);
+void add_geometry(const Camera& camera, const rays::RayCaster& caster, RenderResult& result) {
+    const sensors::CameraView view(camera);
     for (int y = 0; y < camera.resolution[1]; ++y) {
         for (int x = 0; x < camera.resolution[0]; ++x) {
             const auto direction = view.direction_at(x + 0.5, y + 0.5);
@@ -274,7 +276,7 @@ void add_means(const PictureSums& sums, const std::vector<bool>& blind, RenderRe
 
 /// With the default of a picture that was asked for nothing in particular. Passes of a method without chance
 /// differ only by where they look in the pixels.
-RunOptions with_target(RunOptions options, const EstimatorEntry& method) {
+RunOptions with_target(RunOptions options, const estimators::EstimatorEntry& method) {
     if (method.is_deterministic) options.error.reset();
     if (!options.error && !options.time_s && !options.paths) {
         if (method.is_deterministic) {
@@ -288,19 +290,20 @@ RunOptions with_target(RunOptions options, const EstimatorEntry& method) {
 }
 
 /// Renders with the estimator that is made; 1 replicate: without errors.
-RenderResult render_by(const std::function<std::unique_ptr<PictureEstimator>(const PictureInput&)>& make,
-                       std::uint64_t replicates, const Scene& scene, const Sensor& sensor,
-                       const RunOptions& options, PictureSink* sink, const std::atomic<bool>* interrupt) {
+RenderResult render_by(
+    const std::function<std::unique_ptr<estimators::PictureEstimator>(const estimators::PictureInput&)>& make,
+    std::uint64_t replicates, const Scene& scene, const Sensor& sensor, const RunOptions& options,
+    PictureSink* sink, const std::atomic<bool>* interrupt) {
     const Camera& camera = sensor.camera;
     const Clock clock;
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     Threads threads(options.threads);
     const std::vector<bool> blind = blind_pixels(camera);
     PictureSums sums(blind.size(), replicates);
     RenderResult result;
     threads.arena.execute([&] {
-        const auto estimator = make({scene, caster, camera, options.bounces.value_or(kUnlimited),
-                                     RandomKey{options.seed}.derived(kPreparation), options.patches});
+        const auto estimator = make({scene, caster, camera, options.bounces.value_or(transport::kUnlimited),
+                                     math::RandomKey{options.seed}.derived(kPreparation), options.patches});
         Passes passes(*estimator, camera, replicates, options.seed, interrupt);
         result.stop_reason = PictureSchedule(options, clock, blind, sink).proceed(passes, sums);
         result.patches = estimator->patch_report();
@@ -316,7 +319,7 @@ RenderResult render_by(const std::function<std::unique_ptr<PictureEstimator>(con
     result.attained_error = attained_error(sums, blind);
     result.converged = result.stop_reason != StopReason::interrupted &&
                        (!options.error || result.stop_reason == StopReason::target_reached);
-    for (auto& warning : placement_warnings(scene, caster, {&sensor, 1})) {
+    for (auto& warning : checks::placement_warnings(scene, caster, {&sensor, 1})) {
         result.warnings.push_back(std::move(warning));
     }
     result.elapsed_s = clock.elapsed_s();
@@ -334,11 +337,11 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
         return result;
     }
     require_valid(asked_options);
-    const EstimatorEntry& method = find_estimator(asked_options.method);
+    const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
     const RunOptions options = with_target(asked_options, method);
     if (!method.measures_luminance()) {
         throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
-                                     fmt::join(luminance_methods(), ", ")));
+                                     fmt::join(estimators::luminance_methods(), ", ")));
     }
     RenderResult result = render_by(method.make_picture, method.is_deterministic ? 1 : kReplicates, scene,
                                     camera, options, sink, interrupt);
@@ -355,16 +358,18 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
     return result;
 }
 
-RenderResult render_solution(const Scene& scene, const Sensor& camera, PatchSolution solution, int threads,
-                             PictureSink* sink, const std::atomic<bool>* interrupt) {
+RenderResult render_solution(const Scene& scene, const Sensor& camera, estimators::PatchSolution solution,
+                             int threads, PictureSink* sink, const std::atomic<bool>* interrupt) {
     const std::uint64_t replicates = solution.replicates.size();
     RunOptions options;
     options.method = "solution";
     options.threads = threads;
     options.paths = std::max(kSmoothingPasses / replicates, std::uint64_t{1}) * replicates;
     return render_by(
-        [&](const PictureInput& input) { return make_solution_picture(input, std::move(solution)); },
+        [&](const estimators::PictureInput& input) {
+            return make_solution_picture(input, std::move(solution));
+        },
         replicates, scene, camera, options, sink, interrupt);
 }
 
-}  // namespace stilb
+}  // namespace stilb::run

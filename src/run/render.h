@@ -14,7 +14,7 @@
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::run {
 
 /// Pixels row by row from the top, NaN where the camera shows nothing.
 struct Pixels {
@@ -35,8 +35,8 @@ struct RenderResult {
     bool converged = true;      ///< false where an error was asked for and is not met
     double attained_error = 0;  ///< relative half-width that 95 % of the pixels keep
     double mean_luminance_cd_m2 = 0;
-    double mean_standard_error_cd_m2 = 0;  ///< of single pixels
-    std::optional<PatchReport> patches;    ///< where the method lights patches
+    double mean_standard_error_cd_m2 = 0;            ///< of single pixels
+    std::optional<estimators::PatchReport> patches;  ///< where the method lights patches
     std::vector<LevelOfDetail> levels_of_detail;
     std::vector<std::string> warnings;
 };
@@ -65,8 +65,14 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
 
 /// The same of light that is known: a few passes for smooth edges. Errors come from the solution's
 /// replicates. Throws InputError where the solution does not fit the scene.
-RenderResult render_solution(const Scene& scene, const Sensor& camera, PatchSolution solution,
+RenderResult render_solution(const Scene& scene, const Sensor& camera, estimators::PatchSolution solution,
                              int threads = 0, PictureSink* sink = nullptr,
                              const std::atomic<bool>* interrupt = nullptr);
 
+}  // namespace stilb::run
+
+namespace stilb {
+using run::PictureSink;
+using run::Pixels;
+using run::RenderResult;
 }  // namespace stilb

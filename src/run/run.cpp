@@ -20,7 +20,7 @@
 #include "statistics/stopping.h"
 #include "transport/line_of_sight.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 constexpr double kConfidence = 0.95;
@@ -39,10 +39,11 @@ enum Purpose : std::uint64_t { kPreparation, kReplicates };
 /// The replicates' sums, and how far they are.
 class Campaign {
   public:
-    Campaign(const Estimator& estimator, std::size_t readings, int replicates, std::uint64_t seed)
-        : estimator_(estimator), sums_(static_cast<std::size_t>(replicates), ReadingSums(readings)) {
+    Campaign(const estimators::Estimator& estimator, std::size_t readings, int replicates, std::uint64_t seed)
+        : estimator_(estimator),
+          sums_(static_cast<std::size_t>(replicates), estimators::ReadingSums(readings)) {
         for (std::size_t r = 0; r < sums_.size(); ++r) {
-            keys_.push_back(RandomKey{seed}.derived(kReplicates).derived(r));
+            keys_.push_back(math::RandomKey{seed}.derived(kReplicates).derived(r));
         }
         const double per_batch = kRaysPerRound / (replicates * estimator.rays_per_sample());
         std::uint64_t batch = estimator.batch_granularity();
@@ -65,13 +66,13 @@ class Campaign {
 
     std::uint64_t rays() const {
         std::uint64_t rays = 0;
-        for (const ReadingSums& s : sums_) rays += s.rays;
+        for (const estimators::ReadingSums& s : sums_) rays += s.rays;
         return rays;
     }
 
     void require_valid() const {
         std::uint64_t invalid = 0;
-        for (const ReadingSums& s : sums_) invalid += s.invalid;
+        for (const estimators::ReadingSums& s : sums_) invalid += s.invalid;
         const double all = static_cast<double>(paths()) * static_cast<double>(sums_[0].sum.size());
         if (static_cast<double>(invalid) > kInvalidRate * all) {
             throw std::runtime_error(
@@ -86,7 +87,7 @@ class Campaign {
         std::vector<double> means;
         means.reserve(sums_.size() * count);
         const auto known = estimator_.known_part();
-        for (const ReadingSums& s : sums_) {
+        for (const estimators::ReadingSums& s : sums_) {
             for (std::size_t j = first; j < first + count; ++j) {
                 means.push_back(known[j].luminance() + s.sum[j].luminance() / static_cast<double>(samples_));
             }
@@ -94,44 +95,45 @@ class Campaign {
         return means;
     }
 
-    Spectrum rgb(std::size_t reading) const {
-        Spectrum sum;
-        for (const ReadingSums& s : sums_) sum += s.sum[reading];
+    Rgb rgb(std::size_t reading) const {
+        Rgb sum;
+        for (const estimators::ReadingSums& s : sums_) sum += s.sum[reading];
         return estimator_.known_part()[reading] + sum * (1 / static_cast<double>(paths()));
     }
 
     bool is_heavy_tailed(std::size_t reading) const {
         double largest = 0, sum = 0;
-        for (const ReadingSums& s : sums_) {
+        for (const estimators::ReadingSums& s : sums_) {
             largest = std::max(largest, s.largest[reading]);
             sum += s.sum[reading].luminance();
         }
-        return stilb::is_heavy_tailed(largest, sum, paths());
+        return stilb::statistics::is_heavy_tailed(largest, sum, paths());
     }
 
   private:
-    const Estimator& estimator_;
-    std::vector<RandomKey> keys_;
-    std::vector<ReadingSums> sums_;
+    const estimators::Estimator& estimator_;
+    std::vector<math::RandomKey> keys_;
+    std::vector<estimators::ReadingSums> sums_;
     std::uint64_t batch_ = 1;
     std::uint64_t samples_ = 0;
 };
 
-void require_measurable(std::span<const Sensor> sensors, const EstimatorEntry& method) {
+void require_measurable(std::span<const Sensor> sensors, const estimators::EstimatorEntry& method) {
     for (const Sensor& sensor : sensors) {
         if (sensor.measures_luminance() && !method.measures_luminance()) {
             throw InputError(fmt::format("sensor \"{}\": method {} measures illuminance only. Luminance: {}.",
-                                         sensor.name, method.name, fmt::join(luminance_methods(), ", ")));
+                                         sensor.name, method.name,
+                                         fmt::join(estimators::luminance_methods(), ", ")));
         }
     }
 }
 
 /// A goniometer that stands on nothing has nothing to measure.
-void require_surfaces(std::span<const Sensor> sensors, const RayCaster& caster) {
+void require_surfaces(std::span<const Sensor> sensors, const rays::RayCaster& caster) {
     for (const Sensor& sensor : sensors) {
         for (const Measurand& measurand : sensor.measurands) {
             const auto* ray = std::get_if<EmergentRay>(&measurand);
-            if (!ray || first_surface(measurand, caster)) continue;
+            if (!ray || transport::first_surface(measurand, caster)) continue;
             const Vec3& p = ray->position;
             throw InputError(fmt::format(
                 "sensor \"{}\": its point ({}, {}, {}) lies on no surface. A goniometer needs a point on a "
@@ -147,7 +149,8 @@ double attained_error(const Campaign& campaign, std::span<const Sensor> sensors)
     for (const Sensor& sensor : sensors) {
         const std::size_t count = sensor.measurands.size();
         const std::vector<double> means = campaign.replicate_means(first, count);
-        worst = std::max(worst, stilb::attained_error(estimate_readings({means, count}, kStoppedConfidence)));
+        worst = std::max(worst, stilb::statistics::attained_error(statistics::estimate_readings(
+                                    {means, count}, statistics::kStoppedConfidence)));
         first += count;
     }
     return worst;
@@ -155,7 +158,7 @@ double attained_error(const Campaign& campaign, std::span<const Sensor> sensors)
 
 /// With the default of a run that was asked for nothing in particular; a method without chance does what
 /// there is to do, once.
-RunOptions with_target(RunOptions options, const EstimatorEntry& method) {
+RunOptions with_target(RunOptions options, const estimators::EstimatorEntry& method) {
     if (method.is_deterministic) {
         options.error = options.time_s = std::nullopt;
         options.paths.reset();
@@ -170,7 +173,7 @@ RunOptions with_target(RunOptions options, const EstimatorEntry& method) {
 /// Samples until a stop rule says so; keeps attained_error and stop_reason of the result.
 class Schedule {
   public:
-    Schedule(const RunOptions& options, const Estimator& estimator, const Clock& clock,
+    Schedule(const RunOptions& options, const estimators::Estimator& estimator, const Clock& clock,
              const std::atomic<bool>* interrupt)
         : options_(options),
           clock_(clock),
@@ -186,7 +189,7 @@ class Schedule {
                  RunResult& result) {
         for (;;) {
             const std::uint64_t checkpoint =
-                std::min(last_sample_, next_look(campaign.samples(), kLeastLook * granularity_));
+                std::min(last_sample_, statistics::next_look(campaign.samples(), kLeastLook * granularity_));
             while (campaign.samples() < checkpoint) {
                 const std::uint64_t next = std::min(campaign.batch_size(), checkpoint - campaign.samples());
                 if (const auto reason = early_stop(campaign, next)) {
@@ -234,16 +237,16 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
                            double confidence) {
     const std::size_t count = sensor.measurands.size();
     const std::vector<double> means = campaign.replicate_means(first, count);
-    const ReplicateTable table{means, count};
-    std::vector<Estimate> estimates;
+    const statistics::ReplicateTable table{means, count};
+    std::vector<statistics::Estimate> estimates;
     SensorResult result;
     if (table.replicates() > 1) {
         estimates = estimate_readings(table, confidence);
         result.summary = summarize_grid(table, confidence);
         result.attained_error = attained_error(estimates);
     } else {
-        std::ranges::transform(means, std::back_inserter(estimates), without_error);
-        result.summary = summarize_without_errors(means);
+        std::ranges::transform(means, std::back_inserter(estimates), statistics::without_error);
+        result.summary = statistics::summarize_without_errors(means);
         result.attained_error = kUnknown;
     }
     for (std::size_t j = 0; j < count; ++j)
@@ -252,12 +255,13 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
 }
 
 std::vector<std::optional<Vec3>> sub_points(const Sensor& sensor, const Scene& scene,
-                                            const RayCaster& caster) {
+                                            const rays::RayCaster& caster) {
     std::vector<std::optional<Vec3>> points;
     if (sensor.type != SensorType::luminance) return points;
-    const LightSampler lights(scene, caster);
+    const transport::LightSampler lights(scene, caster);
     for (const Measurand& measurand : sensor.measurands) {
-        const Sight sight = look(measurand, scene, caster, lights, kUnlimited);
+        const transport::VisibleSurfaces sight =
+            look(measurand, scene, caster, lights, transport::kUnlimited);
         points.push_back(sight.sub_points.empty() ? std::nullopt
                                                   : std::optional{sight.sub_points.front().surface.position});
     }
@@ -276,7 +280,8 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
                 "sensor \"{}\": in {} of {} readings a single contribution is more than {:.2g} % of the sum; "
                 "the variance "
                 "is probably infinite there (a corner) and the interval may not hold. Use --method auto.",
-                sensor.name, heavy, sensor.measurands.size(), 100 * heavy_tail_share(campaign.paths())));
+                sensor.name, heavy, sensor.measurands.size(),
+                100 * statistics::heavy_tail_share(campaign.paths())));
         }
         first += sensor.measurands.size();
     }
@@ -285,11 +290,11 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
 
 }  // namespace
 
-RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked_options,
-              ProgressSink* progress, const std::atomic<bool>* interrupt) {
+RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked_options,
+                  ProgressSink* progress, const std::atomic<bool>* interrupt) {
     if (has_levels_of_detail(scene)) {
         DetailedScene detailed = with_levels_of_detail(scene, sensors);
-        RunResult result = run(detailed.scene, sensors, asked_options, progress, interrupt);
+        RunResult result = measure(detailed.scene, sensors, asked_options, progress, interrupt);
         result.levels_of_detail = std::move(detailed.levels);
         return result;
     }
@@ -304,17 +309,17 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
         throw InputError("no sensor to measure: the scene needs one under [sensors]");
     }
     require_valid(asked_options);
-    const EstimatorEntry& method = find_estimator(asked_options.method);
+    const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
     const RunOptions options = with_target(asked_options, method);
     require_measurable(sensors, method);
 
     const Clock clock;
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     require_surfaces(sensors, caster);
     Threads threads(options.threads);
     const auto estimator = threads.arena.execute([&] {
-        return method.make({scene, caster, measurands, options.bounces.value_or(kUnlimited),
-                            RandomKey{options.seed}.derived(kPreparation), weights, options.patches});
+        return method.make({scene, caster, measurands, options.bounces.value_or(transport::kUnlimited),
+                            math::RandomKey{options.seed}.derived(kPreparation), weights, options.patches});
     });
     Campaign campaign(*estimator, measurands.size(), options.replicates, options.seed);
     RunResult result;
@@ -338,7 +343,7 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     result.rays = campaign.rays();
     // A run that stopped by its own error stops sooner where that happens to be too small
     // (docs/statistics.md).
-    const double confidence = options.error ? kStoppedConfidence : kConfidence;
+    const double confidence = options.error ? statistics::kStoppedConfidence : kConfidence;
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
         result.sensors.push_back(sensor_result(campaign, sensor, first, confidence));
@@ -353,7 +358,7 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
                         "not looked at.",
                         method.name));
     }
-    for (auto& warning : placement_warnings(scene, caster, sensors))
+    for (auto& warning : checks::placement_warnings(scene, caster, sensors))
         result.warnings.push_back(std::move(warning));
     if (method.has_heavy_tails) {
         for (auto& warning : heavy_tail_warnings(campaign, sensors))
@@ -363,4 +368,4 @@ RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOpti
     return result;
 }
 
-}  // namespace stilb
+}  // namespace stilb::run

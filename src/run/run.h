@@ -17,18 +17,18 @@
 #include "statistics/grid_summary.h"
 #include "statistics/interval.h"
 
-namespace stilb {
+namespace stilb::run {
 
 struct Reading {
-    Estimate estimate;  ///< [lx] or [cd/m2]
-    Spectrum rgb;
+    statistics::Estimate estimate;  ///< [lx] or [cd/m2]
+    Rgb rgb;
 };
 
 struct SensorResult {
     std::vector<Reading> readings;  ///< in the order of the sensor's measurands
     /// Luminance sensors: where each line of sight ends; nothing where it leaves the scene. Empty: not known.
     std::vector<std::optional<Vec3>> sub_points;
-    GridSummary summary;
+    statistics::GridSummary summary;
     double attained_error = 0;  ///< relative half-width that 95 % of the readings keep
 };
 
@@ -45,9 +45,9 @@ struct RunResult {
     StopReason stop_reason = StopReason::paths_done;
     /// False where an error was asked for and is not met.
     bool converged = true;
-    double attained_error = 0;           ///< the worst sensor's
-    std::vector<SensorResult> sensors;   ///< in the order asked for
-    std::optional<PatchReport> patches;  ///< where the method lights patches
+    double attained_error = 0;                       ///< the worst sensor's
+    std::vector<SensorResult> sensors;               ///< in the order asked for
+    std::optional<estimators::PatchReport> patches;  ///< where the method lights patches
     std::vector<LevelOfDetail> levels_of_detail;
     std::vector<std::string> warnings;
 };
@@ -69,7 +69,15 @@ class ProgressSink {
 /// paths done: not on threads or time (a time limit decides how many paths are done). `interrupt` ends the
 /// run early, in good order. A deterministic method ends by itself only; its errors are NaN. Throws
 /// InputError where an option is wrong, std::runtime_error where the numbers are (too many are not finite).
-RunResult run(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
-              ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
+RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+                  ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
 
+}  // namespace stilb::run
+
+namespace stilb {
+using run::ProgressSink;
+using run::Reading;
+using run::RunResult;
+using run::SensorResult;
+using run::StopReason;
 }  // namespace stilb

@@ -18,7 +18,7 @@
 #include "statistics/interval.h"
 #include "statistics/stopping.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 /// Each has its own light in the file.
@@ -31,11 +31,12 @@ constexpr std::uint64_t kStepsAtOnce = 4;
 /// Independent walks, each with its own sums.
 class Walks {
   public:
-    Walks(const PatchTransport& transport, const TermLayout& layout, std::uint64_t seed)
+    Walks(const estimators::PatchTransport& transport, const estimators::TermLayout& layout,
+          std::uint64_t seed)
         : transport_(transport), layout_(layout), walks_(kReplicates) {
         const std::uint64_t dark = first_steps(transport);
         tbb::parallel_for(std::size_t{0}, kReplicates, [&](std::size_t w) {
-            walks_[w] = std::make_unique<Walk>(transport, layout, RandomKey{seed}.derived(w));
+            walks_[w] = std::make_unique<Walk>(transport, layout, math::RandomKey{seed}.derived(w));
             for (std::uint64_t i = 0; i < dark; ++i) walks_[w]->iteration.step();
         });
     }
@@ -66,32 +67,33 @@ class Walks {
     double attained_error() const {
         const std::vector<std::uint32_t> sides = lit_sides();
         if (sides.empty()) return 0;
-        const IncomingFirstShot* const first_shot = transport_.first_shot.incoming();
+        const estimators::IncomingFirstShot* const first_shot = transport_.first_shot.incoming();
         std::vector<double> means;
         for (const auto& walk : walks_) {
             for (const std::uint32_t side : sides) {
-                Spectrum illuminance_lx = walk->sums.mean_illuminance_lx(side);
+                Rgb illuminance_lx = walk->sums.mean_illuminance_lx(side);
                 if (first_shot) illuminance_lx += first_shot->illuminance_lx(side);
                 means.push_back(illuminance_lx.luminance());
             }
         }
-        const std::vector<Estimate> estimates = estimate_readings({means, sides.size()}, kStoppedConfidence);
+        const std::vector<statistics::Estimate> estimates =
+            statistics::estimate_readings({means, sides.size()}, statistics::kStoppedConfidence);
         std::vector<double> flux_lm;
         for (std::size_t i = 0; i < sides.size(); ++i) {
             const std::uint32_t patch = transport_.patches.patch_of(sides[i]);
             flux_lm.push_back(estimates[i].value * double{transport_.patches.areas_m2[patch]});
         }
-        return stilb::attained_error(estimates, flux_lm);
+        return stilb::statistics::attained_error(estimates, flux_lm);
     }
 
     /// The terms of the sides, replicate by replicate.
-    std::vector<std::vector<Rgb>> terms_of(std::span<const std::uint32_t> sides) const {
-        std::vector<std::vector<Rgb>> replicates;
+    std::vector<std::vector<estimators::FloatRgb>> terms_of(std::span<const std::uint32_t> sides) const {
+        std::vector<std::vector<estimators::FloatRgb>> replicates;
         for (const auto& walk : walks_) {
-            const std::vector<Rgb> all = walk->sums.mean();
-            std::vector<Rgb>& terms = replicates.emplace_back();
+            const std::vector<estimators::FloatRgb> all = walk->sums.mean();
+            std::vector<estimators::FloatRgb>& terms = replicates.emplace_back();
             for (const std::uint32_t side : sides) {
-                const Rgb* const first = &all[layout_.first_of(side)];
+                const estimators::FloatRgb* const first = &all[layout_.first_of(side)];
                 terms.insert(terms.end(), first, first + layout_.count_of(side));
             }
         }
@@ -100,14 +102,15 @@ class Walks {
 
   private:
     struct Walk {
-        Walk(const PatchTransport& transport, const TermLayout& layout, RandomKey key)
+        Walk(const estimators::PatchTransport& transport, const estimators::TermLayout& layout,
+             math::RandomKey key)
             : iteration(transport, key), sums(transport, layout) {}
-        BundleIteration iteration;
-        TermSums sums;
+        estimators::BundleIteration iteration;
+        estimators::TermSums sums;
     };
 
-    const PatchTransport& transport_;
-    const TermLayout& layout_;
+    const estimators::PatchTransport& transport_;
+    const estimators::TermLayout& layout_;
     std::vector<std::unique_ptr<Walk>> walks_;
 };
 
@@ -123,7 +126,7 @@ class SolveSchedule {
     void proceed(Walks& walks, SolveResult& result) {
         result.attained_error = std::numeric_limits<double>::infinity();
         for (;;) {
-            const std::uint64_t look = std::min(last_step_, next_look(walks.steps(), kFirstLook));
+            const std::uint64_t look = std::min(last_step_, statistics::next_look(walks.steps(), kFirstLook));
             const auto reason = advance_to(look, walks, result.attained_error);
             result.attained_error = walks.attained_error();
             const bool reached = options_.error && result.attained_error <= *options_.error;
@@ -176,13 +179,17 @@ RunOptions with_target(RunOptions options) {
 }
 
 void require_storable(const Scene& scene, const RunOptions& options, int degree) {
-    require_all_reflections(options.bounces.value_or(kUnlimited), "ray-bundle");
-    if (degree < 0 || degree > ZernikeBasis::kMostDegree) {
-        throw InputError(fmt::format("degree {}: from 0 to {} is needed", degree, ZernikeBasis::kMostDegree));
+    estimators::require_all_reflections(options.bounces.value_or(transport::kUnlimited), "ray-bundle");
+    if (degree < 0 || degree > math::ZernikeBasis::kMostDegree) {
+        throw InputError(
+            fmt::format("degree {}: from 0 to {} is needed", degree, math::ZernikeBasis::kMostDegree));
     }
-    const FirstShotVariant variant = options.patches.first_shot.variant.value_or(kUsualFirstShot);
-    require_first_shot_of_points(scene, variant != FirstShotVariant::none, "ray-bundle");
-    if (variant == FirstShotVariant::incoming || variant == FirstShotVariant::none) return;
+    const estimators::FirstShotVariant variant =
+        options.patches.first_shot.variant.value_or(estimators::kUsualFirstShot);
+    estimators::require_first_shot_of_points(scene, variant != estimators::FirstShotVariant::none,
+                                             "ray-bundle");
+    if (variant == estimators::FirstShotVariant::incoming || variant == estimators::FirstShotVariant::none)
+        return;
     throw InputError(fmt::format(
         "--first-shot {}: a solution is for all eyes, and keeps what arrives. Allowed: incoming, none.",
         name_of(variant)));
@@ -196,17 +203,17 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
     require_storable(scene, asked_options, degree);
     const RunOptions options = with_target(asked_options);
     const Clock clock;
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     Threads threads(options.threads);
     SolveResult result;
     threads.arena.execute([&] {
-        const PatchTransport transport(scene, caster, options.patches);
-        const TermLayout layout(transport, degree, reflecting_sides(transport));
+        const estimators::PatchTransport transport(scene, caster, options.patches);
+        const estimators::TermLayout layout(transport, degree, reflecting_sides(transport));
         Walks walks(transport, layout, options.seed);
         SolveSchedule(options, clock, progress, interrupt).proceed(walks, result);
         result.steps = walks.steps() * kReplicates;
         result.patches = transport.report();
-        PatchSolution& solution = result.solution;
+        estimators::PatchSolution& solution = result.solution;
         solution.patches = transport.patches;
         if (const auto* incoming = transport.first_shot.incoming()) solution.factors = incoming->factors();
         solution.degree = degree;
@@ -216,9 +223,9 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
     result.seed = options.seed;
     result.converged = result.stop_reason != StopReason::interrupted &&
                        (!options.error || result.stop_reason == StopReason::target_reached);
-    result.warnings = patch_warnings(scene, "ray-bundle");
+    result.warnings = estimators::patch_warnings(scene, "ray-bundle");
     result.elapsed_s = clock.elapsed_s();
     return result;
 }
 
-}  // namespace stilb
+}  // namespace stilb::run

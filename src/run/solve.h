@@ -12,14 +12,14 @@
 #include "run/run.h"
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::run {
 
 /// Of the basis that the light of glossy sides is kept in; docs/solution.md has what it costs and gives.
 inline constexpr int kDefaultDegree = 6;
 
 struct SolveResult {
-    PatchSolution solution;
-    PatchReport patches;
+    estimators::PatchSolution solution;
+    estimators::PatchReport patches;
     std::uint64_t seed = 0;
     std::uint64_t steps = 0;  ///< of all walks together, without the first ones of each
     double elapsed_s = 0;
@@ -36,4 +36,8 @@ struct SolveResult {
 SolveResult solve(const Scene& scene, const RunOptions& options, int degree = kDefaultDegree,
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
 
+}  // namespace stilb::run
+
+namespace stilb {
+using run::SolveResult;
 }  // namespace stilb

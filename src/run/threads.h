@@ -5,7 +5,7 @@
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
-namespace stilb {
+namespace stilb::run {
 
 /// So many for all that runs in the arena, while this lives; 0: as many as the machine has.
 struct Threads {
@@ -19,4 +19,4 @@ struct Threads {
     tbb::task_arena arena;
 };
 
-}  // namespace stilb
+}  // namespace stilb::run

@@ -2,17 +2,15 @@
 
 #include <numbers>
 
-namespace stilb {
+namespace stilb::scene {
 
-Spectrum flux_lm(const Scene& scene, const Light& light) {
+Rgb flux_lm(const Scene& scene, const Light& light) {
     constexpr double pi = std::numbers::pi;
     struct Flux {
         const Scene& scene;
-        Spectrum operator()(const PointLight& l) const { return 4 * pi * l.intensity_cd; }
-        Spectrum operator()(const PhotometryLight& l) const {
-            return scene.solid(l.solid).flux_lm() * l.factor;
-        }
-        Spectrum operator()(const AreaLight& l) const {
+        Rgb operator()(const PointLight& l) const { return 4 * pi * l.intensity_cd; }
+        Rgb operator()(const Luminaire& l) const { return scene.solid(l.solid).flux_lm() * l.factor; }
+        Rgb operator()(const AreaLight& l) const {
             return pi * area_m2(scene.object(l.object).shape) * l.luminance_cd_m2;
         }
     };
@@ -25,4 +23,4 @@ double surface_area_m2(const Scene& scene) {
     return area;
 }
 
-}  // namespace stilb
+}  // namespace stilb::scene

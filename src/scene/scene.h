@@ -11,7 +11,7 @@
 #include "lights/photometric_solid.h"
 #include "materials/material.h"
 
-namespace stilb {
+namespace stilb::scene {
 
 struct NamedMaterial {
     std::string name;
@@ -47,8 +47,15 @@ struct Scene {
 };
 
 /// Flux of a light per band; luminance() of it is lumen.
-Spectrum flux_lm(const Scene& scene, const Light& light);
+Rgb flux_lm(const Scene& scene, const Light& light);
 /// Of all objects; each surface once, though both its sides reflect.
 double surface_area_m2(const Scene& scene);
 
+}  // namespace stilb::scene
+
+namespace stilb {
+using scene::NamedMaterial;
+using scene::NamedSolid;
+using scene::Object;
+using scene::Scene;
 }  // namespace stilb

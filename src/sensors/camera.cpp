@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::sensors {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -53,4 +53,4 @@ std::optional<Vec3> CameraView::direction_at(double x, double y) const {
     return std::nullopt;
 }
 
-}  // namespace stilb
+}  // namespace stilb::sensors

@@ -7,7 +7,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::sensors {
 
 /// How directions are laid out on a picture.
 enum class Projection {
@@ -61,4 +61,10 @@ class CameraView {
     double per_pixel_;  ///< at the middle: length on a plane at distance 1, or angle [rad]
 };
 
+}  // namespace stilb::sensors
+
+namespace stilb {
+using sensors::Camera;
+using sensors::PixelFilter;
+using sensors::Projection;
 }  // namespace stilb

@@ -6,7 +6,7 @@
 
 #include "lights/luminaire_frame.h"
 
-namespace stilb {
+namespace stilb::sensors {
 namespace {
 
 /// Steps from 0 that stay below `limit_deg`; one that meets it but for rounding does not.
@@ -35,7 +35,7 @@ std::vector<PolarAngles> angles_of(const Goniometer& goniometer) {
 /// The frame that directions are given in, w along the normal.
 Frame frame_of(const Vec3& normal) {
     // The turn of +z to the normal is that of -z to its opposite.
-    const LuminaireFrame turned = aim_luminaire(-normal, 0);
+    const lights::LuminaireFrame turned = lights::aim_luminaire(-normal, 0);
     return {turned.c0, turned.c90, normal};
 }
 
@@ -64,4 +64,4 @@ Sensor make_goniometer_sensor(std::string name, const Goniometer& goniometer) {
     return sensor;
 }
 
-}  // namespace stilb
+}  // namespace stilb::sensors

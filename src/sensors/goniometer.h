@@ -8,7 +8,7 @@
 #include "base/vec.h"
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::sensors {
 
 /// Directions at equal steps that all leave the surface: theta = 0, step, 2 step ... below 90 degrees.
 ///
@@ -28,4 +28,8 @@ std::int64_t direction_count(const Goniometer& goniometer);
 /// A sensor with an EmergentRay and its angles for each direction; theta rises, and for each theta phi.
 Sensor make_goniometer_sensor(std::string name, const Goniometer& goniometer);
 
+}  // namespace stilb::sensors
+
+namespace stilb {
+using sensors::Goniometer;
 }  // namespace stilb

@@ -4,7 +4,7 @@
 
 #include "rays/ray_caster.h"
 
-namespace stilb {
+namespace stilb::sensors {
 
 MeasuringPoint place_of(const Measurand& measurand) {
     if (const auto* sight = std::get_if<LineOfSight>(&measurand)) return {sight->position, sight->direction};
@@ -12,13 +12,13 @@ MeasuringPoint place_of(const Measurand& measurand) {
     return std::get<MeasuringPoint>(measurand);
 }
 
-std::optional<Hit> surface_at(const MeasuringPoint& point, const RayCaster& caster) {
+std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster) {
     const double most = caster.offset_m(point.position, caster.half_extent_m());
     const auto below = caster.closest(point.position + most * point.normal, -point.normal);
     return below && below->distance_m < 2 * most ? below : std::nullopt;
 }
 
-Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster) {
+Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster) {
     if (const auto surface = surface_at(point, caster)) return surface->lifted;
     return point.position + caster.offset_m(point.position, 0) * point.normal;
 }
@@ -35,4 +35,4 @@ Sensor make_grid_sensor(std::string name, const Grid& grid, const Vec3& normal) 
     return sensor;
 }
 
-}  // namespace stilb
+}  // namespace stilb::sensors

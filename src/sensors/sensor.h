@@ -11,7 +11,12 @@
 #include "base/vec.h"
 #include "sensors/camera.h"
 
-namespace stilb {
+namespace stilb::rays {
+class RayCaster;
+struct Hit;
+}  // namespace stilb::rays
+
+namespace stilb::sensors {
 
 /// The illuminance [lx] that arrives at `position` on the side that the unit `normal` points to.
 struct MeasuringPoint {
@@ -53,14 +58,11 @@ struct Grid {
     std::array<int, 2> count{1, 1};
 };
 
-class RayCaster;
-struct Hit;
-
 /// The surface that a point lies on, on the side of its normal.
-std::optional<Hit> surface_at(const MeasuringPoint& point, const RayCaster& caster);
+std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster);
 
 /// Where rays from a measuring point start: lifted along its normal, off the surface that it lies on, if any.
-Vec3 lifted_position(const MeasuringPoint& point, const RayCaster& caster);
+Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster);
 
 enum class SensorType { illuminance, grid, luminance, goniometer, camera };
 inline constexpr std::array<std::string_view, 5> kSensorTypeNames{"illuminance", "grid", "luminance",
@@ -94,4 +96,16 @@ struct Sensor {
 /// A grid sensor with a point at every cell's centre, all with the unit vector `normal`.
 Sensor make_grid_sensor(std::string name, const Grid& grid, const Vec3& normal);
 
+}  // namespace stilb::sensors
+
+namespace stilb {
+using sensors::EmergentRay;
+using sensors::Grid;
+using sensors::LineOfSight;
+using sensors::Measurand;
+using sensors::MeasuringPoint;
+using sensors::PolarAngles;
+using sensors::Quantity;
+using sensors::Sensor;
+using sensors::SensorType;
 }  // namespace stilb

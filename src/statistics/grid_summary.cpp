@@ -23,7 +23,7 @@
 
 #include "statistics/replicate_moments.h"
 
-namespace stilb {
+namespace stilb::statistics {
 namespace {
 
 constexpr double kScreeningShare = 0.1;  ///< of the total error rate
@@ -143,4 +143,4 @@ GridSummary summarize_without_errors(std::span<const double> readings) {
             without_error(mean > 0 ? smallest / mean : kNone)};
 }
 
-}  // namespace stilb
+}  // namespace stilb::statistics

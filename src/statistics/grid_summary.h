@@ -3,7 +3,7 @@
 
 #include "statistics/interval.h"
 
-namespace stilb {
+namespace stilb::statistics {
 
 struct GridSummary {
     Estimate mean, minimum, maximum;
@@ -21,4 +21,4 @@ GridSummary summarize_grid(const ReplicateTable& table, double confidence = 0.95
 /// Of one or more readings whose errors nobody knows (without_error()).
 GridSummary summarize_without_errors(std::span<const double> readings);
 
-}  // namespace stilb
+}  // namespace stilb::statistics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace stilb {
+namespace stilb::statistics {
 
 /// The share of a sum of `count` independent contributions that its largest one may have: 1/sqrt(count).
 ///
@@ -21,4 +21,4 @@ inline bool is_heavy_tailed(double largest, double sum, std::uint64_t count) {
     return std::abs(largest) > heavy_tail_share(count) * std::abs(sum);
 }
 
-}  // namespace stilb
+}  // namespace stilb::statistics

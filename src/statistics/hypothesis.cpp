@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace stilb {
+namespace stilb::statistics {
 namespace {
 
 namespace bm = boost::math;
@@ -113,4 +113,4 @@ double uniformity_p(std::span<const double> numbers) {
     return std::clamp(p, 0.0, 1.0);
 }
 
-}  // namespace stilb
+}  // namespace stilb::statistics

@@ -6,7 +6,7 @@
 
 #include "statistics/interval.h"
 
-namespace stilb {
+namespace stilb::statistics {
 
 /// How many standard errors two independent estimates are apart. Without any error: 0 if equal, else
 /// infinite.
@@ -44,4 +44,4 @@ Chi2Result chi2_test(std::span<const double> observed, std::span<const double> e
 /// For eight numbers or more (asymptotic distribution with the correction of [Stephens 1970]).
 double uniformity_p(std::span<const double> numbers);
 
-}  // namespace stilb
+}  // namespace stilb::statistics

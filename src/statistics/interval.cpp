@@ -6,7 +6,7 @@
 
 #include "statistics/replicate_moments.h"
 
-namespace stilb {
+namespace stilb::statistics {
 
 double student_t_quantile(double probability, int degrees_of_freedom) {
     return boost::math::quantile(boost::math::students_t(degrees_of_freedom), probability);
@@ -41,4 +41,4 @@ double relative_half_width(const Estimate& estimate) {
     return half_width / std::abs(estimate.value);
 }
 
-}  // namespace stilb
+}  // namespace stilb::statistics

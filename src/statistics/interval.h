@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace stilb {
+namespace stilb::statistics {
 
 struct Estimate {
     double value = 0;
@@ -47,4 +47,4 @@ std::vector<Estimate> estimate_readings(const ReplicateTable& table, double conf
 /// where only the value is 0.
 double relative_half_width(const Estimate& estimate);
 
-}  // namespace stilb
+}  // namespace stilb::statistics

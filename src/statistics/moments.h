@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace stilb {
+namespace stilb::statistics {
 
 /// Running mean and variance [Welford 1962]; two of them merge as if one had seen both streams [Chan, Golub,
 /// LeVeque 1979]. Stable where the mean is large beside the spread.
@@ -43,4 +43,4 @@ class RunningMoments {
     double squares_ = 0;  ///< sum of the squared distances from the mean
 };
 
-}  // namespace stilb
+}  // namespace stilb::statistics

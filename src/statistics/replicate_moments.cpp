@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace stilb {
+namespace stilb::statistics {
 
 ReplicateMoments compute_replicate_moments(const ReplicateTable& table) {
     const std::size_t replicates = table.replicates();
@@ -42,4 +42,4 @@ std::vector<double> residual_standard_errors(const ReplicateTable& table, std::s
     return errors;
 }
 
-}  // namespace stilb
+}  // namespace stilb::statistics

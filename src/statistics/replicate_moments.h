@@ -5,7 +5,7 @@
 
 #include "statistics/interval.h"
 
-namespace stilb {
+namespace stilb::statistics {
 
 struct ReplicateMoments {
     std::vector<double> means, standard_errors;  ///< one per reading
@@ -20,4 +20,4 @@ ReplicateMoments compute_replicate_moments(const ReplicateTable& table);
 std::vector<double> residual_standard_errors(const ReplicateTable& table, std::span<const double> means,
                                              std::span<const double> slopes, std::span<const double> common);
 
-}  // namespace stilb
+}  // namespace stilb::statistics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace stilb {
+namespace stilb::statistics {
 
 double attained_error(std::span<const Estimate> readings, double share) {
     std::vector<double> half_widths(readings.size());
@@ -46,4 +46,4 @@ std::uint64_t next_look(std::uint64_t done, std::uint64_t first) {
     return done < half_more ? half_more : 2 * look;
 }
 
-}  // namespace stilb
+}  // namespace stilb::statistics

@@ -7,7 +7,7 @@
 
 #include "statistics/interval.h"
 
-namespace stilb {
+namespace stilb::statistics {
 
 /// Share of each sensor's readings that must meet the target: the few darkest points must not decide over the
 /// rest.
@@ -29,4 +29,4 @@ double attained_error(std::span<const Estimate> readings, std::span<const double
 /// times as many, where Sobol' points are at their best and the overshoot is at most a half.
 std::uint64_t next_look(std::uint64_t done, std::uint64_t first);
 
-}  // namespace stilb
+}  // namespace stilb::statistics

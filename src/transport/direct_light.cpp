@@ -2,12 +2,12 @@
 
 #include "transport/balance.h"
 
-namespace stilb {
+namespace stilb::transport {
 namespace {
 
 /// Without the response. Direction and distance are those of the point itself; only the shadow ray starts
 /// lifted.
-Spectrum illuminance_lx(const IncidentLight& light, const Receiver& receiver, const RayCaster& caster) {
+Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster) {
     const double cosine = dot(light.direction, receiver.normal());
     if (cosine <= 0) return {};
     return cosine * light.normal_illuminance_lx *
@@ -15,14 +15,14 @@ Spectrum illuminance_lx(const IncidentLight& light, const Receiver& receiver, co
 }
 
 /// The emitters' light along a ray in proportion to the response; beside samples of each light.
-Spectrum sample_by_response(const Receiver& receiver, const RayCaster& caster, const LightSampler& lights,
-                            SampleStream& stream) {
+Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
+                       math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
     const auto sample = receiver.sample(u1, u2);
     if (!sample) return {};
     const auto seen = caster.seen({receiver.lifted(), sample->direction});
     if (!seen) return {};
-    const Spectrum emission = seen->transmittance * lights.emitted_luminance(seen->hit);
+    const Rgb emission = seen->transmittance * lights.emitted_luminance(seen->hit);
     if (!(emission.max() > 0)) return {};
     const double light_pdf = lights.pdf_of_its_light_per_sr(seen->hit, receiver.position());
     return sample->weight * emission * balance(sample->pdf_per_sr, light_pdf);
@@ -30,28 +30,28 @@ Spectrum sample_by_response(const Receiver& receiver, const RayCaster& caster, c
 
 }  // namespace
 
-Spectrum direct_from_points(const Receiver& receiver, const RayCaster& caster, const LightSampler& lights) {
-    Spectrum sum;
+Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights) {
+    Rgb sum;
     for (std::size_t i = 0; i < lights.count(); ++i) {
         if (!lights.is_point_like(i)) continue;
         if (const auto light = lights.sample_incident(i, receiver.position(), {})) {
-            const Spectrum received = illuminance_lx(*light, receiver, caster);
+            const Rgb received = illuminance_lx(*light, receiver, caster);
             if (received.max() > 0) sum += received * receiver.response(light->direction);
         }
     }
     return sum;
 }
 
-Spectrum sample_direct_from_areas(const Receiver& receiver, const RayCaster& caster,
-                                  const LightSampler& lights, SampleStream& stream) {
+Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,
+                             const LightSampler& lights, math::SampleStream& stream) {
     const bool directional = !receiver.constant_response();
-    Spectrum sum;
+    Rgb sum;
     for (std::size_t i = 0; i < lights.count(); ++i) {
         if (lights.is_point_like(i)) continue;
         const auto u = stream.next_two();
         const auto light = lights.sample_incident(i, receiver.position(), u);
         if (!light) continue;
-        const Spectrum received = illuminance_lx(*light, receiver, caster);
+        const Rgb received = illuminance_lx(*light, receiver, caster);
         if (!(received.max() > 0)) continue;
         const double weight =
             directional ? balance(light->pdf_per_sr, receiver.pdf_per_sr(light->direction)) : 1;
@@ -61,4 +61,4 @@ Spectrum sample_direct_from_areas(const Receiver& receiver, const RayCaster& cas
     return sum;
 }
 
-}  // namespace stilb
+}  // namespace stilb::transport

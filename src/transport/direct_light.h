@@ -8,15 +8,15 @@
 #include "transport/light_sampler.h"
 #include "transport/receiver.h"
 
-namespace stilb {
+namespace stilb::transport {
 
 /// What a receiver gets from all point and photometry lights: exact, one shadow ray each.
-Spectrum direct_from_points(const Receiver& receiver, const RayCaster& caster, const LightSampler& lights);
+Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights);
 
 /// One sample of what a receiver gets from all area lights: each by its solid angle and, where the response
 /// depends on direction, all by a ray in proportion to the response as well, weighted by the balance
 /// heuristic.
-Spectrum sample_direct_from_areas(const Receiver& receiver, const RayCaster& caster,
-                                  const LightSampler& lights, SampleStream& stream);
+Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,
+                             const LightSampler& lights, math::SampleStream& stream);
 
-}  // namespace stilb
+}  // namespace stilb::transport

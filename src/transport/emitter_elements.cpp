@@ -10,7 +10,7 @@
 #include "lights/solid_angle.h"
 #include "math/sampling.h"
 
-namespace stilb {
+namespace stilb::transport {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -37,20 +37,20 @@ EmitterPoint by_area(const Rectangle& r, const std::array<double, 2>& u) {
     return {r.corner + u[0] * r.edge_u + u[1] * r.edge_v, {}};
 }
 EmitterPoint by_area(const Corners& t, const std::array<double, 2>& u) {
-    const Barycentric b = sample_triangle(u[0], u[1]);
+    const math::Barycentric b = math::sample_triangle(u[0], u[1]);
     return {b.b0 * t[0] + b.b1 * t[1] + b.b2 * t[2], {}};
 }
 EmitterPoint by_area(const Disk& d, const std::array<double, 2>& u) {
     const Frame frame = Frame::around(d.normal);
-    const DiskPoint p = sample_unit_disk(u[0], u[1]);
+    const math::DiskPoint p = math::sample_unit_disk(u[0], u[1]);
     return {d.center + d.radius * (p.x * frame.u + p.y * frame.v), {}};
 }
 EmitterPoint by_area(const Sphere& s, const std::array<double, 2>& u) {
-    const Vec3 normal = sample_sphere(u[0], u[1]).direction;
+    const Vec3 normal = math::sample_sphere(u[0], u[1]).direction;
     return {s.center + s.radius * normal, normal};
 }
 EmitterPoint by_area(const Harmonics& h, const std::array<double, 2>& u) {
-    const HarmonicArea::Point point = h.area->sample(u);
+    const geometry::HarmonicArea::Point point = h.area->sample(u);
     return {h.to_world(point.position), h.axes.to_world(point.normal),
             1 / (point.pdf_per_area * h.area->total())};
 }
@@ -94,10 +94,10 @@ struct SolidAngleSampler {
     const std::array<double, 2>& u;
 
     template <typename Simple>
-    std::optional<SolidAngleSample> operator()(const Simple& shape) const {
-        return sample_by_solid_angle(shape, from, u[0], u[1]);
+    std::optional<lights::SolidAngleSample> operator()(const Simple& shape) const {
+        return lights::sample_by_solid_angle(shape, from, u[0], u[1]);
     }
-    std::optional<SolidAngleSample> operator()(const Harmonics&) const { return std::nullopt; }
+    std::optional<lights::SolidAngleSample> operator()(const Harmonics&) const { return std::nullopt; }
 };
 
 }  // namespace
@@ -140,4 +140,4 @@ double rough_pdf_per_sr(const EmitterElement& element, const Vec3& position, con
     return (squared_distance + projected_m2 / (2 * kPi)) / projected_m2;
 }
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -11,10 +11,10 @@
 
 #include "materials/material.h"
 
-namespace stilb {
+namespace stilb::transport {
 
 /// s for a BRDF value of a material.
-inline double relative_brdf(const Material& material, const Spectrum& brdf_per_sr) {
+inline double relative_brdf(const Material& material, const Rgb& brdf_per_sr) {
     const double albedo = reflectance_bound(material).luminance();
     return albedo > 0 ? std::numbers::pi * brdf_per_sr.luminance() / albedo : 0;
 }
@@ -28,4 +28,4 @@ struct GatheredShare {
     }
 };
 
-}  // namespace stilb
+}  // namespace stilb::transport

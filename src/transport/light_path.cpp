@@ -1,17 +1,17 @@
 #include "transport/light_path.h"
 
 #include "transport/russian_roulette.h"
-#include "transport/specular_branch.h"
+#include "transport/specular_ray.h"
 
-namespace stilb {
+namespace stilb::transport {
 
-void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSampler& lights, int max_nodes,
-                      SampleStream stream, std::vector<ChainNode>& nodes) {
+void trace_light_path(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights,
+                      int max_nodes, math::SampleStream stream, std::vector<LightVertex>& nodes) {
     if (lights.count() == 0) return;
     const EmittedParticle particle = lights.sample_emission(stream);
     Vec3 origin = particle.origin;
     Vec3 direction = particle.direction;
-    Spectrum flux = particle.flux_lm;
+    Rgb flux = particle.flux_lm;
     bool only_by_light = false;
     int reflections = 0;
     while (reflections < max_nodes) {
@@ -19,7 +19,7 @@ void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSa
         if (!hit) return;
         const Material& material = scene.material(hit->material);
         if (is_specular(material)) {
-            const auto way = choose_specular_way(material, *hit, -direction, stream.next());
+            const auto way = choose_specular_ray(material, *hit, -direction, stream.next());
             if (way && !way->straight) {
                 if (reflections == 0) only_by_light = particle.from_point;
                 ++reflections;
@@ -46,14 +46,14 @@ void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSa
     }
 }
 
-std::vector<ChainNode> walk_light_chains(const Scene& scene, const RayCaster& caster,
-                                         const LightSampler& lights, int max_nodes, RandomKey key,
-                                         std::uint64_t first, std::uint64_t end) {
-    std::vector<ChainNode> nodes;
+std::vector<LightVertex> trace_light_paths(const Scene& scene, const rays::RayCaster& caster,
+                                           const LightSampler& lights, int max_nodes, math::RandomKey key,
+                                           std::uint64_t first, std::uint64_t end) {
+    std::vector<LightVertex> nodes;
     for (std::uint64_t chain = first; chain < end; ++chain) {
-        walk_light_chain(scene, caster, lights, max_nodes, SampleStream(key, chain), nodes);
+        trace_light_path(scene, caster, lights, max_nodes, math::SampleStream(key, chain), nodes);
     }
     return nodes;
 }
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -5,10 +5,10 @@
 
 #include "transport/light_sampler.h"
 
-namespace stilb {
+namespace stilb::transport {
 
 /// A surface point that a particle reaches, and the flux that it carries into it.
-struct ChainNode {
+struct LightVertex {
     Vec3 position;
     Vec3 lifted;                         ///< off the surface, where rays start
     Vec3 normal;                         ///< on the side that the particle came from
@@ -16,7 +16,7 @@ struct ChainNode {
     const Material* material = nullptr;  ///< owned by the scene
     /// W_n of theory (T.1), divided by the probability that the particle was not absorbed here: what a
     /// connection from this node multiplies with f_r.
-    Spectrum flux_lm;
+    Rgb flux_lm;
     int reflections = 0;  ///< that the particle has met so far, this one included
     /// The particle left a point-like source and met a mirror or glass first (and did not go straight on
     /// through a pane): path tracing cannot make this light, at whatever node it comes along.
@@ -26,12 +26,12 @@ struct ChainNode {
 /// One chain. Absorption (Russian roulette with the surface's reflectance) comes before a node is recorded,
 /// so that all nodes of all chains carry about the same flux: an equal share of the estimate for each ray of
 /// the fan. Nodes on mirrors and glass are not recorded. Unbiased; at most `max_nodes` reflections.
-void walk_light_chain(const Scene& scene, const RayCaster& caster, const LightSampler& lights, int max_nodes,
-                      SampleStream stream, std::vector<ChainNode>& nodes);
+void trace_light_path(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights,
+                      int max_nodes, math::SampleStream stream, std::vector<LightVertex>& nodes);
 
 /// The nodes of chains number `first` ... `end` - 1 of the streams of a key.
-std::vector<ChainNode> walk_light_chains(const Scene& scene, const RayCaster& caster,
-                                         const LightSampler& lights, int max_nodes, RandomKey key,
-                                         std::uint64_t first, std::uint64_t end);
+std::vector<LightVertex> trace_light_paths(const Scene& scene, const rays::RayCaster& caster,
+                                           const LightSampler& lights, int max_nodes, math::RandomKey key,
+                                           std::uint64_t first, std::uint64_t end);
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -8,17 +8,18 @@
 #include "base/bounds.h"
 #include "math/sampling.h"
 
-namespace stilb {
+namespace stilb::transport {
 namespace {
 
 /// What leaves a luminaire against `direction`, in the frame of its solid.
-Vec3 in_solid(const PhotometryLight& luminaire, const Vec3& direction) {
+Vec3 in_solid(const Luminaire& luminaire, const Vec3& direction) {
     return {-dot(direction, luminaire.c0), -dot(direction, luminaire.c90), -dot(direction, luminaire.nadir)};
 }
 
 }  // namespace
 
-LightSampler::LightSampler(const Scene& scene, const RayCaster& caster, std::vector<bool> made_elsewhere)
+LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
+                           std::vector<bool> made_elsewhere)
     : scene_(scene),
       caster_(caster),
       luminance_of_object_(scene.objects.size()),
@@ -27,7 +28,7 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster, std::vec
     std::vector<double> luminous_flux;
     for (const Light& light : scene.lights) {
         lights_.push_back(&light);
-        flux_lm_.push_back(stilb::flux_lm(scene, light));
+        flux_lm_.push_back(stilb::scene::flux_lm(scene, light));
         luminous_flux.push_back(flux_lm_.back().luminance());
         Emitter emitter;
         if (const auto* area_light = std::get_if<AreaLight>(&light.source)) {
@@ -42,7 +43,7 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster, std::vec
                     bounds.include(sample_by_area(element, {u.first, u.second}).position);
                 }
             }
-            emitter.by_area = DiscreteDistribution(areas);
+            emitter.by_area = math::DiscreteDistribution(areas);
             emitter.middle = 0.5 * (bounds.min + bounds.max);
             emitter.radius_m = length(bounds.max - bounds.min) / 2;
             luminance_of_object_[index_of(area_light->object)] = area_light->luminance_cd_m2;
@@ -51,18 +52,18 @@ LightSampler::LightSampler(const Scene& scene, const RayCaster& caster, std::vec
         } else if (const auto* point = std::get_if<PointLight>(&light.source)) {
             emitter.middle = point->position;
         } else {
-            const auto& luminaire = std::get<PhotometryLight>(light.source);
+            const auto& luminaire = std::get<Luminaire>(light.source);
             const double offset = caster.offset_m(luminaire.position, caster.half_extent_m());
             emitter.middle = luminaire.position + offset * luminaire.nadir;
         }
         emitters_.push_back(std::move(emitter));
     }
-    by_flux_ = DiscreteDistribution(luminous_flux);
+    by_flux_ = math::DiscreteDistribution(luminous_flux);
 }
 
 bool LightSampler::is_point_like(std::size_t light) const { return emitters_[light].elements.empty(); }
 
-EmittedParticle LightSampler::sample_emission(SampleStream& stream) const {
+EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const {
     const auto choice = by_flux_.choose(stream.next());
     EmittedParticle particle = emit(choice.index, stream);
     particle.flux_lm *= flux_lm_[choice.index] * (1 / choice.probability);
@@ -70,26 +71,26 @@ EmittedParticle LightSampler::sample_emission(SampleStream& stream) const {
     return particle;
 }
 
-EmittedParticle LightSampler::emit(std::size_t light, SampleStream& stream) const {
+EmittedParticle LightSampler::emit(std::size_t light, math::SampleStream& stream) const {
     const std::array<double, 2> u = stream.next_two();
     const Vec3& middle = emitters_[light].middle;
     if (std::holds_alternative<PointLight>(lights_[light]->source)) {
-        return {middle, sample_sphere(u[0], u[1]).direction, Spectrum::grey(1)};
+        return {middle, math::sample_sphere(u[0], u[1]).direction, Rgb::grey(1)};
     }
-    if (const auto* luminaire = std::get_if<PhotometryLight>(&lights_[light]->source)) {
+    if (const auto* luminaire = std::get_if<Luminaire>(&lights_[light]->source)) {
         const Vec3 local = scene_.solid(luminaire->solid).sample_direction(u[0], u[1]);
         return {middle,
                 normalized(local.x * luminaire->c0 + local.y * luminaire->c90 + local.z * luminaire->nadir),
-                Spectrum::grey(1)};
+                Rgb::grey(1)};
     }
     const auto choice = emitters_[light].by_area.choose(u[0]);
     const std::array<double, 2> v = stream.next_two();
     const EmitterElement& element = emitters_[light].elements[choice.index];
     const EmitterPoint point = sample_by_area(element, {choice.remainder, u[1]});
     const Vec3 direction =
-        Frame::around(point.normal).to_world(sample_cosine_hemisphere(v[0], v[1]).direction);
+        Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(v[0], v[1]).direction);
     return {point.position + caster_.offset_m(point.position, element.size_m) * point.normal, direction,
-            Spectrum::grey(point.weight)};
+            Rgb::grey(point.weight)};
 }
 
 std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const Vec3& from,
@@ -108,7 +109,7 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
     if (const auto* point = std::get_if<PointLight>(&source)) {
         return from_point(point->position, [&](const Vec3&) { return point->intensity_cd; });
     }
-    if (const auto* luminaire = std::get_if<PhotometryLight>(&source)) {
+    if (const auto* luminaire = std::get_if<Luminaire>(&source)) {
         return from_point(luminaire->position, [&](const Vec3& direction) {
             return scene_.solid(luminaire->solid).intensity_cd(in_solid(*luminaire, direction)) *
                    luminaire->factor;
@@ -127,7 +128,7 @@ std::optional<IncidentLight> LightSampler::sample_area_light(std::size_t light, 
     const Vec3 direction = normalized(position - from);
     // Not >=: where `from` is the sampled point itself, there is no direction to compare.
     if (!(dot(normal, direction) < 0)) return std::nullopt;
-    const Spectrum& luminance = std::get<AreaLight>(lights_[light]->source).luminance_cd_m2;
+    const Rgb& luminance = std::get<AreaLight>(lights_[light]->source).luminance_cd_m2;
     return IncidentLight{position + caster_.offset_m(position, element.size_m) * normal, direction,
                          luminance * (1 / (pdf_per_sr * choice.probability)),
                          choice.probability * rough_pdf_per_sr(element, position, normal, from)};
@@ -147,7 +148,7 @@ double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, cons
     if (const auto* point = std::get_if<PointLight>(&source)) {
         return from_point(point->position, [&](const Vec3&) { return point->intensity_cd.luminance(); });
     }
-    if (const auto* luminaire = std::get_if<PhotometryLight>(&source)) {
+    if (const auto* luminaire = std::get_if<Luminaire>(&source)) {
         return from_point(luminaire->position, [&](const Vec3& direction) {
             const double bound_cd =
                 scene_.solid(luminaire->solid).intensity_bound_cd(in_solid(*luminaire, direction));
@@ -161,7 +162,7 @@ double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, cons
 }
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
-                                                            SampleStream& stream) const {
+                                                            math::SampleStream& stream) const {
     if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, from, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
@@ -171,7 +172,7 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
         total += weights[light] = rough_illuminance(light, from, normal);
     }
     if (!(total > 0)) return std::nullopt;
-    const auto choice = DiscreteDistribution(weights).choose(u);
+    const auto choice = math::DiscreteDistribution(weights).choose(u);
     auto incident = sample_incident(choice.index, from, point);
     if (incident) {
         incident->normal_illuminance_lx *= 1 / choice.probability;
@@ -180,7 +181,7 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
     return incident;
 }
 
-double LightSampler::pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) const {
+double LightSampler::pdf_of_its_light_per_sr(const rays::Hit& hit, const Vec3& from) const {
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
     if (light == kNoLight) return 0;
     const Emitter& emitter = emitters_[light];
@@ -189,7 +190,7 @@ double LightSampler::pdf_of_its_light_per_sr(const Hit& hit, const Vec3& from) c
            rough_pdf_per_sr(emitter.elements[element], hit.position, hit.normal, from);
 }
 
-double LightSampler::pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& normal) const {
+double LightSampler::pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Vec3& normal) const {
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
     if (light == kNoLight) return 0;
     if (is_made_elsewhere(light)) return std::numeric_limits<double>::infinity();
@@ -200,8 +201,8 @@ double LightSampler::pdf_per_sr(const Hit& hit, const Vec3& from, const Vec3& no
     return total > 0 ? pdf * rough_illuminance(light, from, normal) / total : 0;
 }
 
-Spectrum LightSampler::emitted_luminance(const Hit& hit) const {
-    return hit.on_front ? luminance_of_object_[index_of(hit.object)] : Spectrum{};
+Rgb LightSampler::emitted_luminance(const rays::Hit& hit) const {
+    return hit.on_front ? luminance_of_object_[index_of(hit.object)] : Rgb{};
 }
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -7,39 +7,39 @@
 #include "sensors/sensor.h"
 #include "transport/light_sampler.h"
 
-namespace stilb {
+namespace stilb::transport {
 
 /// A surface point that is seen, perhaps through mirrors and glass: z of double local estimation.
 struct SubPoint {
-    Hit surface;    ///< not specular
-    Vec3 outgoing;  ///< unit, along which light leaves it towards the sensor
+    rays::Hit surface;  ///< not specular
+    Vec3 outgoing;      ///< unit, along which light leaves it towards the sensor
     /// What is left of the luminance on its way to the sensor.
-    Spectrum transmission = Spectrum::grey(1);
+    Rgb transmission = Rgb::grey(1);
     int reflections = 0;  ///< and passages of glass, between it and the sensor
 };
 
 /// A way through mirrors and glass that is not followed on because too little light comes along it.
-struct FaintWay {
+struct FaintRay {
     Vec3 origin, direction;
-    Spectrum transmission;
+    Rgb transmission;
     int reflections = 0;
 };
 
 /// All that a sensor sees along a line of sight.
-struct Sight {
+struct VisibleSurfaces {
     std::vector<SubPoint> sub_points;  ///< the one that most light comes from first
-    std::vector<FaintWay> faint;
-    Spectrum emission_cd_m2;  ///< of the emitters that are seen, but along the faint ways
+    std::vector<FaintRay> faint;
+    Rgb emission_cd_m2;  ///< of the emitters that are seen, but along the faint ways
 };
 
 /// The surface that a line of sight meets first, or that an emergent ray leaves; nothing in the void.
-std::optional<Hit> first_surface(const Measurand& luminance, const RayCaster& caster);
+std::optional<rays::Hit> first_surface(const Measurand& luminance, const rays::RayCaster& caster);
 /// The unit direction that it is looked at along.
 Vec3 looking_direction(const Measurand& luminance);
 
 /// Follows the line of sight of a luminance reading, at most `max_reflections` times at mirrors and glass.
 /// Where glass divides it, it follows both ways.
-Sight look(const Measurand& luminance, const Scene& scene, const RayCaster& caster,
-           const LightSampler& lights, int max_reflections);
+VisibleSurfaces look(const Measurand& luminance, const Scene& scene, const rays::RayCaster& caster,
+                     const LightSampler& lights, int max_reflections);
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -4,23 +4,23 @@
 
 #include "transport/balance.h"
 #include "transport/russian_roulette.h"
-#include "transport/specular_branch.h"
+#include "transport/specular_ray.h"
 
-namespace stilb {
+namespace stilb::transport {
 
-void PathTracer::trace(std::span<Path> paths, Coherence first) const {
+void PathTracer::trace(std::span<Path> paths, rays::Coherence first) const {
     struct Lit {
         Path* path;
-        Spectrum luminance_cd_m2;
+        Rgb luminance_cd_m2;
     };
     std::vector<Path*> going;
     for (Path& path : paths) going.push_back(&path);
     std::vector<Lit> lit;
-    std::vector<Segment> segments;
-    std::vector<Ray> rays;
-    std::vector<Spectrum> transmittances(paths.size());
-    std::vector<std::optional<Hit>> hits(paths.size());
-    for (Coherence coherence = first; !going.empty(); coherence = Coherence::scattered) {
+    std::vector<rays::Segment> segments;
+    std::vector<rays::Ray> rays;
+    std::vector<Rgb> transmittances(paths.size());
+    std::vector<std::optional<rays::Hit>> hits(paths.size());
+    for (rays::Coherence coherence = first; !going.empty(); coherence = rays::Coherence::scattered) {
         if (stored_) add_stored_reflection(going, coherence);
         lit.clear(), segments.clear(), rays.clear();
         std::size_t count = 0;
@@ -39,7 +39,7 @@ void PathTracer::trace(std::span<Path> paths, Coherence first) const {
         for (std::size_t i = 0; i < lit.size(); ++i) {
             lit[i].path->luminance_cd_m2 += lit[i].luminance_cd_m2 * transmittances[i];
         }
-        caster_.closest(rays, Coherence::scattered, hits);
+        caster_.closest(rays, rays::Coherence::scattered, hits);
         count = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             if (!hits[i]) continue;
@@ -53,7 +53,7 @@ void PathTracer::trace(std::span<Path> paths, Coherence first) const {
 void PathTracer::follow(Path& path) const {
     Path* const self = &path;
     for (;;) {
-        if (stored_) add_stored_reflection({&self, 1}, Coherence::scattered);
+        if (stored_) add_stored_reflection({&self, 1}, rays::Coherence::scattered);
         const Step step = take_step(path);
         if (step.connection) {
             path.luminance_cd_m2 +=
@@ -85,7 +85,7 @@ PathTracer::Step PathTracer::take_step(Path& path) const {
     return reflect(path, material);
 }
 
-void PathTracer::add_stored_reflection(std::span<Path* const> paths, Coherence coherence) const {
+void PathTracer::add_stored_reflection(std::span<Path* const> paths, rays::Coherence coherence) const {
     std::vector<Path*> reflecting;
     for (Path* path : paths) {
         if (path->reflections_left > 0 && !is_specular(material(path->hit))) reflecting.push_back(path);
@@ -93,22 +93,22 @@ void PathTracer::add_stored_reflection(std::span<Path* const> paths, Coherence c
     stored_->add_to(reflecting, coherence);
 }
 
-std::optional<Ray> PathTracer::pass_specular(Path& path, const Material& material) const {
-    const auto way = choose_specular_way(material, path.hit, path.outgoing, path.stream.next());
+std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Material& material) const {
+    const auto way = choose_specular_ray(material, path.hit, path.outgoing, path.stream.next());
     const double survival = way ? survival_probability(path.throughput, way->share) : 0;
     if (path.stream.next() >= survival) return std::nullopt;
     path.throughput *= way->share * (way->luminance_factor / survival);
     if (!way->straight) {
         if (path.reflections_left == 0) return std::nullopt;
         --path.reflections_left;
-        path.lookout = {};
+        path.previous_vertex = {};
     }
-    return Ray{way->origin, way->direction};
+    return rays::Ray{way->origin, way->direction};
 }
 
 PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const {
     Step step;
-    const Hit& hit = path.hit;
+    const rays::Hit& hit = path.hit;
     const Frame frame = Frame::of_surface(hit.normal);
     const Vec3 out = frame.to_local(path.outgoing);
     const auto light = lights_.sample_one_light(hit.position, hit.normal, path.stream);
@@ -125,24 +125,28 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
     const auto scattered = sample_brdf(material, out, u1, u2);
     if (!scattered) return step;
     path.throughput *= scattered->weight * (1 / survival);
-    path.lookout = {scattered->pdf_per_sr, hit.position, hit.normal};
+    path.previous_vertex = {scattered->pdf_per_sr, hit.position, hit.normal};
     step.ray = {hit.lifted, frame.to_world(scattered->direction)};
     return step;
 }
 
-double PathTracer::share_of(const Lookout& lookout, const Hit& emitter) const {
-    if (lookout.pdf_per_sr == 0 || std::isinf(lookout.pdf_per_sr)) return lookout.pdf_per_sr == 0 ? 0 : 1;
-    return balance(lookout.pdf_per_sr, lights_.pdf_per_sr(emitter, lookout.position, lookout.normal));
+double PathTracer::share_of(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const {
+    if (previous_vertex.pdf_per_sr == 0 || std::isinf(previous_vertex.pdf_per_sr))
+        return previous_vertex.pdf_per_sr == 0 ? 0 : 1;
+    return balance(previous_vertex.pdf_per_sr,
+                   lights_.pdf_per_sr(emitter, previous_vertex.position, previous_vertex.normal));
 }
 
-void PathTracer::arrive(Path& path, const Vec3& direction, const Hit& next) const {
-    const Spectrum emission = lights_.emitted_luminance(next);
-    if (emission.max() > 0) path.luminance_cd_m2 += path.throughput * emission * share_of(path.lookout, next);
+void PathTracer::arrive(Path& path, const Vec3& direction, const rays::Hit& next) const {
+    const Rgb emission = lights_.emitted_luminance(next);
+    if (emission.max() > 0)
+        path.luminance_cd_m2 += path.throughput * emission * share_of(path.previous_vertex, next);
     path.hit = next;
     path.outgoing = -direction;
 }
 
-std::optional<IncidentLight> PathTracer::sample_light(const Hit& surface, SampleStream& stream) const {
+std::optional<IncidentLight> PathTracer::sample_light(const rays::Hit& surface,
+                                                      math::SampleStream& stream) const {
     auto light = lights_.sample_one_light(surface.position, surface.normal, stream);
     if (!light || dot(light->direction, surface.normal) <= 0) return std::nullopt;
     light->normal_illuminance_lx *= caster_.transmittance({surface.lifted, light->source_point});
@@ -150,22 +154,23 @@ std::optional<IncidentLight> PathTracer::sample_light(const Hit& surface, Sample
     return light;
 }
 
-Spectrum PathTracer::luminance_behind(const Hit& hit, const Vec3& direction, const Lookout& lookout,
-                                      int max_reflections, const SampleStream& stream) const {
+Rgb PathTracer::luminance_behind(const rays::Hit& hit, const Vec3& direction,
+                                 const PreviousVertex& previous_vertex, int max_reflections,
+                                 const math::SampleStream& stream) const {
     Path path{hit, -direction, stream, max_reflections};
-    path.lookout = lookout;
+    path.previous_vertex = previous_vertex;
     follow(path);
     return path.luminance_cd_m2;
 }
 
-Spectrum PathTracer::incoming_luminance(const Ray& ray, const Lookout& lookout, int max_reflections,
-                                        const SampleStream& stream) const {
+Rgb PathTracer::incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex,
+                                   int max_reflections, const math::SampleStream& stream) const {
     const auto hit = caster_.closest(ray.origin, ray.direction);
     if (!hit) return {};
-    Spectrum luminance = luminance_behind(*hit, ray.direction, lookout, max_reflections, stream);
-    const Spectrum emission = lights_.emitted_luminance(*hit);
-    if (emission.max() > 0) luminance += emission * share_of(lookout, *hit);
+    Rgb luminance = luminance_behind(*hit, ray.direction, previous_vertex, max_reflections, stream);
+    const Rgb emission = lights_.emitted_luminance(*hit);
+    if (emission.max() > 0) luminance += emission * share_of(previous_vertex, *hit);
     return luminance;
 }
 
-}  // namespace stilb
+}  // namespace stilb::transport

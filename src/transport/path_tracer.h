@@ -15,10 +15,10 @@
 
 #include "transport/light_sampler.h"
 
-namespace stilb {
+namespace stilb::transport {
 
 /// From where a path looks for emitters, beside next-event estimation there.
-struct Lookout {
+struct PreviousVertex {
     /// Density of the path's direction; infinite where next-event estimation cannot find what the path does,
     /// 0 where it finds everything.
     double pdf_per_sr = std::numeric_limits<double>::infinity();
@@ -26,17 +26,17 @@ struct Lookout {
 };
 
 /// Of paths that leave out what is seen straight.
-inline constexpr Lookout kDirectIsKnown{0};
+inline constexpr PreviousVertex kDirectIsKnown{0};
 
 /// A path that is traced against the light: where it has come to and what it has gathered on its way.
 struct Path {
-    Hit hit;
+    rays::Hit hit;
     Vec3 outgoing;  ///< unit, from `hit` back along the path
-    SampleStream stream;
+    math::SampleStream stream;
     int reflections_left = 0;  ///< at `hit` and behind
-    Spectrum throughput = Spectrum::grey(1);
-    Spectrum luminance_cd_m2{};  ///< so far; emission of the first hit is left out
-    Lookout lookout{};
+    Rgb throughput = Rgb::grey(1);
+    Rgb luminance_cd_m2{};  ///< so far; emission of the first hit is left out
+    PreviousVertex previous_vertex{};
 };
 
 /// The first reflection of lights that path tracing leaves out, where something has computed it beforehand.
@@ -46,76 +46,76 @@ class StoredReflection {
 
     /// Adds to each path what the surface that it stands on reflects of those lights. `coherence`: of the
     /// paths' last rays.
-    virtual void add_to(std::span<Path* const> paths, Coherence coherence) const = 0;
+    virtual void add_to(std::span<Path* const> paths, rays::Coherence coherence) const = 0;
 };
 
 /// Keeps references to its arguments. Immutable.
 class PathTracer {
   public:
     /// `stored`: null where no light is left out. To `lights`, those that are have to be made elsewhere.
-    PathTracer(const Scene& scene, const RayCaster& caster, const LightSampler& lights,
+    PathTracer(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights,
                const StoredReflection* stored = nullptr)
         : scene_(scene), caster_(caster), lights_(lights), stored_(stored) {}
 
     /// Follows paths to their ends, side by side. `first`: of the ways to their first hits, and of the shadow
     /// rays there.
-    void trace(std::span<Path> paths, Coherence first) const;
+    void trace(std::span<Path> paths, rays::Coherence first) const;
 
     /// Follows a path through mirrors and glass until it stands on another surface; false where it ends
     /// before.
     bool look_through(Path& path) const;
 
     /// Light from one source at `surface`, shadows included; nothing where none arrives.
-    std::optional<IncidentLight> sample_light(const Hit& surface, SampleStream& stream) const;
+    std::optional<IncidentLight> sample_light(const rays::Hit& surface, math::SampleStream& stream) const;
 
     /// One sample of the luminance [cd/m2] that arrives along a ray that met `hit`, emission of `hit` itself
     /// left out.
-    Spectrum luminance_behind(const Hit& hit, const Vec3& direction, const Lookout& lookout,
-                              int max_reflections, const SampleStream& stream) const;
+    Rgb luminance_behind(const rays::Hit& hit, const Vec3& direction, const PreviousVertex& previous_vertex,
+                         int max_reflections, const math::SampleStream& stream) const;
     /// The same without all emission that is seen straight: that is direct light.
-    Spectrum luminance_without_direct(const Hit& hit, const Vec3& direction, int max_reflections,
-                                      const SampleStream& stream) const {
+    Rgb luminance_without_direct(const rays::Hit& hit, const Vec3& direction, int max_reflections,
+                                 const math::SampleStream& stream) const {
         return luminance_behind(hit, direction, kDirectIsKnown, max_reflections, stream);
     }
     /// All the light along a ray.
-    Spectrum luminance(const Hit& hit, const Vec3& direction, int max_reflections,
-                       const SampleStream& stream) const {
+    Rgb luminance(const rays::Hit& hit, const Vec3& direction, int max_reflections,
+                  const math::SampleStream& stream) const {
         return lights_.emitted_luminance(hit) + luminance_behind(hit, direction, {}, max_reflections, stream);
     }
     /// The same, where emission that is seen straight from `lookout` is weighted against next-event
     /// estimation there.
-    Spectrum incoming_luminance(const Ray& ray, const Lookout& lookout, int max_reflections,
-                                const SampleStream& stream) const;
+    Rgb incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex, int max_reflections,
+                           const math::SampleStream& stream) const;
 
-    const Material& material(const Hit& hit) const { return scene_.material(hit.material); }
+    const Material& material(const rays::Hit& hit) const { return scene_.material(hit.material); }
 
   private:
     /// What a path receives from a source if nothing lies in between.
     struct Connection {
-        Segment segment;
-        Spectrum luminance_cd_m2;
+        rays::Segment segment;
+        Rgb luminance_cd_m2;
     };
     /// What a path does where it has come to: nothing more if there is no ray.
     struct Step {
         std::optional<Connection> connection;
-        std::optional<Ray> ray;
+        std::optional<rays::Ray> ray;
     };
     Step take_step(Path& path) const;
     /// What the surfaces that paths stand on reflect of the lights that are left out.
-    void add_stored_reflection(std::span<Path* const> paths, Coherence coherence) const;
-    std::optional<Ray> pass_specular(Path& path, const Material& material) const;
+    void add_stored_reflection(std::span<Path* const> paths, rays::Coherence coherence) const;
+    std::optional<rays::Ray> pass_specular(Path& path, const Material& material) const;
     Step reflect(Path& path, const Material& material) const;
     /// Where the step's ray has met something.
-    void arrive(Path& path, const Vec3& direction, const Hit& next) const;
+    void arrive(Path& path, const Vec3& direction, const rays::Hit& next) const;
     /// How much emission counts that a path finds.
-    double share_of(const Lookout& lookout, const Hit& emitter) const;
+    double share_of(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const;
     /// One path by itself.
     void follow(Path& path) const;
 
     const Scene& scene_;
-    const RayCaster& caster_;
+    const rays::RayCaster& caster_;
     const LightSampler& lights_;
     const StoredReflection* stored_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -8,27 +8,27 @@
 #include "math/morton.h"
 #include "transport/kernel_split.h"
 
-namespace stilb {
+namespace stilb::transport {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
 const Material& white() {
-    static const Material material = Diffuse{Spectrum::grey(1)};
+    static const Material material = Diffuse{Rgb::grey(1)};
     return material;
 }
 
 }  // namespace
 
-Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const RayCaster& caster)
+Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const rays::RayCaster& caster)
     : position_(point.position),
       lifted_(lifted_position(point, caster)),
       normal_(point.normal),
       frame_(Frame::of_surface(normal_)),
       material_(&white()),
       outgoing_{0, 0, 1},
-      factor_(Spectrum::grey(kPi)),
-      constant_response_(Spectrum::grey(1)),
+      factor_(Rgb::grey(kPi)),
+      constant_response_(Rgb::grey(1)),
       reading_(reading) {}
 
 Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material)
@@ -46,7 +46,7 @@ Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Mater
     }
 }
 
-Spectrum Receiver::response(const Vec3& direction) const {
+Rgb Receiver::response(const Vec3& direction) const {
     if (constant_response_) return *constant_response_;
     return factor_ * evaluate_brdf_per_sr(*material_, frame_.to_local(direction), outgoing_);
 }
@@ -63,22 +63,22 @@ std::optional<Receiver::Sample> Receiver::sample(double u1, double u2) const {
 }
 
 double Receiver::pdf_per_sr(const Vec3& direction) const {
-    return stilb::pdf_per_sr(*material_, outgoing_, frame_.to_local(direction));
+    return stilb::materials::pdf_per_sr(*material_, outgoing_, frame_.to_local(direction));
 }
 
 Receiver Receiver::without_response() const {
     Receiver result = *this;
     result.material_ = &white();
     result.outgoing_ = {0, 0, 1};
-    result.factor_ = Spectrum::grey(kPi);
-    result.constant_response_ = Spectrum::grey(1);
+    result.factor_ = Rgb::grey(kPi);
+    result.constant_response_ = Rgb::grey(1);
     return result;
 }
 
 std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
     std::vector<Vec3> positions;
     for (const Receiver& receiver : receivers) positions.push_back(receiver.position());
-    const std::vector<std::uint64_t> codes = morton_codes(positions);
+    const std::vector<std::uint64_t> codes = math::morton_codes(positions);
     std::vector<std::uint32_t> order(receivers.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return codes[a] < codes[b]; });
@@ -88,4 +88,4 @@ std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
     return sorted;
 }
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -11,7 +11,7 @@
 #include "sensors/sensor.h"
 #include "transport/line_of_sight.h"
 
-namespace stilb {
+namespace stilb::transport {
 
 /// Reflections without limit.
 inline constexpr int kUnlimited = std::numeric_limits<int>::max();
@@ -26,7 +26,7 @@ inline constexpr int kUnlimited = std::numeric_limits<int>::max();
 class Receiver {
   public:
     /// Of illuminance.
-    Receiver(std::uint32_t reading, const MeasuringPoint& point, const RayCaster& caster);
+    Receiver(std::uint32_t reading, const MeasuringPoint& point, const rays::RayCaster& caster);
     /// Of luminance. `material`: of the sub-point, not specular.
     Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material);
 
@@ -41,15 +41,15 @@ class Receiver {
     }
 
     /// The response where it does not depend on direction.
-    const std::optional<Spectrum>& constant_response() const { return constant_response_; }
+    const std::optional<Rgb>& constant_response() const { return constant_response_; }
     /// 1, or [1/sr]; for unit directions above the surface, towards where light comes from.
-    Spectrum response(const Vec3& direction) const;
+    Rgb response(const Vec3& direction) const;
     /// pi f / albedo: s of kernel_split.h; 1 where the response is constant.
     double relative_response(const Vec3& direction) const;
 
     struct Sample {
         Vec3 direction;
-        Spectrum weight;  ///< response cos(theta) / pdf
+        Rgb weight;  ///< response cos(theta) / pdf
         double pdf_per_sr = 0;
     };
     /// A direction that light may come from, about in proportion to response x cosine; nothing where the
@@ -65,8 +65,8 @@ class Receiver {
     Frame frame_;
     const Material* material_;  ///< owned by the scene; white for illuminance
     Vec3 outgoing_;             ///< in the frame of the surface
-    Spectrum factor_;
-    std::optional<Spectrum> constant_response_;
+    Rgb factor_;
+    std::optional<Rgb> constant_response_;
     int reflections_ = 0;  ///< from here to the sensor
     std::uint32_t reading_ = 0;
 };
@@ -76,4 +76,4 @@ class Receiver {
 /// several (several sub-points) or none.
 std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers);
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -5,7 +5,7 @@
 
 #include "verification/verification_cases.h"
 
-namespace stilb {
+namespace stilb::verification {
 
 std::vector<VerificationCase> sobolev_cases();
 std::vector<VerificationCase> sphere_cases();
@@ -15,4 +15,4 @@ std::vector<VerificationCase> source_cases();
 /// Single sources that are looked at, straight, in a mirror and through a pane.
 std::vector<VerificationCase> seen_source_cases();
 
-}  // namespace stilb
+}  // namespace stilb::verification

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace stilb {
+namespace stilb::verification {
 
 MaterialId add_material(Scene& scene, const Material& material) {
     const auto number = static_cast<std::uint32_t>(scene.materials.size());
@@ -19,7 +19,7 @@ ObjectId add_object(Scene& scene, const Shape& shape, const Material& material) 
 }
 
 void add_area_light(Scene& scene, ObjectId object, double luminance_cd_m2) {
-    scene.lights.push_back({"light", AreaLight{object, Spectrum::grey(luminance_cd_m2)}});
+    scene.lights.push_back({"light", AreaLight{object, Rgb::grey(luminance_cd_m2)}});
 }
 
 std::vector<Vec3> spread_directions(int count) {
@@ -32,4 +32,4 @@ std::vector<Vec3> spread_directions(int count) {
     return directions;
 }
 
-}  // namespace stilb
+}  // namespace stilb::verification

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::verification {
 
 /// Directions each turned by it against the last never line up.
 inline constexpr double kGoldenAngle = 2 * std::numbers::pi * (2 - std::numbers::phi);
@@ -15,9 +15,9 @@ MaterialId add_material(Scene& scene, const Material& material);
 ObjectId add_object(Scene& scene, const Shape& shape, const Material& material);
 void add_area_light(Scene& scene, ObjectId object, double luminance_cd_m2);
 
-inline Diffuse diffuse(double reflectance) { return {Spectrum::grey(reflectance)}; }
+inline Diffuse diffuse(double reflectance) { return {Rgb::grey(reflectance)}; }
 
 /// `count` unit vectors spread evenly over the sphere: a Fibonacci spiral, from +z to -z.
 std::vector<Vec3> spread_directions(int count);
 
-}  // namespace stilb
+}  // namespace stilb::verification

@@ -8,7 +8,7 @@
 #include "verification/case_families.h"
 #include "verification/case_scenes.h"
 
-namespace stilb {
+namespace stilb::verification {
 namespace {
 
 /// Front: where the vertices run counterclockwise.
@@ -94,7 +94,7 @@ void add_luminances(VerificationCase& furnace, double reflectance) {
 }
 
 std::vector<VerificationCase> furnaces_of_walls() {
-    const auto grey = [](double reflectance) { return Spectrum::grey(reflectance); };
+    const auto grey = [](double reflectance) { return Rgb::grey(reflectance); };
     struct Walls {
         std::string variant;
         double reflectance;
@@ -148,18 +148,18 @@ VerificationCase invisible_case(const std::string& variant, const Shape& thing, 
 }
 
 std::vector<VerificationCase> furnaces_with_things() {
-    const Spectrum white = Spectrum::grey(1);
+    const Rgb white = Rgb::grey(1);
     const Sphere ball{kMiddle, kHalfSize};
     const Vec3 corner{0.2, 0.25, 0.3};
     const Box box{kMiddle - corner, kMiddle + corner};
     const Rectangle sheet{kMiddle - Vec3{0.1, 0.4, 0.4}, {0.2, 0.8, 0}, {0, 0, 0.8}};
     return {
-        invisible_case("glass ball", ball, Glass{1.5}, 0),
-        invisible_case("glass box", box, Glass{1.5}, 0),
-        invisible_case("pane", sheet, Pane{1.52, white}, 0),
+        invisible_case("glass ball", ball, Dielectric{1.5}, 0),
+        invisible_case("glass box", box, Dielectric{1.5}, 0),
+        invisible_case("pane", sheet, ThinDielectric{1.52, white}, 0),
         invisible_case("mirror", sheet, Mirror{white}, 0),
         invisible_case("white diffuse ball", ball, Diffuse{white}, 0),
-        invisible_case("white rough ball", ball, Rough(white, 0.3), 0.003),
+        invisible_case("white rough ball", ball, RoughConductor(white, 0.3), 0.003),
         invisible_case("white plastic ball", ball, Plastic(white, 1.5, 0.2), 0.001),
     };
 }
@@ -172,4 +172,4 @@ std::vector<VerificationCase> furnace_cases() {
     return cases;
 }
 
-}  // namespace stilb
+}  // namespace stilb::verification

@@ -9,7 +9,7 @@
 #include "verification/case_families.h"
 #include "verification/case_scenes.h"
 
-namespace stilb {
+namespace stilb::verification {
 namespace {
 
 constexpr double kLuminance = 1000;
@@ -45,7 +45,7 @@ void add_in_mirror(VerificationCase& result) {
     const Vec3 to_mirror = direction_at(40, 0), to_meter = direction_at(80, 90);
     const Vec3 middle = kTarget + to_mirror;
     add_object(result.scene, Disk{middle, normalized(to_meter - to_mirror), 0.05},
-               Mirror{Spectrum::grey(kReflectance)});
+               Mirror{Rgb::grey(kReflectance)});
     result.readings.push_back({towards(middle, to_meter, 0.7), kReflectance * kLuminance});
 }
 
@@ -55,7 +55,7 @@ void add_through_pane(VerificationCase& result, double azimuth_deg, double angle
     const double angle_rad = angle_deg * std::numbers::pi / 180;
     const Vec3 normal = std::cos(angle_rad) * to_meter + std::sin(angle_rad) * across;
     add_object(result.scene, Disk{kTarget + 0.8 * to_meter, normal, 0.1},
-               Pane{kPane.ior, Spectrum::grey(kPane.internal_transmittance)});
+               ThinDielectric{kPane.ior, Rgb::grey(kPane.internal_transmittance)});
     result.readings.push_back(
         {towards(kTarget, to_meter, 1.5), exact::pane_transmittance(kPane, angle_rad) * kLuminance});
 }
@@ -83,7 +83,7 @@ Mesh roof() {
 Mesh l_shaped_polygon() {
     const std::vector<Vec3> corners{{-0.1, -0.1, 0}, {0.4, -0.1, 0}, {0.4, 0.1, 0},
                                     {0.1, 0.1, 0},   {0.1, 0.4, 0},  {-0.1, 0.4, 0}};
-    return {corners, triangulate_polygon(corners)};
+    return {corners, io::triangulate_polygon(corners)};
 }
 
 }  // namespace
@@ -99,4 +99,4 @@ std::vector<VerificationCase> seen_source_cases() {
     };
 }
 
-}  // namespace stilb
+}  // namespace stilb::verification

@@ -8,7 +8,7 @@
 #include "verification/case_scenes.h"
 #include "verification/sobolev_scene.h"
 
-namespace stilb {
+namespace stilb::verification {
 namespace {
 
 constexpr double kLargestRadius = 5;
@@ -75,4 +75,4 @@ std::vector<VerificationCase> sobolev_cases() {
     return cases;
 }
 
-}  // namespace stilb
+}  // namespace stilb::verification

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stilb {
+namespace stilb::verification {
 namespace {
 
 using exact::Plane;
@@ -51,11 +51,11 @@ Scene make_sobolev_scene(const exact::ParallelPlanes& planes, double largest_rad
     const double separation_m = planes.distance_1_m + planes.distance_2_m;
     const double half_size = half_size_m(planes, largest_radius_m);
     Scene scene;
-    scene.materials = {{"plane 1", Diffuse{Spectrum::grey(planes.reflectance_1)}},
-                       {"plane 2", Diffuse{Spectrum::grey(planes.reflectance_2)}}};
+    scene.materials = {{"plane 1", Diffuse{Rgb::grey(planes.reflectance_1)}},
+                       {"plane 2", Diffuse{Rgb::grey(planes.reflectance_2)}}};
     scene.objects = {{"plane 1", graded_square(0, separation_m, half_size), {MaterialId{0}}},
                      {"plane 2", graded_square(separation_m, separation_m, half_size), {MaterialId{1}}}};
-    scene.lights = {{"source", PointLight{{0, 0, planes.distance_1_m}, Spectrum::grey(planes.intensity_cd)}}};
+    scene.lights = {{"source", PointLight{{0, 0, planes.distance_1_m}, Rgb::grey(planes.intensity_cd)}}};
     return scene;
 }
 
@@ -66,4 +66,4 @@ MeasuringPoint sobolev_point(const exact::ParallelPlanes& planes, Plane plane, d
     return {{x, y, planes.distance_1_m + planes.distance_2_m}, {0, 0, -1}};
 }
 
-}  // namespace stilb
+}  // namespace stilb::verification

@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::verification {
 
 /// The share of the exact illuminance by which the finite planes' may fall short, at most.
 inline constexpr double kLargestTruncation = 2e-4;
@@ -18,4 +18,4 @@ Scene make_sobolev_scene(const exact::ParallelPlanes& planes, double largest_rad
 MeasuringPoint sobolev_point(const exact::ParallelPlanes& planes, exact::Plane plane, double radius_m,
                              double azimuth_rad);
 
-}  // namespace stilb
+}  // namespace stilb::verification

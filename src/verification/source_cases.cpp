@@ -8,7 +8,7 @@
 #include "verification/case_families.h"
 #include "verification/case_scenes.h"
 
-namespace stilb {
+namespace stilb::verification {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -49,7 +49,7 @@ Scene scene_with_light(const Shape& shape) {
 
 VerificationCase point_source_case() {
     Scene scene;
-    scene.lights.push_back({"source", PointLight{{}, Spectrum::grey(100)}});
+    scene.lights.push_back({"source", PointLight{{}, Rgb::grey(100)}});
     return source_case("point source", std::move(scene), [](const exact::Receiver& receiver) {
         return exact::illuminance_by_point_lx(receiver, {}, 100);
     });
@@ -82,4 +82,4 @@ std::vector<VerificationCase> source_cases() {
     return {point_source_case(), rectangle_source_case(), disk_source_case(), sphere_source_case()};
 }
 
-}  // namespace stilb
+}  // namespace stilb::verification

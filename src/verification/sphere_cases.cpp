@@ -7,7 +7,7 @@
 #include "verification/case_families.h"
 #include "verification/case_scenes.h"
 
-namespace stilb {
+namespace stilb::verification {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -19,8 +19,7 @@ VerificationCase photometric_sphere_case(double reflectance) {
     const Vec3 source{0.8, -0.5, 0.7};  // from the centre
     VerificationCase result{"photometric sphere", fmt::format("rho {}", reflectance), {}, {}};
     add_object(result.scene, Sphere{center, sphere.radius_m}, diffuse(reflectance));
-    result.scene.lights.push_back(
-        {"source", PointLight{center + source, Spectrum::grey(flux_lm / (4 * kPi))}});
+    result.scene.lights.push_back({"source", PointLight{center + source, Rgb::grey(flux_lm / (4 * kPi))}});
     for (const Vec3& to_wall : spread_directions(12)) {
         result.readings.push_back({MeasuringPoint{center + sphere.radius_m * to_wall, -to_wall},
                                    exact::illuminance_lx(sphere, flux_lm, source, to_wall)});
@@ -56,4 +55,4 @@ std::vector<VerificationCase> sphere_cases() {
     return cases;
 }
 
-}  // namespace stilb
+}  // namespace stilb::verification

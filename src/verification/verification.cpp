@@ -5,7 +5,7 @@
 
 #include "statistics/hypothesis.h"
 
-namespace stilb {
+namespace stilb::verification {
 
 const CheckedReading& Verification::worst() const {
     return *std::max_element(readings.begin(), readings.end(),
@@ -22,12 +22,12 @@ double Verification::widest_interval() const {
 
 bool Verification::contradicts() const { return !(std::abs(worst().z) < kContradictionZ); }
 
-CheckedReading check(const ExactReading& exact, const Estimate& measured, int replicates) {
-    Estimate estimate = measured;
+CheckedReading check(const ExactReading& exact, const statistics::Estimate& measured, int replicates) {
+    statistics::Estimate estimate = measured;
     estimate.standard_error = std::hypot(measured.standard_error, kRounding * exact.value);
     const double off = exact.tolerance * exact.value;
     const double nearest = std::clamp(measured.value, exact.value - off, exact.value + off);
-    return {exact, measured, equivalent_z(z_score(estimate, nearest), replicates - 1)};
+    return {exact, measured, statistics::equivalent_z(z_score(estimate, nearest), replicates - 1)};
 }
 
 Verification verify(const VerificationCase& verification_case, const RunOptions& options,
@@ -38,7 +38,7 @@ Verification verify(const VerificationCase& verification_case, const RunOptions&
     for (const ExactReading& reading : verification_case.readings) {
         sensors.push_back({"", type, {reading.measurand}});
     }
-    const RunResult measured = run(verification_case.scene, sensors, options, progress, interrupt);
+    const RunResult measured = run::measure(verification_case.scene, sensors, options, progress, interrupt);
     Verification result{verification_case.name,
                         verification_case.variant,
                         options.method,
@@ -54,7 +54,7 @@ Verification verify(const VerificationCase& verification_case, const RunOptions&
 }
 
 double false_alarm_chance(std::size_t readings) {
-    return 1 - std::pow(1 - two_sided_p_of_z(kContradictionZ), static_cast<double>(readings));
+    return 1 - std::pow(1 - statistics::two_sided_p_of_z(kContradictionZ), static_cast<double>(readings));
 }
 
-}  // namespace stilb
+}  // namespace stilb::verification

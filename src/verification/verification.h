@@ -11,7 +11,7 @@
 #include "run/run.h"
 #include "verification/verification_cases.h"
 
-namespace stilb {
+namespace stilb::verification {
 
 /// The |z| from which a reading contradicts the exact value.
 inline constexpr double kContradictionZ = 4;
@@ -21,7 +21,7 @@ inline constexpr double kRounding = 1e-9;
 
 struct CheckedReading {
     ExactReading exact;
-    Estimate measured;
+    statistics::Estimate measured;
     double z = 0;  ///< of a normal deviate, whatever the number of replicates
 };
 
@@ -39,7 +39,7 @@ struct Verification {
     bool contradicts() const;
 };
 
-CheckedReading check(const ExactReading& exact, const Estimate& measured, int replicates);
+CheckedReading check(const ExactReading& exact, const statistics::Estimate& measured, int replicates);
 
 /// Measures with `options`; the error asked for is met by every reading, not only by 95 % of them.
 Verification verify(const VerificationCase& verification_case, const RunOptions& options,
@@ -48,4 +48,4 @@ Verification verify(const VerificationCase& verification_case, const RunOptions&
 /// The chance that one of so many readings seems to contradict its exact value though none does.
 double false_alarm_chance(std::size_t readings);
 
-}  // namespace stilb
+}  // namespace stilb::verification

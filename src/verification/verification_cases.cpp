@@ -4,9 +4,9 @@
 
 #include "verification/case_families.h"
 
-namespace stilb {
+namespace stilb::verification {
 
-bool VerificationCase::is_for(const EstimatorEntry& method) const {
+bool VerificationCase::is_for(const estimators::EstimatorEntry& method) const {
     if (!only_method.empty()) return method.name == only_method;
     // At points double-local is local.
     return measures_luminance() ? method.measures_luminance() : method.name != "double-local";
@@ -21,4 +21,4 @@ std::vector<VerificationCase> verification_cases() {
     return all;
 }
 
-}  // namespace stilb
+}  // namespace stilb::verification

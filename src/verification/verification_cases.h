@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::verification {
 
 /// One reading and what it must be.
 struct ExactReading {
@@ -29,10 +29,10 @@ struct VerificationCase {
     std::string note{};
 
     bool measures_luminance() const { return is_luminance(readings.front().measurand); }
-    Quantity quantity() const { return measures_luminance() ? kLuminance : kIlluminance; }
-    bool is_for(const EstimatorEntry& method) const;
+    Quantity quantity() const { return measures_luminance() ? sensors::kLuminance : sensors::kIlluminance; }
+    bool is_for(const estimators::EstimatorEntry& method) const;
 };
 
 std::vector<VerificationCase> verification_cases();
 
-}  // namespace stilb
+}  // namespace stilb::verification

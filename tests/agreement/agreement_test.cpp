@@ -26,7 +26,7 @@ constexpr double kLargestError = 0.003;
 /// Chance that the whole file fails without a defect, when its seeds are first used.
 constexpr double kFamilyError = 0.01;
 
-bool can_measure(const EstimatorEntry& method, Demand demand) {
+bool can_measure(const estimators::EstimatorEntry& method, Demand demand) {
     if (demand == Demand::finite_variance) return !method.has_heavy_tails;
     if (demand == Demand::light_from_mirrors) return method.name != "path";
     return true;
@@ -36,7 +36,7 @@ std::vector<std::string> methods_for(const AgreementScene& scene) {
     std::vector<std::string> methods;
     // At points double-local is local.
     const std::string_view left_out = scene.sights.empty() ? "double-local" : "local";
-    for (const EstimatorEntry& method : unbiased_estimators()) {
+    for (const estimators::EstimatorEntry& method : estimators::unbiased_estimators()) {
         if (method.name != left_out && can_measure(method, scene.demand)) methods.emplace_back(method.name);
     }
     return methods;
@@ -52,18 +52,18 @@ std::size_t comparisons_in(const AgreementScene& scene) {
 double threshold_z() {
     std::size_t comparisons = 0;
     for (const AgreementScene& scene : agreement_scenes()) comparisons += comparisons_in(scene);
-    return sidak_threshold_z(kFamilyError, comparisons);
+    return statistics::sidak_threshold_z(kFamilyError, comparisons);
 }
 
 /// A scene's readings and their mean.
 struct Measured {
     std::string what;
-    std::vector<Estimate> estimates;
+    std::vector<statistics::Estimate> estimates;
 };
 
-double largest_relative_error(std::span<const Estimate> estimates) {
+double largest_relative_error(std::span<const statistics::Estimate> estimates) {
     double largest = 0;
-    for (const Estimate& e : estimates) {
+    for (const statistics::Estimate& e : estimates) {
         if (e.value > 0) largest = std::max(largest, e.standard_error / e.value);
     }
     return largest;
@@ -80,7 +80,7 @@ Measured measure(const Scene& scene, const AgreementScene& of, const std::string
     std::vector<Sensor> sensors;
     if (!of.points.empty()) sensors.push_back(point_sensor(of.points));
     if (!of.sights.empty()) sensors.push_back({"sights", SensorType::luminance, of.sights});
-    const RunResult result = run(scene, sensors, options);
+    const RunResult result = run::measure(scene, sensors, options);
     Measured measured{method + " with seed " + std::to_string(seed), {}};
     for (const SensorResult& sensor : result.sensors) {
         for (const Reading& reading : sensor.readings) measured.estimates.push_back(reading.estimate);
@@ -109,7 +109,7 @@ TwoRuns measure_twice(const Scene& scene, const AgreementScene& of, const std::s
                  measure(scene, of, method, seed + 2, paths),
                  {method, {}}};
     for (std::size_t i = 0; i < runs.first.estimates.size(); ++i) {
-        const Estimate &a = runs.first.estimates[i], &b = runs.second.estimates[i];
+        const statistics::Estimate &a = runs.first.estimates[i], &b = runs.second.estimates[i];
         runs.both.estimates.push_back(
             {(a.value + b.value) / 2, std::hypot(a.standard_error, b.standard_error) / 2, 0, 0});
     }
@@ -126,11 +126,11 @@ std::vector<TwoRuns> measure_all(const Scene& scene, const AgreementScene& of, s
 }
 
 /// Student's t of a difference, with the degrees of freedom of [Welch 1947], as a normal deviate.
-double apart_z(const Estimate& a, const Estimate& b) {
+double apart_z(const statistics::Estimate& a, const statistics::Estimate& b) {
     const double va = a.standard_error * a.standard_error, vb = b.standard_error * b.standard_error;
     const double freedom = (kReplicates - 1) * (va + vb) * (va + vb) / (va * va + vb * vb);
     // Without any error the two are either equal or infinitely far apart, whatever the degrees of freedom.
-    return equivalent_z(z_score(a, b), va + vb > 0 ? static_cast<int>(freedom) : 1);
+    return statistics::equivalent_z(z_score(a, b), va + vb > 0 ? static_cast<int>(freedom) : 1);
 }
 
 /// The largest |z| over all readings.

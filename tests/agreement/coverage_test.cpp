@@ -13,7 +13,7 @@
 namespace stilb {
 namespace {
 
-constexpr Spectrum kWhite = Spectrum::grey(1);
+constexpr Rgb kWhite = Rgb::grey(1);
 /// With intervals that hold in 95 % of the runs, the share over so many runs is between 92 and 98 % but for a
 /// chance of 3e-5.
 constexpr int kRuns = 1000;
@@ -33,7 +33,7 @@ Coverage coverage_of(const Scene& scene, const MeasuringPoint& point, double exa
         options.method = method;
         options.seed = 1'000'000 + static_cast<std::uint64_t>(i);
         options.paths = paths;
-        const Estimate e = run(scene, sensors, options).sensors[0].readings[0].estimate;
+        const statistics::Estimate e = run::measure(scene, sensors, options).sensors[0].readings[0].estimate;
         coverage.share += e.lower <= exact_lx && exact_lx <= e.upper ? 1.0 / kRuns : 0;
         coverage.mean_half_width += relative_half_width(e) / kRuns;
     }

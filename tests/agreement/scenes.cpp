@@ -8,15 +8,15 @@ namespace {
 
 constexpr Box kRoom{{0, 0, 0}, {4, 3, 2.8}};
 constexpr Vec3 kUp{0, 0, 1}, kDown{0, 0, -1};
-const Spectrum kWhite = Spectrum::grey(1);
+const Rgb kWhite = Rgb::grey(1);
 
-Spectrum rgb(double red, double green, double blue) { return {{red, green, blue}}; }
+Rgb rgb(double red, double green, double blue) { return {{red, green, blue}}; }
 
 Material phong(double diffuse_part, double specular_part, double exponent) {
-    return Phong{Spectrum::grey(diffuse_part), Spectrum::grey(specular_part), exponent};
+    return Phong{Rgb::grey(diffuse_part), Rgb::grey(specular_part), exponent};
 }
 
-Material mirror(double reflectance) { return Mirror{Spectrum::grey(reflectance)}; }
+Material mirror(double reflectance) { return Mirror{Rgb::grey(reflectance)}; }
 
 /// Shines down from under the ceiling; large, where cosine-distributed rays must find it in mirrors.
 Rectangle large_panel() { return {{0.8, 0.5, 2.6}, {0, 2, 0}, {2.4, 0, 0}}; }
@@ -68,7 +68,7 @@ Scene glossy_box(const Material& gloss) {
 }
 Scene broad_phong_box() { return glossy_box(phong(0.4, 0.3, 5)); }
 Scene narrow_phong_box() { return glossy_box(phong(0.4, 0.3, 200)); }
-Scene rough_box() { return glossy_box(Rough(rgb(0.8, 0.7, 0.5), 0.3)); }
+Scene rough_box() { return glossy_box(RoughConductor(rgb(0.8, 0.7, 0.5), 0.3)); }
 
 Scene ward_box() { return glossy_box(Ward(rgb(0.5, 0.4, 0.3), rgb(0.3, 0.4, 0.2), {0.1, 0.4}, 30)); }
 Scene plastic_box() { return glossy_box(Plastic(rgb(0.7, 0.6, 0.4), 1.5, 0.2)); }
@@ -168,15 +168,16 @@ Scene sphere_over_gloss(const Material& gloss) {
     return scene;
 }
 Scene sphere_over_phong() { return sphere_over_gloss(phong(0.3, 0.4, 100)); }
-Scene sphere_over_smooth_metal() { return sphere_over_gloss(Rough(rgb(0.9, 0.7, 0.5), 0.1)); }
+Scene sphere_over_smooth_metal() { return sphere_over_gloss(RoughConductor(rgb(0.9, 0.7, 0.5), 0.1)); }
 Scene sphere_over_plastic() { return sphere_over_gloss(Plastic(rgb(0.5, 0.3, 0.2), 1.5, 0.15)); }
 
 /// A pane divides the room, a glass ball lies on a table.
 Scene room_with_glass() {
     Scene scene;
     add_object(scene, kRoom, diffuse(0.6));
-    add_object(scene, Rectangle{{2, 0, 0}, {0, 3, 0}, {0, 0, 2.8}}, Pane{1.52, {{0.96, 0.95, 0.9}}});
-    add_object(scene, Sphere{{1.2, 2, 0.9}, 0.3}, Glass{1.5});
+    add_object(scene, Rectangle{{2, 0, 0}, {0, 3, 0}, {0, 0, 2.8}},
+               ThinDielectric{1.52, {{0.96, 0.95, 0.9}}});
+    add_object(scene, Sphere{{1.2, 2, 0.9}, 0.3}, Dielectric{1.5});
     add_area_light(scene, large_panel(), 500 * kWhite, diffuse(0.5));
     return scene;
 }
@@ -186,7 +187,7 @@ Scene lamp_behind_panes() {
     Scene scene;
     const Material gloss = phong(0.3, 0.4, 20), matt = diffuse(0.6);
     add_walls(scene, kRoom, {matt, matt, gloss, matt, matt, matt});
-    const Pane pane{1.52, {{0.96, 0.9, 0.8}}};
+    const ThinDielectric pane{1.52, {{0.96, 0.9, 0.8}}};
     add_object(scene, Rectangle{{2, 0, 0}, {0.3, 3, 0}, {0, 0, 2.8}}, pane);
     add_object(scene, Rectangle{{2.02, 0, 0}, {0.3, 3, 0}, {0, 0, 2.8}}, pane);
     add_area_light(scene, Sphere{{1, 1.2, 2.2}, 0.25}, 500 * kWhite, diffuse(0.3));
@@ -197,7 +198,7 @@ Scene lamp_behind_panes() {
 Scene room_with_glass_and_point_light() {
     Scene scene;
     add_object(scene, kRoom, diffuse(0.6));
-    add_object(scene, Rectangle{{2, 0, 1.2}, {0, 3, 0}, {0, 0, 1.6}}, Pane{1.52, Spectrum::grey(0.96)});
+    add_object(scene, Rectangle{{2, 0, 1.2}, {0, 3, 0}, {0, 0, 1.6}}, ThinDielectric{1.52, Rgb::grey(0.96)});
     add_point_light(scene, {1, 1.2, 2.2}, 100 * kWhite);
     return scene;
 }

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace stilb {
+namespace stilb::checks {
 namespace {
 
 /// A sphere of 20 x 40 cells, closed.
@@ -36,7 +36,7 @@ Mesh ball() {
 
 std::vector<std::string> warnings_of(const Mesh& mesh, const std::vector<Light>& lights = {}) {
     const Scene scene{"", {{"wall", Black{}}}, {{"ball", mesh, {MaterialId{0}}}}, {}, lights};
-    return hole_warnings(scene, {find_shells(mesh)});
+    return hole_warnings(scene, {find_components(mesh)});
 }
 
 TEST(Holes, NoneInAClosedMesh) { EXPECT_TRUE(warnings_of(ball()).empty()); }
@@ -60,10 +60,10 @@ TEST(Holes, AnEmittersFrontsMustFaceOneSide) {
     Mesh mesh = ball();
     std::swap(mesh.triangles[100][0], mesh.triangles[100][1]);
     EXPECT_TRUE(warnings_of(mesh).empty());
-    const auto warnings = warnings_of(mesh, {{"lamp", AreaLight{ObjectId{0}, Spectrum::grey(1)}}});
+    const auto warnings = warnings_of(mesh, {{"lamp", AreaLight{ObjectId{0}, Rgb::grey(1)}}});
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("light \"lamp\": at 3 edges"), std::string::npos) << warnings[0];
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::checks

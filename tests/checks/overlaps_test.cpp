@@ -2,23 +2,23 @@
 
 #include <gtest/gtest.h>
 
-namespace stilb {
+namespace stilb::checks {
 namespace {
 
 constexpr MaterialId kWall{0}, kWood{1};
 
 Scene room_with(const std::vector<Object>& objects) {
     Scene scene;
-    scene.materials = {{"wall", Diffuse{Spectrum::grey(0.5)}}, {"wood", Diffuse{Spectrum::grey(0.3)}}};
+    scene.materials = {{"wall", Diffuse{Rgb::grey(0.5)}}, {"wood", Diffuse{Rgb::grey(0.3)}}};
     scene.objects.push_back({"room", Box{{0, 0, 0}, {4, 4, 3}}, {kWall}});
     scene.objects.insert(scene.objects.end(), objects.begin(), objects.end());
-    scene.lights.push_back({"bulb", PointLight{{3, 3, 2.5}, Spectrum::grey(100)}});
+    scene.lights.push_back({"bulb", PointLight{{3, 3, 2.5}, Rgb::grey(100)}});
     return scene;
 }
 
 std::vector<std::string> warnings_of(const Scene& scene) {
-    const RayCaster caster(scene);
-    return overlap_warnings(scene, caster, Spaces(scene, caster));
+    const rays::RayCaster caster(scene);
+    return overlap_warnings(scene, caster, Enclosures(scene, caster));
 }
 
 Rectangle on_floor(double size) { return {{1, 1, 0}, {size, 0, 0}, {0, size, 0}}; }
@@ -53,7 +53,7 @@ TEST(Overlaps, NoWarningWhereBothLookAlike) {
 
 TEST(Overlaps, EmittersNeverLookLikeOthers) {
     Scene scene = room_with({{"tile", on_floor(1), {kWall}}});
-    scene.lights.push_back({"tile", AreaLight{ObjectId{1}, Spectrum::grey(10)}});
+    scene.lights.push_back({"tile", AreaLight{ObjectId{1}, Rgb::grey(10)}});
     EXPECT_EQ(warnings_of(scene).size(), 1u);
 }
 
@@ -69,4 +69,4 @@ TEST(Overlaps, NeighboursAndParallelsDoNotOverlap) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::checks

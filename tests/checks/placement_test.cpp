@@ -2,17 +2,17 @@
 
 #include <gtest/gtest.h>
 
-namespace stilb {
+namespace stilb::checks {
 namespace {
 
 using Texts = std::vector<std::string>;
 
-PointLight bulb(const Vec3& position) { return {position, Spectrum::grey(100)}; }
+PointLight bulb(const Vec3& position) { return {position, Rgb::grey(100)}; }
 
 /// A room of 4 m x 4 m x 3 m with a bulb, and a cabinet that stands on the floor in its corner.
 Scene furnished_room() {
     Scene scene;
-    scene.materials.push_back({"wall", Diffuse{Spectrum::grey(0.5)}});
+    scene.materials.push_back({"wall", Diffuse{Rgb::grey(0.5)}});
     scene.objects.push_back({"room", Box{{0, 0, 0}, {4, 4, 3}}, {MaterialId{0}}});
     scene.objects.push_back({"cabinet", Box{{0, 0, 0}, {1, 1, 2}}, {MaterialId{0}}});
     scene.lights.push_back({"bulb", bulb({3, 3, 2.5})});
@@ -24,7 +24,7 @@ Sensor at(const Vec3& position, const Vec3& normal = {0, 0, 1}) {
 }
 
 Texts warnings_of(const Scene& scene, const std::vector<Sensor>& sensors) {
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     return placement_warnings(scene, caster, sensors);
 }
 
@@ -38,7 +38,8 @@ TEST(Placement, SensorsInTheRoomAreFine) {
 }
 
 TEST(Placement, PointsInsideACabinetAreCounted) {
-    const Sensor grid = make_grid_sensor("desk", {{0, 0, 0.75}, {4, 0, 0}, {0, 4, 0}, {8, 8}}, {0, 0, 1});
+    const Sensor grid =
+        sensors::make_grid_sensor("desk", {{0, 0, 0.75}, {4, 0, 0}, {0, 4, 0}, {8, 8}}, {0, 0, 1});
     const Texts warnings = warnings_of(furnished_room(), {grid});
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_EQ(
@@ -91,10 +92,10 @@ TEST(Placement, LightsOfSurfaces) {
     scene.lights.clear();
     scene.objects.push_back({"panel", Rectangle{{2, 2, 2.9}, {0, 1, 0}, {1, 0, 0}}, {MaterialId{0}}});
     scene.objects.push_back({"globe", Sphere{{3, 3, 2}, 0.1}, {MaterialId{0}}});
-    scene.lights.push_back({"panel", AreaLight{ObjectId{2}, Spectrum::grey(1000)}});
+    scene.lights.push_back({"panel", AreaLight{ObjectId{2}, Rgb::grey(1000)}});
     EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75})}).size(), 0u);
     EXPECT_EQ(warnings_of(scene, {at({3, 3, 2})}).size(), 1u);
-    scene.lights.push_back({"globe", AreaLight{ObjectId{3}, Spectrum::grey(1000)}});
+    scene.lights.push_back({"globe", AreaLight{ObjectId{3}, Rgb::grey(1000)}});
     EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75})}).size(), 0u);
     EXPECT_EQ(warnings_of(scene, {at({3, 3, 2})}).size(), 1u);  // the globe shines outwards
 }
@@ -148,4 +149,4 @@ TEST(Placement, NoLightNoWarning) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::checks

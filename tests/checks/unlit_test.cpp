@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stilb {
+namespace stilb::checks {
 namespace {
 
 constexpr ObjectId kProbe{1};
@@ -13,11 +13,11 @@ Scene room_with(const Shape& probe) {
     scene.materials = {{"black", Black{}}};
     scene.objects.push_back({"room", Box{{0, 0, 0}, {4, 4, 3}}, {MaterialId{0}}});
     scene.objects.push_back({"probe", probe, {MaterialId{0}}});
-    scene.lights.push_back({"bulb", PointLight{{3, 3, 2.5}, Spectrum::grey(100)}});
+    scene.lights.push_back({"bulb", PointLight{{3, 3, 2.5}, Rgb::grey(100)}});
     return scene;
 }
 
-std::vector<ObjectId> unlit_in(const Scene& scene) { return unlit_objects(scene, RayCaster(scene)); }
+std::vector<ObjectId> unlit_in(const Scene& scene) { return unlit_objects(scene, rays::RayCaster(scene)); }
 
 TEST(Unlit, WhatStandsInTheRoomIsLit) {
     EXPECT_TRUE(unlit_in(room_with(Box{{1, 1, 0}, {2, 2, 1}})).empty());
@@ -45,9 +45,9 @@ TEST(Unlit, WhatIsOutsideOrShutInIsNot) {
 
 TEST(Unlit, EmittersLightThemselves) {
     Scene scene = room_with(Sphere{{8, 1, 1}, 1});
-    scene.lights.push_back({"globe", AreaLight{kProbe, Spectrum::grey(1)}});
+    scene.lights.push_back({"globe", AreaLight{kProbe, Rgb::grey(1)}});
     EXPECT_TRUE(unlit_in(scene).empty());
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::checks

@@ -7,14 +7,14 @@
 
 #include "io/luminance_results.h"
 
-namespace stilb {
+namespace stilb::cli {
 namespace {
 
-std::string table_of(const HandMade& made) { return to_table(made.result, made.sensors); }
+std::string table_of(const io::HandMade& made) { return to_table(made.result, made.sensors); }
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(ResultsTable, ShowsLinesOfSightAndDirections) {
-    EXPECT_EQ(table_of(luminance_results()),
+    EXPECT_EQ(table_of(io::luminance_results()),
               "Luminance, with 95 % intervals\n"
               "\n"
               "view          2 lines of sight; 95 % of the readings within 2 %\n"
@@ -30,7 +30,7 @@ TEST(ResultsTable, ShowsLinesOfSightAndDirections) {
 }
 
 TEST(ResultsTable, OneLineOfSightIsOneLine) {
-    HandMade made = luminance_results();
+    io::HandMade made = io::luminance_results();
     made.sensors.resize(1);
     made.sensors[0].measurands.resize(1);
     made.result.sensors[0].sub_points.clear();
@@ -40,14 +40,15 @@ TEST(ResultsTable, OneLineOfSightIsOneLine) {
 
 /// As of methods without chance.
 TEST(ResultsTable, ShowsNoErrorsWhereNoneAreKnown) {
-    HandMade made = luminance_results();
+    io::HandMade made = io::luminance_results();
     made.sensors.resize(1);
     made.result.sensors.resize(1);
     made.result.stop_reason = StopReason::solved;
     SensorResult& view = made.result.sensors[0];
     view.attained_error = std::numeric_limits<double>::quiet_NaN();
-    for (Reading& reading : view.readings) reading.estimate = without_error(reading.estimate.value);
-    view.summary = summarize_without_errors(std::vector<double>{100, 200});
+    for (Reading& reading : view.readings)
+        reading.estimate = statistics::without_error(reading.estimate.value);
+    view.summary = statistics::summarize_without_errors(std::vector<double>{100, 200});
     EXPECT_EQ(table_of(made),
               "Luminance, without intervals\n"
               "\n"
@@ -60,8 +61,8 @@ TEST(ResultsTable, ShowsNoErrorsWhereNoneAreKnown) {
 }
 
 TEST(ResultsTable, SaysWhatPatchesStandFor) {
-    HandMade made = luminance_results();
-    made.result.patches = patch_report();
+    io::HandMade made = io::luminance_results();
+    made.result.patches = io::patch_report();
     EXPECT_TRUE(table_of(made).ends_with(
         "\nauto, 0 paths in 0.00 s: all paths done; error 0 %\n"
         "1000 patches of 0.25 m; first shot (incoming, resolution 256) for 1 of 2 lights, 0.12 s, "
@@ -71,8 +72,8 @@ TEST(ResultsTable, SaysWhatPatchesStandFor) {
 }
 
 TEST(ResultsTable, NamesFewOfManyLights) {
-    HandMade made = luminance_results();
-    made.result.patches = patch_report();
+    io::HandMade made = io::luminance_results();
+    made.result.patches = io::patch_report();
     for (int i = 2; i < 6; ++i) {
         made.result.patches->lights.push_back({fmt::format("panel {}", i), false, "large", 0, {}});
     }
@@ -82,16 +83,16 @@ TEST(ResultsTable, NamesFewOfManyLights) {
 }
 
 TEST(ResultsTable, LightsNeedNoWordsWithoutFirstShot) {
-    HandMade made = luminance_results();
-    made.result.patches = patch_report();
-    made.result.patches->first_shot = FirstShotVariant::none;
+    io::HandMade made = io::luminance_results();
+    made.result.patches = io::patch_report();
+    made.result.patches->first_shot = estimators::FirstShotVariant::none;
     EXPECT_TRUE(table_of(made).ends_with("\n1000 patches of 0.25 m; no first shot\n")) << table_of(made);
 }
 
 TEST(ResultsTable, NamesTheQuantities) {
-    HandMade made = luminance_results();
+    io::HandMade made = io::luminance_results();
     made.sensors.push_back({"eye", SensorType::illuminance, {MeasuringPoint{{1, 2, 3}, {0, 0, 1}}}});
-    made.result.sensors.push_back({{reading(500)}, {}, {}, 0.01});
+    made.result.sensors.push_back({{io::reading(500)}, {}, {}, 0.01});
     EXPECT_TRUE(table_of(made).starts_with("Illuminance and luminance, with 95 % intervals\n"));
     EXPECT_TRUE(has(table_of(made), "\neye           500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 0, 1)\n"));
     made.sensors.erase(made.sensors.begin(), made.sensors.begin() + 2);
@@ -100,4 +101,4 @@ TEST(ResultsTable, NamesTheQuantities) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::cli

@@ -11,7 +11,7 @@
 #include "support/scene_builder.h"
 #include "transport/kernel_split.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// Cosines are sums of products in single precision: near grazing their relative error is 1e-7 over the
@@ -39,8 +39,8 @@ TEST(Receivers, ArePermutedSoThatNeighboursStandTogether) {
     const std::vector<MeasuringPoint> points = random_points(1000, random);
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Black{});
-    const RayCaster caster(scene);
-    const std::vector<Receiver> sorted = receivers_of(points, caster);
+    const rays::RayCaster caster(scene);
+    const std::vector<transport::Receiver> sorted = receivers_of(points, caster);
     double steps = 0, unsorted_steps = 0;
     std::set<std::uint32_t> readings;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -60,8 +60,8 @@ TEST(Receivers, ArePermutedSoThatNeighboursStandTogether) {
 }
 
 /// W f_r w G (theory T.1b), one node and point at a time, in double precision.
-Spectrum contribution_lx(const ChainNode& node, const MeasuringPoint& point, double k_per_m2,
-                         const RayCaster& caster) {
+Rgb contribution_lx(const transport::LightVertex& node, const MeasuringPoint& point, double k_per_m2,
+                    const rays::RayCaster& caster) {
     const Vec3 w = normalized(point.position - node.position), to = lifted_position(point, caster);
     const double cos_node = dot(w, node.normal), cos_point = -dot(w, point.normal);
     if (cos_node <= 0 || cos_point <= 0 || caster.occluded(node.lifted, to)) {
@@ -71,9 +71,9 @@ Spectrum contribution_lx(const ChainNode& node, const MeasuringPoint& point, dou
     const Frame frame = Frame::of_surface(node.normal);
     // BRDFs see the ray, which goes between lifted points.
     const Vec3 out = frame.to_local(normalized(to - node.lifted));
-    const Spectrum brdf = evaluate_brdf_per_sr(*node.material, frame.to_local(node.incoming), out);
+    const Rgb brdf = evaluate_brdf_per_sr(*node.material, frame.to_local(node.incoming), out);
     const double weight =
-        node.only_by_light ? 1 : 1 / (1 + relative_brdf(*node.material, brdf) * g / k_per_m2);
+        node.only_by_light ? 1 : 1 / (1 + transport::relative_brdf(*node.material, brdf) * g / k_per_m2);
     return node.flux_lm * brdf * (weight * g);
 }
 
@@ -82,7 +82,7 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, diffuse(0.5));
     add_object(scene, Box{{1, 1, 0.5}, {1.7, 1.6, 1.2}}, diffuse(0.5));
     add_object(scene, Sphere{{3, 2, 1}, 0.4}, diffuse(0.5));
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     const std::array<Material, 3> materials{Diffuse{{{0.7, 0.5, 0.2}}},
                                             Phong{{{0.3, 0.2, 0.1}}, {{0.2, 0.3, 0.4}}, 12}, diffuse(0.9)};
     // Fewer points than a packet, a packet and one more; more nodes than a block.
@@ -93,9 +93,9 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
         for (std::size_t j = 0; j < count; ++j) {
             k[j] = j % 4 == 0 ? std::numeric_limits<double>::infinity() : 0.01 + random.next();
         }
-        std::vector<ChainNode> nodes;
+        std::vector<transport::LightVertex> nodes;
         for (int n = 0; n < 600; ++n) {
-            ChainNode node;
+            transport::LightVertex node;
             node.position = random_point(random);
             node.normal = random_direction(random);
             node.lifted = node.position + 1e-5 * node.normal;
@@ -112,17 +112,17 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
         }
         ASSERT_GT(nodes.size(), 64u);
         ReadingSums sums(count);
-        const std::vector<Receiver> sorted = receivers_of(points, caster);
+        const std::vector<transport::Receiver> sorted = receivers_of(points, caster);
         std::vector<double> sorted_k;
-        for (const Receiver& receiver : sorted) sorted_k.push_back(k[receiver.reading()]);
-        const std::vector<PointTile> tiles = tiles_of(sorted, sorted_k, caster, kUnlimited);
+        for (const transport::Receiver& receiver : sorted) sorted_k.push_back(k[receiver.reading()]);
+        const std::vector<PointTile> tiles = tiles_of(sorted, sorted_k, caster, transport::kUnlimited);
         Fan(caster, tiles).collect(nodes, sums);
         std::uint64_t rays = 0;
         for (std::size_t j = 0; j < count; ++j) {
-            Spectrum expected;
+            Rgb expected;
             double largest = 0;
-            for (const ChainNode& node : nodes) {
-                const Spectrum added = contribution_lx(node, points[j], k[j], caster);
+            for (const transport::LightVertex& node : nodes) {
+                const Rgb added = contribution_lx(node, points[j], k[j], caster);
                 expected += added;
                 largest = std::max(largest, added.luminance());
                 const Vec3 w = points[j].position - node.position;
@@ -140,4 +140,4 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -13,7 +13,7 @@
 #include "support/quadrature.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -54,8 +54,8 @@ double exact_luminance_cd_m2(const Vec3& position, const Vec3& out, double expon
 Scene sphere_over_phong(double exponent) {
     Scene scene;
     add_object(scene, Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
-               Phong{Spectrum::grey(kDiffuse), Spectrum::grey(kSpecular), exponent});
-    add_area_light(scene, kLight, Spectrum::grey(kLuminance));
+               Phong{Rgb::grey(kDiffuse), Rgb::grey(kSpecular), exponent});
+    add_area_light(scene, kLight, Rgb::grey(kLuminance));
     return scene;
 }
 
@@ -74,22 +74,22 @@ std::vector<Measurand> sights() {
     return rays;
 }
 
-std::vector<Estimate> measure(const EstimatorEntry& method, const Scene& scene,
-                              const std::vector<Measurand>& rays) {
+std::vector<statistics::Estimate> measure(const EstimatorEntry& method, const Scene& scene,
+                                          const std::vector<Measurand>& rays) {
     constexpr int one_reflection = 1;
-    const RayCaster caster(scene);
-    const auto estimator = method.make({scene, caster, rays, one_reflection, RandomKey{1}});
+    const rays::RayCaster caster(scene);
+    const auto estimator = method.make({scene, caster, rays, one_reflection, math::RandomKey{1}});
     EXPECT_EQ(kSamples % estimator->batch_granularity(), 0u);
     std::vector<double> means;
     for (std::uint64_t replicate = 0; replicate < kReplicates; ++replicate) {
         ReadingSums sums(rays.size());
-        estimator->run_batch({RandomKey{2}.derived(replicate), 0, kSamples}, sums);
+        estimator->run_batch({math::RandomKey{2}.derived(replicate), 0, kSamples}, sums);
         for (std::size_t j = 0; j < rays.size(); ++j) {
             means.push_back(estimator->known_part()[j].luminance() +
                             sums.sum[j].luminance() / static_cast<double>(kSamples));
         }
     }
-    return estimate_readings({means, rays.size()});
+    return statistics::estimate_readings({means, rays.size()});
 }
 
 /// The parameter is the exponent.
@@ -105,10 +105,11 @@ TEST_P(FirstOrder, IsTheIntegralOverTheLight) {
     }
     for (const EstimatorEntry& method : unbiased_estimators()) {
         if (!method.measures_luminance()) continue;
-        const std::vector<Estimate> measured = measure(method, scene, rays);
+        const std::vector<statistics::Estimate> measured = measure(method, scene, rays);
         for (std::size_t j = 0; j < rays.size(); ++j) {
             EXPECT_NEAR(measured[j].value, exact[j], kLargestError * exact[j]) << method.name << ", " << j;
-            EXPECT_LT(std::abs(equivalent_z(z_score(measured[j], exact[j]), kReplicates - 1)), kLargestZ)
+            EXPECT_LT(std::abs(statistics::equivalent_z(z_score(measured[j], exact[j]), kReplicates - 1)),
+                      kLargestZ)
                 << method.name << ", " << j << ": " << measured[j].value << " +- "
                 << measured[j].standard_error << ", exact " << exact[j];
         }
@@ -118,4 +119,4 @@ TEST_P(FirstOrder, IsTheIntegralOverTheLight) {
 INSTANTIATE_TEST_SUITE_P(Exponents, FirstOrder, testing::Values(1, 10, 100, 1000));
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -9,7 +9,7 @@
 #include "estimators/patch_light/first_shot/factors.h"
 #include "exact/configuration_factors.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -33,19 +33,19 @@ Scene room_of_lights() {
     add_point_light(scene, {2.3, 1.9, 1.6}, {{100, 80, 30}});
     add_luminaire(scene, {1, 3, 2.5}, downlight(), normalized(Vec3{0.2, -0.3, -1}), 30, {{1, 0.9, 0.7}});
     add_area_light(scene, Rectangle{{2, 1, 3}, {0, 0.6, 0}, {0.6, 0, 0}}, {{1000, 900, 500}});
-    add_area_light(scene, Rectangle{{5, 4, 2.2}, {0, -0.5, 0}, {0, 0, 0.4}}, Spectrum::grey(800));
-    add_area_light(scene, Box{{2, 3, 1.5}, {2.2, 3.3, 1.6}}, Spectrum::grey(500));
-    add_area_light(scene, Sphere{{3.2, 3, 2}, 0.1}, Spectrum::grey(3000));
-    add_area_light(scene, Disk{{4.2, 1, 2.99}, {0, 0, -1}, 0.15}, Spectrum::grey(5000));
+    add_area_light(scene, Rectangle{{5, 4, 2.2}, {0, -0.5, 0}, {0, 0, 0.4}}, Rgb::grey(800));
+    add_area_light(scene, Box{{2, 3, 1.5}, {2.2, 3.3, 1.6}}, Rgb::grey(500));
+    add_area_light(scene, Sphere{{3.2, 3, 2}, 0.1}, Rgb::grey(3000));
+    add_area_light(scene, Disk{{4.2, 1, 2.99}, {0, 0, -1}, 0.15}, Rgb::grey(5000));
     return scene;
 }
 
-class Factors : public testing::TestWithParam<BufferBackend> {
+class Factors : public testing::TestWithParam<patches::BufferBackend> {
   protected:
     void SetUp() override {
-        if (GetParam() == BufferBackend::rays) return;
+        if (GetParam() == patches::BufferBackend::rays) return;
         try {
-            const OpenGlContext context;
+            const patches::OpenGlContext context;
         } catch (const InputError& error) {
             GTEST_SKIP() << error.what();
         }
@@ -56,8 +56,8 @@ class Factors : public testing::TestWithParam<BufferBackend> {
 TEST_P(Factors, TakeAllLightOfAClosedRoom) {
     const PreparedScene room(room_of_lights(), 0.5);
     const FirstShotLights lights = room.lights();
-    for (const BufferShape window :
-         {BufferShape::cube, BufferShape::hemicube, BufferShape::cubic_tetrahedron}) {
+    for (const patches::BufferShape window : {patches::BufferShape::cube, patches::BufferShape::hemicube,
+                                              patches::BufferShape::cubic_tetrahedron}) {
         for (const int resolution : {64, 256}) {
             const FirstShotFactors factors(room.patch_caster, lights.samples,
                                            {window, GetParam(), resolution});
@@ -82,9 +82,9 @@ TEST(FactorsByRays, CubesAreWhatHemicubesAre) {
     const PreparedScene room(room_of_lights(), 0.5);
     const FirstShotLights lights = room.lights();
     const FirstShotFactors cubes(room.patch_caster, lights.samples,
-                                 {BufferShape::cube, BufferBackend::rays, 64});
+                                 {patches::BufferShape::cube, patches::BufferBackend::rays, 64});
     const FirstShotFactors hemicubes(room.patch_caster, lights.samples,
-                                     {BufferShape::hemicube, BufferBackend::rays, 64});
+                                     {patches::BufferShape::hemicube, patches::BufferBackend::rays, 64});
     for (std::uint32_t side = 0; side < room.sides(); ++side) {
         const auto of_cubes = cubes.of(side), of_hemicubes = hemicubes.of(side);
         ASSERT_EQ(of_cubes.size(), of_hemicubes.size()) << side;
@@ -98,7 +98,7 @@ TEST(FactorsByRays, CubesAreWhatHemicubesAre) {
 }
 
 /// Of the triangle seen from `place` [Van Oosterom, Strackee 1983].
-double solid_angle_sr(const Patches& patches, std::uint32_t patch, const Vec3& place) {
+double solid_angle_sr(const patches::Patches& patches, std::uint32_t patch, const Vec3& place) {
     const Vec3 a = patches.position(patch, {1, 0, 0}) - place, b = patches.position(patch, {0, 1, 0}) - place,
                c = patches.position(patch, {0, 0, 1}) - place;
     const double la = length(a), lb = length(b), lc = length(c);
@@ -114,7 +114,7 @@ TEST_P(Factors, ErrorsFallWithTheResolution) {
     std::vector<double> log_error;
     for (int resolution = 64; resolution <= 1024; resolution *= 2) {
         const FirstShotFactors factors(cube.patch_caster, cube.lights().samples,
-                                       {BufferShape::hemicube, GetParam(), resolution});
+                                       {patches::BufferShape::hemicube, GetParam(), resolution});
         double wrong_lm = 0;
         for (std::uint32_t p = 0; p < cube.patches.count(); ++p) {
             const auto row = factors.of(p);
@@ -131,7 +131,8 @@ TEST_P(Factors, ErrorsFallWithTheResolution) {
     EXPECT_LT(log_error.back(), std::log2(2e-3));
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Factors, testing::Values(BufferBackend::rays, BufferBackend::opengl),
+INSTANTIATE_TEST_SUITE_P(Both, Factors,
+                         testing::Values(patches::BufferBackend::rays, patches::BufferBackend::opengl),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 struct Illuminances {
@@ -140,9 +141,10 @@ struct Illuminances {
 
     Illuminances(const PreparedScene& scene, int resolution)
         : prepared(scene),
-          incoming(scene.scene, scene.patches, scene.lights(),
-                   FirstShotFactors(scene.patch_caster, scene.lights().samples,
-                                    {BufferShape::hemicube, BufferBackend::rays, resolution})) {}
+          incoming(
+              scene.scene, scene.patches, scene.lights(),
+              FirstShotFactors(scene.patch_caster, scene.lights().samples,
+                               {patches::BufferShape::hemicube, patches::BufferBackend::rays, resolution})) {}
     double lx(std::uint32_t side) const { return incoming.illuminance_lx(side).luminance(); }
 };
 
@@ -165,7 +167,7 @@ template <typename ExactLx>
 double error_below(const Shape& light, const ExactLx& exact_lx) {
     Scene scene;
     add_object(scene, Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, diffuse(0.5));
-    add_area_light(scene, light, Spectrum::grey(1000));
+    add_area_light(scene, light, Rgb::grey(1000));
     const PreparedScene floor(std::move(scene), 0.25);
     EXPECT_TRUE(floor.lights().lights[0].is_replaced) << floor.lights().lights[0].why;
     const Illuminances illuminances(floor, 512);
@@ -231,9 +233,8 @@ TEST(FactorsOfLuminaires, FollowTheirDistribution) {
     RelativeErrors errors;
     for (std::uint32_t p = 0; p < cube.patches.count(); ++p) {
         const auto light = cube.sampler.sample_incident(0, cube.middle(p), {});
-        const Spectrum exact =
-            light->normal_illuminance_lx * dot(light->direction, cube.patches.normal_of(p));
-        const Spectrum found = illuminances.incoming.illuminance_lx(p);
+        const Rgb exact = light->normal_illuminance_lx * dot(light->direction, cube.patches.normal_of(p));
+        const Rgb found = illuminances.incoming.illuminance_lx(p);
         for (std::size_t band = 0; band < kBands; ++band) errors.add(found[band], exact[band]);
     }
     EXPECT_LT(errors.rms(), 0.02);
@@ -264,4 +265,4 @@ TEST(FactorsOfPoints, LeaveShadowsDark) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::estimators

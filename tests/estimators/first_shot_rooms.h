@@ -5,21 +5,21 @@
 #include "patches/visibility/opengl_context.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// All that first shot needs of a scene.
 struct PreparedScene {
     Scene scene;
-    RayCaster caster;
-    LightSampler sampler;
-    Patches patches;
-    PatchCaster patch_caster;
+    rays::RayCaster caster;
+    transport::LightSampler sampler;
+    patches::Patches patches;
+    patches::PatchCaster patch_caster;
 
     PreparedScene(Scene made, double patch_size_m)
         : scene(std::move(made)),
           caster(scene),
           sampler(scene, caster),
-          patches(make_patches(scene, patch_size_m)),
+          patches(patches::make_patches(scene, patch_size_m)),
           patch_caster(patches) {}
 
     FirstShotLights lights() const { return choose_first_shot_lights(scene, caster, patches.center); }
@@ -43,8 +43,8 @@ inline Scene empty_cube(const Material& material) {
 /// 10 klm at the centre.
 inline Scene cube_with_bulb(const Material& material) {
     Scene scene = empty_cube(material);
-    add_point_light(scene, {2, 2, 2}, Spectrum::grey(1e4 / (4 * std::numbers::pi)));
+    add_point_light(scene, {2, 2, 2}, Rgb::grey(1e4 / (4 * std::numbers::pi)));
     return scene;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

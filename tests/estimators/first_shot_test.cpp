@@ -11,16 +11,16 @@
 #include "estimators/first_shot_rooms.h"
 #include "exact/configuration_factors.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
 FirstShotOptions options(FirstShotVariant variant, int resolution, int bin_rings = 4) {
-    return {variant, {BufferShape::hemicube, BufferBackend::rays, resolution}, bin_rings};
+    return {variant, {patches::BufferShape::hemicube, patches::BufferBackend::rays, resolution}, bin_rings};
 }
 
-const Material kGlossy = Phong{{{0.4, 0.3, 0.2}}, Spectrum::grey(0.3), 20};
+const Material kGlossy = Phong{{{0.4, 0.3, 0.2}}, Rgb::grey(0.3), 20};
 
 /// A cabinet, a bulb, a panel in the ceiling and a ball of light, all over one material.
 Scene room_of(const Material& material) {
@@ -29,7 +29,7 @@ Scene room_of(const Material& material) {
     add_object(scene, Box{{0.5, 0.4, 0}, {1.4, 1.1, 1.2}}, material);
     add_point_light(scene, {2.3, 1.9, 1.6}, {{100, 80, 30}});
     add_area_light(scene, Rectangle{{3, 2, 3}, {0, 0.5, 0}, {0.5, 0, 0}}, {{1000, 900, 500}});
-    add_area_light(scene, Sphere{{1, 3, 2}, 0.1}, Spectrum::grey(3000));
+    add_area_light(scene, Sphere{{1, 3, 2}, 0.1}, Rgb::grey(3000));
     return scene;
 }
 
@@ -37,12 +37,12 @@ Scene room_of(const Material& material) {
 Vec3 some_direction(const PreparedScene& room, std::uint32_t side) {
     const Frame frame = Frame::around(room.patches.normal_of(side));
     return frame.to_world(
-        sample_cosine_hemisphere(std::fmod(0.618 * side, 1), std::fmod(0.414 * side, 1)).direction);
+        math::sample_cosine_hemisphere(std::fmod(0.618 * side, 1), std::fmod(0.414 * side, 1)).direction);
 }
 
 /// The mean over a side's patch, by the middles of its parts: n^2 triangles.
-Spectrum mean_reflected(const PreparedScene& room, const FirstShot& shot, std::uint32_t side, int n) {
-    Spectrum sum;
+Rgb mean_reflected(const PreparedScene& room, const FirstShot& shot, std::uint32_t side, int n) {
+    Rgb sum;
     const auto add = [&](double b1, double b2) {
         const Vec3 place = room.patches.position(room.patches.patch_of(side), {1 - b1 - b2, b1, b2});
         sum += shot.reflected(side, place, {}, some_direction(room, side));
@@ -57,17 +57,17 @@ Spectrum mean_reflected(const PreparedScene& room, const FirstShot& shot, std::u
 }
 
 /// pi times it is what a side gives off in all.
-Spectrum mean_over_directions(const PreparedScene& room, const FirstShot& shot, std::uint32_t side) {
+Rgb mean_over_directions(const PreparedScene& room, const FirstShot& shot, std::uint32_t side) {
     constexpr int kSteps = 48;
     const Frame frame = Frame::around(room.patches.normal_of(side));
     std::vector<Vec3> outs;
     for (int i = 0; i < kSteps * kSteps; ++i) {
         const double u1 = (i / kSteps + 0.5) / kSteps, u2 = (i % kSteps + 0.5) / kSteps;
-        outs.push_back(frame.to_world(sample_cosine_hemisphere(u1, u2).direction));
+        outs.push_back(frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction));
     }
-    std::vector<Spectrum> sums(outs.size());
+    std::vector<Rgb> sums(outs.size());
     shot.add_reflected(side, room.middle(side), {}, outs, sums);
-    return std::accumulate(sums.begin(), sums.end(), Spectrum{}) * (1. / (kSteps * kSteps));
+    return std::accumulate(sums.begin(), sums.end(), Rgb{}) * (1. / (kSteps * kSteps));
 }
 
 /// sum_j A_j |L_j - L'_j| / sum_j A_j L'_j.
@@ -82,11 +82,11 @@ double difference(const PreparedScene& room, const Found& found, const Reference
     return wrong / all;
 }
 
-Spectrum reflected_from_middle(const PreparedScene& room, const FirstShot& shot, std::uint32_t side) {
+Rgb reflected_from_middle(const PreparedScene& room, const FirstShot& shot, std::uint32_t side) {
     return shot.reflected(side, room.middle(side), {}, some_direction(room, side));
 }
 
-void expect_same(const Spectrum& found, const Spectrum& expected, double relative_error) {
+void expect_same(const Rgb& found, const Rgb& expected, double relative_error) {
     for (std::size_t band = 0; band < kBands; ++band) {
         EXPECT_NEAR(found[band], expected[band], relative_error * expected[band] + 1e-300);
     }
@@ -102,7 +102,7 @@ TEST(FirstShot, VariantsAgreeOnDiffuseReflection) {
     for (std::uint32_t side = 0; side < room.sides(); ++side) {
         EXPECT_TRUE(incoming.is_constant(side) && classical.is_constant(side) &&
                     diffuse_only.is_constant(side));
-        const Spectrum expected = reflected_from_middle(room, incoming, side);
+        const Rgb expected = reflected_from_middle(room, incoming, side);
         expect_same(reflected_from_middle(room, classical, side), expected, 1e-6);
         expect_same(reflected_from_middle(room, diffuse_only, side), expected, 1e-6);
     }
@@ -119,7 +119,7 @@ TEST(FirstShot, DifferenceToShadowRaysFallsWithTheResolution) {
     scene.lights.resize(1);
     const PreparedScene room(std::move(scene), 0.4);
     const FirstShot on_the_fly = room.first_shot(options(FirstShotVariant::on_the_fly, 0));
-    std::vector<Spectrum> reference;
+    std::vector<Rgb> reference;
     for (std::uint32_t side = 0; side < room.sides(); ++side) {
         reference.push_back(mean_reflected(room, on_the_fly, side, 16));
     }
@@ -137,8 +137,8 @@ TEST(FirstShot, DifferenceToShadowRaysFallsWithTheResolution) {
 
 /// L* = e f(w_i, w), whatever the BRDF, and nothing behind the side.
 TEST(FirstShot, IncomingReflectsByTheBrdf) {
-    const std::vector<Material> materials{kGlossy, Rough({{0.9, 0.6, 0.3}}, 0.3),
-                                          Ward(Spectrum::grey(0.2), Spectrum::grey(0.3), {0.1, 0.4}, 25),
+    const std::vector<Material> materials{kGlossy, RoughConductor({{0.9, 0.6, 0.3}}, 0.3),
+                                          Ward(Rgb::grey(0.2), Rgb::grey(0.3), {0.1, 0.4}, 25),
                                           Plastic({{0.5, 0.4, 0.1}}, 1.5, 0.2)};
     for (const Material& material : materials) {
         const PreparedScene cube(cube_with_bulb(material), 1);
@@ -149,11 +149,10 @@ TEST(FirstShot, IncomingReflectsByTheBrdf) {
             const Vec3 in = normalized(Vec3{2, 2, 2} - cube.middle(side));
             const auto row = shot.incoming()->factors().of(side);
             ASSERT_EQ(row.size(), 1u);
-            const Spectrum expected =
-                evaluate_brdf_per_sr(material, frame.to_local(in), frame.to_local(out)) *
-                row[0].illuminance_lx;
+            const Rgb expected = evaluate_brdf_per_sr(material, frame.to_local(in), frame.to_local(out)) *
+                                 row[0].illuminance_lx;
             expect_same(shot.reflected(side, {}, {}, out), expected, 1e-9);
-            EXPECT_EQ(shot.reflected(side, {}, {}, -out), Spectrum{});
+            EXPECT_EQ(shot.reflected(side, {}, {}, -out), Rgb{});
             EXPECT_FALSE(shot.is_constant(side));
             EXPECT_TRUE(shot.is_constant(cube.patches.other_side(side)));
         }
@@ -168,10 +167,10 @@ TEST(FirstShot, AddsWhatIsReflectedInSeveralDirections) {
         const FirstShot shot = room.first_shot(options(variant, 64));
         for (std::uint32_t side = 0; side < room.sides(); ++side) {
             const std::array<Vec3, 2> outs{some_direction(room, side), room.patches.normal_of(side)};
-            std::array<Spectrum, 2> sums{Spectrum::grey(1), Spectrum::grey(2)};
+            std::array<Rgb, 2> sums{Rgb::grey(1), Rgb::grey(2)};
             shot.add_reflected(side, room.middle(side), {}, outs, sums);
             for (std::size_t i = 0; i < outs.size(); ++i) {
-                const Spectrum before = Spectrum::grey(static_cast<double>(i + 1));
+                const Rgb before = Rgb::grey(static_cast<double>(i + 1));
                 expect_same(sums[i], before + shot.reflected(side, room.middle(side), {}, outs[i]), 1e-12);
             }
         }
@@ -184,14 +183,14 @@ TEST(FirstShot, DiffuseVariantLeavesTheRestToShadowRays) {
     const auto& phong = std::get<Phong>(kGlossy);
     const PreparedScene matt(room_of(Diffuse{phong.diffuse}), 0.8), glossy(room_of(kGlossy), 0.8),
         lobe(room_of(Phong{{}, phong.specular, phong.exponent}), 0.8),
-        plastic(room_of(Plastic(Spectrum::grey(0.5), 1.5, 0.2)), 0.8);
+        plastic(room_of(Plastic(Rgb::grey(0.5), 1.5, 0.2)), 0.8);
     const FirstShot split = glossy.first_shot(options(FirstShotVariant::diffuse, 64));
     const FirstShot stored = matt.first_shot(options(FirstShotVariant::diffuse, 64));
     const FirstShot rest = lobe.first_shot(options(FirstShotVariant::on_the_fly, 64));
     const FirstShot no_split = plastic.first_shot(options(FirstShotVariant::diffuse, 64));
     const FirstShot all = plastic.first_shot(options(FirstShotVariant::on_the_fly, 64));
     for (std::uint32_t side = 0; side < glossy.sides(); ++side) {
-        const Spectrum expected =
+        const Rgb expected =
             reflected_from_middle(matt, stored, side) + reflected_from_middle(lobe, rest, side);
         expect_same(reflected_from_middle(glossy, split, side), expected, 1e-6);
         expect_same(reflected_from_middle(plastic, no_split, side), reflected_from_middle(plastic, all, side),
@@ -233,7 +232,8 @@ TEST(HemisphereBins, HaveEqualProjectedSolidAngles) {
     constexpr int kSteps = 360;
     for (int i = 0; i < kSteps * kSteps; ++i) {
         const Vec3 direction =
-            sample_cosine_hemisphere((i / kSteps + 0.5) / kSteps, (i % kSteps + 0.5) / kSteps).direction;
+            math::sample_cosine_hemisphere((i / kSteps + 0.5) / kSteps, (i % kSteps + 0.5) / kSteps)
+                .direction;
         ++hits[bins.bin_of(direction)];
     }
     for (std::uint32_t bin = 0; bin < bins.count(); ++bin) {
@@ -254,8 +254,8 @@ TEST(FirstShot, ShadowRaysAreTheWholeLight) {
     add_object(scene, Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, diffuse(1));
     add_object(scene, Sphere{{0, 0, -8}, 4}, diffuse(1));
     const Rectangle panel{{-0.3, -0.2, 2}, {0, 0.5, 0}, {0.5, 0, 0}};
-    add_area_light(scene, panel, Spectrum::grey(1000));
-    add_point_light(scene, {0, 0, -3}, Spectrum::grey(50));
+    add_area_light(scene, panel, Rgb::grey(1000));
+    add_point_light(scene, {0, 0, -3}, Rgb::grey(50));
     const PreparedScene floor(std::move(scene), 0.15);
     const FirstShot shot = floor.first_shot(options(FirstShotVariant::on_the_fly, 0));
     double found = 0, expected = 0;
@@ -277,7 +277,7 @@ TEST(FirstShot, ShadowRaysAreTheWholeLight) {
 /// What is small and what is not, said in the report.
 TEST(FirstShot, DecidesWhichLightsAreSmall) {
     Scene scene = room_of(diffuse(0.5));
-    add_area_light(scene, Rectangle{{0.01, 0.2, 0.2}, {0, 3.5, 0}, {0, 0, 2.5}}, Spectrum::grey(100));
+    add_area_light(scene, Rectangle{{0.01, 0.2, 0.2}, {0, 3.5, 0}, {0, 0, 2.5}}, Rgb::grey(100));
     add_area_light(scene, Rectangle{{1, 1, 2.99}, {0, 0.1, 0}, {0.1, 0, 0}}, {});
     const PreparedScene room(std::move(scene), 1);
     const FirstShot shot = room.first_shot(options(FirstShotVariant::incoming, 64));
@@ -292,18 +292,18 @@ TEST(FirstShot, DecidesWhichLightsAreSmall) {
     EXPECT_NE(shot.lights()[4].why.find("dark"), std::string::npos);
     const FirstShot none = room.first_shot(options(FirstShotVariant::none, 64));
     for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_FALSE(none.replaces(i));
-    EXPECT_EQ(reflected_from_middle(room, none, 0), Spectrum{});
+    EXPECT_EQ(reflected_from_middle(room, none, 0), Rgb{});
 }
 
 TEST(FirstShot, ReflectsNothingFromMirrorsGlassAndPanes) {
-    for (const Material& material :
-         {Material(Mirror{Spectrum::grey(0.9)}), Material(Glass{}), Material(Pane{}), Material(Black{})}) {
+    for (const Material& material : {Material(Mirror{Rgb::grey(0.9)}), Material(Dielectric{}),
+                                     Material(ThinDielectric{}), Material(Black{})}) {
         const PreparedScene cube(cube_with_bulb(material), 2);
         for (const auto variant : {FirstShotVariant::classical, FirstShotVariant::diffuse,
                                    FirstShotVariant::incoming, FirstShotVariant::on_the_fly}) {
             const FirstShot shot = cube.first_shot(options(variant, 64));
             for (std::uint32_t side = 0; side < cube.sides(); ++side) {
-                EXPECT_EQ(reflected_from_middle(cube, shot, side), Spectrum{}) << name_of(variant);
+                EXPECT_EQ(reflected_from_middle(cube, shot, side), Rgb{}) << name_of(variant);
             }
         }
     }
@@ -328,4 +328,4 @@ TEST(FirstShot, CountsPatchesThatNoPixelSees) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -9,7 +9,7 @@
 #include "estimators/first_shot_rooms.h"
 #include "support/quadrature.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -24,7 +24,7 @@ struct Cube {
         return coarse;
     }();
     Scene scene;
-    RayCaster caster{scene};
+    rays::RayCaster caster{scene};
     PatchTransport transport{scene, caster, options};
 };
 
@@ -40,9 +40,9 @@ double albedo(const Material& material, const Vec3& out) {
 
 /// Light that is alike from everywhere is the first term alone, sqrt(pi) times its luminance.
 TEST(IncomingLight, ReflectsConstantLightByTheAlbedo) {
-    const std::vector<Material> materials{
-        Diffuse{Spectrum::grey(0.6)}, Phong{Spectrum::grey(0.2), Spectrum::grey(0.5), 3},
-        Phong{Spectrum::grey(0.2), Spectrum::grey(0.5), 80}, Rough(Spectrum::grey(0.7), 0.3)};
+    const std::vector<Material> materials{Diffuse{Rgb::grey(0.6)}, Phong{Rgb::grey(0.2), Rgb::grey(0.5), 3},
+                                          Phong{Rgb::grey(0.2), Rgb::grey(0.5), 80},
+                                          RoughConductor(Rgb::grey(0.7), 0.3)};
     for (const Material& material : materials) {
         const Cube cube(material);
         const TermLayout layout(cube.transport, 6, reflecting_sides(cube.transport));
@@ -60,7 +60,7 @@ TEST(IncomingLight, ReflectsConstantLightByTheAlbedo) {
 
 /// A lobe far narrower than the functions reads them in the mirrored direction.
 TEST(IncomingLight, MirrorsWhatIsKeptByANarrowLobe) {
-    const Cube cube(Phong{Spectrum{}, Spectrum::grey(1), 50'000});
+    const Cube cube(Phong{Rgb{}, Rgb::grey(1), 50'000});
     const TermLayout layout(cube.transport, 4, reflecting_sides(cube.transport));
     const Frame frame = Frame::of_surface(cube.transport.patches.normal_of(0));
     const Vec3 out = normalized(Vec3{0.3, -0.5, 0.7}), mirrored{-out.x, -out.y, out.z};
@@ -68,23 +68,22 @@ TEST(IncomingLight, MirrorsWhatIsKeptByANarrowLobe) {
     layout.basis().evaluate(mirrored, values);
     const auto factors = reflection_factors(cube.transport, layout, 0, frame.to_world(out));
     ASSERT_EQ(factors.size(), values.size());
-    const double share =
-        albedo(Phong{Spectrum{}, Spectrum::grey(1), 300}, out);  // hardly depends on the exponent
+    const double share = albedo(Phong{Rgb{}, Rgb::grey(1), 300}, out);  // hardly depends on the exponent
     for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(factors[k][0], share * values[k], 0.02) << k;
 }
 
 TEST(IncomingLight, KeepsNoNegativeLuminance) {
-    const std::vector<Rgb> terms{{1, 1, 1}, {-3, 2, 1}}, factors{{1, 1, 1}, {1, 1, 1}};
-    const Spectrum luminance = reflected_cd_m2(terms, factors);
-    EXPECT_EQ(luminance, (Spectrum{{0, 3, 2}}));
+    const std::vector<FloatRgb> terms{{1, 1, 1}, {-3, 2, 1}}, factors{{1, 1, 1}, {1, 1, 1}};
+    const Rgb luminance = reflected_cd_m2(terms, factors);
+    EXPECT_EQ(luminance, (Rgb{{0, 3, 2}}));
 }
 
 TEST(IncomingLight, KeepsOneTermOfDiffuseSidesAndNoneOfBlackAndMirrors) {
-    Scene scene = empty_cube(Diffuse{Spectrum::grey(0.5)});
-    add_object(scene, Rectangle{{1, 1, 1}, {1, 0, 0}, {0, 1, 0}}, Mirror{Spectrum::grey(0.9)});
+    Scene scene = empty_cube(Diffuse{Rgb::grey(0.5)});
+    add_object(scene, Rectangle{{1, 1, 1}, {1, 0, 0}, {0, 1, 0}}, Mirror{Rgb::grey(0.9)});
     add_object(scene, Rectangle{{1, 1, 2}, {1, 0, 0}, {0, 1, 0}}, Black{});
-    add_object(scene, Rectangle{{1, 1, 3}, {1, 0, 0}, {0, 1, 0}}, Rough(Spectrum::grey(0.5), 0.5));
-    const RayCaster caster(scene);
+    add_object(scene, Rectangle{{1, 1, 3}, {1, 0, 0}, {0, 1, 0}}, RoughConductor(Rgb::grey(0.5), 0.5));
+    const rays::RayCaster caster(scene);
     PatchOptions options;
     options.patch_m = 2;
     const PatchTransport transport(scene, caster, options);
@@ -96,4 +95,4 @@ TEST(IncomingLight, KeepsOneTermOfDiffuseSidesAndNoneOfBlackAndMirrors) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -5,11 +5,11 @@
 #include "estimators/patch_light/radiosity/radiosity_solution.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
-constexpr Spectrum kReflectance{{0.8, 0.5, 0.2}};
-constexpr Spectrum kFlux_lm{{3000, 2000, 1000}};
+constexpr Rgb kReflectance{{0.8, 0.5, 0.2}};
+constexpr Rgb kFlux_lm{{3000, 2000, 1000}};
 
 /// A closed room with a box in it, all of one material, lit by a point and by a large light.
 Scene closed_room() {
@@ -23,8 +23,8 @@ Scene closed_room() {
 }
 
 /// What all sides absorb [lm], by what they reflect.
-Spectrum absorbed_lm(const PatchTransport& transport, const std::vector<Rgb>& reflected_cd_m2) {
-    Spectrum sum;
+Rgb absorbed_lm(const PatchTransport& transport, const std::vector<FloatRgb>& reflected_cd_m2) {
+    Rgb sum;
     for (std::uint32_t side = 0; side < reflected_cd_m2.size(); ++side) {
         const double area_m2 = double{transport.patches.areas_m2[transport.patches.patch_of(side)]};
         for (std::size_t b = 0; b < kBands; ++b) {
@@ -43,7 +43,7 @@ class LitRoom : public testing::Test {
     }
 
     Scene scene_ = closed_room();
-    RayCaster caster_{scene_};
+    rays::RayCaster caster_{scene_};
     PatchOptions options_;
 };
 
@@ -51,7 +51,7 @@ TEST_F(LitRoom, AbsorbsWhatRadiositySends) {
     const PatchTransport transport(scene_, caster_, options_);
     ASSERT_FALSE(transport.first_shot.replaces(1));  // the light is large
     const RadiositySolution solution = solve_radiosity(transport);
-    const Spectrum absorbed =
+    const Rgb absorbed =
         absorbed_lm(transport, solution.light.cd_m2()) + absorbed_lm(transport, transport.first_reflection);
     for (std::size_t b = 0; b < kBands; ++b) EXPECT_NEAR(absorbed[b], kFlux_lm[b], 0.003 * kFlux_lm[b]) << b;
 }
@@ -60,10 +60,10 @@ TEST_F(LitRoom, AbsorbsAllParticles) {
     options_.first_shot.variant = FirstShotVariant::none;
     const PatchTransport transport(scene_, caster_, options_);
     IlluminationMap map(transport);
-    map.add(RandomKey{1}, 0, 1 << 16);
-    const Spectrum absorbed = absorbed_lm(transport, map.reflected_cd_m2());
+    map.add(math::RandomKey{1}, 0, 1 << 16);
+    const Rgb absorbed = absorbed_lm(transport, map.reflected_cd_m2());
     for (std::size_t b = 0; b < kBands; ++b) EXPECT_NEAR(absorbed[b], kFlux_lm[b], 0.005 * kFlux_lm[b]) << b;
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::estimators

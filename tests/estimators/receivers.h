@@ -5,14 +5,14 @@
 
 #include "transport/receiver.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// One for each point, sorted; readings in the order of the points.
-inline std::vector<Receiver> receivers_of(const std::vector<MeasuringPoint>& points,
-                                          const RayCaster& caster) {
-    std::vector<Receiver> receivers;
+inline std::vector<transport::Receiver> receivers_of(const std::vector<MeasuringPoint>& points,
+                                                     const rays::RayCaster& caster) {
+    std::vector<transport::Receiver> receivers;
     for (std::uint32_t j = 0; j < points.size(); ++j) receivers.emplace_back(j, points[j], caster);
     return sorted_receivers(std::move(receivers));
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

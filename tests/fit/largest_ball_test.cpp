@@ -8,7 +8,7 @@
 
 #include "support/harmonic_shapes.h"
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 double room_at(const std::vector<HalfSpace>& walls, const Vec3& x) {
@@ -82,4 +82,4 @@ TEST(LargestBall, StaysWithinReachWhereNothingHoldsIt) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::fit

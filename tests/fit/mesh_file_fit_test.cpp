@@ -6,17 +6,17 @@
 #include "fit/mesh_fit.h"
 #include "io/mesh_checks.h"
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 class RealMeshFit : public testing::Test {
   protected:
     void SetUp() override {
-        if (!std::filesystem::exists(shared_mesh("igea.ply")))
+        if (!std::filesystem::exists(io::shared_mesh("igea.ply")))
             GTEST_SKIP() << "../shared/data/meshes is absent";
     }
     static MeshFit fit(const std::string& name, const MeshFitOptions& options) {
-        return fit_mesh(read_mesh_file(shared_mesh(name)).mesh, options, name);
+        return fit_mesh(io::read_mesh_file(io::shared_mesh(name)).mesh, options, name);
     }
     static std::string refusal(const std::string& name) {
         try {
@@ -61,4 +61,4 @@ TEST_F(RealMeshFit, TakesTheOutermostSurfaceWhereToldTo) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::fit

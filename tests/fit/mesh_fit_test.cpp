@@ -11,7 +11,7 @@
 #include "support/prisms.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 const Vec3 kCenter{0.3, -2, 5};
@@ -31,7 +31,7 @@ void expect_parts(const std::string& message, const std::vector<std::string>& pa
 }
 
 /// Vertices on the surface about kCenter.
-Mesh mesh_of(const HarmonicSurface& surface, int subdivisions) {
+Mesh mesh_of(const geometry::HarmonicSurface& surface, int subdivisions) {
     Mesh mesh = icosphere({{}, 1}, subdivisions);
     for (Vec3& vertex : mesh.vertices) vertex = kCenter + surface.radius().at(vertex) * vertex;
     return mesh;
@@ -45,7 +45,7 @@ double largest_difference(std::span<const double> a, std::span<const double> b) 
 
 std::vector<double> rough_coefficients(int degree) {
     Numbers numbers(8);
-    std::vector<double> coefficients(harmonic_count(degree));
+    std::vector<double> coefficients(math::harmonic_count(degree));
     for (double& c : coefficients) c = (numbers.next() - 0.5) * 1.6 / (degree + 1);
     coefficients[0] = kUnitSphere;
     return coefficients;
@@ -55,7 +55,7 @@ std::vector<double> rough_coefficients(int degree) {
 TEST(MeshFit, GivesBackTheSeriesThatAMeshWasMadeOf) {
     constexpr int degree = 8;
     const std::vector<double> truth = rough_coefficients(degree);
-    const HarmonicSurface surface{HarmonicSeries<double>(truth)};
+    const geometry::HarmonicSurface surface{math::HarmonicSeries<double>(truth)};
     std::vector<double> off;
     for (const int subdivisions : {5, 6}) {
         const MeshFit fit =
@@ -80,7 +80,7 @@ TEST(MeshFit, OfASphereIsOneCoefficient) {
 TEST(MeshFit, OfASphereOffItsCentreIsItsDistanceFromThere) {
     const Vec3 offset{0.3, -0.2, 0.1};
     const MeshFit fit = fit_mesh(icosphere({kCenter, 1}, 6), {.degree = 24, .center = kCenter - offset}, "");
-    const HarmonicSeries<double> series(fit.coefficients);
+    const math::HarmonicSeries<double> series(fit.coefficients);
     Numbers numbers(4);
     for (int i = 0; i < 500; ++i) {
         const Vec3 direction = numbers.direction();
@@ -111,7 +111,7 @@ TEST(MeshFit, TakesTheOutermostSurfaceWhereToldTo) {
     // From (1.5, 0.5) past the corner (1, 1) and out of the arm's outer wall at (0, 2): in between lies the
     // gap's corner only; steeper ways cross the gap.
     EXPECT_GT(worst.depth, 1);
-    const HarmonicSeries<double> series(fit.coefficients);
+    const math::HarmonicSeries<double> series(fit.coefficients);
     EXPECT_GT(series.at(normalized(Vec3{-1, 2.4, 0})), 1.5);
 }
 
@@ -158,7 +158,7 @@ TEST(MeshFit, NamesTheWayOutWhereTheRadiusComesToZero) {
 TEST(RadialCaster, LosesNoRayOfAClosedMesh) {
     const RadialCaster caster(icosphere({{0.01, 0.02, 0.03}, 1}, 5));
     for (const Vec3& center : {Vec3{0, 0, 0}, Vec3{0.1, -0.2, 0.05}}) {
-        const std::vector<Vec3> directions = even_grid(317).directions();
+        const std::vector<Vec3> directions = geometry::even_grid(317).directions();
         const std::vector<double> outer = caster.outermost(center, directions);
         const std::vector<double> inner = caster.innermost(center, directions);
         for (std::size_t i = 0; i < outer.size(); ++i) ASSERT_NEAR(outer[i], inner[i], 2e-6) << i;
@@ -166,4 +166,4 @@ TEST(RadialCaster, LosesNoRayOfAClosedMesh) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::fit

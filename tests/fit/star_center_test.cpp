@@ -8,7 +8,7 @@
 #include "support/prisms.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::fit {
 namespace {
 
 StarCenter center_of(const Mesh& mesh) { return find_star_center(mesh, RadialCaster(mesh)); }
@@ -100,4 +100,4 @@ TEST(StarCenter, OfAnOpenMeshStaysInItsBox) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::fit

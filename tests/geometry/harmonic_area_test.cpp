@@ -10,7 +10,7 @@
 #include "support/harmonic_shapes.h"
 #include "support/quadrature.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 double area_of(const HarmonicSurface& surface) { return area_m2(Harmonics(surface)); }
@@ -38,7 +38,7 @@ double spheroid_area(double c) {
 }
 
 TEST(HarmonicArea, OfASphereIsExact) {
-    const HarmonicSurface sphere(HarmonicSeries<double>(std::vector{3 * kUnitSphere}));
+    const HarmonicSurface sphere(math::HarmonicSeries<double>(std::vector{3 * kUnitSphere}));
     EXPECT_NEAR(area_of(sphere), 36 * std::numbers::pi, 1e-7 * 36 * std::numbers::pi);
 }
 
@@ -115,4 +115,4 @@ TEST(Harmonics, TurnAndGrowAboutTheirCenter) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

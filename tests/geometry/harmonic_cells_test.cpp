@@ -7,7 +7,7 @@
 #include "geometry/harmonics/cells.h"
 #include "support/harmonic_shapes.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -101,4 +101,4 @@ TEST(HarmonicCells, TakeDirectionsOfAnyLength) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 struct Shape {
@@ -25,8 +25,8 @@ TEST(HarmonicCheck, RootsAndCellsMissNoRay) {
             EXPECT_EQ(found.cells.wrong, 0) << shape.degree << ' ' << name_of(kind);
             EXPECT_EQ(found.march.wrong, 0) << shape.degree << ' ' << name_of(kind);
             EXPECT_GT(found.roots.hits, rays / 3) << shape.degree << ' ' << name_of(kind);
-            EXPECT_EQ(found.verdicts.wrong, 0) << shape.degree << ' ' << name_of(kind);
-            EXPECT_GT(found.verdicts.told, rays) << shape.degree << ' ' << name_of(kind);
+            EXPECT_EQ(found.classifications.wrong, 0) << shape.degree << ' ' << name_of(kind);
+            EXPECT_GT(found.classifications.told, rays) << shape.degree << ' ' << name_of(kind);
             missed_by_march += found.march.missed;
         }
     }
@@ -34,4 +34,4 @@ TEST(HarmonicCheck, RootsAndCellsMissNoRay) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

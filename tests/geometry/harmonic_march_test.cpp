@@ -6,7 +6,7 @@
 #include "geometry/harmonics/march.h"
 #include "support/harmonic_shapes.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -46,4 +46,4 @@ TEST(HarmonicMarch, KeepsToStartAndEnd) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -6,7 +6,7 @@
 #include "geometry/harmonics/meridian_series.h"
 #include "support/harmonic_shapes.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 TEST(HarmonicMeridians, HaveTheSeriesValues) {
@@ -32,4 +32,4 @@ TEST(HarmonicMeridians, HaveTheSeriesValues) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -6,7 +6,7 @@
 #include "rays/curved_surface.h"
 #include "support/harmonic_shapes.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -35,14 +35,14 @@ RayPacket rays_through(const Bounds& box, double away, Numbers& numbers) {
     return rays;
 }
 
-RayInterval interval_of(const RayPacket& rays, std::size_t lane) {
+rays::RayInterval interval_of(const RayPacket& rays, std::size_t lane) {
     return {{rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]},
             {rays.direction_x[lane], rays.direction_y[lane], rays.direction_z[lane]},
             rays.start[lane],
             rays.end[lane]};
 }
 
-bool is_met_anywhere(const CurvedSurface& surface, const RayInterval& ray) {
+bool is_met_anywhere(const rays::CurvedSurface& surface, const rays::RayInterval& ray) {
     for (std::size_t part = 0; part < surface.part_count(); ++part) {
         if (surface.intersect(part, ray) < kInfinity) return true;
     }
@@ -55,21 +55,21 @@ struct Told {
 
 /// Expects what is told to be true.
 Told told_of(const Harmonics& body, double away, int packets) {
-    const auto surface = curved_surface(body, {});
+    const auto surface = rays::curved_surface(body, {});
     Numbers numbers(4);
     Told told;
     for (int n = 0; n < packets; ++n) {
         const auto part =
             static_cast<std::size_t>(numbers.next() * static_cast<double>(surface->part_count()));
         const RayPacket rays = rays_through(surface->bounds_of(part), away, numbers);
-        const LaneVerdicts verdicts = surface->verdicts(part, rays);
+        const LaneVerdicts classifications = surface->classifications(part, rays);
         for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
-            const RayInterval ray = interval_of(rays, lane);
+            const rays::RayInterval ray = interval_of(rays, lane);
             const bool is_met = surface->intersect(part, ray) < kInfinity;
-            if (verdicts[lane] == Verdict::misses) {
+            if (classifications[lane] == Classification::misses) {
                 ++told.missed;
                 EXPECT_FALSE(is_met) << n << ' ' << lane;
-            } else if (verdicts[lane] == Verdict::meets) {
+            } else if (classifications[lane] == Classification::meets) {
                 ++told.met;
                 EXPECT_TRUE(is_met || is_met_anywhere(*surface, ray)) << n << ' ' << lane;
             } else {
@@ -99,4 +99,4 @@ TEST(HarmonicVerdicts, AreTrueOfSmallBodiesFarAway) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -10,21 +10,21 @@
 #include "geometry/harmonics/projection.h"
 #include "support/harmonic_shapes.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> random_coefficients(int degree, std::uint64_t seed) {
     Numbers numbers(seed);
-    std::vector<double> coefficients(harmonic_count(degree));
+    std::vector<double> coefficients(math::harmonic_count(degree));
     for (double& c : coefficients) c = numbers.next() - 0.5;
     return coefficients;
 }
 
 /// By another way than the projection's: the series itself, point by point or by parallels.
 std::vector<double> values_of(std::span<const double> coefficients, const ParallelGrid& grid) {
-    const HarmonicSeries<double> series(coefficients);
+    const math::HarmonicSeries<double> series(coefficients);
     std::vector<double> values;
     for (std::size_t parallel = 0; parallel < grid.parallels(); ++parallel) {
         if (grid.first_phi == 0) {
@@ -67,8 +67,8 @@ TEST(Projection, IsOrthonormalUpToDegree128) {
 TEST(Projection, OfOneHarmonicIsThatOneAlone) {
     constexpr int degree = 20;
     for (const auto& [l, m] : {std::pair{0, 0}, {3, -2}, {20, 20}, {20, -20}, {17, 0}, {19, 5}}) {
-        std::vector<double> one(harmonic_count(degree));
-        one[harmonic_number(l, m)] = 1;
+        std::vector<double> one(math::harmonic_count(degree));
+        one[math::harmonic_number(l, m)] = 1;
         const ParallelGrid grid = gauss_grid(degree + 1);
         const std::vector<double> projected = project(grid, values_of(one, grid), degree);
         for (std::size_t i = 0; i < one.size(); ++i)
@@ -79,7 +79,7 @@ TEST(Projection, OfOneHarmonicIsThatOneAlone) {
 TEST(Projection, DoesNotMistakeHigherDegreesForLowerOnes) {
     constexpr int high = 100;
     std::vector<double> coefficients = random_coefficients(high, 2);
-    for (std::size_t i = 0; i < harmonic_count(high - 1); ++i) coefficients[i] = 0;
+    for (std::size_t i = 0; i < math::harmonic_count(high - 1); ++i) coefficients[i] = 0;
     const ParallelGrid enough = gauss_grid(67);  // 2 * 67 - 1 - 32 = 101
     for (const double c : project(enough, values_of(coefficients, enough), 32)) ASSERT_NEAR(c, 0, 1e-12);
     const ParallelGrid too_few = gauss_grid(50);
@@ -95,8 +95,8 @@ TEST(ErrorsByDegree, AreThoseOfShorterSeries) {
     const std::vector<DegreeError> errors = errors_by_degree(grid, values, truth);
     ASSERT_EQ(errors.size(), 13u);
     for (const int degree : {0, 1, 7, 11}) {
-        std::vector<double> shorter(truth.begin(),
-                                    truth.begin() + static_cast<std::ptrdiff_t>(harmonic_count(degree)));
+        std::vector<double> shorter(
+            truth.begin(), truth.begin() + static_cast<std::ptrdiff_t>(math::harmonic_count(degree)));
         const std::vector<double> own = values_of(shorter, grid);
         double squares = 0, weights = 0, maximum = 0;
         for (std::size_t i = 0; i < own.size(); ++i) {
@@ -137,4 +137,4 @@ TEST(FillHoles, NeedsSomethingToGoBy) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -10,7 +10,7 @@
 #include "geometry/harmonics/cells.h"
 #include "support/harmonic_shapes.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -159,4 +159,4 @@ TEST(HarmonicSpecialRays, GoAlongThePoles) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -10,11 +10,13 @@
 #include "geometry/harmonics/surface.h"
 #include "support/harmonic_shapes.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-HarmonicSurface unit_sphere() { return HarmonicSurface(HarmonicSeries<double>(std::vector{kUnitSphere})); }
+HarmonicSurface unit_sphere() {
+    return HarmonicSurface(math::HarmonicSeries<double>(std::vector{kUnitSphere}));
+}
 
 /// How far a point is outside, in terms of its distance from the origin.
 double excess(const HarmonicSurface& surface, const Vec3& point) {
@@ -154,8 +156,9 @@ TEST(HarmonicSurface, HasSafeBounds) {
 }
 
 TEST(HarmonicSurface, RefusesARadiusThatComesTo0) {
-    EXPECT_THROW(HarmonicSurface(HarmonicSeries<double>(std::vector{kUnitSphere, 0., 3.5, 0.})), InputError);
+    EXPECT_THROW(HarmonicSurface(math::HarmonicSeries<double>(std::vector{kUnitSphere, 0., 3.5, 0.})),
+                 InputError);
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

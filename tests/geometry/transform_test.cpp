@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 void expect_near(const Vec3& actual, const Vec3& expected) {
@@ -80,4 +80,4 @@ TEST(Transform, MovesSpheresAndDisks) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

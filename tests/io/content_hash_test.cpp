@@ -7,7 +7,7 @@
 
 #include "io/text/write_file.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr const char* kScene = R"(
@@ -70,4 +70,4 @@ TEST_F(LightHash, IsNotThatOfSensorsRunTitleAndLayout) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

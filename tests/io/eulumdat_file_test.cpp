@@ -8,11 +8,11 @@
 #include "io/photometry/photometry_file.h"
 #include "io/photometry_support.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using namespace photometry_test;
-using Verdict = FluxAgreement::Verdict;
+using Classification = FluxAgreement::Classification;
 
 struct Content {
     int symmetry = 0;
@@ -115,7 +115,7 @@ TEST(EulumdatFile, IsotropicLampHasItsStatedFlux) {
     const PhotometryFile file = read_eulumdat(text, "a.ldt");
     const double integral = PhotometricSolid(file.grid).flux_lm();
     EXPECT_NEAR(integral, 1000, 1e-9);
-    EXPECT_EQ(check_flux(file, integral).verdict, Verdict::Agrees);
+    EXPECT_EQ(check_flux(file, integral).classification, Classification::Agrees);
 }
 
 TEST(EulumdatFile, WrongInputIsNamedWithItsLine) {
@@ -197,7 +197,7 @@ TEST(EulumdatFile, RealFilesAreReadAndJudged) {
         EXPECT_EQ(file.absolute, stem != "relative" && stem != "multiple_lamp_sets");
         EXPECT_EQ(file.stated_flux_lm, stem.starts_with("symmetry") ? 1000 : 500);
         EXPECT_GT(std::abs(quadrature / file.stated_flux_lm - 1), 0.05);
-        EXPECT_EQ(check_flux(file, solid.flux_lm()).verdict, Verdict::Differs);
+        EXPECT_EQ(check_flux(file, solid.flux_lm()).classification, Classification::Differs);
         RecordProperty(stem, check_flux(file, solid.flux_lm()).description());
         ++files;
     }
@@ -205,4 +205,4 @@ TEST(EulumdatFile, RealFilesAreReadAndJudged) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -17,7 +17,7 @@
 #include "base/error.h"
 #include "io/sample_picture.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 template <typename Value>
@@ -185,4 +185,4 @@ TEST(ExrFile, SurvivesChangedBytes) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -12,12 +12,12 @@
 #include "io/text/write_file.h"
 #include "math/spherical_harmonics.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 HarmonicsFile sample(int degree) {
     HarmonicsFile file;
-    for (std::size_t i = 0; i < harmonic_count(degree); ++i)
+    for (std::size_t i = 0; i < math::harmonic_count(degree); ++i)
         file.coefficients.push_back(
             static_cast<float>(std::sin(1.7 * static_cast<double>(i)) / (1 + static_cast<double>(i))));
     file.center = {0.1, -2.5e-7, 1.0 / 3};
@@ -50,7 +50,7 @@ void expect_refusal(const std::string& content, const std::vector<std::string>& 
 }
 
 TEST(HarmonicsFile, IsReadAsItWasWritten) {
-    for (const int degree : {0, 1, 7, kMostHarmonicDegree}) {
+    for (const int degree : {0, 1, 7, math::kMostHarmonicDegree}) {
         HarmonicsFile file = sample(degree);
         file.mesh = "a \"strange\" \n name";
         file.rms_error = 0.00125;
@@ -119,4 +119,4 @@ TEST(HarmonicsFile, OfDiskNamesThePath) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

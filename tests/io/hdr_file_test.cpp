@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "io/sample_picture.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr double kPrecision = 1.0 / 256;
@@ -228,4 +228,4 @@ TEST(HdrFile, RefusesWhatItCannotRead) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -7,11 +7,11 @@
 #include "io/photometry/photometry_file.h"
 #include "io/photometry_support.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using namespace photometry_test;
-using Verdict = FluxAgreement::Verdict;
+using Classification = FluxAgreement::Classification;
 
 // Type C, one lamp of 1000 lm, metres; three vertical angles and two planes (a quarter).
 const std::string kFile =
@@ -215,13 +215,13 @@ TEST(IesFile, WrongInputIsNamedWithItsLine) {
 
 TEST(IesFile, SaysWhatTheFluxAgreesWith) {
     PhotometryFile file;
-    EXPECT_EQ(check_flux(file, 10).verdict, Verdict::NothingStated);
+    EXPECT_EQ(check_flux(file, 10).classification, Classification::NothingStated);
     file.lamp_flux_lm = 1000;
-    EXPECT_EQ(check_flux(file, 700).verdict, Verdict::BelowLampFlux);
+    EXPECT_EQ(check_flux(file, 700).classification, Classification::BelowLampFlux);
     EXPECT_EQ(check_flux(file, 700).description(), "the integral, 700 lm, is 70.0 % of the lamps' 1000 lm");
-    EXPECT_EQ(check_flux(file, 1100).verdict, Verdict::AboveLampFlux);
+    EXPECT_EQ(check_flux(file, 1100).classification, Classification::AboveLampFlux);
     file.stated_flux_lm = 800;
-    EXPECT_EQ(check_flux(file, 790).verdict, Verdict::Agrees);
+    EXPECT_EQ(check_flux(file, 790).classification, Classification::Agrees);
     EXPECT_EQ(check_flux(file, 700).description(),
               "file and integral differ: the integral, 700 lm, is 12.5 % below the stated 800 lm");
 }
@@ -242,10 +242,10 @@ TEST(IesFile, RealFilesAreReadAndJudged) {
         const bool relative = entry.path().filename().string().starts_with("relative");
         EXPECT_EQ(file.absolute, !relative);
         EXPECT_EQ(file.lamp_flux_lm, relative ? 500 : 0);
-        const Verdict expected = !relative                 ? Verdict::NothingStated
-                                 : quadrature > 500 * 1.02 ? Verdict::AboveLampFlux
-                                                           : Verdict::BelowLampFlux;
-        EXPECT_EQ(check_flux(file, solid.flux_lm()).verdict, expected);
+        const Classification expected = !relative                 ? Classification::NothingStated
+                                        : quadrature > 500 * 1.02 ? Classification::AboveLampFlux
+                                                                  : Classification::BelowLampFlux;
+        EXPECT_EQ(check_flux(file, solid.flux_lm()).classification, expected);
         RecordProperty(entry.path().stem().string(), check_flux(file, solid.flux_lm()).description());
         ++files;
     }
@@ -257,4 +257,4 @@ TEST(IesFile, RealFilesAreReadAndJudged) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

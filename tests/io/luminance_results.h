@@ -3,7 +3,7 @@
 
 #include "run/run.h"
 
-namespace stilb {
+namespace stilb::io {
 
 inline Reading reading(double value) {
     return {{value, 1, value - 2, value + 2}, {{value + 10, value, value - 10}}};
@@ -26,7 +26,7 @@ inline HandMade luminance_results() {
          SensorType::goniometer,
          {EmergentRay{{2, 2, 0}, {0, 0, 1}, {0, 0, 1}}, EmergentRay{{2, 2, 0}, {0, 0, 1}, {0.6, 0, 0.8}}}}};
     made.sensors[1].angles = {{0, 90}, {36.87, 90}};
-    const Estimate low{100, 1, 98, 102}, high{200, 1, 198, 202}, mean{150, 1, 148, 152};
+    const statistics::Estimate low{100, 1, 98, 102}, high{200, 1, 198, 202}, mean{150, 1, 148, 152};
     made.result.method = "auto";
     made.result.sensors = {
         {{reading(100), reading(200)}, {Vec3{2, 4, 1}, std::nullopt}, {mean, low, high, {}}, 0.02},
@@ -35,10 +35,10 @@ inline HandMade luminance_results() {
 }
 
 /// Of 1000 patches and incoming first shot for a bulb, but not for a large panel.
-inline PatchReport patch_report() {
+inline estimators::PatchReport patch_report() {
     return {1000,
             0.25,
-            FirstShotVariant::incoming,
+            estimators::FirstShotVariant::incoming,
             256,
             3,
             71.5,
@@ -46,4 +46,4 @@ inline PatchReport patch_report() {
             {{"bulb", true, "a point", 1, {}}, {"panel", false, "large", 0, {}}}};
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

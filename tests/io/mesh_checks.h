@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "io/mesh/mesh_file.h"
 
-namespace stilb {
+namespace stilb::io {
 
 using MeshReader = MeshFile (*)(std::string_view content, const std::string& name);
 
@@ -52,4 +52,4 @@ inline std::filesystem::path shared_mesh(const std::string& name) {
     return std::filesystem::path(STILB_SOURCE_DIR) / ".." / "shared" / "data" / "meshes" / name;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -5,7 +5,7 @@
 
 #include "io/mesh_checks.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -217,4 +217,4 @@ TEST(MeshFile, extension_in_any_case) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/picture_pixels.h"
 #include "io/sample_picture.h"
 #include "io/text/write_file.h"
+#include "support/picture_pixels.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -120,4 +120,4 @@ TEST_F(PictureFile, NamesWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -8,7 +8,7 @@
 
 #include "io/mesh_checks.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Triangles = std::vector<Triangle>;
@@ -375,4 +375,4 @@ TEST(PlyFile, igea_is_a_closed_head) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -8,7 +8,7 @@
 
 #include "io/mesh/mesh_file.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Polygon = std::vector<Vec3>;
@@ -165,4 +165,4 @@ TEST(TriangulatePolygon, what_is_no_polygon_ends_all_the_same) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

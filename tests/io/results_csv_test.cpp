@@ -5,7 +5,7 @@
 #include "io/luminance_results.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 std::string csv_of(const HandMade& made, const std::string& sensor) {
@@ -46,4 +46,4 @@ TEST(ResultsCsv, HasALineForEachMeasuringPoint) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "plot/grid_picture.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 std::string value(double x, double y, const std::string& number) {
@@ -99,8 +99,8 @@ TEST(ResultsFile, SaysWhatIsWrong) {
 }
 
 TEST(GridPicture, SumsUpEachGrid) {
-    const FalseColour picture =
-        picture_of(read_results(document(grid("desk", "lx") + "," + grid("table", "lx")), "office.json"));
+    const plot::FalseColour picture = plot::picture_of(
+        read_results(document(grid("desk", "lx") + "," + grid("table", "lx")), "office.json"));
     EXPECT_EQ(picture.title, "Illuminance, office.toml");
     EXPECT_EQ(picture.unit, "lx");
     ASSERT_EQ(picture.panels.size(), 2u);
@@ -111,11 +111,11 @@ TEST(GridPicture, SumsUpEachGrid) {
 }
 
 TEST(GridPicture, NeedsGridsOfOneUnit) {
-    EXPECT_THROW(picture_of(read_results(document(""), "office.json")), InputError);
+    EXPECT_THROW(plot::picture_of(read_results(document(""), "office.json")), InputError);
     EXPECT_THROW(
-        picture_of(read_results(document(grid("a", "lx") + "," + grid("b", "cd/m2")), "office.json")),
+        plot::picture_of(read_results(document(grid("a", "lx") + "," + grid("b", "cd/m2")), "office.json")),
         InputError);
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -7,7 +7,7 @@
 #include "io/luminance_results.h"
 #include "io/results/results_file.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Json = nlohmann::json;
@@ -56,7 +56,7 @@ TEST(ResultsJson, LuminancesHaveNoUniformity) {
 TEST(ResultsJson, UnknownErrorsAreNull) {
     HandMade made = luminance_results();
     made.result.stop_reason = StopReason::solved;
-    made.result.sensors[0].readings[0].estimate = without_error(100);
+    made.result.sensors[0].readings[0].estimate = statistics::without_error(100);
     const Json value = json_of(made)[0]["values"][0];
     EXPECT_EQ(value["value"], 100);
     EXPECT_TRUE(value["standard_error"].is_null());
@@ -92,7 +92,8 @@ TEST(ResultsJson, WithoutPatchesThereIsNoReport) {
 
 TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
     HandMade made = luminance_results();
-    made.sensors.push_back(make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1}));
+    made.sensors.push_back(
+        sensors::make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1}));
     made.result.sensors.push_back({{reading(500), reading(510)}, {}, {}, 0.01});
     const ResultsFile read = read_results(to_json(made.result, made.sensors, "room.toml"), "room.json");
     ASSERT_EQ(read.grids.size(), 1u);
@@ -102,4 +103,4 @@ TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -5,7 +5,7 @@
 
 #include "io/image/picture.h"
 
-namespace stilb {
+namespace stilb::io {
 
 inline Camera sample_camera(Projection projection) {
     Camera camera;
@@ -49,4 +49,4 @@ inline Picture picture_of(std::vector<std::array<float, 3>> rgb_cd_m2) {
     return picture;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

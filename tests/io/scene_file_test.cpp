@@ -4,7 +4,7 @@
 
 #include "io/scene_text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr const char* kRoom = R"(
@@ -91,12 +91,12 @@ TEST(SceneFile, ReadsARoom) {
     const Scene& scene = file.scene;
     EXPECT_EQ(scene.name, "A room");
     ASSERT_EQ(scene.materials.size(), 4u);
-    EXPECT_EQ(std::get<Diffuse>(scene.materials[0].material).reflectance, (Spectrum{{0.7, 0.6, 0.5}}));
+    EXPECT_EQ(std::get<Diffuse>(scene.materials[0].material).reflectance, (Rgb{{0.7, 0.6, 0.5}}));
     const auto& phong = std::get<Phong>(scene.materials[1].material);
-    EXPECT_EQ(phong.diffuse, Spectrum::grey(0.35));
-    EXPECT_EQ(phong.specular, Spectrum::grey(0.10));
+    EXPECT_EQ(phong.diffuse, Rgb::grey(0.35));
+    EXPECT_EQ(phong.specular, Rgb::grey(0.10));
     EXPECT_EQ(phong.exponent, 60);
-    EXPECT_EQ(std::get<Mirror>(scene.materials[2].material).reflectance, Spectrum::grey(0.9));
+    EXPECT_EQ(std::get<Mirror>(scene.materials[2].material).reflectance, Rgb::grey(0.9));
     EXPECT_TRUE(std::holds_alternative<Black>(scene.materials[3].material));
 
     ASSERT_EQ(scene.objects.size(), 4u);
@@ -261,4 +261,4 @@ TEST(SceneFile, SaysWhatOtherFilesAre) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

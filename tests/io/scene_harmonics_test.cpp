@@ -7,7 +7,7 @@
 #include "io/mesh/harmonics_file.h"
 #include "io/scene_text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 const double kUnit = std::sqrt(4 * std::numbers::pi);
@@ -99,4 +99,4 @@ TEST(SceneHarmonics, RefuseWhatIsNoSurface) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

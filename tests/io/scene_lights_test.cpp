@@ -4,7 +4,7 @@
 
 #include "io/scene_text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -66,7 +66,7 @@ TEST(SceneLights, ColourKeepsTheFlux) {
         EXPECT_NEAR(flux_lm(read_text(light(point + colour))), 100, 1e-9) << colour;
     }
     const SceneFile file = read_text(light(point + "color = [2, 1, 0]"));
-    const Spectrum intensity = std::get<PointLight>(file.scene.lights[0].source).intensity_cd;
+    const Rgb intensity = std::get<PointLight>(file.scene.lights[0].source).intensity_cd;
     EXPECT_NEAR(intensity[0] / intensity[1], 2, 1e-12);
     EXPECT_EQ(intensity[2], 0);
 }
@@ -179,8 +179,8 @@ class ScenePhotometry : public testing::Test {
     SceneFile read(const std::string& keys) const {
         return read_text("[lights.a]\ntype = \"photometry\"\nposition = [1, 2, 3]\n" + keys, directory_);
     }
-    static PhotometryLight light_of(const SceneFile& file) {
-        return std::get<PhotometryLight>(file.scene.lights.at(0).source);
+    static Luminaire light_of(const SceneFile& file) {
+        return std::get<Luminaire>(file.scene.lights.at(0).source);
     }
 
     static constexpr double kFlux = 2 * kPi * 100;
@@ -228,4 +228,4 @@ TEST_F(ScenePhotometry, RefusesABrokenFile) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

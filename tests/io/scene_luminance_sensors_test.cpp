@@ -3,7 +3,7 @@
 
 #include "io/scene_text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 std::string sight(const std::string& keys) {
@@ -206,4 +206,4 @@ TEST(SceneCamera, RefusesWhatMakesNoPicture) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

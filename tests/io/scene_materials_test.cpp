@@ -1,6 +1,6 @@
 #include "io/scene_text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 std::string material(const std::string& keys) { return "[materials.m]\n" + keys; }
@@ -73,8 +73,8 @@ TEST(SceneMaterials, RefusesPhongThatGainsEnergy) {
 TEST(SceneMaterials, ReadsRough) {
     const std::string rough = "type = \"rough\"\nreflectance = [0.9, 0.6, 0.3]\n";
     const Material read = read_text(material(rough + "roughness = 0.25")).scene.materials[0].material;
-    EXPECT_EQ(std::get<Rough>(read).reflectance(), (Spectrum{{0.9, 0.6, 0.3}}));
-    EXPECT_EQ(std::get<Rough>(read).roughness(), 0.25);
+    EXPECT_EQ(std::get<RoughConductor>(read).reflectance(), (Rgb{{0.9, 0.6, 0.3}}));
+    EXPECT_EQ(std::get<RoughConductor>(read).roughness(), 0.25);
     const std::string allowed = " is not allowed. Allowed: from 0.001 to 1 (a mirror has type \"mirror\").";
     EXPECT_REFUSAL(material(rough + "roughness = 0"), "s.toml:4: materials.m.roughness: 0" + allowed);
     EXPECT_REFUSAL(material(rough + "roughness = 1.5"), "s.toml:4: materials.m.roughness: 1.5" + allowed);
@@ -92,8 +92,8 @@ TEST(SceneMaterials, ReadsWard) {
     const std::string ward =
         "type = \"ward\"\ndiffuse = 0.3\nspecular = [0.1, 0.2, 0.3]\nroughness = [0.05, 0.2]\n";
     const Material read = read_text(material(ward + "rotation = -30")).scene.materials[0].material;
-    EXPECT_EQ(std::get<Ward>(read).diffuse(), Spectrum::grey(0.3));
-    EXPECT_EQ(std::get<Ward>(read).specular(), (Spectrum{{0.1, 0.2, 0.3}}));
+    EXPECT_EQ(std::get<Ward>(read).diffuse(), Rgb::grey(0.3));
+    EXPECT_EQ(std::get<Ward>(read).specular(), (Rgb{{0.1, 0.2, 0.3}}));
     EXPECT_EQ(std::get<Ward>(read).roughness().u, 0.05);
     EXPECT_EQ(std::get<Ward>(read).roughness().v, 0.2);
     EXPECT_EQ(std::get<Ward>(read).rotation_deg(), -30);
@@ -120,7 +120,7 @@ TEST(SceneMaterials, ReadsPlastic) {
     const std::string plastic = "type = \"plastic\"\ndiffuse = [0.5, 0.4, 0.3]\n";
     const Material read =
         read_text(material(plastic + "ior = 1.5\nroughness = 0.1")).scene.materials[0].material;
-    EXPECT_EQ(std::get<Plastic>(read).diffuse(), (Spectrum{{0.5, 0.4, 0.3}}));
+    EXPECT_EQ(std::get<Plastic>(read).diffuse(), (Rgb{{0.5, 0.4, 0.3}}));
     EXPECT_EQ(std::get<Plastic>(read).ior(), 1.5);
     EXPECT_EQ(std::get<Plastic>(read).roughness(), 0.1);
     EXPECT_REFUSAL(material(plastic + "ior = 0.9\nroughness = 0.1"),
@@ -134,4 +134,4 @@ TEST(SceneMaterials, ReadsPlastic) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -3,7 +3,7 @@
 
 #include "io/scene_text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 /// Four lines before the object's table.
@@ -242,4 +242,4 @@ TEST_F(SceneMeshes, RefusesMissingEmptyAndOtherFiles) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

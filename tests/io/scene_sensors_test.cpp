@@ -1,6 +1,6 @@
 #include "io/scene_text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 std::string sensor(const std::string& keys) { return "[sensors.s]\n" + keys; }
@@ -84,4 +84,4 @@ TEST(SceneSensors, RefusesWrongGeometry) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "io/scene/scene_file.h"
 
-namespace stilb {
+namespace stilb::io {
 
 inline SceneFile read_text(const std::string& toml,
                            const std::filesystem::path& directory = "no-such-directory") {
@@ -30,4 +30,4 @@ inline std::string refusal(const std::string& toml,
 /// The whole message is tested, and that it names file, line and key.
 #define EXPECT_REFUSAL(toml, message) EXPECT_EQ(refusal(toml), message)
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -10,16 +10,15 @@
 #include "run/solve.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 /// Of a room with a glossy floor and a lamp.
 StoredSolution sample_solution() {
     Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {2, 2, 2}}, Diffuse{Spectrum::grey(0.5)});
-    add_object(scene, Rectangle{{0, 0, 0.1}, {2, 0, 0}, {0, 2, 0}},
-               Phong{Spectrum::grey(0.3), Spectrum::grey(0.4), 5});
-    add_point_light(scene, {1, 1, 1.5}, Spectrum::grey(100));
+    add_object(scene, Box{{0, 0, 0}, {2, 2, 2}}, Diffuse{Rgb::grey(0.5)});
+    add_object(scene, Rectangle{{0, 0, 0.1}, {2, 0, 0}, {0, 2, 0}}, Phong{Rgb::grey(0.3), Rgb::grey(0.4), 5});
+    add_point_light(scene, {1, 1, 1.5}, Rgb::grey(100));
     RunOptions options;
     options.paths = 8;
     options.patches.patch_m = 2;
@@ -134,4 +133,4 @@ TEST(SolutionFile, IsWrittenAndRead) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -8,9 +8,9 @@
 #include <random>
 
 #include "base/error.h"
-#include "io/picture_pixels.h"
+#include "support/picture_pixels.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -62,4 +62,4 @@ TEST(Table, WritesFiles) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "io/sample_picture.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Bytes = std::array<std::uint8_t, 3>;
@@ -54,8 +54,8 @@ TEST(ToneCurve, KeepsTheLuminanceOfColoursBeyondTheScreen) {
     for (const std::array<float, 3>& rgb :
          {std::array<float, 3>{4, 0.1f, 0}, {0, 0, 9}, {3, 3, -1}, {0.1f, 7, 0.1f}, {0.5f, -0.05f, 0.2f}}) {
         const Bytes bytes = curve.srgb(rgb);
-        const Spectrum shown{{linear(bytes[0]), linear(bytes[1]), linear(bytes[2])}};
-        const double luminance = Spectrum{{rgb[0], rgb[1], rgb[2]}}.luminance();
+        const Rgb shown{{linear(bytes[0]), linear(bytes[1]), linear(bytes[2])}};
+        const double luminance = Rgb{{rgb[0], rgb[1], rgb[2]}}.luminance();
         EXPECT_NEAR(shown.luminance(), curve.display_luminance(luminance), 0.005);
     }
     // The brighter, the whiter.
@@ -86,4 +86,4 @@ TEST(ToneCurve, RefusesAnExposureThatShowsNothing) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::io

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace stilb {
+namespace stilb::lights {
 namespace {
 
 struct Published {
@@ -14,7 +14,7 @@ struct Published {
 
 /// Forward matrix of Rec. 709 primaries and white D65, the other way round from what the code uses.
 void expect_chromaticity(const Published& expected, double tolerance) {
-    const Spectrum c = colour_of_temperature(expected.temperature_k);
+    const Rgb c = colour_of_temperature(expected.temperature_k);
     const double x = 0.412391 * c[0] + 0.357584 * c[1] + 0.180481 * c[2];
     const double y = 0.212639 * c[0] + 0.715169 * c[1] + 0.072192 * c[2];
     const double z = 0.019331 * c[0] + 0.119195 * c[1] + 0.950532 * c[2];
@@ -55,13 +55,13 @@ TEST(ColourTemperature, IsABlackbodyUpTo4000K) {
 }
 
 TEST(ColourTemperature, D65IsWhite) {
-    const Spectrum white = colour_of_temperature(6504);
+    const Rgb white = colour_of_temperature(6504);
     for (std::size_t b = 0; b < kBands; ++b) EXPECT_NEAR(white[b], 1, 2e-3);
 }
 
 TEST(ColourTemperature, HasLuminanceOneAndNoNegativeChannel) {
     for (double t = kMinColourTemperature_k; t <= kMaxColourTemperature_k; t += 100) {
-        const Spectrum c = colour_of_temperature(t);
+        const Rgb c = colour_of_temperature(t);
         EXPECT_NEAR(c.luminance(), 1, 1e-12) << t;
         EXPECT_GE(c.min(), 0) << t;
     }
@@ -71,7 +71,7 @@ TEST(ColourTemperature, HasLuminanceOneAndNoNegativeChannel) {
 
 TEST(ColourTemperature, GrowsBluerWithoutJumps) {
     const auto blueness = [](double t) {
-        const Spectrum c = colour_of_temperature(t);
+        const Rgb c = colour_of_temperature(t);
         return c[2] / c[0];
     };
     double last = blueness(2000);
@@ -84,4 +84,4 @@ TEST(ColourTemperature, GrowsBluerWithoutJumps) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::lights

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stilb {
+namespace stilb::lights {
 namespace {
 
 void expect_near(const Vec3& actual, const Vec3& expected) {
@@ -54,4 +54,4 @@ TEST(LuminaireFrame, PointsUpByAHalfTurnAboutX) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::lights

@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::lights {
 namespace {
 
 using Grid = PhotometricSolid::Grid;
@@ -422,4 +422,4 @@ TEST(PhotometricSolid, RejectsWhatIsNoDistribution) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::lights

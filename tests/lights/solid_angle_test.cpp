@@ -13,7 +13,7 @@
 #include "support/quadrature.h"
 #include "support/random_pairs.h"
 
-namespace stilb {
+namespace stilb::lights {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
@@ -128,7 +128,7 @@ double p_of_parallelogram(const Rectangle& r, const Vec3& from, std::uint64_t se
         if (!right_pdf || !inside) return 0;
         ++observed[interval_of(s_edges, at.s) * (t_edges.size() - 1) + interval_of(t_edges, at.t)];
     }
-    return chi2_test(observed, expected).p_value;
+    return statistics::chi2_test(observed, expected).p_value;
 }
 
 struct View {
@@ -215,7 +215,7 @@ double p_of_triangle(const Corners& t, const Vec3& from, std::uint64_t seed) {
             at.s - static_cast<double>(i) + at.t - static_cast<double>(j) > 1 && i + j + 1 < kSide;
         ++observed[2 * (i * kSide + j) + (upper ? 1 : 0)];
     }
-    return chi2_test(observed, expected).p_value;
+    return statistics::chi2_test(observed, expected).p_value;
 }
 
 TEST(SphericalTriangleSampling, IsUniformInSolidAngle) {
@@ -383,7 +383,7 @@ TEST(SphereSampling, IsUniformInItsCone) {
         }
         const std::vector<double> expected(observed.size(),
                                            static_cast<double>(kSamples) / (kRings * kSectors));
-        EXPECT_GT(chi2_test(observed, expected).p_value, kLeastP) << distance;
+        EXPECT_GT(statistics::chi2_test(observed, expected).p_value, kLeastP) << distance;
     }
 }
 
@@ -429,4 +429,4 @@ TEST(SolidAngleSampling, IsFiniteAtTheEndsOfTheRandomNumbers) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::lights

@@ -68,7 +68,7 @@ bool verify(std::uint64_t rays) {
             sum[kind] += tallies;
             own += tallies;
         }
-        const bool has_held = is_good(own.roots) && is_good(own.cells) && own.verdicts.wrong == 0;
+        const bool has_held = is_good(own.roots) && is_good(own.cells) && own.classifications.wrong == 0;
         all_held = all_held && has_held;
         fmt::print("degree {:2}, variances like l^-{:.0f}, radii 1 to {:4.1f}: {:6} cells, {}\n",
                    shape.degree, 2 * shape.falloff, 1 / shape.ratio, surface.cells().count(),
@@ -82,10 +82,10 @@ bool verify(std::uint64_t rays) {
         print("", "cells", tallies.cells);
         print("", "march", tallies.march);
     }
-    VerdictTally verdicts;
-    for (const auto& [kind, tallies] : sum) verdicts += tallies.verdicts;
+    VerdictTally classifications;
+    for (const auto& [kind, tallies] : sum) classifications += tallies.classifications;
     fmt::print("single precision: {} verdicts on rays and cells, {} wrong; {} left to double precision\n",
-               verdicts.told, verdicts.wrong, verdicts.unclear);
+               classifications.told, classifications.wrong, classifications.unclear);
     return all_held;
 }
 

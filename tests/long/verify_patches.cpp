@@ -55,7 +55,7 @@ Sensor sights(const Scene& scene) {
     }
     RunOptions emission = options_of("path", 0.1);
     emission.bounces = 0;
-    const RunResult emitted = run(scene, {&all, 1}, emission);
+    const RunResult emitted = run::measure(scene, {&all, 1}, emission);
     Sensor sensor{all.name, all.type, {}};
     for (std::size_t i = 0; i < all.measurands.size(); ++i) {
         if (emitted.sensors[0].readings[i].estimate.value == 0)
@@ -65,8 +65,8 @@ Sensor sights(const Scene& scene) {
 }
 
 /// Of all readings of each sensor.
-std::vector<Estimate> means(const RunResult& result) {
-    std::vector<Estimate> all;
+std::vector<statistics::Estimate> means(const RunResult& result) {
+    std::vector<statistics::Estimate> all;
     for (const SensorResult& sensor : result.sensors) all.push_back(sensor.summary.mean);
     return all;
 }
@@ -84,9 +84,10 @@ Way way_of(std::string_view method, std::uint64_t paths) {
     return way;
 }
 
-Way bundle_way(FirstShotVariant variant, BufferBackend backend) {
+Way bundle_way(estimators::FirstShotVariant variant, patches::BufferBackend backend) {
     // Shadow rays from every crossing, and bundles in software, take their time.
-    const bool is_slow = variant == FirstShotVariant::on_the_fly || backend == BufferBackend::opengl;
+    const bool is_slow =
+        variant == estimators::FirstShotVariant::on_the_fly || backend == patches::BufferBackend::opengl;
     Way way = way_of("ray-bundle", is_slow ? kFewSteps : kSteps);
     way.name += fmt::format(" {} {}", name_of(variant), name_of(backend));
     way.options.patches.first_shot.variant = variant;
@@ -96,17 +97,17 @@ Way bundle_way(FirstShotVariant variant, BufferBackend backend) {
 
 /// Where all is diffuse, classical and diffuse first shot are the same as incoming.
 std::vector<Way> ways(bool is_diffuse) {
-    using enum FirstShotVariant;
-    std::vector<Way> all{bundle_way(incoming, BufferBackend::rays),
-                         bundle_way(on_the_fly, BufferBackend::rays)};
+    using enum estimators::FirstShotVariant;
+    std::vector<Way> all{bundle_way(incoming, patches::BufferBackend::rays),
+                         bundle_way(on_the_fly, patches::BufferBackend::rays)};
     if (!is_diffuse) {
-        all.push_back(bundle_way(classical, BufferBackend::rays));
-        all.push_back(bundle_way(diffuse, BufferBackend::rays));
+        all.push_back(bundle_way(classical, patches::BufferBackend::rays));
+        all.push_back(bundle_way(diffuse, patches::BufferBackend::rays));
     }
-    if (const auto missing = missing_opengl()) {
+    if (const auto missing = patches::missing_opengl()) {
         fmt::print("No OpenGL here: {}\n", *missing);
     } else {
-        all.push_back(bundle_way(incoming, BufferBackend::opengl));
+        all.push_back(bundle_way(incoming, patches::BufferBackend::opengl));
     }
     if (!is_diffuse) return all;
     all.push_back(way_of("radiosity", 1));
@@ -117,7 +118,7 @@ std::vector<Way> ways(bool is_diffuse) {
 bool verify(const AgreementScene& entry, bool is_diffuse) {
     const Scene scene = entry.make();
     const std::array sensors{floor_grid(), sights(scene)};
-    const auto expected = means(run(scene, sensors, options_of("path", 0.01)));
+    const auto expected = means(run::measure(scene, sensors, options_of("path", 0.01)));
     bool holds = true;
     for (Way& way : ways(is_diffuse)) {
         if (entry.name == kNoisyScene) *way.options.paths *= kNoisyFactor;
@@ -126,7 +127,7 @@ bool verify(const AgreementScene& entry, bool is_diffuse) {
             way.options.patches.patch_m = size_m;
             // Bins of directions are part of what classical first shot divides.
             way.options.patches.first_shot.bin_rings = static_cast<int>(4.8 / size_m);
-            const auto found = means(run(scene, sensors, way.options));
+            const auto found = means(run::measure(scene, sensors, way.options));
             fmt::print(" | {:4} m", size_m);
             for (std::size_t i = 0; i < found.size(); ++i) {
                 const double deviation = found[i].value / expected[i].value - 1;

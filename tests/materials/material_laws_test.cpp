@@ -10,7 +10,7 @@
 #include "math/sampling.h"
 #include "support/direction_grid.h"
 
-namespace stilb {
+namespace stilb::materials {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -25,8 +25,8 @@ struct Case {
 };
 
 /// Bands differ, so that a band taken for another is noticed.
-const Spectrum kColour{{0.4, 0.1, 0.9}};
-const Spectrum kWhite = Spectrum::grey(1);
+const Rgb kColour{{0.4, 0.1, 0.9}};
+const Rgb kWhite = Rgb::grey(1);
 
 int concentration_for(double width) { return width < 0.002 ? 12 : width < 0.02 ? 8 : width < 0.2 ? 4 : 2; }
 
@@ -38,8 +38,9 @@ std::vector<Case> make_cases() {
                             {"phong 10000", Phong{kColour * 0.4, kColour * 0.6, 1e4}, 8}};
     for (const double roughness : {0.001, 0.01, 0.1, 0.3, 0.6, 1.0}) {
         const std::string name = "rough " + std::to_string(roughness);
-        cases.push_back({name, Rough(kColour, roughness), concentration_for(roughness)});
-        cases.push_back({"white " + name, Rough(kWhite, roughness), concentration_for(roughness), true});
+        cases.push_back({name, RoughConductor(kColour, roughness), concentration_for(roughness)});
+        cases.push_back(
+            {"white " + name, RoughConductor(kWhite, roughness), concentration_for(roughness), true});
     }
     for (const double roughness : {0.001, 0.1, 1.0}) {
         const std::string name = "ward " + std::to_string(roughness);
@@ -76,7 +77,7 @@ Vec3 incident(double degrees) {
 DirectionGrid grid_for(const Case& of, const Vec3& in) { return {0, {-in.x, -in.y, in.z}, of.concentration}; }
 
 /// Integral of f cos over outgoing directions.
-Spectrum albedo(const Case& of, const Vec3& in) {
+Rgb albedo(const Case& of, const Vec3& in) {
     return grid_for(of, in).integrate_all(
         [&](const Vec3& out) { return evaluate_brdf_per_sr(of.material, in, out) * out.z; });
 }
@@ -118,7 +119,7 @@ TEST(MaterialLaws, WeightsAreBrdfTimesCosineOverDensityAndBounded) {
                 ASSERT_NEAR(length(out), 1, 1e-14);
                 ASSERT_GT(sample->pdf_per_sr, 0);
                 ASSERT_NEAR(pdf_per_sr(of.material, in, out) / sample->pdf_per_sr, 1, 1e-12);
-                const Spectrum f = evaluate_brdf_per_sr(of.material, in, out);
+                const Rgb f = evaluate_brdf_per_sr(of.material, in, out);
                 for (std::size_t b = 0; b < kBands; ++b) {
                     ASSERT_NEAR(sample->weight[b], f[b] * out.z / sample->pdf_per_sr,
                                 1e-12 * sample->weight[b]);
@@ -137,20 +138,20 @@ TEST(MaterialLaws, ReflectionIsReciprocalAndAboveTheSurface) {
         for (int i = 0; i < 2000; ++i) {
             const auto [u1, u2] = random.next_pair();
             const auto [u3, u4] = random.next_pair();
-            const Vec3 in =
-                i % 2 == 0 ? sample_cosine_hemisphere(u1, u2).direction : incident(90 - 10 * std::pow(u1, 8));
-            Vec3 out = sample_cosine_hemisphere(u3, u4).direction;
+            const Vec3 in = i % 2 == 0 ? math::sample_cosine_hemisphere(u1, u2).direction
+                                       : incident(90 - 10 * std::pow(u1, 8));
+            Vec3 out = math::sample_cosine_hemisphere(u3, u4).direction;
             if (i % 3 == 0) {
                 const auto sample = sample_brdf(of.material, in, u3, u4);
                 if (sample) out = sample->direction;
             }
-            const Spectrum forward = evaluate_brdf_per_sr(of.material, in, out);
-            const Spectrum backward = evaluate_brdf_per_sr(of.material, out, in);
+            const Rgb forward = evaluate_brdf_per_sr(of.material, in, out);
+            const Rgb backward = evaluate_brdf_per_sr(of.material, out, in);
             for (std::size_t b = 0; b < kBands; ++b) {
                 ASSERT_GE(forward[b], 0);
                 ASSERT_NEAR(forward[b], backward[b], 1e-10 * forward[b]) << of.name;
             }
-            ASSERT_EQ(evaluate_brdf_per_sr(of.material, in, -out), Spectrum{});
+            ASSERT_EQ(evaluate_brdf_per_sr(of.material, in, -out), Rgb{});
             ASSERT_EQ(pdf_per_sr(of.material, in, -out), 0);
             ASSERT_FALSE(sample_brdf(of.material, -in, u1, u2));
         }
@@ -160,11 +161,11 @@ TEST(MaterialLaws, ReflectionIsReciprocalAndAboveTheSurface) {
 TEST(MaterialLaws, NoMoreIsReflectedThanArrives) {
     double least_of_white = 1, most = 0;
     for (const Case& of : all_cases()) {
-        const Spectrum bound = reflectance_bound(of.material);
+        const Rgb bound = reflectance_bound(of.material);
         EXPECT_LE(bound.max(), 1 + 1e-12);
         const bool coated = std::holds_alternative<Plastic>(of.material);
         for (const double angle : {0.0, 20.0, 45.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99}) {
-            const Spectrum reflected = albedo(of, incident(angle));
+            const Rgb reflected = albedo(of, incident(angle));
             for (std::size_t b = 0; b < kBands; ++b) {
                 EXPECT_LE(reflected[b], (coated ? 1 : bound[b]) + 1e-3) << of.name << ' ' << angle;
             }
@@ -263,8 +264,8 @@ TEST(PlasticMaterial, ReflectsLessThanItsBaseByInternalReflection) {
     // 0.0918: the mean of Fresnel's reflectance of ior 1.5 under light from everywhere [Duntley 1942].
     const double outside = 0.0918, inside = 1 - (1 - outside) / 2.25;
     const double expected = outside + (1 - outside) * 0.5 * (1 - inside) / (1 - 0.5 * inside);
-    EXPECT_NEAR(Plastic(Spectrum::grey(0.5), 1.5, 0.001).mean_reflectance()[0], expected, 2e-4);
+    EXPECT_NEAR(Plastic(Rgb::grey(0.5), 1.5, 0.001).mean_reflectance()[0], expected, 2e-4);
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::materials

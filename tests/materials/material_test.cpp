@@ -5,7 +5,7 @@
 #include "math/sampling.h"
 #include "support/direction_grid.h"
 
-namespace stilb {
+namespace stilb::materials {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -21,7 +21,7 @@ constexpr std::array<double, 4> kExponents{0, 1, 50, 1e4};
 
 /// Bands differ, so that a band taken for another is noticed; diffuse + specular = 1 in the last one.
 Phong phong(double exponent) { return {{{0.4, 0.1, 0.3}}, {{0.2, 0.6, 0.7}}, exponent}; }
-Phong glossy(double exponent) { return {{}, Spectrum::grey(1), exponent}; }
+Phong glossy(double exponent) { return {{}, Rgb::grey(1), exponent}; }
 
 /// Over the hemisphere, finer around the mirrored direction where the lobe is narrow.
 DirectionGrid grid_for(double exponent, const Vec3& in) {
@@ -29,7 +29,7 @@ DirectionGrid grid_for(double exponent, const Vec3& in) {
 }
 
 /// Integral of f cos over outgoing directions, per band.
-Spectrum albedo(const Phong& material, const Vec3& in) {
+Rgb albedo(const Phong& material, const Vec3& in) {
     return grid_for(material.exponent, in).integrate_all([&](const Vec3& out) {
         return evaluate_brdf_per_sr(material, in, out) * out.z;
     });
@@ -57,9 +57,9 @@ TEST(DiffuseMaterial, WhiteReflectsAllLight) {
     RandomPairs random(1);
     for (int i = 0; i < 1000; ++i) {
         const auto [u1, u2] = random.next_pair();
-        const auto sample = sample_brdf(Diffuse{Spectrum::grey(1)}, incident(60), u1, u2);
+        const auto sample = sample_brdf(Diffuse{Rgb::grey(1)}, incident(60), u1, u2);
         ASSERT_TRUE(sample);
-        EXPECT_EQ(sample->weight, Spectrum::grey(1));
+        EXPECT_EQ(sample->weight, Rgb::grey(1));
     }
 }
 
@@ -78,7 +78,7 @@ TEST(PhongMaterial, LobeReflectsAllLightAtNormalIncidence) {
     // (n+2)/(2 pi) times the integral of cos^(n+1) over the hemisphere, 2 pi / (n+2).
     for (const double exponent : kExponents) {
         const Phong material = phong(exponent);
-        const Spectrum reflected = albedo(material, {0, 0, 1});
+        const Rgb reflected = albedo(material, {0, 0, 1});
         for (std::size_t band = 0; band < kBands; ++band) {
             EXPECT_NEAR(reflected[band], material.diffuse[band] + material.specular[band], 1e-6) << exponent;
         }
@@ -96,8 +96,8 @@ TEST(PhongMaterial, ReflectsNoMoreThanArrives) {
     for (const double exponent : {0.0, 0.3, 1.0, 50.0, 1e4, 1e6}) {
         for (double degrees = 0; degrees < 90; degrees += 12.8) {
             const Phong material = phong(exponent);
-            const Spectrum reflected = albedo(material, incident(degrees));
-            const Spectrum bound = reflectance_bound(material);
+            const Rgb reflected = albedo(material, incident(degrees));
+            const Rgb bound = reflectance_bound(material);
             for (std::size_t band = 0; band < kBands; ++band) {
                 EXPECT_LE(reflected[band], bound[band] + 1e-5) << exponent << ' ' << degrees;
             }
@@ -113,8 +113,8 @@ TEST(PhongMaterial, MeanWeightIsTheAlbedo) {
         for (const double degrees : kIncidenceDegrees) {
             const Phong material = phong(exponent);
             const Vec3 in = incident(degrees);
-            const Spectrum exact = albedo(material, in);
-            Spectrum sum, squares;
+            const Rgb exact = albedo(material, in);
+            Rgb sum, squares;
             for (int i = 0; i < kSamples; ++i) {
                 const auto [u1, u2] = random.next_pair();
                 if (const auto sample = sample_brdf(material, in, u1, u2)) {
@@ -148,7 +148,7 @@ TEST(PhongMaterial, WeightIsBrdfTimesCosineOverDensity) {
                 ASSERT_NEAR(length(out), 1, 1e-14);
                 ASSERT_GT(sample->pdf_per_sr, 0);
                 ASSERT_NEAR(pdf_per_sr(material, in, out) / sample->pdf_per_sr, 1, 1e-13);
-                const Spectrum f = evaluate_brdf_per_sr(material, in, out);
+                const Rgb f = evaluate_brdf_per_sr(material, in, out);
                 for (std::size_t band = 0; band < kBands; ++band) {
                     ASSERT_NEAR(sample->weight[band], f[band] * out.z / sample->pdf_per_sr,
                                 1e-13 * sample->weight[band]);
@@ -182,26 +182,26 @@ TEST(PhongMaterial, WithoutReflectanceAbsorbs) {
 
 TEST(BlackMaterial, Absorbs) {
     EXPECT_FALSE(sample_brdf(Black{}, incident(35), 0.2, 0.9));
-    EXPECT_EQ(reflectance_bound(Black{}), Spectrum{});
+    EXPECT_EQ(reflectance_bound(Black{}), Rgb{});
 }
 
 TEST(EveryMaterial, IsReciprocalAndBlackFromBelow) {
     RandomPairs random(11);
     const std::array<Material, 7> materials{
-        Diffuse{{{0.2, 0.5, 0.8}}},  phong(0), phong(1), phong(50), phong(1e4),
-        Mirror{Spectrum::grey(0.9)}, Black{}};
+        Diffuse{{{0.2, 0.5, 0.8}}}, phong(0), phong(1), phong(50), phong(1e4),
+        Mirror{Rgb::grey(0.9)},     Black{}};
     for (const Material& material : materials) {
         for (int i = 0; i < 1000; ++i) {
             const auto [u1, u2] = random.next_pair();
             const auto [u3, u4] = random.next_pair();
-            const Vec3 in = sample_cosine_hemisphere(u1, u2).direction;
-            const Vec3 out = sample_cosine_hemisphere(u3, u4).direction;
-            const Spectrum forward = evaluate_brdf_per_sr(material, in, out);
-            const Spectrum backward = evaluate_brdf_per_sr(material, out, in);
+            const Vec3 in = math::sample_cosine_hemisphere(u1, u2).direction;
+            const Vec3 out = math::sample_cosine_hemisphere(u3, u4).direction;
+            const Rgb forward = evaluate_brdf_per_sr(material, in, out);
+            const Rgb backward = evaluate_brdf_per_sr(material, out, in);
             for (std::size_t band = 0; band < kBands; ++band) {
                 ASSERT_NEAR(forward[band], backward[band], 1e-13 * forward[band]);
             }
-            ASSERT_EQ(evaluate_brdf_per_sr(material, in, -out), Spectrum{});
+            ASSERT_EQ(evaluate_brdf_per_sr(material, in, -out), Rgb{});
             ASSERT_EQ(pdf_per_sr(material, in, -out), 0);
             ASSERT_FALSE(sample_brdf(material, -in, u1, u2));
         }
@@ -209,15 +209,15 @@ TEST(EveryMaterial, IsReciprocalAndBlackFromBelow) {
 }
 
 TEST(EveryMaterial, KnowsItsMeanConcentration) {
-    EXPECT_EQ(mean_concentration(Diffuse{Spectrum::grey(0.3)}), 1);
-    EXPECT_EQ(mean_concentration(Mirror{Spectrum::grey(0.3)}), 0);
+    EXPECT_EQ(mean_concentration(Diffuse{Rgb::grey(0.3)}), 1);
+    EXPECT_EQ(mean_concentration(Mirror{Rgb::grey(0.3)}), 0);
     EXPECT_EQ(mean_concentration(Diffuse{}), 0);
     EXPECT_EQ(mean_concentration(Black{}), 0);
     // At normal incidence: the integral of pi f / albedo over the light that is reflected.
     const Vec3 in{0, 0, 1};
     for (const double exponent : {0.0, 1.0, 20.0, 500.0}) {
         for (const double specular : {0.0, 0.1, 0.6}) {
-            const Phong material{Spectrum::grey(0.6 - specular), Spectrum::grey(specular), exponent};
+            const Phong material{Rgb::grey(0.6 - specular), Rgb::grey(specular), exponent};
             double mean = 0;
             constexpr int steps = 200000;
             for (int i = 0; i < steps; ++i) {
@@ -239,4 +239,4 @@ TEST(EveryMaterial, KnowsWhetherItIsSpecular) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::materials

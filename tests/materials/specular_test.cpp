@@ -7,7 +7,7 @@
 #include "materials/dielectric.h"
 #include "materials/material.h"
 
-namespace stilb {
+namespace stilb::materials {
 namespace {
 
 Vec3 incident(double degrees) {
@@ -49,10 +49,10 @@ TEST(GlassMaterial, KeepsAllLightAndObeysSnell) {
             const Vec3 in = incident(degrees);
             const double ior = side == LightSide::outside ? 1.5 : 1 / 1.5;
             const double chance = fresnel_reflectance(in.z, ior).unpolarised();
-            const SpecularBranches branches = specular_branches(Glass{1.5}, side, in);
+            const SpecularBranches branches = specular_branches(Dielectric{1.5}, side, in);
             ASSERT_EQ(branches.list().size(), chance < 1 ? 2u : 1u);
             const SpecularBranch& back = branches.list()[0];
-            EXPECT_EQ(back.share, Spectrum::grey(chance));
+            EXPECT_EQ(back.share, Rgb::grey(chance));
             EXPECT_EQ(back.luminance_factor, 1);
             EXPECT_LT(length(back.direction - reflected(in, {0, 0, 1})), 1e-15);
             if (chance == 1) continue;
@@ -71,9 +71,10 @@ TEST(GlassMaterial, KeepsAllLightAndObeysSnell) {
 TEST(GlassMaterial, LuminanceComesBackFromWithin) {
     // Back along the same way, seen in the frame of the inside, whose z points the other way.
     const Vec3 in = incident(50);
-    const SpecularBranches entered = specular_branches(Glass{1.7}, LightSide::outside, in);
+    const SpecularBranches entered = specular_branches(Dielectric{1.7}, LightSide::outside, in);
     const Vec3 down = entered.list()[1].direction;
-    const SpecularBranches left = specular_branches(Glass{1.7}, LightSide::inside, {down.x, down.y, -down.z});
+    const SpecularBranches left =
+        specular_branches(Dielectric{1.7}, LightSide::inside, {down.x, down.y, -down.z});
     ASSERT_EQ(left.list().size(), 2u);
     EXPECT_LT(length(left.list()[1].direction - Vec3{in.x, in.y, -in.z}), 1e-14);
     EXPECT_NEAR(entered.list()[1].luminance_factor * left.list()[1].luminance_factor, 1, 1e-14);
@@ -81,7 +82,7 @@ TEST(GlassMaterial, LuminanceComesBackFromWithin) {
 }
 
 TEST(PaneMaterial, HasTheTransmittancesOfWindowGlass) {
-    const Pane pane{1.52, Spectrum::grey(0.96)};
+    const ThinDielectric pane{1.52, Rgb::grey(0.96)};
     EXPECT_NEAR(pane_shares(pane, 1).transmittance[1], 0.8815, 5e-5);
     EXPECT_NEAR(pane_shares(pane, 0.5).transmittance[1], 0.8015, 5e-5);
 }
@@ -89,7 +90,7 @@ TEST(PaneMaterial, HasTheTransmittancesOfWindowGlass) {
 TEST(PaneMaterial, KeepsAllLightWhereNothingIsAbsorbedInside) {
     for (const double degrees : kDegrees) {
         for (const double ior : {1.0, 1.3, 1.52, 2.5}) {
-            const PaneShares clear = pane_shares({ior, Spectrum::grey(1)}, cosine(degrees));
+            const PaneShares clear = pane_shares({ior, Rgb::grey(1)}, cosine(degrees));
             const PaneShares grey = pane_shares({ior, {{0.9, 0.5, 0.1}}}, cosine(degrees));
             for (std::size_t b = 0; b < kBands; ++b) {
                 EXPECT_NEAR(clear.reflectance[b] + clear.transmittance[b], 1, 1e-12);
@@ -98,11 +99,11 @@ TEST(PaneMaterial, KeepsAllLightWhereNothingIsAbsorbedInside) {
             }
         }
     }
-    EXPECT_EQ(pane_shares({}, 0).reflectance, Spectrum::grey(1));
+    EXPECT_EQ(pane_shares({}, 0).reflectance, Rgb::grey(1));
 }
 
 TEST(PaneMaterial, ReflectsAndLetsPassStraightOn) {
-    const Pane pane{1.52, {{0.9, 0.8, 0.3}}};
+    const ThinDielectric pane{1.52, {{0.9, 0.8, 0.3}}};
     for (const double degrees : kDegrees) {
         const Vec3 in = incident(degrees);
         const PaneShares shares = pane_shares(pane, in.z);
@@ -120,22 +121,22 @@ TEST(PaneMaterial, ReflectsAndLetsPassStraightOn) {
 
 TEST(MirrorMaterial, ReflectsIntoTheMirroredDirection) {
     const Vec3 in = incident(35);
-    const SpecularBranches branches = specular_branches(Mirror{Spectrum::grey(0.9)}, LightSide::inside, in);
+    const SpecularBranches branches = specular_branches(Mirror{Rgb::grey(0.9)}, LightSide::inside, in);
     ASSERT_EQ(branches.list().size(), 1u);
-    EXPECT_EQ(branches.list()[0].share, Spectrum::grey(0.9));
+    EXPECT_EQ(branches.list()[0].share, Rgb::grey(0.9));
     EXPECT_LT(length(branches.list()[0].direction - reflected(in, {0, 0, 1})), 1e-15);
     EXPECT_TRUE(specular_branches(Mirror{}, LightSide::outside, in).list().empty());
 }
 
 TEST(SpecularMaterials, ReflectNothingFromBelow) {
     for (const Material& material :
-         {Material(Mirror{Spectrum::grey(1)}), Material(Glass{}), Material(Pane{})}) {
+         {Material(Mirror{Rgb::grey(1)}), Material(Dielectric{}), Material(ThinDielectric{})}) {
         EXPECT_TRUE(is_specular(material));
         EXPECT_TRUE(specular_branches(material, LightSide::outside, {0, 0, -1}).list().empty());
         EXPECT_FALSE(sample_brdf(material, incident(20), 0.5, 0.5)) << "has no density to draw from";
-        EXPECT_EQ(evaluate_brdf_per_sr(material, incident(20), incident(20)), Spectrum{});
+        EXPECT_EQ(evaluate_brdf_per_sr(material, incident(20), incident(20)), Rgb{});
     }
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::materials

@@ -5,7 +5,7 @@
 #include "statistics/hypothesis.h"
 #include "support/random_pairs.h"
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 constexpr double kLeastP = 1e-4;
@@ -23,7 +23,7 @@ TEST(DiscreteDistribution, ChoosesInProportionToWeightsAndNeverZero) {
         ++observed[choice.index];
         EXPECT_NEAR(choice.probability, kWeights[choice.index] / distribution.total(), 1e-12);
     }
-    EXPECT_GT(chi2_test(observed, expected).p_value, kLeastP);
+    EXPECT_GT(statistics::chi2_test(observed, expected).p_value, kLeastP);
 }
 
 TEST(DiscreteDistribution, TakesTheEndsOfItsRange) {
@@ -47,9 +47,9 @@ TEST(DiscreteDistribution, RemaindersAreUniformWhateverWasChosen) {
     }
     for (const auto& numbers : remainders) {
         if (numbers.size() < 8) continue;
-        EXPECT_GT(uniformity_p(numbers), kLeastP) << numbers.size();
+        EXPECT_GT(statistics::uniformity_p(numbers), kLeastP) << numbers.size();
     }
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::math

@@ -4,7 +4,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 void expect_near(const Vec3& a, const Vec3& b) { EXPECT_LT(length(a - b), 1e-15); }
@@ -39,4 +39,4 @@ TEST(FrameOfSurface, IsOrthonormalAndRightHanded) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::math

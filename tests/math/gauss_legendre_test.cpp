@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 /// The integral of x^power over [-1, 1] by the rule.
@@ -44,4 +44,4 @@ TEST(GaussLegendre, IsTheRuleThatBoostHas) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::math

@@ -10,7 +10,7 @@
 #include "statistics/hypothesis.h"
 #include "statistics/moments.h"
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 constexpr double kLeastP = 1e-4;
@@ -75,7 +75,8 @@ TEST(SampleStream, EveryPointIsUniformOverKeys) {
         for (const unsigned dimension : {0u, 1u, 2u, 7u, 31u, 32u, 35u, 100u}) {
             std::vector<double> numbers;
             for (int key = 0; key < kKeys; ++key) numbers.push_back(coordinate(key, index, dimension));
-            EXPECT_GT(uniformity_p(numbers), kLeastP) << "point " << index << ", dimension " << dimension;
+            EXPECT_GT(statistics::uniformity_p(numbers), kLeastP)
+                << "point " << index << ", dimension " << dimension;
         }
     }
 }
@@ -84,7 +85,7 @@ TEST(SampleStream, IsUniformBeyondTheSobolDimensions) {
     for (const unsigned dimension : {32u, 33u, 34u, 35u, 36u, 200u}) {
         std::vector<double> numbers;
         for (std::uint64_t i = 0; i < 20'000; ++i) numbers.push_back(coordinate(5, i, dimension));
-        EXPECT_GT(uniformity_p(numbers), kLeastP) << dimension;
+        EXPECT_GT(statistics::uniformity_p(numbers), kLeastP) << dimension;
     }
 }
 
@@ -99,7 +100,7 @@ double independence_p(int count, const Pair& pair) {
                                             static_cast<int>(b * kCells))];
     }
     const std::vector<double> expected(observed.size(), static_cast<double>(count) / (kCells * kCells));
-    return chi2_test(observed, expected).p_value;
+    return statistics::chi2_test(observed, expected).p_value;
 }
 
 TEST(SampleStream, KeysAndDimensionsAreIndependent) {
@@ -117,9 +118,9 @@ TEST(SampleStream, KeysAndDimensionsAreIndependent) {
     }
     // Two derived keys' sequences: pairs of equal index must not follow each other.
     for (const unsigned d : {0u, 1u, 31u, 32u}) {
-        RunningMoments correlation;
+        statistics::RunningMoments correlation;
         for (std::uint64_t key = 0; key < 400; ++key) {
-            RunningMoments products;
+            statistics::RunningMoments products;
             for (std::uint64_t i = 0; i < 64; ++i) {
                 products.add((coordinate(2 * key, i, d) - 0.5) * (coordinate(2 * key + 1, i, d) - 0.5));
             }
@@ -130,8 +131,8 @@ TEST(SampleStream, KeysAndDimensionsAreIndependent) {
 }
 
 /// Variance over keys of the mean of a smooth function, of mean 1, at `count` points of four dimensions.
-RunningMoments means_of_smooth_function(std::uint64_t count) {
-    RunningMoments means;
+statistics::RunningMoments means_of_smooth_function(std::uint64_t count) {
+    statistics::RunningMoments means;
     for (std::uint64_t key = 0; key < 400; ++key) {
         double sum = 0;
         for (std::uint64_t i = 0; i < count; ++i) {
@@ -146,7 +147,8 @@ RunningMoments means_of_smooth_function(std::uint64_t count) {
 }
 
 TEST(SampleStream, VarianceFallsFasterThanWithRandomNumbers) {
-    const RunningMoments few = means_of_smooth_function(16), many = means_of_smooth_function(1024);
+    const statistics::RunningMoments few = means_of_smooth_function(16),
+                                     many = means_of_smooth_function(1024);
     EXPECT_LT(std::abs(few.mean() - 1), 4 * few.standard_error());
     EXPECT_LT(std::abs(many.mean() - 1), 4 * many.standard_error());
     // 64 times the points: random numbers divide the variance by 64.
@@ -154,4 +156,4 @@ TEST(SampleStream, VarianceFallsFasterThanWithRandomNumbers) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::math

@@ -4,7 +4,7 @@
 
 #include "support/direction_grid.h"
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -46,7 +46,7 @@ TEST(UnitDisk, IsUniformInArea) {
         ++observed[ring * kSectors + sector];
     }
     const std::vector<double> expected(observed.size(), static_cast<double>(kSamples) / (kRings * kSectors));
-    EXPECT_GT(chi2_test(observed, expected).p_value, kLeastP);
+    EXPECT_GT(statistics::chi2_test(observed, expected).p_value, kLeastP);
 }
 
 TEST(UnitDisk, IsContinuous) {
@@ -95,7 +95,7 @@ TEST(Cone, KeepsItsDigitsWhereItIsNarrow) {
         const Vec3 w = sample_cone(kOneMinusCos, u1, u2).direction;
         shares.push_back((w.x * w.x + w.y * w.y) / 2 / kOneMinusCos);
     }
-    EXPECT_GT(uniformity_p(shares), kLeastP);
+    EXPECT_GT(statistics::uniformity_p(shares), kLeastP);
 }
 
 TEST(CosinePower, FollowsItsDensity) {
@@ -144,8 +144,8 @@ TEST(TriangleSampling, IsUniformInArea) {
         ++observed[row * kSide + column];
     }
     const std::vector<double> expected(observed.size(), static_cast<double>(kSamples) / (kSide * kSide));
-    EXPECT_GT(chi2_test(observed, expected).p_value, kLeastP);
+    EXPECT_GT(statistics::chi2_test(observed, expected).p_value, kLeastP);
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::math

@@ -12,7 +12,7 @@
 
 #include "math/random.h"
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -183,4 +183,4 @@ TEST(HarmonicSeries, RefusesOtherNumbersOfCoefficients) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::math

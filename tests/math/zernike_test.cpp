@@ -8,7 +8,7 @@
 
 #include "support/quadrature.h"
 
-namespace stilb {
+namespace stilb::math {
 namespace {
 
 Vec3 direction_above(double radius, double angle) {
@@ -56,4 +56,4 @@ TEST(Zernike, IsWhatBoostComputes) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::math

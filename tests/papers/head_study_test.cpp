@@ -11,7 +11,7 @@
 #include "papers/head_report.h"
 #include "papers/head_shape.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 HeadStudyOptions small(std::vector<int> degrees) { return {std::move(degrees), {24, 24}, {12, 9}, 4, 2}; }
@@ -24,7 +24,7 @@ Mesh sphere_mesh() {
 }
 
 std::vector<double> cells(const HeadStudy& study, const std::string& name) {
-    for (const Column& column : columns_of(study)) {
+    for (const io::Column& column : columns_of(study)) {
         if (column.name == name) return std::get<std::vector<double>>(column.cells);
     }
     ADD_FAILURE() << "no column " << name;
@@ -89,4 +89,4 @@ TEST(HeadStudy, TheSizeOfTheFileDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::papers

@@ -7,18 +7,18 @@
 
 #include "verification/sobolev_scene.h"
 
-namespace stilb {
+namespace stilb::papers {
 namespace {
 
 constexpr exact::ParallelPlanes kPlanes{0.5, 0.5, 0.5, 0.5, 1};
 
 /// The diffuse planes with a sphere as the source: as bright as the point source, and it hides little.
 Scene planes_with_sphere(double radius_m) {
-    Scene scene = make_sobolev_scene(kPlanes, 1);
+    Scene scene = verification::make_sobolev_scene(kPlanes, 1);
     scene.materials.push_back({"source", Black{}});
     scene.objects.push_back({"source", Sphere{{0, 0, kPlanes.distance_1_m}, radius_m}, {MaterialId{2}}});
     const double luminance = kPlanes.intensity_cd / (std::numbers::pi * radius_m * radius_m);
-    scene.lights = {{"source", AreaLight{ObjectId{2}, Spectrum::grey(luminance)}}};
+    scene.lights = {{"source", AreaLight{ObjectId{2}, Rgb::grey(luminance)}}};
     return scene;
 }
 
@@ -32,7 +32,7 @@ TEST(MultiplyReflected, IsSobolevsSolutionLessTheFirstReflection) {
     options.method = "double-local";
     options.paths = 16384;
     options.replicates = 2;
-    const std::vector<Estimate> measured =
+    const std::vector<statistics::Estimate> measured =
         multiply_reflected_cd_m2(planes_with_sphere(0.01), sensor, options, 8);
     const exact::SobolevProblem problem(kPlanes);
     for (std::size_t j = 0; j < measured.size(); ++j) {
@@ -47,4 +47,4 @@ TEST(MultiplyReflected, IsSobolevsSolutionLessTheFirstReflection) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::papers

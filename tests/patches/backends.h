@@ -13,7 +13,7 @@
 #include "patches/visibility/buffer_backend.h"
 #include "patches/visibility/opengl_context.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 inline std::string name_of_backend(const testing::TestParamInfo<BufferBackend>& test) {
     return std::string(name_of(test.param));
@@ -47,4 +47,4 @@ inline std::vector<std::uint32_t> filled(ItemBuffers& buffers, const ItemBufferL
     return sides;
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

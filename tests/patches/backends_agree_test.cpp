@@ -11,7 +11,7 @@
 #include "patches/visibility/opengl_item_buffers.h"
 #include "patches/visibility/ray_item_buffers.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// The patches that rays next to a pixel's middle meet, 1/128 of a pixel away in sixteen directions.
@@ -114,4 +114,4 @@ TEST(ItemBufferBackends, AgreeOnSheetsThatLieCloseTogether) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -19,7 +19,7 @@
 #include "patches/rooms.h"
 #include "support/random_pairs.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -56,7 +56,7 @@ class BundlesOf : public testing::TestWithParam<BufferBackend> {
     /// A direction uniform over the sphere, the axes of the grid turned about it, and an offset.
     Bundle random_bundle(double spacing_m) {
         const auto [u1, u2] = random_.next_pair();
-        const Frame around = Frame::around(sample_sphere(u1, u2).direction);
+        const Frame around = Frame::around(math::sample_sphere(u1, u2).direction);
         const double angle = 2 * kPi * random_.next();
         const Vec3 u = std::cos(angle) * around.u + std::sin(angle) * around.v;
         return {{u, cross(around.w, u), around.w}, spacing_m, {random_.next(), random_.next()}};
@@ -323,4 +323,4 @@ INSTANTIATE_TEST_SUITE_P(Both, BundlesOf, testing::Values(BufferBackend::rays, B
                          name_of_backend);
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -11,7 +11,7 @@
 #include "patches/visibility/opengl_bundles.h"
 #include "patches/visibility/ray_bundles.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 using Sides = std::vector<std::uint32_t>;
@@ -93,4 +93,4 @@ TEST(BundleBackends, AgreeButForTheEdgesOfPatches) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -90,4 +90,4 @@ TEST(ItemBufferLayout, RefusesResolutionsThatCutTheHorizon) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -8,7 +8,7 @@
 #include "patches/rooms.h"
 #include "support/random_pairs.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// Rays in all directions from a place in the room, relative to the patches' centre.
@@ -16,7 +16,7 @@ RayPacket random_rays(const Vec3& origin, RandomPairs& random) {
     RayPacket rays;
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         const auto [u1, u2] = random.next_pair();
-        set_ray(rays, i, origin, sample_sphere(u1, u2).direction);
+        set_ray(rays, i, origin, math::sample_sphere(u1, u2).direction);
     }
     return rays;
 }
@@ -27,7 +27,7 @@ TEST(PatchCaster, HitsAreWhereTheSceneIs) {
     const Scene scene = furnished_room();
     const Patches patches = make_patches(scene, 0.2);
     const PatchCaster caster(patches);
-    const RayCaster exact(scene);
+    const rays::RayCaster exact(scene);
     const Vec3 place = point_in_room().position;
     RandomPairs random(11);
     std::size_t same_object = 0;
@@ -58,4 +58,4 @@ TEST(PatchCaster, HitsAreWhereTheSceneIs) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::patches

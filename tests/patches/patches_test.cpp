@@ -14,7 +14,7 @@
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 Scene scene_of(const Shape& shape) {
@@ -44,10 +44,11 @@ EdgeCounts edges_between_places(const Patches& patches) {
     std::vector<Vec3> places;
     for (const Float3& vertex : patches.vertices) places.emplace_back(vertex);
     EdgeCounts counts;
-    for_each_edge(edge_uses(patches.corners, welded(places)), [&](auto first, auto last) {
-        const bool is_shared = last - first == 2 && first[0].upwards != first[1].upwards;
-        ++(is_shared ? counts.shared_by_two : counts.others);
-    });
+    geometry::for_each_edge(
+        geometry::edge_uses(patches.corners, geometry::welded(places)), [&](auto first, auto last) {
+            const bool is_shared = last - first == 2 && first[0].upwards != first[1].upwards;
+            ++(is_shared ? counts.shared_by_two : counts.others);
+        });
     return counts;
 }
 
@@ -180,7 +181,7 @@ TEST(Patches, KnowTheirObjectAndMaterial) {
     const Mesh two{{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {2, 2, 1}},
                    {{0, 1, 2}, {0, 0, 4}, {0, 2, 3}}};  // the one in the middle has no area
     scene.objects.push_back({"two materials", two, {glossy, glossy, other}});
-    add_area_light(scene, Sphere{{0, 0, 3}, 0.2}, Spectrum::grey(1));
+    add_area_light(scene, Sphere{{0, 0, 3}, 0.2}, Rgb::grey(1));
     const Patches patches = make_patches(scene, 0.1);
     ASSERT_EQ(patches.first_of_object.size(), 4u);
     for (std::uint32_t p = 0; p < patches.count(); ++p) {
@@ -231,4 +232,4 @@ TEST(Patches, OfBodiesByHarmonicsAreClosedAndComeToTheSurface) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::patches

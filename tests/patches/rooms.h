@@ -4,7 +4,7 @@
 #include "patches/visibility/viewpoint.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 inline const Box kRoom{{0, 0, 0}, {5, 4, 3}};
 
@@ -37,4 +37,4 @@ inline Viewpoint point_in_room() {
     return {{2.3, 1.9, 1.6}, Frame::around(normalized(Vec3{0.3, -0.5, 0.8}))};
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

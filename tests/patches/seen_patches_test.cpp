@@ -13,7 +13,7 @@
 #include "patches/backends.h"
 #include "patches/rooms.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -134,12 +134,12 @@ TEST_P(SeenPatches, HaveTheirConfigurationFactor) {
 TEST_P(SeenPatches, TakeAllLightOfASampleOnAnEmitter) {
     Scene scene = furnished_room();
     const auto first_light = static_cast<std::uint32_t>(scene.objects.size());
-    add_area_light(scene, Rectangle{{2, 1, 3}, {0, 0.9, 0}, {0.6, 0, 0}}, Spectrum::grey(1));
-    add_area_light(scene, Rectangle{{5, 4, 2.2}, {0, -0.7, 0}, {0, 0, 0.8}}, Spectrum::grey(1));
-    add_area_light(scene, Box{{2, 3, 1.5}, {2.2, 3.3, 1.6}}, Spectrum::grey(1));
-    add_area_light(scene, Sphere{{1.2, 3, 2}, 0.12}, Spectrum::grey(1));
+    add_area_light(scene, Rectangle{{2, 1, 3}, {0, 0.9, 0}, {0.6, 0, 0}}, Rgb::grey(1));
+    add_area_light(scene, Rectangle{{5, 4, 2.2}, {0, -0.7, 0}, {0, 0, 0.8}}, Rgb::grey(1));
+    add_area_light(scene, Box{{2, 3, 1.5}, {2.2, 3.3, 1.6}}, Rgb::grey(1));
+    add_area_light(scene, Sphere{{1.2, 3, 2}, 0.12}, Rgb::grey(1));
     look_at(scene, 0.4);
-    constexpr std::array<Barycentric, 3> corners{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    constexpr std::array<math::Barycentric, 3> corners{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     for (std::uint32_t p = patches_.first_of_object[first_light]; p < patches_.count(); ++p) {
         const auto sums = seen({BufferShape::hemicube, 32}, viewpoint_on(patches_, p, corners[p % 3]));
         EXPECT_EQ(sums.lost_pixels, 0u) << p;
@@ -182,4 +182,4 @@ INSTANTIATE_TEST_SUITE_P(Both, SeenPatches, testing::Values(BufferBackend::rays,
                          name_of_backend);
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -11,7 +11,7 @@
 #include "support/random_pairs.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// Of which the values at patches are those of a function at their middles.
@@ -26,12 +26,12 @@ struct Field {
         for (std::uint32_t p = 0; p < patches.count(); ++p) of_patches.push_back(function(patches.middle(p)));
         at_vertices = interpolation.at_vertices<double>(of_patches);
     }
-    double at(std::uint32_t patch, const Barycentric& place) const {
+    double at(std::uint32_t patch, const math::Barycentric& place) const {
         return interpolation.at<double>(at_vertices, patch, place);
     }
 };
 
-constexpr std::array<Barycentric, 4> kPlaces{
+constexpr std::array<math::Barycentric, 4> kPlaces{
     {{1, 0, 0}, {0, 1, 0}, {0.2, 0.5, 0.3}, {1. / 3, 1. / 3, 1. / 3}}};
 
 /// The largest error over places of patches; `counts` says where to look.
@@ -40,7 +40,7 @@ double largest_error(const Field& field, const std::function<double(const Vec3&)
     double largest = 0;
     for (std::uint32_t p = 0; p < field.patches.count(); ++p) {
         if (!counts(field.patches.middle(p))) continue;
-        for (const Barycentric& place : kPlaces) {
+        for (const math::Barycentric& place : kPlaces) {
             const double expected = function(field.patches.position(p, place));
             largest = std::max(largest, std::abs(field.at(p, place) - expected));
         }
@@ -127,7 +127,7 @@ TEST(VertexInterpolation, DoesNotLeakAcrossEdgesAndMaterials) {
     };
     const Field box(scene_of(Box{{0, 0, 0}, {1, 1, 1}}), 0.1, face);
     for (std::uint32_t p = 0; p < box.patches.count(); ++p) {
-        for (const Barycentric& place : kPlaces)
+        for (const math::Barycentric& place : kPlaces)
             EXPECT_NEAR(box.at(p, place), face(box.patches.middle(p)), 1e-5);
     }
 
@@ -138,7 +138,7 @@ TEST(VertexInterpolation, DoesNotLeakAcrossEdgesAndMaterials) {
     const auto half = [](const Vec3& p) { return p.x > p.y ? 1.0 : 2.0; };
     const Field materials(scene, 0.1, half);
     for (std::uint32_t p = 0; p < materials.patches.count(); ++p) {
-        for (const Barycentric& place : kPlaces) {
+        for (const math::Barycentric& place : kPlaces) {
             EXPECT_NEAR(materials.at(p, place), half(materials.patches.middle(p)), 1e-5);
         }
     }
@@ -157,7 +157,7 @@ TEST(VertexInterpolation, DoesNotLeakAcrossAFoldThatEnds) {
     for (std::uint32_t p = 0; p < field.patches.count(); ++p) {
         const Vec3 middle = field.patches.middle(p);
         if (middle.z < 0.05) continue;  // the faces that rise, away from where the fold ends
-        for (const Barycentric& place : kPlaces) EXPECT_NEAR(field.at(p, place), side(middle), 1e-5);
+        for (const math::Barycentric& place : kPlaces) EXPECT_NEAR(field.at(p, place), side(middle), 1e-5);
     }
 }
 
@@ -182,14 +182,14 @@ TEST(VertexInterpolation, KnowsRoundFromEdged) {
 TEST(VertexInterpolation, TakesAnythingThatCanBeAveraged) {
     const Patches patches = make_patches(scene_of(Sphere{{0, 0, 0}, 1}), 0.2);
     const VertexInterpolation interpolation(patches);
-    const std::vector<Spectrum> colours(patches.count(), Spectrum{{1, 2, 3}});
+    const std::vector<Rgb> colours(patches.count(), Rgb{{1, 2, 3}});
     const std::vector<Vec3> normals(patches.count(), Vec3{3, 2, 1});
-    const auto colour_at_vertices = interpolation.at_vertices<Spectrum>(colours);
+    const auto colour_at_vertices = interpolation.at_vertices<Rgb>(colours);
     const auto normal_at_vertices = interpolation.at_vertices<Vec3>(normals);
-    const Barycentric place{0.5, 0.2, 0.3};
-    EXPECT_NEAR(interpolation.at<Spectrum>(colour_at_vertices, 7, place).band[1], 2, 1e-6);
+    const math::Barycentric place{0.5, 0.2, 0.3};
+    EXPECT_NEAR(interpolation.at<Rgb>(colour_at_vertices, 7, place).band[1], 2, 1e-6);
     EXPECT_NEAR(interpolation.at<Vec3>(normal_at_vertices, 7, place).x, 3, 1e-6);
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::patches

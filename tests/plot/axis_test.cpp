@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 constexpr auto kLinear = ScaleType::linear;
@@ -143,4 +143,4 @@ TEST(Axis, WritesNumbers) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -5,16 +5,16 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/picture_pixels.h"
 #include "io/sample_picture.h"
 #include "plot/colour_map.h"
+#include "support/picture_pixels.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 /// Grey of 10 cd/m2, with one block of pixels (x from 10 to 19, y from 5 to 14) of `value`.
-Picture with_block(int width, int height, float value) {
-    Picture picture;
+io::Picture with_block(int width, int height, float value) {
+    io::Picture picture;
     picture.width = width;
     picture.height = height;
     for (int y = 0; y < height; ++y) {
@@ -34,7 +34,7 @@ FalseColourOptions zero_to_hundred() {
     return options;
 }
 
-Pixels draw(const Picture& picture, const FalseColourOptions& options) {
+Pixels draw(const io::Picture& picture, const FalseColourOptions& options) {
     const auto path = picture_path(".png");
     draw_false_colour(picture, "Luminance", options, path);
     return read_png(path);
@@ -69,13 +69,13 @@ TEST(FalseColourPicture, AveragesVeryLargePictures) {
 
 TEST(FalseColourPicture, HatchesWhatHasNoValue) {
     const Pixels holes = draw(with_block(250, 100, NAN), zero_to_hundred());
-    EXPECT_GT(find_colour(holes, grey(0.86)).count, 800);
-    EXPECT_GT(find_colour(holes, grey(0.62)).count, 20);
+    EXPECT_GT(find_colour(holes, io::grey(0.86)).count, 800);
+    EXPECT_GT(find_colour(holes, io::grey(0.62)).count, 20);
     const Pixels whole = draw(with_block(250, 100, 50), zero_to_hundred());
-    EXPECT_LT(find_colour(whole, grey(0.86)).count, 100);  // some pixels of the writing
+    EXPECT_LT(find_colour(whole, io::grey(0.86)).count, 100);  // some pixels of the writing
 
-    Picture fisheye = with_block(200, 200, 10);
-    fisheye.camera = sample_camera(Projection::fisheye);
+    io::Picture fisheye = with_block(200, 200, 10);
+    fisheye.camera = io::sample_camera(Projection::fisheye);
     fisheye.camera->resolution = {200, 200};
     const Pixels circle = draw(fisheye, zero_to_hundred());
     const Spot seen = find_value(circle, 0.1);
@@ -92,7 +92,7 @@ TEST(FalseColourPicture, LogarithmicScaleTakesDarkPixelsToItsLowestColour) {
 }
 
 TEST(FalseColourPicture, DrawsIsolinesAndNumbers) {
-    Picture ramp;
+    io::Picture ramp;
     ramp.width = 1000;
     ramp.height = 200;
     for (int i = 0; i < 200'000; ++i) {
@@ -126,7 +126,7 @@ TEST(FalseColourPicture, DrawsIsolinesAndNumbers) {
 
 TEST(FalseColourPicture, EmbedsTheImageInAnSvg) {
     const auto path = picture_path(".svg");
-    draw_false_colour(sample_picture(1280, 720), "Luminance", {}, path);
+    draw_false_colour(io::sample_picture(1280, 720), "Luminance", {}, path);
     const std::string svg = read_text(path);
     EXPECT_NE(svg.find("data:image/png;base64,"), svg.npos);
     EXPECT_NE(svg.find("</svg>"), svg.npos);
@@ -134,12 +134,12 @@ TEST(FalseColourPicture, EmbedsTheImageInAnSvg) {
 }
 
 TEST(FalseColourPicture, DrawsPicturesWithoutAnyValue) {
-    Picture picture = with_block(20, 10, 1);
+    io::Picture picture = with_block(20, 10, 1);
     for (auto& rgb : picture.rgb_cd_m2) rgb = {NAN, NAN, NAN};
     FalseColourOptions options;
     options.isolines = options.numbers = true;
-    EXPECT_GT(find_colour(draw(picture, options), grey(0.86)).count, 1000);
-    EXPECT_NO_THROW(draw(picture_of({{1, 2, 3}}), options));
+    EXPECT_GT(find_colour(draw(picture, options), io::grey(0.86)).count, 1000);
+    EXPECT_NO_THROW(draw(io::picture_of({{1, 2, 3}}), options));
 }
 
 TEST(FalseColourPicture, SaysWhatIsWrong) {
@@ -147,8 +147,8 @@ TEST(FalseColourPicture, SaysWhatIsWrong) {
     EXPECT_THROW(draw_false_colour(with_block(20, 20, 1), "", options, "a.jpg"), InputError);
     options.maximum = -1;
     EXPECT_THROW(draw(with_block(20, 20, 1), options), InputError);
-    EXPECT_THROW(draw(Picture{}, options), std::invalid_argument);
+    EXPECT_THROW(draw(io::Picture{}, options), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::plot

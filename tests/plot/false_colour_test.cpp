@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/picture_pixels.h"
 #include "plot/colour_map.h"
+#include "support/picture_pixels.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 /// 5 x 5 cells at the scale's lower end but one: cell (u, v) has `value`. Drawn on a scale of 0 to 100.
@@ -31,7 +31,7 @@ Pixels draw(const FalseColour& picture, const FalseColourOptions& options) {
     return read_png(path);
 }
 
-Colour colour_at(double fraction) { return ColourMap().at(fraction); }
+io::Colour colour_at(double fraction) { return ColourMap().at(fraction); }
 
 /// The cells' part of the picture, which leaves out the colour bar at the right.
 int cells_end(const Pixels& pixels) { return pixels.width * 87 / 100; }
@@ -73,8 +73,8 @@ TEST(FalseColour, PanelsShareOneScale) {
 
 TEST(FalseColour, HatchesCellsWithoutAValue) {
     const Pixels pixels = draw(with_one_cell(2, 2, NAN), zero_to_hundred());
-    const Spot hatched = find_colour(pixels, grey(0.86), cells_end(pixels));
-    const Spot bars = find_colour(pixels, grey(0.62), cells_end(pixels));
+    const Spot hatched = find_colour(pixels, io::grey(0.86), cells_end(pixels));
+    const Spot bars = find_colour(pixels, io::grey(0.62), cells_end(pixels));
     EXPECT_GT(hatched.count, 1000);
     EXPECT_GT(bars.count, 20);
 }
@@ -165,4 +165,4 @@ TEST(FalseColour, DrawsManyPanelsOfAnyShape) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::plot

@@ -6,7 +6,7 @@
 
 #include "plot/label_placer.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 /// Values at cell centres.
@@ -109,4 +109,4 @@ TEST(LabelPlacer, ReadsAlongTheLineAndNeverUpsideDown) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::plot

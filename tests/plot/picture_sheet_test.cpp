@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "io/picture_pixels.h"
+#include "support/picture_pixels.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 LabelledPicture plain(const std::array<float, 3>& rgb_cd_m2) {
@@ -17,7 +17,7 @@ LabelledPicture plain(const std::array<float, 3>& rgb_cd_m2) {
 
 TEST(PictureSheet, ShowsEveryPixelByOneCurve) {
     const auto path = picture_path(".png");
-    const ToneCurve curve(0.1);
+    const io::ToneCurve curve(0.1);
     const std::array<std::array<float, 3>, 3> colours{{{1, 1, 5}, {4, 1, 1}, {9, 9, 2}}};
     draw_picture_sheet({plain(colours[0]), plain(colours[1]), plain(colours[2])}, 2, curve, path);
     const Pixels pixels = read_png(path);
@@ -33,4 +33,4 @@ TEST(PictureSheet, ShowsEveryPixelByOneCurve) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::plot

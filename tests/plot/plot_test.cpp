@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/picture_pixels.h"
+#include "support/picture_pixels.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 Pixels draw(const Plot& plot) {
@@ -71,10 +71,11 @@ TEST(Plot, InterruptsLinesAtNaN) {
 TEST(Plot, DrawsBandsBetweenTheirEnds) {
     Series series{"", {0, 10}, {5, 5}, {3, 3}, {8, 8}};
     series.line = LineStyle::none;
-    const Colour paper = grey(1);
-    const Colour ink = palette_colour(0);
+    const io::Colour paper = io::grey(1);
+    const io::Colour ink = palette_colour(0);
     const auto mixed = [](double top, double below) { return 0.25 * top + 0.75 * below; };
-    const Colour band{mixed(ink.red, paper.red), mixed(ink.green, paper.green), mixed(ink.blue, paper.blue)};
+    const io::Colour band{mixed(ink.red, paper.red), mixed(ink.green, paper.green),
+                          mixed(ink.blue, paper.blue)};
     const Spot spot = find_colour(draw(plot_of({series})), band);
     // Half of the frame but for the grid lines that shine through.
     EXPECT_NEAR(spot.count / (1240.0 * 620.0), 0.5, 0.02);
@@ -97,14 +98,14 @@ TEST(Plot, BandsDownToZeroFillALogarithmicPanel) {
     series.line = LineStyle::none;
     const PlotAxis axis{"x", ScaleType::logarithmic, 1.0, 10.0};
     const Pixels pixels = draw(plot_of({series}, axis, axis));
-    const Spot white = find_colour(pixels, grey(1));
+    const Spot white = find_colour(pixels, io::grey(1));
     EXPECT_LT(white.count, pixels.width * pixels.height - 0.95 * 1240 * 620);
 }
 
 TEST(Plot, LegendStandsWhereItHidesLeast) {
     // A curve past three corners leaves the lower left.
     const Plot plot = plot_of({{"a name", {0, 5, 9, 9}, {9, 9, 9, 0}}});
-    const Spot frame_of_legend = find_colour(draw(plot), grey(0.8));
+    const Spot frame_of_legend = find_colour(draw(plot), io::grey(0.8));
     ASSERT_GT(frame_of_legend.count, 50);
     EXPECT_LT(frame_of_legend.x, 400);
     EXPECT_GT(frame_of_legend.y, 350);
@@ -149,4 +150,4 @@ TEST(Plot, DrawsPanelsWithoutData) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::plot

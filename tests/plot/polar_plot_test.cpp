@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "io/picture_pixels.h"
+#include "support/picture_pixels.h"
 
-namespace stilb {
+namespace stilb::plot {
 namespace {
 
 Pixels draw(const PolarPlot& plot) {
@@ -64,9 +64,9 @@ TEST(PolarPlot, DrawsBandsBetweenTheirEnds) {
         series.y_high.push_back(10);
     }
     series.line = LineStyle::none;
-    const Colour ink = palette_colour(0);
+    const io::Colour ink = palette_colour(0);
     const auto on_paper = [](double component) { return 0.25 * component + 0.75; };
-    const Colour band{on_paper(ink.red), on_paper(ink.green), on_paper(ink.blue)};
+    const io::Colour band{on_paper(ink.red), on_paper(ink.green), on_paper(ink.blue)};
     const double expected = std::numbers::pi / 2 * kRadius * kRadius * (1 - 0.25);
     // But for the grid that shines through.
     EXPECT_NEAR(find_colour(draw({"", "", {series}}), band).count / expected, 1, 0.06);
@@ -102,4 +102,4 @@ TEST(PolarPlot, SaysWhatIsWrong) {
 TEST(PolarPlot, DrawsNothingButItsFrameWithoutData) { EXPECT_NO_THROW(draw({})); }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::plot

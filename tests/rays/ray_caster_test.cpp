@@ -10,7 +10,7 @@
 #include "support/closed_meshes.h"
 #include "support/harmonic_shapes.h"
 
-namespace stilb {
+namespace stilb::rays {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -105,8 +105,8 @@ class Clutter : public testing::Test {
                        Black{});
         }
         // Turned, mirrored and small.
-        const Transform turned = Transform::rotation(normalized(Vec3{1, 2, 3}), 130);
-        const Transform mirrored{{0, 0.4, 0}, {0.4, 0, 0}, {0, 0, 0.4}, place({1.2, 2.7, 3.1})};
+        const geometry::Transform turned = geometry::Transform::rotation(normalized(Vec3{1, 2, 3}), 130);
+        const geometry::Transform mirrored{{0, 0.4, 0}, {0.4, 0, 0}, {0, 0, 0.4}, place({1.2, 2.7, 3.1})};
         add_object(scene_, transformed(Harmonics(rough_surface(9, 3)), compose(mirrored, turned)), Black{});
     }
     static Vec3 place(const Vec3& p) { return p + Vec3{100, -200, 50}; }
@@ -125,7 +125,7 @@ TEST_F(Clutter, ClosestHitsAreThoseOfDoublePrecision) {
     for (int i = 0; i < kRays; ++i) {
         const Vec3 origin = place(random_point(random));
         const auto [u1, u2] = random.next_pair();
-        const Vec3 direction = sample_sphere(u1, u2).direction;
+        const Vec3 direction = math::sample_sphere(u1, u2).direction;
         const ExactHit exact = exact_closest(scene_, origin, direction);
         const auto hit = caster.closest(origin, direction);
         const bool is_hit = exact.distance < kInfinity;
@@ -217,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, ClosedMeshes,
 TEST(RayCaster, FlatSurfacesDoNotShadowThemselves) {
     // Many triangles in one tilted plane, which rounding makes uneven.
     constexpr std::uint32_t kCells = 60;
-    const Transform tilt = Transform::rotation(normalized(Vec3{1, 2, 3}), 23.4);
+    const geometry::Transform tilt = geometry::Transform::rotation(normalized(Vec3{1, 2, 3}), 23.4);
     for (const double size_m : {1e-3, 8.0, 1e4}) {
         RandomPairs random(15);
         Mesh mesh;
@@ -238,7 +238,8 @@ TEST(RayCaster, FlatSurfacesDoNotShadowThemselves) {
             const auto [x, y] = random.next_pair();
             const Vec3 eye = tilt.point(size_m * Vec3{0.1 + 0.8 * x, 0.1 + 0.8 * y, 0.5});
             const auto [u1, u2] = random.next_pair();
-            const auto hit = caster.closest(eye, tilt.point(-sample_cosine_hemisphere(u1, u2).direction));
+            const auto hit =
+                caster.closest(eye, tilt.point(-math::sample_cosine_hemisphere(u1, u2).direction));
             if (!hit) continue;
             // Lights from far above to one thousandth of the size above the plane.
             const double height = std::pow(10, -3 * random.next());
@@ -258,11 +259,11 @@ TEST(RayCaster, SpheresDoNotShadowThemselves) {
         RandomPairs random(16);
         for (int i = 0; i < 100'000; ++i) {
             const auto [u1, u2] = random.next_pair();
-            const Vec3 up = sample_sphere(u1, u2).direction;
+            const Vec3 up = math::sample_sphere(u1, u2).direction;
             const auto hit = caster.closest(2 * radius * up, -up);
             ASSERT_TRUE(hit);
             const auto [v1, v2] = random.next_pair();
-            const Vec3 towards = Frame::around(up).to_world(sample_cosine_hemisphere(v1, v2).direction);
+            const Vec3 towards = Frame::around(up).to_world(math::sample_cosine_hemisphere(v1, v2).direction);
             if (dot(towards, up) < 0.01) continue;
             ASSERT_FALSE(caster.occluded(hit->lifted, hit->lifted + radius * towards));
         }
@@ -291,4 +292,4 @@ TEST(RayCaster, LosesNoPacketsAlongAxes) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::rays

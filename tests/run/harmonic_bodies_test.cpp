@@ -8,7 +8,7 @@
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 constexpr double kReflectance = 0.6, kIntensity_cd = 800;
@@ -36,7 +36,7 @@ void expect_exact_illuminances(const Ellipsoid& body, int degree) {
     harmonics.center = kCenter;
     Scene scene;
     add_object(scene, harmonics, diffuse(kReflectance));
-    add_point_light(scene, kLight, Spectrum::grey(kIntensity_cd));
+    add_point_light(scene, kLight, Rgb::grey(kIntensity_cd));
 
     Numbers numbers(9);
     Sensor sensor{"luminance", SensorType::luminance, {}};
@@ -49,7 +49,7 @@ void expect_exact_illuminances(const Ellipsoid& body, int degree) {
     RunOptions options;
     options.method = "path";
     options.paths = 64;
-    const RunResult result = run(scene, {&sensor, 1}, options);
+    const RunResult result = measure(scene, {&sensor, 1}, options);
 
     int lit = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -68,4 +68,4 @@ TEST(HarmonicBodies, AreLitAsSpheresAre) { expect_exact_illuminances({{0.7, 0.7,
 TEST(HarmonicBodies, AreLitAsEllipsoidsAre) { expect_exact_illuminances({{1, 1.2, 0.9}}, 30); }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::run

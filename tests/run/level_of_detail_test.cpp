@@ -8,7 +8,7 @@
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 Scene scene_with_head(bool with_levels) {
@@ -18,7 +18,7 @@ Scene scene_with_head(bool with_levels) {
     head.scale = 0.2;
     head.has_levels_of_detail = with_levels;
     add_object(scene, head, diffuse(0.6));
-    add_point_light(scene, {1, -2, 3}, Spectrum::grey(100));
+    add_point_light(scene, {1, -2, 3}, Rgb::grey(100));
     return scene;
 }
 
@@ -86,4 +86,4 @@ TEST(LevelOfDetail, HardlyChangesAPicture) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::run

@@ -8,7 +8,7 @@
 #include "run/run.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 constexpr Vec3 kUp{0, 0, 1};
@@ -17,7 +17,7 @@ constexpr Vec3 kUp{0, 0, 1};
 Scene lamp_in_cube(double reflectance) {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 4, 4}}, diffuse(reflectance));
-    add_point_light(scene, {2, 2, 2}, Spectrum::grey(10'000 / (4 * std::numbers::pi)));
+    add_point_light(scene, {2, 2, 2}, Rgb::grey(10'000 / (4 * std::numbers::pi)));
     return scene;
 }
 
@@ -34,8 +34,8 @@ Scene furnished_room() {
     add_object(scene, Box{{0.4, 2.1, 0}, {1.4, 2.8, 1.2}}, Diffuse{{{0.2, 0.4, 0.7}}});
     add_object(scene, Rectangle{{2, 0.8, 0.7}, {1.2, 0, 0}, {0, 0.8, 0}}, diffuse(0.5));
     add_object(scene, Sphere{{3.3, 2.4, 0.4}, 0.4}, Black{});
-    add_area_light(scene, Rectangle{{0.6, 0.6, 2.7}, {0, 1.6, 0}, {1.6, 0, 0}}, Spectrum::grey(300));
-    add_area_light(scene, Sphere{{3.4, 0.5, 2.2}, 0.06}, Spectrum::grey(10'000));
+    add_area_light(scene, Rectangle{{0.6, 0.6, 2.7}, {0, 1.6, 0}, {1.6, 0, 0}}, Rgb::grey(300));
+    add_area_light(scene, Sphere{{3.4, 0.5, 2.2}, 0.06}, Rgb::grey(10'000));
     add_point_light(scene, {3.2, 2, 2}, {{60, 40, 20}});
     return scene;
 }
@@ -59,8 +59,8 @@ TEST_P(PatchBaseline, LightsACubeAsComputed) {
     const Vec3 middle{2, 2, 0}, corner{0.5, 0.5, 0};
     const std::vector<Sensor> sensors{
         point_sensor({{middle, kUp}, {corner, kUp}}),
-        make_grid_sensor("floor", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {8, 8}}, kUp)};
-    const RunResult result = run(lamp_in_cube(0.8), sensors, options_for(GetParam(), 0.5));
+        sensors::make_grid_sensor("floor", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {8, 8}}, kUp)};
+    const RunResult result = measure(lamp_in_cube(0.8), sensors, options_for(GetParam(), 0.5));
     EXPECT_NEAR(value_of(result, 0) - direct_lx(middle), 430.95, 0.01 * 430.95);
     EXPECT_NEAR(value_of(result, 1) - direct_lx(corner), 403.10, 0.01 * 403.10);
     double direct = 0;
@@ -74,13 +74,13 @@ TEST_P(PatchBaseline, FillsAFurnace) {
     Scene scene;
     for (std::size_t i = 0; i < 6; ++i) {
         add_area_light(scene, wall({{0, 0, 0}, {4, 3, 2}}, i / 2, i % 2 == 0 ? Side::low : Side::high),
-                       Spectrum::grey(10), diffuse(kReflectance));
+                       Rgb::grey(10), diffuse(kReflectance));
     }
     Sensor sights{"sights", SensorType::luminance, {}};
     for (const Vec3& way : {Vec3{0.2, 0.3, -1}, Vec3{1, 0.2, 0.3}, Vec3{-1, -1, 1}}) {
         sights.measurands.emplace_back(LineOfSight{{2, 1.5, 1}, normalized(way)});
     }
-    const RunResult result = run(scene, {&sights, 1}, options_for(GetParam(), 0.4));
+    const RunResult result = measure(scene, {&sights, 1}, options_for(GetParam(), 0.4));
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(value_of(result, j), 10 / (1 - kReflectance), 0.3) << j;
 }
 
@@ -94,14 +94,14 @@ TEST_P(PatchBaseline, ApproachesPathTracingAsPatchesShrink) {
             LineOfSight{{2.1, 1.7, 1.3}, {r * std::cos(turn), r * std::sin(turn), z}});
     }
     const std::vector<Sensor> sensors{
-        make_grid_sensor("desk", {{0.1, 0.1, 0.75}, {3.8, 0, 0}, {0, 1.9, 0}, {8, 4}}, kUp), sights};
+        sensors::make_grid_sensor("desk", {{0.1, 0.1, 0.75}, {3.8, 0, 0}, {0, 1.9, 0}, {8, 4}}, kUp), sights};
     RunOptions path;
     path.method = "path";
     path.paths = 1 << 13;
-    const RunResult exact = run(scene, sensors, path);
+    const RunResult exact = measure(scene, sensors, path);
     double largest = 1;
     for (const double patch_m : {1., 0.3}) {
-        const RunResult result = run(scene, sensors, options_for(GetParam(), patch_m));
+        const RunResult result = measure(scene, sensors, options_for(GetParam(), patch_m));
         double error = 0;
         for (std::size_t s = 0; s < 2; ++s) {
             const double expected = exact.sensors[s].summary.mean.value;
@@ -129,13 +129,13 @@ TEST_P(PatchBaseline, PicturesShowWhatMetersMeasure) {
 
 TEST_P(PatchBaseline, ReportsWhatBecameOfLights) {
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}});
-    const RunResult result = run(furnished_room(), {&floor, 1}, options_for(GetParam(), 1, 1 << 17));
+    const RunResult result = measure(furnished_room(), {&floor, 1}, options_for(GetParam(), 1, 1 << 17));
     ASSERT_TRUE(result.patches);
     EXPECT_GT(result.patches->count, 100U);
     EXPECT_EQ(result.patches->size_m, 1);
     const bool has_first_shot = std::string("radiosity") == GetParam();
     ASSERT_EQ(result.patches->lights.size(), 3U);
-    for (const FirstShotLight& light : result.patches->lights) {
+    for (const estimators::FirstShotLight& light : result.patches->lights) {
         EXPECT_EQ(light.is_replaced, has_first_shot) << light.why;
     }
     EXPECT_EQ(result.patches->bytes_per_patch > 0, has_first_shot);
@@ -145,24 +145,24 @@ TEST_P(PatchBaseline, ThreadsChangeNothing) {
     const Scene scene = furnished_room();
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}, {{3, 1.3, 0.8}, kUp}});
     RunOptions options = options_for(GetParam(), 1.5, 1 << 17);
-    const RunResult once = run(scene, {&floor, 1}, options);
+    const RunResult once = measure(scene, {&floor, 1}, options);
     for (const int threads : {1, 3}) {
         options.threads = threads;
-        const RunResult again = run(scene, {&floor, 1}, options);
+        const RunResult again = measure(scene, {&floor, 1}, options);
         for (std::size_t j = 0; j < 2; ++j) EXPECT_EQ(value_of(again, j), value_of(once, j)) << threads;
     }
 }
 
 TEST_P(PatchBaseline, RefusesWhatIsNotDiffuse) {
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}});
-    for (const Material& material : {Material{Phong{Spectrum::grey(0.3), Spectrum::grey(0.4), 5}},
-                                     Material{Mirror{Spectrum::grey(0.9)}}}) {
+    for (const Material& material :
+         {Material{Phong{Rgb::grey(0.3), Rgb::grey(0.4), 5}}, Material{Mirror{Rgb::grey(0.9)}}}) {
         Scene scene = lamp_in_cube(0.5);
         add_object(scene, Sphere{{1, 1, 1}, 0.3}, material);
         scene.objects.back().name = "vase";
         scene.materials.back().name = "glaze";
         try {
-            run(scene, {&floor, 1}, options_for(GetParam(), 1));
+            measure(scene, {&floor, 1}, options_for(GetParam(), 1));
             FAIL();
         } catch (const InputError& error) {
             const std::string text = error.what();
@@ -178,10 +178,10 @@ INSTANTIATE_TEST_SUITE_P(Methods, PatchBaseline, testing::Values("radiosity", "p
 
 TEST(Radiosity, KnowsNoErrors) {
     const std::vector<Sensor> sensors{
-        make_grid_sensor("floor", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 1}}, kUp)};
+        sensors::make_grid_sensor("floor", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 1}}, kUp)};
     RunOptions options = options_for("radiosity", 1);
     options.error = 0.01;
-    const RunResult result = run(lamp_in_cube(0.5), sensors, options);
+    const RunResult result = measure(lamp_in_cube(0.5), sensors, options);
     EXPECT_TRUE(result.converged);
     ASSERT_EQ(result.warnings.size(), 1U);
     EXPECT_NE(result.warnings[0].find("no statistical error"), std::string::npos) << result.warnings[0];
@@ -199,10 +199,11 @@ TEST(Radiosity, KnowsNoErrors) {
 /// Light of a point that no first shot brings to the patches would be missing without a word.
 TEST(Radiosity, RefusesToLoseLight) {
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}});
-    for (const FirstShotVariant variant : {FirstShotVariant::none, FirstShotVariant::on_the_fly}) {
+    for (const estimators::FirstShotVariant variant :
+         {estimators::FirstShotVariant::none, estimators::FirstShotVariant::on_the_fly}) {
         RunOptions options = options_for("radiosity", 1);
         options.patches.first_shot.variant = variant;
-        EXPECT_THROW(run(lamp_in_cube(0.5), {&floor, 1}, options), InputError) << name_of(variant);
+        EXPECT_THROW(measure(lamp_in_cube(0.5), {&floor, 1}, options), InputError) << name_of(variant);
     }
 }
 
@@ -210,9 +211,9 @@ TEST(Radiosity, RefusesToLoseLight) {
 TEST(Radiosity, CubesSeeWhatHemicubesSee) {
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}});
     RunOptions options = options_for("radiosity", 1);
-    const double expected = value_of(run(furnished_room(), {&floor, 1}, options), 0);
-    options.patches.first_shot.shooting.window = BufferShape::cube;
-    EXPECT_NEAR(value_of(run(furnished_room(), {&floor, 1}, options), 0), expected, 1e-3 * expected);
+    const double expected = value_of(measure(furnished_room(), {&floor, 1}, options), 0);
+    options.patches.first_shot.shooting.window = patches::BufferShape::cube;
+    EXPECT_NEAR(value_of(measure(furnished_room(), {&floor, 1}, options), 0), expected, 1e-3 * expected);
 }
 
 TEST(Radiosity, PicturesHaveNoErrors) {
@@ -225,4 +226,4 @@ TEST(Radiosity, PicturesHaveNoErrors) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::run

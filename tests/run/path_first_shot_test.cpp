@@ -8,7 +8,7 @@
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 constexpr Vec3 kUp{0, 0, 1};
@@ -16,8 +16,8 @@ constexpr Vec3 kUp{0, 0, 1};
 /// Of flat surfaces, diffuse and glossy.
 Scene phong_room() {
     Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Phong{{{0.5, 0.4, 0.3}}, Spectrum::grey(0.2), 8});
-    add_object(scene, Box{{2, 1, 0}, {2.6, 1.6, 1}}, Phong{Spectrum::grey(0.3), Spectrum::grey(0.4), 20});
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Phong{{{0.5, 0.4, 0.3}}, Rgb::grey(0.2), 8});
+    add_object(scene, Box{{2, 1, 0}, {2.6, 1.6, 1}}, Phong{Rgb::grey(0.3), Rgb::grey(0.4), 20});
     add_object(scene, Box{{0.5, 2, 0}, {1.2, 2.6, 0.6}}, diffuse(0.7));
     add_point_light(scene, {3.2, 2.4, 2}, {{100, 80, 60}});
     add_point_light(scene, {0.8, 0.9, 2.2}, {{40, 60, 80}});
@@ -27,15 +27,14 @@ Scene phong_room() {
 /// The same with a light that is not replaced, and with one that shines by a mirror.
 Scene mirror_room() {
     Scene scene = phong_room();
-    add_area_light(scene, Rectangle{{0.2, 0.2, 2.79}, {0, 2.6, 0}, {3.6, 0, 0}}, Spectrum::grey(20),
-                   diffuse(0.5));
-    add_area_light(scene, Rectangle{{3, 0.5, 1.6}, {0, 0.2, 0}, {0.2, 0, 0}}, Spectrum::grey(1000));
-    add_object(scene, Rectangle{{2.5, 0.3, 0.3}, {1, 0, 0}, {0, 0.8, 0}}, Mirror{Spectrum::grey(0.9)});
+    add_area_light(scene, Rectangle{{0.2, 0.2, 2.79}, {0, 2.6, 0}, {3.6, 0, 0}}, Rgb::grey(20), diffuse(0.5));
+    add_area_light(scene, Rectangle{{3, 0.5, 1.6}, {0, 0.2, 0}, {0.2, 0, 0}}, Rgb::grey(1000));
+    add_object(scene, Rectangle{{2.5, 0.3, 0.3}, {1, 0, 0}, {0, 0.8, 0}}, Mirror{Rgb::grey(0.9)});
     return scene;
 }
 
 std::vector<Sensor> sensors() {
-    return {make_grid_sensor("desk", {{0.3, 0.3, 0.8}, {3.4, 0, 0}, {0, 2.4, 0}, {3, 2}}, kUp),
+    return {sensors::make_grid_sensor("desk", {{0.3, 0.3, 0.8}, {3.4, 0, 0}, {0, 2.4, 0}, {3, 2}}, kUp),
             {"sights",
              SensorType::luminance,
              {LineOfSight{{0.3, 0.3, 1.5}, normalized(Vec3{2, 1, -0.8})},
@@ -43,7 +42,7 @@ std::vector<Sensor> sensors() {
               EmergentRay{{3, 2, 0}, kUp, normalized(Vec3{0.3, -0.5, 1})}}}};
 }
 
-RunOptions path_options(std::uint64_t paths, std::optional<FirstShotVariant> variant = {},
+RunOptions path_options(std::uint64_t paths, std::optional<estimators::FirstShotVariant> variant = {},
                         std::optional<double> patch_m = {}) {
     RunOptions options;
     options.method = "path";
@@ -55,18 +54,18 @@ RunOptions path_options(std::uint64_t paths, std::optional<FirstShotVariant> var
 
 void expect_agreement(const Scene& scene, const std::vector<Sensor>& measured, const RunOptions& flattened,
                       std::uint64_t seed) {
-    const RunResult plain = run(scene, measured, path_options(1 << 15));
+    const RunResult plain = measure(scene, measured, path_options(1 << 15));
     RunOptions options = flattened;
     options.seed = seed;
-    const RunResult flat = run(scene, measured, options);
+    const RunResult flat = measure(scene, measured, options);
     std::size_t readings = 0;
     for (const Sensor& sensor : measured) readings += sensor.measurands.size();
-    const double threshold = sidak_threshold_z(0.001, readings);
+    const double threshold = statistics::sidak_threshold_z(0.001, readings);
     for (std::size_t s = 0; s < measured.size(); ++s) {
         for (std::size_t j = 0; j < measured[s].measurands.size(); ++j) {
-            const Estimate &a = plain.sensors[s].readings[j].estimate,
-                           &b = flat.sensors[s].readings[j].estimate;
-            EXPECT_LT(std::abs(equivalent_z(z_score(a, b), 31)), threshold)
+            const statistics::Estimate &a = plain.sensors[s].readings[j].estimate,
+                                       &b = flat.sensors[s].readings[j].estimate;
+            EXPECT_LT(std::abs(statistics::equivalent_z(z_score(a, b), 31)), threshold)
                 << measured[s].name << ' ' << j << ": " << a.value << ", " << b.value;
             EXPECT_LT(b.standard_error, 0.02 * b.value) << measured[s].name << ' ' << j;
         }
@@ -75,18 +74,21 @@ void expect_agreement(const Scene& scene, const std::vector<Sensor>& measured, c
 
 /// Point-like lights are exact on the fly, so patches on flat surfaces leave no bias.
 TEST(PathFirstShot, OnTheFlyIsPathTracing) {
-    expect_agreement(phong_room(), sensors(), path_options(1 << 14, FirstShotVariant::on_the_fly, 1), 2);
+    expect_agreement(phong_room(), sensors(),
+                     path_options(1 << 14, estimators::FirstShotVariant::on_the_fly, 1), 2);
 }
 
 /// Lights that stay, and light that comes by mirrors, are found by paths as ever. At points: a line of sight
 /// sees area lights by the same few points on them in every path.
 TEST(PathFirstShot, LosesNoOtherLight) {
     const std::vector<Sensor> points{sensors().front()};
-    const RunOptions options = path_options(1 << 14, FirstShotVariant::on_the_fly, 1);
+    const RunOptions options = path_options(1 << 14, estimators::FirstShotVariant::on_the_fly, 1);
     expect_agreement(mirror_room(), points, options, 2);
-    const RunResult result = run(mirror_room(), points, path_options(1 << 10, FirstShotVariant::incoming, 1));
+    const RunResult result =
+        measure(mirror_room(), points, path_options(1 << 10, estimators::FirstShotVariant::incoming, 1));
     std::vector<bool> replaced;
-    for (const FirstShotLight& light : result.patches->lights) replaced.push_back(light.is_replaced);
+    for (const estimators::FirstShotLight& light : result.patches->lights)
+        replaced.push_back(light.is_replaced);
     EXPECT_EQ(replaced, (std::vector{true, true, false, true}));
 }
 
@@ -100,13 +102,15 @@ TEST(PathFirstShot, ApproachesPathTracingAsPatchesShrink) {
             LineOfSight{{2.1, 1.9, 1.3}, {r * std::cos(turn), r * std::sin(turn), z}});
     }
     const std::vector<Sensor> measured{
-        make_grid_sensor("desk", {{0.3, 0.3, 0.8}, {3.4, 0, 0}, {0, 2.4, 0}, {6, 4}}, kUp), all_around};
-    const RunResult exact = run(scene, measured, path_options(1 << 13));
-    for (const FirstShotVariant variant :
-         {FirstShotVariant::classical, FirstShotVariant::diffuse, FirstShotVariant::incoming}) {
+        sensors::make_grid_sensor("desk", {{0.3, 0.3, 0.8}, {3.4, 0, 0}, {0, 2.4, 0}, {6, 4}}, kUp),
+        all_around};
+    const RunResult exact = measure(scene, measured, path_options(1 << 13));
+    for (const estimators::FirstShotVariant variant :
+         {estimators::FirstShotVariant::classical, estimators::FirstShotVariant::diffuse,
+          estimators::FirstShotVariant::incoming}) {
         double before = 1;
         for (const double patch_m : {1., 0.15}) {
-            const RunResult result = run(scene, measured, path_options(1 << 12, variant, patch_m));
+            const RunResult result = measure(scene, measured, path_options(1 << 12, variant, patch_m));
             double error = 0;
             for (std::size_t s = 0; s < measured.size(); ++s) {
                 const double expected = exact.sensors[s].summary.mean.value;
@@ -121,8 +125,9 @@ TEST(PathFirstShot, ApproachesPathTracingAsPatchesShrink) {
 
 TEST(PathFirstShot, IsNoneUnlessAskedFor) {
     const Scene scene = phong_room();
-    const RunResult plain = run(scene, sensors(), path_options(1 << 10));
-    const RunResult none = run(scene, sensors(), path_options(1 << 10, FirstShotVariant::none));
+    const RunResult plain = measure(scene, sensors(), path_options(1 << 10));
+    const RunResult none =
+        measure(scene, sensors(), path_options(1 << 10, estimators::FirstShotVariant::none));
     EXPECT_FALSE(plain.patches);
     EXPECT_FALSE(none.patches);
     EXPECT_TRUE(plain.warnings.empty());
@@ -132,19 +137,19 @@ TEST(PathFirstShot, IsNoneUnlessAskedFor) {
 
 TEST(PathFirstShot, SaysThatItIsBiased) {
     const RunResult result =
-        run(phong_room(), sensors(), path_options(1 << 10, FirstShotVariant::incoming, 0.5));
+        measure(phong_room(), sensors(), path_options(1 << 10, estimators::FirstShotVariant::incoming, 0.5));
     ASSERT_EQ(result.warnings.size(), 1U);
     EXPECT_NE(result.warnings[0].find("biased by the patches of 0.5 m"), std::string::npos)
         << result.warnings[0];
-    EXPECT_EQ(result.patches->first_shot, FirstShotVariant::incoming);
+    EXPECT_EQ(result.patches->first_shot, estimators::FirstShotVariant::incoming);
 }
 
 TEST(PathFirstShot, ThreadsChangeNothing) {
-    RunOptions options = path_options(1 << 11, FirstShotVariant::diffuse, 0.5);
-    const RunResult once = run(mirror_room(), sensors(), options);
+    RunOptions options = path_options(1 << 11, estimators::FirstShotVariant::diffuse, 0.5);
+    const RunResult once = measure(mirror_room(), sensors(), options);
     for (const int threads : {1, 3}) {
         options.threads = threads;
-        const RunResult again = run(mirror_room(), sensors(), options);
+        const RunResult again = measure(mirror_room(), sensors(), options);
         for (std::size_t s = 0; s < 2; ++s) {
             for (std::size_t j = 0; j < once.sensors[s].readings.size(); ++j) {
                 EXPECT_EQ(again.sensors[s].readings[j].estimate, once.sensors[s].readings[j].estimate);
@@ -160,7 +165,7 @@ TEST(PathFirstShot, PicturesShowTheLights) {
     RunOptions options = path_options(256);
     const Scene scene = mirror_room();
     const RenderResult plain = render(scene, camera, options);
-    options.patches.first_shot.variant = FirstShotVariant::incoming;
+    options.patches.first_shot.variant = estimators::FirstShotVariant::incoming;
     options.patches.patch_m = 0.15;
     const RenderResult flat = render(scene, camera, options);
     EXPECT_NEAR(flat.mean_luminance_cd_m2, plain.mean_luminance_cd_m2, 0.01 * plain.mean_luminance_cd_m2);
@@ -169,4 +174,4 @@ TEST(PathFirstShot, PicturesShowTheLights) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::run

@@ -9,7 +9,7 @@
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 constexpr Vec3 kUp{0, 0, 1};
@@ -17,8 +17,8 @@ constexpr Vec3 kUp{0, 0, 1};
 /// A cube of 4 m with 10 klm at its centre.
 Scene lamp_in_cube(double reflectance) {
     Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {4, 4, 4}}, Diffuse{Spectrum::grey(reflectance)});
-    add_point_light(scene, {2, 2, 2}, Spectrum::grey(10'000 / (4 * std::numbers::pi)));
+    add_object(scene, Box{{0, 0, 0}, {4, 4, 4}}, Diffuse{Rgb::grey(reflectance)});
+    add_point_light(scene, {2, 2, 2}, Rgb::grey(10'000 / (4 * std::numbers::pi)));
     return scene;
 }
 
@@ -26,10 +26,10 @@ Scene lamp_in_cube(double reflectance) {
 Scene glossy_room() {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Diffuse{{{0.7, 0.6, 0.4}}});
-    add_object(scene, Box{{2, 1, 0}, {2.6, 1.6, 1}}, Phong{Spectrum::grey(0.3), Spectrum::grey(0.4), 5});
-    add_object(scene, Box{{0.5, 2, 0}, {1.2, 2.6, 0.6}}, Rough(Spectrum::grey(0.8), 0.4));
-    add_area_light(scene, Rectangle{{1, 0.6, 2.7}, {0, 1.6, 0}, {2, 0, 0}}, Spectrum::grey(100));
-    add_point_light(scene, {3.2, 2.4, 2}, Spectrum::grey(100));
+    add_object(scene, Box{{2, 1, 0}, {2.6, 1.6, 1}}, Phong{Rgb::grey(0.3), Rgb::grey(0.4), 5});
+    add_object(scene, Box{{0.5, 2, 0}, {1.2, 2.6, 0.6}}, RoughConductor(Rgb::grey(0.8), 0.4));
+    add_area_light(scene, Rectangle{{1, 0.6, 2.7}, {0, 1.6, 0}, {2, 0, 0}}, Rgb::grey(100));
+    add_point_light(scene, {3.2, 2.4, 2}, Rgb::grey(100));
     return scene;
 }
 
@@ -50,13 +50,14 @@ RunOptions bundle_options(double patch_m, std::uint64_t steps) {
     return options;
 }
 
-Estimate measured(const Scene& scene, const Sensor& sensor, const RunOptions& options, std::size_t reading) {
-    return run(scene, {&sensor, 1}, options).sensors[0].readings[reading].estimate;
+statistics::Estimate measured(const Scene& scene, const Sensor& sensor, const RunOptions& options,
+                              std::size_t reading) {
+    return measure(scene, {&sensor, 1}, options).sensors[0].readings[reading].estimate;
 }
 
 TEST(RayBundle, LightsACubeAsComputed) {
     const Sensor floor = points({{{2, 2, 0}, kUp}, {{0.5, 0.5, 0}, kUp}});
-    const RunResult result = run(lamp_in_cube(0.8), {&floor, 1}, bundle_options(0.5, 1 << 12));
+    const RunResult result = measure(lamp_in_cube(0.8), {&floor, 1}, bundle_options(0.5, 1 << 12));
     const auto direct = [](double x, double y) {
         const double squared = 4 + (x - 2) * (x - 2) + (y - 2) * (y - 2);
         return 10'000 / (4 * std::numbers::pi) * 2 / std::pow(squared, 1.5);
@@ -71,18 +72,20 @@ TEST(RayBundle, LightsACubeAsComputed) {
 TEST(RayBundle, AllDirectionsHaveTheSameMean) {
     const Scene scene = lamp_in_cube(0.5);
     const Sensor floor = points({{{1, 1.3, 0}, kUp}});
-    std::vector<Estimate> estimates;
-    for (const BundleDirections directions :
-         {BundleDirections::single, BundleDirections::pair, BundleDirections::frame}) {
+    std::vector<statistics::Estimate> estimates;
+    for (const estimators::BundleDirections directions :
+         {estimators::BundleDirections::single, estimators::BundleDirections::pair,
+          estimators::BundleDirections::frame}) {
         RunOptions options = bundle_options(1, 1 << 13);
         options.patches.directions = directions;
         options.replicates = 32;
         estimates.push_back(measured(scene, floor, options, 0));
         EXPECT_LT(estimates.back().standard_error, 0.005 * estimates.back().value) << name_of(directions);
     }
-    const double threshold = sidak_threshold_z(0.001, 3);
+    const double threshold = statistics::sidak_threshold_z(0.001, 3);
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_LT(std::abs(equivalent_z(z_score(estimates[i], estimates[(i + 1) % 3]), 31)), threshold)
+        EXPECT_LT(std::abs(statistics::equivalent_z(z_score(estimates[i], estimates[(i + 1) % 3]), 31)),
+                  threshold)
             << estimates[i].value << ' ' << estimates[(i + 1) % 3].value;
     }
 }
@@ -95,14 +98,16 @@ TEST(RayBundle, EveryFirstShotApproachesPathTracing) {
     RunOptions path;
     path.method = "path";
     path.error = 0.01;
-    const RunResult exact = run(scene, {&sensor, 1}, path);
-    for (const FirstShotVariant variant : {FirstShotVariant::classical, FirstShotVariant::diffuse,
-                                           FirstShotVariant::incoming, FirstShotVariant::on_the_fly}) {
+    const RunResult exact = measure(scene, {&sensor, 1}, path);
+    for (const estimators::FirstShotVariant variant :
+         {estimators::FirstShotVariant::classical, estimators::FirstShotVariant::diffuse,
+          estimators::FirstShotVariant::incoming, estimators::FirstShotVariant::on_the_fly}) {
         // Shadow rays at every crossing take their time.
-        RunOptions options = bundle_options(0.35, variant == FirstShotVariant::on_the_fly ? 64 : 512);
+        RunOptions options =
+            bundle_options(0.35, variant == estimators::FirstShotVariant::on_the_fly ? 64 : 512);
         options.patches.first_shot.variant = variant;
         const double tolerance = 0.05;
-        const RunResult result = run(scene, {&sensor, 1}, options);
+        const RunResult result = measure(scene, {&sensor, 1}, options);
         for (std::size_t j = 0; j < 3; ++j) {
             const double expected = exact.sensors[0].readings[j].estimate.value;
             EXPECT_NEAR(result.sensors[0].readings[j].estimate.value, expected, tolerance * expected)
@@ -114,17 +119,18 @@ TEST(RayBundle, EveryFirstShotApproachesPathTracing) {
 /// A lamp in a glossy plate: first shot that is not stored draws points on the lamp, which is noise.
 TEST(RayBundle, HighlightsHaveErrorBarsThatHold) {
     Scene scene;
-    add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, Phong{{}, Spectrum::grey(0.6), 200});
-    add_area_light(scene, Sphere{{2, 2.5, 1.5}, 0.2}, Spectrum::grey(1000));
+    add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, Phong{{}, Rgb::grey(0.6), 200});
+    add_area_light(scene, Sphere{{2, 2.5, 1.5}, 0.2}, Rgb::grey(1000));
     Sensor sensor = sights({LineOfSight{{2, 0.5, 1.5}, normalized({0, 1.05, -1.5})}});
     RunOptions reference;
     reference.method = "path";
     reference.error = 0.002;
-    const Estimate exact = measured(scene, sensor, reference, 0);
-    for (const auto variant : {FirstShotVariant::diffuse, FirstShotVariant::on_the_fly}) {
+    const statistics::Estimate exact = measured(scene, sensor, reference, 0);
+    for (const auto variant :
+         {estimators::FirstShotVariant::diffuse, estimators::FirstShotVariant::on_the_fly}) {
         RunOptions options = bundle_options(0.5, 256);
         options.patches.first_shot.variant = variant;
-        const Estimate found = measured(scene, sensor, options, 0);
+        const statistics::Estimate found = measured(scene, sensor, options, 0);
         const double error = std::hypot(found.standard_error, exact.standard_error);
         EXPECT_LT(std::abs(found.value - exact.value), 4.5 * error) << name_of(variant);
         EXPECT_GT(found.standard_error, 0) << name_of(variant);
@@ -136,10 +142,10 @@ TEST(RayBundle, ThreadsAndRepetitionsChangeNothing) {
     const Scene scene = glossy_room();
     const Sensor floor = points({{{1, 1.3, 0}, kUp}, {{3, 1.3, 0.8}, kUp}});
     RunOptions options = bundle_options(0.5, 256);
-    const Estimate once = measured(scene, floor, options, 1);
+    const statistics::Estimate once = measured(scene, floor, options, 1);
     for (const int threads : {1, 2, 3}) {
         options.threads = threads;
-        const Estimate again = measured(scene, floor, options, 1);
+        const statistics::Estimate again = measured(scene, floor, options, 1);
         EXPECT_EQ(again.value, once.value);
         EXPECT_EQ(again.standard_error, once.standard_error);
     }
@@ -161,13 +167,14 @@ TEST(RayBundle, PicturesShowWhatMetersMeasure) {
 
 TEST(RayBundle, ReportsPatchesAndLights) {
     const Sensor floor = points({{{1, 1.3, 0}, kUp}});
-    const RunResult result = run(glossy_room(), {&floor, 1}, bundle_options(0.5, 64));
+    const RunResult result = measure(glossy_room(), {&floor, 1}, bundle_options(0.5, 64));
     ASSERT_TRUE(result.patches);
-    EXPECT_EQ(result.patches->first_shot, FirstShotVariant::incoming);
+    EXPECT_EQ(result.patches->first_shot, estimators::FirstShotVariant::incoming);
     EXPECT_EQ(result.patches->size_m, 0.5);
     EXPECT_TRUE(result.patches->resolution);
     ASSERT_EQ(result.patches->lights.size(), 2U);
-    for (const FirstShotLight& light : result.patches->lights) EXPECT_TRUE(light.is_replaced) << light.why;
+    for (const estimators::FirstShotLight& light : result.patches->lights)
+        EXPECT_TRUE(light.is_replaced) << light.why;
     EXPECT_GT(result.patches->lights[0].samples, 4U);
     EXPECT_EQ(result.patches->lights[1].samples, 1U);
     EXPECT_GT(result.patches->bytes_per_patch, 0);
@@ -178,15 +185,15 @@ TEST(RayBundle, RefusesToLimitReflections) {
     RunOptions options = bundle_options(1, 16);
     options.bounces = 2;
     const Sensor floor = points({{{1, 1.3, 0}, kUp}});
-    EXPECT_THROW(run(lamp_in_cube(0.5), {&floor, 1}, options), InputError);
+    EXPECT_THROW(measure(lamp_in_cube(0.5), {&floor, 1}, options), InputError);
 }
 
 TEST(RayBundle, RefusesPointsThatNothingBringsToPatches) {
     RunOptions options = bundle_options(1, 16);
-    options.patches.first_shot.variant = FirstShotVariant::none;
+    options.patches.first_shot.variant = estimators::FirstShotVariant::none;
     const Sensor floor = points({{{1, 1.3, 0}, kUp}});
-    EXPECT_THROW(run(lamp_in_cube(0.5), {&floor, 1}, options), InputError);
+    EXPECT_THROW(measure(lamp_in_cube(0.5), {&floor, 1}, options), InputError);
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::run

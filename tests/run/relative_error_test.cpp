@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 TEST(RelativeError, IsAShareOrPerCent) {
@@ -19,4 +19,4 @@ TEST(RelativeError, RefusesWhatIsNotBetween0And1) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::run

@@ -9,23 +9,23 @@
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 Scene plain_room() {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Diffuse{{{0.7, 0.6, 0.4}}});
-    add_object(scene, Box{{2, 1, 0}, {2.6, 1.6, 1}}, Phong{Spectrum::grey(0.3), Spectrum::grey(0.3), 20});
-    add_area_light(scene, Rectangle{{1, 0.6, 2.7}, {0, 1.6, 0}, {2, 0, 0}}, Spectrum::grey(100));
+    add_object(scene, Box{{2, 1, 0}, {2.6, 1.6, 1}}, Phong{Rgb::grey(0.3), Rgb::grey(0.3), 20});
+    add_area_light(scene, Rectangle{{1, 0.6, 2.7}, {0, 1.6, 0}, {2, 0, 0}}, Rgb::grey(100));
     return scene;
 }
 
 /// With a mirror, a pane and a ball of glass.
 Scene furnished_room() {
     Scene scene = plain_room();
-    add_object(scene, Rectangle{{0.4, 2.95, 0.5}, {1.2, 0, 0}, {0, 0, 1.2}}, Mirror{Spectrum::grey(0.9)});
-    add_object(scene, Rectangle{{3, 0.2, 0}, {0, 1, 0}, {0, 0, 1.5}}, Pane{1.52, Spectrum::grey(0.96)});
-    add_object(scene, Sphere{{1.2, 1.8, 0.4}, 0.35}, Glass{1.5});
+    add_object(scene, Rectangle{{0.4, 2.95, 0.5}, {1.2, 0, 0}, {0, 0, 1.2}}, Mirror{Rgb::grey(0.9)});
+    add_object(scene, Rectangle{{3, 0.2, 0}, {0, 1, 0}, {0, 0, 1.5}}, ThinDielectric{1.52, Rgb::grey(0.96)});
+    add_object(scene, Sphere{{1.2, 1.8, 0.4}, 0.35}, Dielectric{1.5});
     return scene;
 }
 
@@ -46,28 +46,28 @@ RenderResult render_with(const Scene& scene, const Sensor& sensor, const std::st
 }
 
 /// The picture's mean luminance, from independent renderings.
-Estimate mean_luminance(const Scene& scene, const Sensor& sensor, const std::string& method) {
+statistics::Estimate mean_luminance(const Scene& scene, const Sensor& sensor, const std::string& method) {
     std::vector<double> means;
     for (std::uint64_t seed = 0; seed < 32; ++seed) {
         means.push_back(render_with(scene, sensor, method, seed, 16).mean_luminance_cd_m2);
     }
-    return estimate_from_replicates(means);
+    return statistics::estimate_from_replicates(means);
 }
 
 TEST(Render, MethodsAgree) {
     const Scene scene = furnished_room();
     const Sensor sensor = camera(Projection::perspective, 33, 21);  // blocks of all sizes
-    std::vector<Estimate> estimates;
-    for (const EstimatorEntry& method : unbiased_estimators()) {
+    std::vector<statistics::Estimate> estimates;
+    for (const estimators::EstimatorEntry& method : estimators::unbiased_estimators()) {
         if (!method.measures_luminance()) continue;
         estimates.push_back(mean_luminance(scene, sensor, std::string(method.name)));
         EXPECT_LT(estimates.back().standard_error, 0.003 * estimates.back().value) << method.name;
     }
     ASSERT_EQ(estimates.size(), 3u);
-    const double threshold = sidak_threshold_z(0.001, 3);
+    const double threshold = statistics::sidak_threshold_z(0.001, 3);
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-            EXPECT_LT(std::abs(equivalent_z(z_score(estimates[i], estimates[j]), 31)), threshold)
+            EXPECT_LT(std::abs(statistics::equivalent_z(z_score(estimates[i], estimates[j]), 31)), threshold)
                 << estimates[i].value << ' ' << estimates[j].value;
         }
     }
@@ -78,7 +78,7 @@ TEST(Render, ErrorsOfPixelsAreHonest) {
     const Scene scene = plain_room();
     const Sensor sensor = camera(Projection::perspective, 24, 16);
     const RenderResult exact = render_with(scene, sensor, "auto", 1, 2048);
-    for (const EstimatorEntry& method : unbiased_estimators()) {
+    for (const estimators::EstimatorEntry& method : estimators::unbiased_estimators()) {
         // Where the variance is infinite, in corners, there is no honest error.
         if (!method.measures_luminance() || method.has_heavy_tails) continue;
         const RenderResult picture = render_with(scene, sensor, std::string(method.name), 2, 32);
@@ -86,11 +86,11 @@ TEST(Render, ErrorsOfPixelsAreHonest) {
         for (std::size_t i = 0; i < exact.depth_m.size(); ++i) {
             const auto luminance = [&](const Pixels& pixels) {
                 const auto& [r, g, b] = pixels.rgb_cd_m2[i];
-                return Spectrum{{r, g, b}}.luminance();
+                return Rgb{{r, g, b}}.luminance();
             };
             const double error =
                 std::hypot(picture.pixels.standard_error_cd_m2[i], exact.pixels.standard_error_cd_m2[i]);
-            const double t = student_t_quantile(0.975, 15);
+            const double t = statistics::student_t_quantile(0.975, 15);
             inside += std::abs(luminance(picture.pixels) - luminance(exact.pixels)) <= t * error;
         }
         const double share = inside / static_cast<double>(exact.depth_m.size());
@@ -118,7 +118,7 @@ TEST(Render, DoesNotDependOnThreads) {
 
 TEST(Render, SeesALampAsItIsAndNothingBesideAFisheye) {
     Scene scene;
-    add_area_light(scene, Sphere{{2.5, 2, 0.8}, 0.5}, Spectrum::grey(250), Black{});
+    add_area_light(scene, Sphere{{2.5, 2, 0.8}, 0.5}, Rgb::grey(250), Black{});
     const Sensor sensor = camera(Projection::fisheye, 21, 21);
     const RenderResult picture = render_with(scene, sensor, "auto", 1, 2);
     const std::size_t middle = 21 * 10 + 10;
@@ -137,4 +137,4 @@ TEST(Render, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::run

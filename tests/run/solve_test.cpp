@@ -11,7 +11,7 @@
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 constexpr double kPatch_m = 0.7;
@@ -21,13 +21,13 @@ Scene room(const Material& floor) {
     const Material wall = Diffuse{{{0.7, 0.6, 0.4}}};
     add_walls(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, {wall, wall, wall, wall, floor, wall});
     add_object(scene, Box{{2, 1, 0}, {2.8, 1.8, 1}}, floor);
-    add_area_light(scene, Rectangle{{1, 0.6, 2.7}, {0, 1.6, 0}, {2, 0, 0}}, Spectrum::grey(100));
-    add_point_light(scene, {3.2, 2.4, 2}, Spectrum::grey(100));
+    add_area_light(scene, Rectangle{{1, 0.6, 2.7}, {0, 1.6, 0}, {2, 0, 0}}, Rgb::grey(100));
+    add_point_light(scene, {3.2, 2.4, 2}, Rgb::grey(100));
     return scene;
 }
 
-Scene diffuse_room() { return room(Diffuse{Spectrum::grey(0.3)}); }
-Scene glossy_room() { return room(Phong{Spectrum::grey(0.2), Spectrum::grey(0.4), 20}); }
+Scene diffuse_room() { return room(Diffuse{Rgb::grey(0.3)}); }
+Scene glossy_room() { return room(Phong{Rgb::grey(0.2), Rgb::grey(0.4), 20}); }
 
 Sensor camera() {
     Sensor sensor{"camera", SensorType::camera, {}};
@@ -46,7 +46,7 @@ RunOptions options_of(std::uint64_t steps, std::uint64_t seed = 1) {
 
 double luminance(const RenderResult& picture, std::size_t pixel) {
     const auto& [r, g, b] = picture.pixels.rgb_cd_m2[pixel];
-    return Spectrum{{r, g, b}}.luminance();
+    return Rgb{{r, g, b}}.luminance();
 }
 
 RenderResult picture_of_solution(const Scene& scene, std::uint64_t steps, std::uint64_t seed) {
@@ -57,16 +57,17 @@ RenderResult picture_of_solution(const Scene& scene, std::uint64_t steps, std::u
 TEST(Solve, AFurnaceIsExact) {
     Scene scene;
     constexpr double emitted_cd_m2 = 10, reflectance = 0.5;
-    add_area_light(scene, inward({{0, 0, 0}, {2, 2, 2}}), Spectrum::grey(emitted_cd_m2),
-                   Diffuse{Spectrum::grey(reflectance)});
+    add_area_light(scene, inward({{0, 0, 0}, {2, 2, 2}}), Rgb::grey(emitted_cd_m2),
+                   Diffuse{Rgb::grey(reflectance)});
     RunOptions options = options_of(4096);
-    options.patches.first_shot.variant = FirstShotVariant::none;
-    const PatchSolution solution = solve(scene, options).solution;
+    options.patches.first_shot.variant = estimators::FirstShotVariant::none;
+    const estimators::PatchSolution solution = solve(scene, options).solution;
     EXPECT_EQ(solution.lit_sides.size(), solution.patches.count()) << "backs receive nothing";
     const double expected = std::sqrt(std::numbers::pi) * emitted_cd_m2 / (1 - reflectance);
     double mean = 0;
     for (const auto& terms : solution.replicates) {
-        for (const Rgb& term : terms) mean += double{term[0]} / static_cast<double>(terms.size());
+        for (const estimators::FloatRgb& term : terms)
+            mean += double{term[0]} / static_cast<double>(terms.size());
     }
     mean /= static_cast<double>(solution.replicates.size());
     EXPECT_NEAR(mean, expected, 0.005 * expected);
@@ -79,10 +80,11 @@ TEST(Solve, PicturesAreThoseOfRayBundle) {
         solved.push_back(picture_of_solution(scene, 384, seed).mean_luminance_cd_m2);
         direct.push_back(render(scene, camera(), options_of(8, seed + 100)).mean_luminance_cd_m2);
     }
-    const Estimate a = estimate_from_replicates(solved), b = estimate_from_replicates(direct);
+    const statistics::Estimate a = statistics::estimate_from_replicates(solved),
+                               b = statistics::estimate_from_replicates(direct);
     EXPECT_LT(a.standard_error, 0.005 * a.value);
     EXPECT_LT(b.standard_error, 0.005 * b.value);
-    EXPECT_LT(std::abs(equivalent_z(z_score(a, b), 11)), sidak_threshold_z(0.001, 1))
+    EXPECT_LT(std::abs(statistics::equivalent_z(z_score(a, b), 11)), statistics::sidak_threshold_z(0.001, 1))
         << a.value << ' ' << b.value;
 }
 
@@ -116,7 +118,7 @@ TEST(Solve, ErrorsOfPixelsAreHonest) {
             const double error = std::hypot(pictures[p].pixels.standard_error_cd_m2[i],
                                             pictures[p + 1].pixels.standard_error_cd_m2[i]);
             const double difference = luminance(pictures[p], i) - luminance(pictures[p + 1], i);
-            inside += std::abs(difference) <= student_t_quantile(0.975, 14) * error;
+            inside += std::abs(difference) <= statistics::student_t_quantile(0.975, 14) * error;
             ++all;
         }
     }
@@ -126,7 +128,7 @@ TEST(Solve, ErrorsOfPixelsAreHonest) {
 
 TEST(Solve, DarknessIsSolved) {
     Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {2, 2, 2}}, Diffuse{Spectrum::grey(0.5)});
+    add_object(scene, Box{{0, 0, 0}, {2, 2, 2}}, Diffuse{Rgb::grey(0.5)});
     const SolveResult result = solve(scene, options_of(8));
     EXPECT_TRUE(result.solution.lit_sides.empty());
     EXPECT_EQ(result.attained_error, 0);
@@ -162,8 +164,8 @@ TEST(Solve, RefusesWhatItCannotStore) {
     options.bounces = 2;
     EXPECT_THROW(solve(scene, options), InputError);
     options.bounces.reset();
-    for (const auto variant :
-         {FirstShotVariant::classical, FirstShotVariant::diffuse, FirstShotVariant::on_the_fly}) {
+    for (const auto variant : {estimators::FirstShotVariant::classical, estimators::FirstShotVariant::diffuse,
+                               estimators::FirstShotVariant::on_the_fly}) {
         options.patches.first_shot.variant = variant;
         EXPECT_THROW(solve(scene, options), InputError) << name_of(variant);
     }
@@ -172,33 +174,36 @@ TEST(Solve, RefusesWhatItCannotStore) {
 /// Parts that do not belong together, as a forged file may have them.
 TEST(Solve, PicturesOfForeignPartsAreRefused) {
     const Scene scene = glossy_room();
-    const PatchSolution good = solve(scene, options_of(8)).solution;
+    const estimators::PatchSolution good = solve(scene, options_of(8)).solution;
     const auto refused = [&](auto change) {
-        PatchSolution bad = good;
+        estimators::PatchSolution bad = good;
         change(bad);
         EXPECT_THROW(render_solution(scene, camera(), std::move(bad)), InputError);
     };
-    refused([](PatchSolution& s) {
+    refused([](estimators::PatchSolution& s) {
         s.patches.corners[3][1] = static_cast<std::uint32_t>(s.patches.vertices.size());
     });
-    refused([](PatchSolution& s) { s.patches.materials[2] = MaterialId{99}; });
-    refused([](PatchSolution& s) { s.patches.areas_m2.pop_back(); });
-    refused([](PatchSolution& s) { s.patches.areas_m2[0] = NAN; });
-    refused([](PatchSolution& s) { s.patches.first_of_object.pop_back(); });
-    refused([](PatchSolution& s) { s.patches.vertices[0].x = INFINITY; });
-    refused([](PatchSolution& s) { s.degree = 5; });
-    refused([](PatchSolution& s) { s.degree = -1; });
-    refused([](PatchSolution& s) { std::swap(s.lit_sides[0], s.lit_sides[1]); });
-    refused([](PatchSolution& s) { s.lit_sides.back() = static_cast<std::uint32_t>(2 * s.patches.count()); });
-    refused([](PatchSolution& s) { s.replicates[1].pop_back(); });
-    refused([](PatchSolution& s) { s.replicates[1][0][2] = NAN; });
-    refused([](PatchSolution& s) { s.replicates.resize(1); });
-    refused([](PatchSolution& s) {
-        std::vector<FirstShotFactors::Factor> factors(s.factors->all().begin(), s.factors->all().end());
+    refused([](estimators::PatchSolution& s) { s.patches.materials[2] = MaterialId{99}; });
+    refused([](estimators::PatchSolution& s) { s.patches.areas_m2.pop_back(); });
+    refused([](estimators::PatchSolution& s) { s.patches.areas_m2[0] = NAN; });
+    refused([](estimators::PatchSolution& s) { s.patches.first_of_object.pop_back(); });
+    refused([](estimators::PatchSolution& s) { s.patches.vertices[0].x = INFINITY; });
+    refused([](estimators::PatchSolution& s) { s.degree = 5; });
+    refused([](estimators::PatchSolution& s) { s.degree = -1; });
+    refused([](estimators::PatchSolution& s) { std::swap(s.lit_sides[0], s.lit_sides[1]); });
+    refused([](estimators::PatchSolution& s) {
+        s.lit_sides.back() = static_cast<std::uint32_t>(2 * s.patches.count());
+    });
+    refused([](estimators::PatchSolution& s) { s.replicates[1].pop_back(); });
+    refused([](estimators::PatchSolution& s) { s.replicates[1][0][2] = NAN; });
+    refused([](estimators::PatchSolution& s) { s.replicates.resize(1); });
+    refused([](estimators::PatchSolution& s) {
+        std::vector<estimators::FirstShotFactors::Factor> factors(s.factors->all().begin(),
+                                                                  s.factors->all().end());
         factors[0].sample = 1000;
         s.factors.emplace(std::vector(s.factors->rows().begin(), s.factors->rows().end()), factors);
     });
-    refused([](PatchSolution& s) {
+    refused([](estimators::PatchSolution& s) {
         std::vector rows(s.factors->rows().begin(), s.factors->rows().end());
         rows[1] = rows.back() + 1;
         s.factors.emplace(rows, std::vector(s.factors->all().begin(), s.factors->all().end()));
@@ -207,4 +212,4 @@ TEST(Solve, PicturesOfForeignPartsAreRefused) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::run

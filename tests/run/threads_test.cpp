@@ -4,25 +4,25 @@
 #include "run/run.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::run {
 namespace {
 
 class Threads : public testing::TestWithParam<const char*> {};
 
 TEST_P(Threads, ChangeNoBit) {
     Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Phong{Spectrum::grey(0.4), Spectrum::grey(0.3), 10});
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Phong{Rgb::grey(0.4), Rgb::grey(0.3), 10});
     add_area_light(scene, Sphere{{2, 1, 2}, 0.2}, {{100, 200, 300}});
     add_point_light(scene, {1, 1, 1}, {{10, 20, 30}});
     const std::vector<Sensor> sensors{
-        make_grid_sensor("plane", {{0.1, 0.1, 0.8}, {3.8, 0, 0}, {0, 2.8, 0}, {7, 5}}, {0, 0, 1}),
+        sensors::make_grid_sensor("plane", {{0.1, 0.1, 0.8}, {3.8, 0, 0}, {0, 2.8, 0}, {7, 5}}, {0, 0, 1}),
         point_sensor({{{0.01, 0.02, 0.03}, {1, 0, 0}}})};
     const auto measure = [&](int threads) {
         RunOptions options;
         options.method = GetParam();
         options.paths = 2048;
         options.threads = threads;
-        return run(scene, sensors, options);
+        return run::measure(scene, sensors, options);
     };
     const RunResult one = measure(1);
     for (const int threads : {1, 2, 3}) {
@@ -46,4 +46,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, Threads, testing::Values("auto", "local", "pat
                          [](const auto& method) { return std::string(method.param); });
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::run

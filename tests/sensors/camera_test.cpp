@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace stilb {
+namespace stilb::sensors {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -184,4 +184,4 @@ TEST(Panorama, ShowsNothingBeyondThePoles) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::sensors

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace stilb {
+namespace stilb::sensors {
 namespace {
 
 Sensor goniometer(const Vec3& normal, std::optional<double> plane_deg, double step_deg) {
@@ -86,4 +86,4 @@ TEST(Goniometer, CountsItsDirectionsBeforehand) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::sensors

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace stilb {
+namespace stilb::statistics {
 namespace {
 
 constexpr int kRuns = 2000;
@@ -187,4 +187,4 @@ TEST(GridSummary, OneReadingIsItsOwnMinimumAndMaximum) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::statistics

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace stilb {
+namespace stilb::statistics {
 namespace {
 
 TEST(HeavyTail, ComparesTheLargestContributionWithItsAllowedShare) {
@@ -42,4 +42,4 @@ TEST(HeavyTail, TellsInfiniteVarianceFromFinite) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::statistics

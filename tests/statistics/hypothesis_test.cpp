@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace stilb {
+namespace stilb::statistics {
 namespace {
 
 TEST(ZScore, IsTheDifferenceInStandardErrors) {
@@ -132,4 +132,4 @@ TEST(UniformityP, NoticesASlightBias) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::statistics

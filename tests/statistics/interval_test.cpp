@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace stilb {
+namespace stilb::statistics {
 namespace {
 
 // Printed tables of Student's t.
@@ -75,4 +75,4 @@ TEST(RelativeHalfWidth, CountsExactDarknessAsKnown) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::statistics

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stilb {
+namespace stilb::statistics {
 namespace {
 
 RunningMoments moments_of(std::initializer_list<double> values) {
@@ -49,4 +49,4 @@ TEST(RunningMoments, MergesWithEmptyStreams) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::statistics

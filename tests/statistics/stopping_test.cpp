@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace stilb {
+namespace stilb::statistics {
 namespace {
 
 std::vector<Estimate> readings_with_half_widths(std::initializer_list<double> half_widths) {
@@ -111,4 +111,4 @@ TEST(Stopping, IntervalsHoldThoughTheRunStopsWhereTheyAreNarrow) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::statistics

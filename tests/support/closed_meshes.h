@@ -37,8 +37,8 @@ inline ClosedMesh rough_sphere(double size_m) {
 /// Turned by odd angles, and moved a thousand times its size away.
 inline ClosedMesh distant_box(double size_m) {
     ClosedMesh box = plain_box(size_m);
-    Transform place =
-        compose(Transform::rotation(normalized(Vec3{1, 2, 3}), 37.3), Transform::rotation({0, 1, 0}, 11.7));
+    geometry::Transform place = compose(geometry::Transform::rotation(normalized(Vec3{1, 2, 3}), 37.3),
+                                        geometry::Transform::rotation({0, 1, 0}, 11.7));
     place.translation = size_m * Vec3{1000, -700, 300};
     for (Vec3& vertex : box.mesh.vertices) vertex = place.point(vertex);
     return {box.mesh, place.point(box.inside)};
@@ -70,22 +70,22 @@ inline constexpr std::array kClosedMeshes{
 inline std::uint64_t lost_rays(const ClosedMesh& closed, std::uint64_t rays, std::uint64_t seed) {
     Scene scene;
     add_object(scene, closed.mesh, diffuse(0.5));
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     RandomPairs random(seed);
     const auto [first_u1, first_u2] = random.next_pair();
     Vec3 origin = closed.inside;
-    Vec3 direction = sample_sphere(first_u1, first_u2).direction;
+    Vec3 direction = math::sample_sphere(first_u1, first_u2).direction;
     std::uint64_t lost = 0;
     for (std::uint64_t i = 0; i < rays; ++i) {
         const auto hit = caster.closest(origin, direction);
         const auto [u1, u2] = random.next_pair();
         if (hit) {
             origin = hit->lifted;
-            direction = Frame::around(hit->normal).to_world(sample_cosine_hemisphere(u1, u2).direction);
+            direction = Frame::around(hit->normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
         } else {
             ++lost;
             origin = closed.inside;
-            direction = sample_sphere(u1, u2).direction;
+            direction = math::sample_sphere(u1, u2).direction;
         }
     }
     return lost;

@@ -88,7 +88,7 @@ class DirectionGrid {
             const auto cell = direction ? cell_of(*direction) : std::nullopt;
             ++observed[cell.value_or(cells())];
         }
-        return chi2_test(observed, expected).p_value;
+        return statistics::chi2_test(observed, expected).p_value;
     }
 
   private:

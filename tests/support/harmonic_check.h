@@ -29,9 +29,9 @@ struct Tally {
 };
 
 /// `allowed`: how far from the surface, and how deep in it without being found.
-inline Tally judge(const HarmonicSurface& surface, const TestRay& ray, const ReferenceRay& reference,
-                   const std::vector<ReferenceRay::Crossing>& crossings, std::optional<double> found,
-                   double allowed) {
+inline Tally judge(const geometry::HarmonicSurface& surface, const TestRay& ray,
+                   const ReferenceRay& reference, const std::vector<ReferenceRay::Crossing>& crossings,
+                   std::optional<double> found, double allowed) {
     // Depths are radial: along the normal they are less by this.
     const auto slant = [&](double distance) {
         const Vec3 outwards = normalized(ray.origin + distance * ray.direction);
@@ -72,10 +72,11 @@ struct VerdictTally {
 
 struct Tallies {
     Tally roots, cells, march;
-    VerdictTally verdicts;
+    VerdictTally classifications;
 
     Tallies& operator+=(const Tallies& other) {
-        roots += other.roots, cells += other.cells, march += other.march, verdicts += other.verdicts;
+        roots += other.roots, cells += other.cells, march += other.march,
+            classifications += other.classifications;
         return *this;
     }
 };
@@ -83,16 +84,16 @@ struct Tallies {
 /// A surface with all that rays need. Immutable: threads share it.
 class CheckedSurface {
   public:
-    explicit CheckedSurface(HarmonicSurface surface)
+    explicit CheckedSurface(geometry::HarmonicSurface surface)
         : surface_(std::move(surface)), cells_(surface_), tree_(boxes_of(cells_)) {}
 
-    const HarmonicCells& cells() const { return cells_; }
+    const geometry::HarmonicCells& cells() const { return cells_; }
 
     /// `marched_every`: of so many rays one is marched, too.
     Tallies check(RayKind kind, std::uint64_t rays, std::uint64_t marched_every, std::uint64_t seed) const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        const double step = kMarchedShare * surface_.greatest_radius();
-        const auto distance_of = [](const std::optional<HarmonicCrossing>& crossing) {
+        const double step = geometry::kMarchedShare * surface_.greatest_radius();
+        const auto distance_of = [](const std::optional<geometry::HarmonicCrossing>& crossing) {
             return crossing ? std::optional(crossing->distance) : std::nullopt;
         };
         Numbers numbers(seed);
@@ -112,7 +113,7 @@ class CheckedSurface {
                     return cells_.crossing(cell, origin, direction, start, end);
                 });
             sum.cells += judged(by_cells, kAllowedOfCells);
-            sum.verdicts += compare_verdicts(ray);
+            sum.classifications += compare_verdicts(ray);
             if (n % marched_every != 0) continue;
             const auto by_march = march_crossing(surface_, origin, direction, 0, infinity, step);
             sum.march += judged(distance_of(by_march), kAllowedOfMarch);
@@ -132,11 +133,11 @@ class CheckedSurface {
         std::uint64_t met = 0;
         bool is_crossed = false;
         const auto look_at = [&](std::size_t cell, double start, double) {
-            const Verdict verdict = cells_.verdicts(cell, rays, own)[0];
+            const Classification classification = cells_.classifications(cell, rays, own)[0];
             const bool is_here = cells_.crossing(cell, origin, direction, start, infinity) < infinity;
-            ++(verdict == Verdict::unclear ? tally.unclear : tally.told);
-            if (verdict == Verdict::misses && is_here) ++tally.wrong;
-            if (verdict == Verdict::meets) ++met;
+            ++(classification == Classification::unclear ? tally.unclear : tally.told);
+            if (classification == Classification::misses && is_here) ++tally.wrong;
+            if (classification == Classification::meets) ++met;
             is_crossed = is_crossed || is_here;
             return Bounds::kInfinity;  // so that all cells are looked at
         };
@@ -145,14 +146,14 @@ class CheckedSurface {
         return tally;
     }
 
-    static std::vector<Bounds> boxes_of(const HarmonicCells& cells) {
+    static std::vector<Bounds> boxes_of(const geometry::HarmonicCells& cells) {
         std::vector<Bounds> boxes;
         for (std::size_t cell = 0; cell < cells.count(); ++cell) boxes.push_back(cells.bounds_of(cell));
         return boxes;
     }
 
-    HarmonicSurface surface_;
-    HarmonicCells cells_;
+    geometry::HarmonicSurface surface_;
+    geometry::HarmonicCells cells_;
     BoxTree tree_;
 };
 

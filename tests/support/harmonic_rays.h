@@ -26,11 +26,12 @@ inline double tiny(Numbers& numbers, double low, double high) {
 }
 
 /// Through a point, from outside.
-inline TestRay ray_through(const HarmonicSurface& surface, const Vec3& point, const Vec3& direction) {
+inline TestRay ray_through(const geometry::HarmonicSurface& surface, const Vec3& point,
+                           const Vec3& direction) {
     return {point - 3 * surface.greatest_radius() * direction, direction};
 }
 
-inline TestRay random_ray(const HarmonicSurface& surface, RayKind kind, Numbers& numbers) {
+inline TestRay random_ray(const geometry::HarmonicSurface& surface, RayKind kind, Numbers& numbers) {
     const auto point = [&](double share) {
         const Vec3 direction = numbers.direction();
         return share * surface.radius().at(direction) * direction;

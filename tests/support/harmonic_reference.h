@@ -18,7 +18,7 @@ namespace stilb {
 
 class ReferenceRay {
   public:
-    ReferenceRay(const HarmonicSurface& surface, const Vec3& origin, const Vec3& direction)
+    ReferenceRay(const geometry::HarmonicSurface& surface, const Vec3& origin, const Vec3& direction)
         : greatest_(surface.greatest_radius()), closest_(-dot(origin, direction)) {
         // Across the direction in spite of rounding.
         const Frame frame = Frame::around(direction);

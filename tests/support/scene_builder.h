@@ -17,7 +17,7 @@
 
 namespace stilb {
 
-inline Material diffuse(double reflectance) { return Diffuse{Spectrum::grey(reflectance)}; }
+inline Material diffuse(double reflectance) { return Diffuse{Rgb::grey(reflectance)}; }
 
 inline MaterialId add_material(Scene& scene, const Material& material) {
     scene.materials.push_back({std::to_string(scene.materials.size()), material});
@@ -29,23 +29,23 @@ inline ObjectId add_object(Scene& scene, const Shape& shape, const Material& mat
     return ObjectId{static_cast<std::uint32_t>(scene.objects.size() - 1)};
 }
 
-inline void add_point_light(Scene& scene, const Vec3& position, const Spectrum& intensity_cd) {
+inline void add_point_light(Scene& scene, const Vec3& position, const Rgb& intensity_cd) {
     scene.lights.push_back({std::to_string(scene.lights.size()), PointLight{position, intensity_cd}});
 }
 
-inline void add_area_light(Scene& scene, const Shape& shape, const Spectrum& luminance_cd_m2,
+inline void add_area_light(Scene& scene, const Shape& shape, const Rgb& luminance_cd_m2,
                            const Material& material = Black{}) {
     const ObjectId object = add_object(scene, shape, material);
     scene.lights.push_back({std::to_string(scene.lights.size()), AreaLight{object, luminance_cd_m2}});
 }
 
 inline void add_luminaire(Scene& scene, const Vec3& position, const PhotometricSolid& solid,
-                          const Vec3& unit_aim, double spin_deg, const Spectrum& factor) {
-    const LuminaireFrame frame = aim_luminaire(unit_aim, spin_deg);
+                          const Vec3& unit_aim, double spin_deg, const Rgb& factor) {
+    const lights::LuminaireFrame frame = lights::aim_luminaire(unit_aim, spin_deg);
     const SolidId id{static_cast<std::uint32_t>(scene.solids.size())};
     scene.solids.push_back({.file = "solid", .luminaire = "", .solid = solid});
     scene.lights.push_back({std::to_string(scene.lights.size()),
-                            PhotometryLight{position, id, frame.c0, frame.c90, frame.nadir, factor}});
+                            Luminaire{position, id, frame.c0, frame.c90, frame.nadir, factor}});
 }
 
 /// A box that is seen from inside: fronts inwards.
@@ -75,7 +75,7 @@ inline void add_walls(Scene& scene, const Box& room, const std::array<Material, 
 
 /// Twenty triangles, fronts outside; each divided into four `subdivisions` times, vertices on the sphere.
 inline Mesh icosphere(const Sphere& sphere, int subdivisions) {
-    Mesh mesh = inscribed_icosahedron({{}, 1});
+    Mesh mesh = geometry::inscribed_icosahedron({{}, 1});
     for (int level = 0; level < subdivisions; ++level) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_of;
         const auto middle = [&](std::uint32_t a, std::uint32_t b) {

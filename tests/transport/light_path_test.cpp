@@ -9,7 +9,7 @@
 #include "statistics/interval.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::transport {
 namespace {
 
 constexpr Box kRoom{{0, 0, 0}, {4, 3, 2.8}};
@@ -18,37 +18,37 @@ constexpr std::uint64_t kChains = 1 << 13;
 constexpr int kReplicates = 32;
 
 /// Flux [lm] that all reflections together send out: nodes' flux times albedo, from replicates.
-Estimate reflected_flux(const Scene& scene, int max_nodes, const Spectrum& reflectance) {
-    const RayCaster caster(scene);
+statistics::Estimate reflected_flux(const Scene& scene, int max_nodes, const Rgb& reflectance) {
+    const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     std::vector<double> means;
     for (int r = 0; r < kReplicates; ++r) {
-        const RandomKey key = RandomKey{3}.derived(static_cast<std::uint64_t>(r));
-        std::vector<ChainNode> nodes;
+        const math::RandomKey key = math::RandomKey{3}.derived(static_cast<std::uint64_t>(r));
+        std::vector<LightVertex> nodes;
         for (std::uint64_t i = 0; i < kChains; ++i) {
-            walk_light_chain(scene, caster, lights, max_nodes, SampleStream(key, i), nodes);
+            trace_light_path(scene, caster, lights, max_nodes, math::SampleStream(key, i), nodes);
         }
-        Spectrum sum;
-        for (const ChainNode& node : nodes) sum += node.flux_lm * reflectance;
+        Rgb sum;
+        for (const LightVertex& node : nodes) sum += node.flux_lm * reflectance;
         means.push_back(sum.luminance() / static_cast<double>(kChains));
     }
-    return estimate_from_replicates(means);
+    return statistics::estimate_from_replicates(means);
 }
 
 TEST(LightChain, NodesOfAClosedBoxReflectTheGeometricSeries) {
-    const Spectrum rho{{0.8, 0.5, 0.3}}, intensity{{100, 60, 30}};
+    const Rgb rho{{0.8, 0.5, 0.3}}, intensity{{100, 60, 30}};
     Scene scene;
     add_object(scene, kRoom, Diffuse{rho});
     add_point_light(scene, {1, 1, 1}, intensity);
-    const Spectrum flux = flux_lm(scene, scene.lights[0]);
-    Spectrum sum, power = Spectrum::grey(1);
+    const Rgb flux = flux_lm(scene, scene.lights[0]);
+    Rgb sum, power = Rgb::grey(1);
     for (const int max_nodes : {1, 2, 3}) {
         power *= rho;
         sum += flux * power;
         EXPECT_LT(std::abs(z_score(reflected_flux(scene, max_nodes, rho), sum.luminance())), 4) << max_nodes;
     }
-    const Spectrum all{{rho[0] / (1 - rho[0]), rho[1] / (1 - rho[1]), rho[2] / (1 - rho[2])}};
-    const Estimate measured = reflected_flux(scene, kUnlimited, rho);
+    const Rgb all{{rho[0] / (1 - rho[0]), rho[1] / (1 - rho[1]), rho[2] / (1 - rho[2])}};
+    const statistics::Estimate measured = reflected_flux(scene, kUnlimited, rho);
     EXPECT_LT(std::abs(z_score(measured, (flux * all).luminance())), 4);
     EXPECT_LT(measured.standard_error / measured.value, 0.003);
 }
@@ -56,26 +56,25 @@ TEST(LightChain, NodesOfAClosedBoxReflectTheGeometricSeries) {
 TEST(LightChain, NothingIsReflectedByBlackOrWithoutReflections) {
     Scene scene;
     add_object(scene, kRoom, Black{});
-    add_point_light(scene, {1, 1, 1}, Spectrum::grey(100));
-    EXPECT_EQ(reflected_flux(scene, kUnlimited, Spectrum::grey(1)).value, 0);
+    add_point_light(scene, {1, 1, 1}, Rgb::grey(100));
+    EXPECT_EQ(reflected_flux(scene, kUnlimited, Rgb::grey(1)).value, 0);
     scene.materials[0].material = diffuse(0.9);
-    EXPECT_EQ(reflected_flux(scene, 0, Spectrum::grey(1)).value, 0);
+    EXPECT_EQ(reflected_flux(scene, 0, Rgb::grey(1)).value, 0);
 }
 
 TEST(LightChain, MirrorsHaveNoNodes) {
     Scene scene;
-    add_walls(
-        scene, kRoom,
-        {Mirror{Spectrum::grey(0.9)}, diffuse(0.7), diffuse(0.7), diffuse(0.7), diffuse(0.7), diffuse(0.7)});
-    add_point_light(scene, {1, 1, 1}, Spectrum::grey(100));
-    const RayCaster caster(scene);
+    add_walls(scene, kRoom,
+              {Mirror{Rgb::grey(0.9)}, diffuse(0.7), diffuse(0.7), diffuse(0.7), diffuse(0.7), diffuse(0.7)});
+    add_point_light(scene, {1, 1, 1}, Rgb::grey(100));
+    const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
-    std::vector<ChainNode> nodes;
+    std::vector<LightVertex> nodes;
     for (std::uint64_t i = 0; i < 2000; ++i) {
-        walk_light_chain(scene, caster, lights, kUnlimited, SampleStream(RandomKey{4}, i), nodes);
+        trace_light_path(scene, caster, lights, kUnlimited, math::SampleStream(math::RandomKey{4}, i), nodes);
     }
     ASSERT_GT(nodes.size(), 2000u);
-    for (const ChainNode& node : nodes) {
+    for (const LightVertex& node : nodes) {
         ASSERT_FALSE(is_specular(*node.material));
         ASSERT_LT(node.normal.x, 0.5);  // that of the mirror is 1
         ASSERT_GT(dot(node.incoming, node.normal), 0);
@@ -83,4 +82,4 @@ TEST(LightChain, MirrorsHaveNoNodes) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -11,22 +11,22 @@
 #include "statistics/moments.h"
 #include "support/scene_builder.h"
 
-namespace stilb {
+namespace stilb::transport {
 namespace {
 
-constexpr Spectrum kWhite = Spectrum::grey(1);
+constexpr Rgb kWhite = Rgb::grey(1);
 
 /// Light of one emitter on a receiver, as the sampler gives it, against the exact value.
 void expect_illuminance(const Shape& shape, const exact::Receiver& receiver, double exact_lx) {
     Scene scene;
     add_area_light(scene, shape, 100 * kWhite);
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     std::vector<double> means;
     for (std::uint64_t replicate = 0; replicate < 32; ++replicate) {
-        RunningMoments moments;
+        statistics::RunningMoments moments;
         for (std::uint64_t i = 0; i < 1024; ++i) {
-            SampleStream stream(RandomKey{replicate}, i);
+            math::SampleStream stream(math::RandomKey{replicate}, i);
             const auto incident = lights.sample_incident(0, receiver.position, stream.next_two());
             double lx = 0;
             if (incident) {
@@ -38,8 +38,8 @@ void expect_illuminance(const Shape& shape, const exact::Receiver& receiver, dou
         }
         means.push_back(moments.mean());
     }
-    const Estimate measured = estimate_from_replicates(means);
-    EXPECT_LT(std::abs(equivalent_z(z_score(measured, exact_lx), 31)), 4)
+    const statistics::Estimate measured = statistics::estimate_from_replicates(means);
+    EXPECT_LT(std::abs(statistics::equivalent_z(z_score(measured, exact_lx), 31)), 4)
         << measured.value << ' ' << exact_lx;
     EXPECT_LT(measured.standard_error, 0.01 * exact_lx);
 }
@@ -49,11 +49,11 @@ TEST(IncidentLight, LeavesOutWhatIsMadeElsewhere) {
     Scene scene;
     add_area_light(scene, Rectangle{{0, 0, 3}, {0, 1, 0}, {1, 0, 0}}, kWhite);
     add_area_light(scene, Rectangle{{2, 0, 3}, {0, 1, 0}, {1, 0, 0}}, kWhite);
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     const LightSampler rest(scene, caster, {true, false}), none(scene, caster, {true, true});
     const Vec3 from{1, 0.5, 0}, up{0, 0, 1};
     for (std::uint64_t i = 0; i < 16; ++i) {
-        SampleStream stream(RandomKey{1}, i);
+        math::SampleStream stream(math::RandomKey{1}, i);
         const auto light = rest.sample_one_light(from, up, stream);
         ASSERT_TRUE(light);
         EXPECT_GT(light->source_point.x, 2);
@@ -90,7 +90,7 @@ TEST(IncidentLight, OfShapesIsThatOfConfigurationFactors) {
 TEST(IncidentLight, OfAPointIsExact) {
     Scene scene;
     add_point_light(scene, {1, 2, 3}, 50 * kWhite);
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     const auto incident = LightSampler(scene, caster).sample_incident(0, {0, 0, 0}, {});
     ASSERT_TRUE(incident);
     EXPECT_NEAR(incident->normal_illuminance_lx.luminance(), 50.0 / 14, 1e-12);
@@ -103,7 +103,7 @@ TEST(IncidentLight, OfOneChosenLightIsThatOfAll) {
     add_point_light(scene, {-1, 1, 1}, 5 * kWhite);
     add_point_light(scene, {0, 0, -1}, 500 * kWhite);  // below the horizon
     add_area_light(scene, Sphere{{0.5, 1, 2}, 0.3}, 20 * kWhite);
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     const exact::Receiver receiver{{0, 0, 0}, {0, 0, 1}};
     const double exact_lx = exact::illuminance_by_point_lx(receiver, {1, 0, 2}, 30) +
@@ -111,16 +111,18 @@ TEST(IncidentLight, OfOneChosenLightIsThatOfAll) {
                             exact::illuminance_by_sphere_lx(receiver, {0.5, 1, 2}, 0.3, 20);
     std::vector<double> means;
     for (std::uint64_t replicate = 0; replicate < 32; ++replicate) {
-        RunningMoments moments;
+        statistics::RunningMoments moments;
         for (std::uint64_t i = 0; i < 1024; ++i) {
-            SampleStream stream(RandomKey{replicate}, i);
+            math::SampleStream stream(math::RandomKey{replicate}, i);
             const auto light = lights.sample_one_light(receiver.position, receiver.normal, stream);
             moments.add(light ? std::max(0.0, light->direction.z) * light->normal_illuminance_lx.luminance()
                               : 0);
         }
         means.push_back(moments.mean());
     }
-    EXPECT_LT(std::abs(equivalent_z(z_score(estimate_from_replicates(means), exact_lx), 31)), 4);
+    EXPECT_LT(std::abs(statistics::equivalent_z(
+                  statistics::z_score(statistics::estimate_from_replicates(means), exact_lx), 31)),
+              4);
 }
 
 TEST(IncidentLight, DensityIsAboutThatOfRaysThatMeetTheEmitter) {
@@ -131,13 +133,13 @@ TEST(IncidentLight, DensityIsAboutThatOfRaysThatMeetTheEmitter) {
     add_area_light(scene, Disk{{-1, 1, 1}, normalized(Vec3{1, -1, -1}), 0.4}, 20 * kWhite);
     add_area_light(scene, Sphere{{1, -1, 1}, 0.3}, 20 * kWhite);
     add_point_light(scene, {0, 0, 1.5}, kWhite);
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     const Vec3 from{0, 0, 0}, normal{0, 0, 1};
     std::vector<int> met(scene.objects.size());
     constexpr std::uint64_t kSamples = 4096;
     for (std::uint64_t i = 0; i < kSamples; ++i) {
-        SampleStream stream(RandomKey{3}, i);
+        math::SampleStream stream(math::RandomKey{3}, i);
         const auto light = lights.sample_one_light(from, normal, stream);
         if (!light || std::isinf(light->pdf_per_sr)) continue;
         const auto hit = caster.closest(from, light->direction);
@@ -159,14 +161,14 @@ TEST(Emission, SharesFluxAmongLightsAndLeavesTheirFronts) {
     add_point_light(scene, {0, 0, 5}, {{1, 2, 3}});
     add_area_light(scene, Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, {{4, 2, 1}});
     add_area_light(scene, Sphere{{5, 0, 0}, 0.5}, 3 * kWhite);
-    const RayCaster caster(scene);
+    const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     constexpr std::uint64_t kParticles = 1 << 16;
     std::vector<double> observed(3), expected;
     std::vector<double> cosines_squared;
-    Spectrum total;
+    Rgb total;
     for (std::uint64_t i = 0; i < kParticles; ++i) {
-        SampleStream stream(RandomKey{8}.derived(i), 0);  // independent, as chi2 asks for
+        math::SampleStream stream(math::RandomKey{8}.derived(i), 0);  // independent, as chi2 asks for
         const EmittedParticle particle = lights.sample_emission(stream);
         total += particle.flux_lm * (1.0 / kParticles);
         const std::size_t light = particle.from_point ? 0 : particle.origin.x < 2 ? 1 : 2;
@@ -182,17 +184,17 @@ TEST(Emission, SharesFluxAmongLightsAndLeavesTheirFronts) {
         }
         EXPECT_EQ(particle.from_point, light == 0);
     }
-    Spectrum exact_total;
+    Rgb exact_total;
     for (const Light& light : scene.lights) {
         exact_total += flux_lm(scene, light);
         expected.push_back(flux_lm(scene, light).luminance());
     }
     for (double& e : expected) e *= kParticles / exact_total.luminance();
-    EXPECT_GT(chi2_test(observed, expected).p_value, 1e-4);
-    EXPECT_GT(uniformity_p(cosines_squared), 1e-4);
+    EXPECT_GT(statistics::chi2_test(observed, expected).p_value, 1e-4);
+    EXPECT_GT(statistics::uniformity_p(cosines_squared), 1e-4);
     EXPECT_NEAR(total.luminance(), exact_total.luminance(), 1e-9 * exact_total.luminance());
     for (std::size_t b = 0; b < kBands; ++b) EXPECT_NEAR(total[b], exact_total[b], 0.02 * exact_total[b]);
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -9,13 +9,13 @@
 
 #include "verification/sobolev_scene.h"
 
-namespace stilb {
+namespace stilb::verification {
 namespace {
 
 constexpr int kReplicates = 32;
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-Estimate estimate(double value, double standard_error) {
+statistics::Estimate estimate(double value, double standard_error) {
     return {value, standard_error, value - 2 * standard_error, value + 2 * standard_error};
 }
 
@@ -98,7 +98,7 @@ TEST(Verify, LuminanceAgreesByEveryMethod) {
     options.error = 0.02;
     for (const VerificationCase& c : verification_cases()) {
         if (!c.measures_luminance()) continue;
-        for (const EstimatorEntry& method : unbiased_estimators()) {
+        for (const estimators::EstimatorEntry& method : estimators::unbiased_estimators()) {
             if (!c.is_for(method)) continue;
             options.method = method.name;
             const Verification result = verify(c, options);
@@ -115,9 +115,9 @@ TEST(VerificationCases, AreOfOneQuantityAndForMethodsThatMeasureIt) {
             EXPECT_EQ(is_luminance(reading.measurand), c.measures_luminance()) << c.name << ", " << c.variant;
         }
         const bool is_luminance = c.measures_luminance();
-        EXPECT_EQ(c.is_for(find_estimator("local")), !is_luminance);
-        EXPECT_EQ(c.is_for(find_estimator("double-local")), is_luminance);
-        EXPECT_EQ(c.is_for(find_estimator("path")), c.only_method.empty());
+        EXPECT_EQ(c.is_for(estimators::find_estimator("local")), !is_luminance);
+        EXPECT_EQ(c.is_for(estimators::find_estimator("double-local")), is_luminance);
+        EXPECT_EQ(c.is_for(estimators::find_estimator("path")), c.only_method.empty());
     }
 }
 
@@ -168,4 +168,4 @@ TEST(SobolevScene, FollowsFromTheBoundOfTheTruncation) {
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::verification

@@ -7,7 +7,7 @@
 #include "base/vectorized.h"
 #include "transport/kernel_split.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 using Floats = PointTile::Floats;
@@ -21,7 +21,7 @@ struct FanNode {
     float split;  ///< 0: w = 1
     std::array<float, kBands>
         coefficient;  ///< flux times BRDF; flux alone where the BRDF depends on direction
-    const ChainNode* node;
+    const transport::LightVertex* node;
     bool directional;  ///< the BRDF depends on direction
 };
 
@@ -52,20 +52,20 @@ STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTil
 /// lane, w included, and the response where one of the tile's depends on direction.
 void add_visible_directional(const FanNode& node, const PointTile& tile, const RayPacket& packet,
                              const LaneMask& lanes, const Floats& g_per_m2, TileSums& sums) {
-    const ChainNode& chain_node = *node.node;
+    const transport::LightVertex& chain_node = *node.node;
     const Frame frame = Frame::of_surface(chain_node.normal);
     const Vec3 in = frame.to_local(chain_node.incoming);
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         if (lanes[i] == 0 || packet.end[i] < 0) continue;
         const Vec3 to_point =
             normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
-        const Spectrum brdf = evaluate_brdf_per_sr(*chain_node.material, in, frame.to_local(to_point));
-        const Receiver& receiver = tile.receivers[i];
+        const Rgb brdf = evaluate_brdf_per_sr(*chain_node.material, in, frame.to_local(to_point));
+        const transport::Receiver& receiver = tile.receivers[i];
         const double relative =
-            relative_brdf(*chain_node.material, brdf) * receiver.relative_response(-to_point);
+            transport::relative_brdf(*chain_node.material, brdf) * receiver.relative_response(-to_point);
         const double g = g_per_m2[i];
         const double chain_share = chain_node.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
-        Spectrum added = chain_node.flux_lm * brdf * (g * chain_share);
+        Rgb added = chain_node.flux_lm * brdf * (g * chain_share);
         if (tile.directional) added = added * receiver.response(-to_point);
         for (std::size_t b = 0; b < kBands; ++b) sums.band[b][i] += static_cast<float>(added[b]);
         sums.largest[i] = std::max(sums.largest[i], static_cast<float>(added.luminance()));
@@ -75,9 +75,9 @@ void add_visible_directional(const FanNode& node, const PointTile& tile, const R
 /// Constant responses are multiplied here, once for a block of nodes; others are in the sums.
 void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
-        const Receiver& receiver = tile.receivers[i];
-        const Spectrum response = tile.directional ? Spectrum::grey(1) : *receiver.constant_response();
-        const Spectrum received{{sums.band[0][i], sums.band[1][i], sums.band[2][i]}};
+        const transport::Receiver& receiver = tile.receivers[i];
+        const Rgb response = tile.directional ? Rgb::grey(1) : *receiver.constant_response();
+        const Rgb received{{sums.band[0][i], sums.band[1][i], sums.band[2][i]}};
         readings.sum[receiver.reading()] += response * received;
         double& largest = readings.largest[receiver.reading()];
         largest = std::max(largest, response.luminance() * double{sums.largest[i]});
@@ -85,9 +85,9 @@ void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
     sums = {};
 }
 
-FanNode fan_node(const ChainNode& node, const Vec3& center) {
+FanNode fan_node(const transport::LightVertex& node, const Vec3& center) {
     const auto* diffuse = std::get_if<Diffuse>(node.material);
-    const Spectrum coefficient =
+    const Rgb coefficient =
         diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
     FanNode result{SegmentOrigin(node.position, node.lifted, node.normal, center),
                    node.only_by_light || !diffuse ? 0.0f : 1.0f,
@@ -100,10 +100,10 @@ FanNode fan_node(const ChainNode& node, const Vec3& center) {
 
 }  // namespace
 
-void Fan::collect(std::span<const ChainNode> nodes, ReadingSums& sums) const {
+void Fan::collect(std::span<const transport::LightVertex> nodes, ReadingSums& sums) const {
     std::vector<FanNode> fan_nodes;
     fan_nodes.reserve(nodes.size());
-    for (const ChainNode& node : nodes) fan_nodes.push_back(fan_node(node, caster_.center()));
+    for (const transport::LightVertex& node : nodes) fan_nodes.push_back(fan_node(node, caster_.center()));
     RayPacket packet;
     LaneMask lanes;
     alignas(64) Floats g_per_m2;
@@ -126,4 +126,4 @@ void Fan::collect(std::span<const ChainNode> nodes, ReadingSums& sums) const {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

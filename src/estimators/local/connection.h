@@ -11,21 +11,21 @@
 #include "estimators/local/point_tile.h"
 #include "transport/light_path.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Keeps what its arguments refer to. Immutable.
 class Fan {
   public:
     /// An infinite k of a tile's receiver makes w = 1 there (plain local estimation). Nodes that path tracing
-    /// cannot make (ChainNode::only_by_light) have w = 1 whatever k is.
-    Fan(const RayCaster& caster, std::span<const PointTile> tiles) : caster_(caster), tiles_(tiles) {}
+    /// cannot make (LightVertex::only_by_light) have w = 1 whatever k is.
+    Fan(const rays::RayCaster& caster, std::span<const PointTile> tiles) : caster_(caster), tiles_(tiles) {}
 
     /// Adds what the nodes send to each receiver, and keeps the largest single contributions. Counts rays.
-    void collect(std::span<const ChainNode> nodes, ReadingSums& sums) const;
+    void collect(std::span<const transport::LightVertex> nodes, ReadingSums& sums) const;
 
   private:
-    const RayCaster& caster_;
+    const rays::RayCaster& caster_;
     std::span<const PointTile> tiles_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -9,7 +9,7 @@
 #include "transport/kernel_split.h"
 #include "transport/russian_roulette.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -19,7 +19,7 @@ class SharedPlace {
   public:
     /// Light for receivers that are farther from their sensors may have met fewer surfaces: only those like
     /// `own` share.
-    SharedPlace(const Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
+    SharedPlace(const rays::Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
                 const Vec3& center)
         : material_(material), tile_(tile), frame_(Frame::of_surface(hit.normal)) {
         // At y at least one reflection takes place.
@@ -45,7 +45,7 @@ class SharedPlace {
     }
 
     /// Leaves the receivers that see y. `own` does: its ray has shown it.
-    void test_visibility(const RayCaster& caster, std::size_t own) {
+    void test_visibility(const rays::RayCaster& caster, std::size_t own) {
         lanes_[own] = 0;
         caster.occlude(segments_, lanes_);
         lanes_[own] = -1;
@@ -60,8 +60,8 @@ class SharedPlace {
         double density = 0;  ///< of y and the direction together, by all receivers' rays [1/(m2 sr)]
         double weight = 0;   ///< 1 / probability of having gone on
     };
-    std::optional<Beam> sample_beam(std::size_t lane, SampleStream& stream) const {
-        const double survival = survival_probability(Spectrum::grey(1), reflectance_bound(material_));
+    std::optional<Beam> sample_beam(std::size_t lane, math::SampleStream& stream) const {
+        const double survival = transport::survival_probability(Rgb::grey(1), reflectance_bound(material_));
         if (stream.next() >= survival) return std::nullopt;
         const auto [u1, u2] = stream.next_two();
         const auto scattered = sample_brdf(material_, out_[lane], u1, u2);
@@ -90,11 +90,11 @@ class SharedPlace {
 
     /// Adds what the readings receive of light that comes to y from `direction`, given its illuminance on a
     /// surface across it, over the density of y.
-    void reflect(const Vec3& direction, const Spectrum& normal_illuminance, ReadingSums& sums) const {
+    void reflect(const Vec3& direction, const Rgb& normal_illuminance, ReadingSums& sums) const {
         const Vec3 in = frame_.to_local(direction);
         for_each_lane([&](std::size_t i) {
-            const Spectrum brdf = evaluate_brdf_per_sr(material_, in, out_[i]);
-            const double gathered = share_at(i)(relative_brdf(material_, brdf));
+            const Rgb brdf = evaluate_brdf_per_sr(material_, in, out_[i]);
+            const double gathered = share_at(i)(transport::relative_brdf(material_, brdf));
             sums.add(tile_.receivers[i].reading(),
                      normal_illuminance * brdf * response_[i] * (in.z * double{g_per_m2_[i]} * gathered));
         });
@@ -107,15 +107,15 @@ class SharedPlace {
             if (lanes_[i] != 0) action(i);
         }
     }
-    GatheredShare share_at(std::size_t lane) const {
+    transport::GatheredShare share_at(std::size_t lane) const {
         return {double{g_per_m2_[lane]} * double{tile_.inverse_k[lane]} * relative_response_[lane]};
     }
 
-    void join(std::size_t i, const Hit& hit) {
+    void join(std::size_t i, const rays::Hit& hit) {
         const Vec3 segment =
             normalized(Vec3{segments_.direction_x[i], segments_.direction_y[i], segments_.direction_z[i]});
         out_[i] = frame_.to_local(segment);
-        const Receiver& receiver = tile_.receivers[i];
+        const transport::Receiver& receiver = tile_.receivers[i];
         response_[i] = receiver.response(-segment);
         if (receiver.constant_response()) {
             relative_response_[i] = 1;
@@ -133,8 +133,8 @@ class SharedPlace {
     RayPacket segments_;
     LaneMask lanes_;
     alignas(64) PointTile::Floats g_per_m2_;
-    std::array<Vec3, kPacketWidth> out_;           ///< to the receivers, in the frame of y
-    std::array<Spectrum, kPacketWidth> response_;  ///< of the receivers to light from y
+    std::array<Vec3, kPacketWidth> out_;      ///< to the receivers, in the frame of y
+    std::array<Rgb, kPacketWidth> response_;  ///< of the receivers to light from y
     std::array<double, kPacketWidth> relative_response_, ray_density_per_m2_;
 };
 
@@ -142,7 +142,7 @@ class SharedPlace {
 
 void Gather::collect(const Batch& batch, ReadingSums& sums) const {
     for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
-        const RandomKey key = batch.key.derived(tile);
+        const math::RandomKey key = batch.key.derived(tile);
         const std::uint64_t chains = plans_[tile * kPacketWidth].chains_per_ray;
         for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
             trace_round(tiles_[tile], key, i, static_cast<double>(chains), sums);
@@ -150,18 +150,18 @@ void Gather::collect(const Batch& batch, ReadingSums& sums) const {
     }
 }
 
-void Gather::trace_round(const PointTile& tile, RandomKey key, std::uint64_t round, double weight,
+void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64_t round, double weight,
                          ReadingSums& sums) const {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
-        SampleStream stream(key.derived(i), round);
-        const Receiver& receiver = tile.receivers[i];
+        math::SampleStream stream(key.derived(i), round);
+        const transport::Receiver& receiver = tile.receivers[i];
         const auto [u1, u2] = stream.next_two();
         const auto sample = receiver.sample(u1, u2);
         if (!sample) continue;
         const auto hit = caster_.closest(receiver.lifted(), sample->direction);
         if (!hit) continue;
         if (is_specular(tracer_.material(*hit))) {
-            const Spectrum luminance =
+            const Rgb luminance =
                 tracer_.luminance_without_direct(*hit, sample->direction, tile.reflections_left[i], stream);
             sums.add(receiver.reading(), weight * sample->weight * luminance);
         } else {
@@ -170,8 +170,8 @@ void Gather::trace_round(const PointTile& tile, RandomKey key, std::uint64_t rou
     }
 }
 
-void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, SampleStream& stream,
-                       double weight, ReadingSums& sums) const {
+void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t own,
+                       math::SampleStream& stream, double weight, ReadingSums& sums) const {
     SharedPlace place(hit, tracer_.material(hit), tile, own, caster_.center());
     if (!place.reaches(own)) return;
     const double survival = place.gathered_share();
@@ -188,10 +188,11 @@ void Gather::share_out(const Hit& hit, const PointTile& tile, std::size_t own, S
         place.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
     }
     if (const auto beam = place.sample_beam(own, stream)) {
-        const Lookout lookout{beam->density / ray_density, hit.position, hit.normal};
-        const Spectrum luminance = tracer_.incoming_luminance({hit.lifted, beam->direction}, lookout,
-                                                              tile.reflections_left[own] - 1, stream);
+        const transport::PreviousVertex previous_vertex{beam->density / ray_density, hit.position,
+                                                        hit.normal};
+        const Rgb luminance = tracer_.incoming_luminance({hit.lifted, beam->direction}, previous_vertex,
+                                                         tile.reflections_left[own] - 1, stream);
         place.reflect(beam->direction, luminance * (weight * beam->weight / beam->density), sums);
     }
 }
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -9,7 +9,7 @@
 #include "estimators/local/split_plan.h"
 #include "transport/path_tracer.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Estimates, for every receiver x with its own k,
 ///
@@ -24,23 +24,23 @@ namespace stilb {
 /// its arguments refer to.
 class Gather {
   public:
-    Gather(const RayCaster& caster, const PathTracer& tracer, std::span<const PointTile> tiles,
-           std::span<const SplitPlan> plans)
+    Gather(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+           std::span<const PointTile> tiles, std::span<const SplitPlan> plans)
         : caster_(caster), tracer_(tracer), tiles_(tiles), plans_(plans) {}
 
     /// A round for so many chains of the batch as the plan says, weighing as much as these.
     void collect(const Batch& batch, ReadingSums& sums) const;
 
   private:
-    void trace_round(const PointTile& tile, RandomKey key, std::uint64_t round, double weight,
+    void trace_round(const PointTile& tile, math::RandomKey key, std::uint64_t round, double weight,
                      ReadingSums& sums) const;
-    void share_out(const Hit& hit, const PointTile& tile, std::size_t own, SampleStream& stream,
+    void share_out(const rays::Hit& hit, const PointTile& tile, std::size_t own, math::SampleStream& stream,
                    double weight, ReadingSums& sums) const;
 
-    const RayCaster& caster_;
-    const PathTracer& tracer_;
+    const rays::RayCaster& caster_;
+    const transport::PathTracer& tracer_;
     std::span<const PointTile> tiles_;
     std::span<const SplitPlan> plans_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

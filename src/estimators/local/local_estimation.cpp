@@ -26,7 +26,7 @@
 #include "estimators/local/split_plan.h"
 #include "transport/direct_light.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// Nodes are sent to the points after so many chains per selected one (below).
@@ -78,7 +78,7 @@ class LocalEstimation final : public Estimator {
         add_faint_ways(batch, sums);
     }
 
-    std::span<const Spectrum> known_part() const override { return seen_.known_part; }
+    std::span<const Rgb> known_part() const override { return seen_.known_part; }
     std::uint64_t batch_granularity() const override { return kMostChainsPerRay * chains_per_selected_; }
     double rays_per_sample() const override {
         constexpr double chain_cost = 50;
@@ -88,26 +88,28 @@ class LocalEstimation final : public Estimator {
     std::vector<std::string> warnings() const override { return local_warnings(scene_); }
 
   private:
-    std::vector<ChainNode> walk_chains(RandomKey key, std::uint64_t first, std::uint64_t end) const {
-        return walk_light_chains(scene_, caster_, lights_, max_reflections_, key, first, end);
+    std::vector<transport::LightVertex> walk_chains(math::RandomKey key, std::uint64_t first,
+                                                    std::uint64_t end) const {
+        return trace_light_paths(scene_, caster_, lights_, max_reflections_, key, first, end);
     }
 
-    std::vector<ChainNode> fan_nodes(RandomKey key, std::uint64_t first, std::uint64_t end) const {
-        std::vector<ChainNode> nodes = walk_chains(key.derived(kChains), first, end);
+    std::vector<transport::LightVertex> fan_nodes(math::RandomKey key, std::uint64_t first,
+                                                  std::uint64_t end) const {
+        std::vector<transport::LightVertex> nodes = walk_chains(key.derived(kChains), first, end);
         if (chains_per_selected_ == 1) return nodes;
-        const double u = SampleStream(key.derived(kSelection).derived(first), 0).next();
+        const double u = math::SampleStream(key.derived(kSelection).derived(first), 0).next();
         return NodePool(nodes).select(nodes.size() / chains_per_selected_ + 1, u);
     }
 
     /// What the readings are made from.
     struct Seen {
-        std::vector<Receiver> receivers;
+        std::vector<transport::Receiver> receivers;
         struct Faint {
             std::uint32_t reading = 0;
-            FaintWay way;
+            transport::FaintRay way;
         };
         std::vector<Faint> faint;
-        std::vector<Spectrum> known_part;
+        std::vector<Rgb> known_part;
     };
     Seen receive(std::span<const Measurand> measurands) const {
         Seen seen;
@@ -118,31 +120,32 @@ class LocalEstimation final : public Estimator {
                 seen.receivers.emplace_back(reading, *point, caster_);
                 continue;
             }
-            const Sight sight = look(measurand, scene_, caster_, lights_, max_reflections_);
+            const transport::VisibleSurfaces sight =
+                look(measurand, scene_, caster_, lights_, max_reflections_);
             seen.known_part[reading] = sight.emission_cd_m2;
-            for (const FaintWay& way : sight.faint) seen.faint.push_back({reading, way});
-            for (const SubPoint& sub_point : sight.sub_points) {
+            for (const transport::FaintRay& way : sight.faint) seen.faint.push_back({reading, way});
+            for (const transport::SubPoint& sub_point : sight.sub_points) {
                 if (sub_point.reflections == max_reflections_) continue;
                 seen.receivers.emplace_back(reading, sub_point, scene_.material(sub_point.surface.material));
             }
         }
         seen.receivers = sorted_receivers(std::move(seen.receivers));
-        for (const Receiver& receiver : seen.receivers) {
+        for (const transport::Receiver& receiver : seen.receivers) {
             seen.known_part[receiver.reading()] += direct_from_points(receiver, caster_, lights_);
         }
         return seen;
     }
 
     void add_direct_light(const Batch& batch, ReadingSums& sums) const {
-        const RandomKey key = batch.key.derived(kDirect);
+        const math::RandomKey key = batch.key.derived(kDirect);
         const std::uint64_t chains = kChainsPerDirectSample * chains_per_selected_;
         const std::uint64_t end = (batch.first + batch.count) / chains;
         for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
-            const Receiver& receiver = seen_.receivers[j];
-            const RandomKey own_key = key.derived(j);
+            const transport::Receiver& receiver = seen_.receivers[j];
+            const math::RandomKey own_key = key.derived(j);
             for (std::uint64_t i = batch.first / chains; i < end; ++i) {
-                SampleStream stream(own_key, i);
-                const Spectrum sample = sample_direct_from_areas(receiver, caster_, lights_, stream);
+                math::SampleStream stream(own_key, i);
+                const Rgb sample = sample_direct_from_areas(receiver, caster_, lights_, stream);
                 sums.add(receiver.reading(), static_cast<double>(chains) * sample);
             }
         }
@@ -150,27 +153,27 @@ class LocalEstimation final : public Estimator {
 
     /// So little light comes along these that a path for each granule of chains does.
     void add_faint_ways(const Batch& batch, ReadingSums& sums) const {
-        const RandomKey key = batch.key.derived(kFaint);
+        const math::RandomKey key = batch.key.derived(kFaint);
         const std::uint64_t chains = batch_granularity();
         for (std::size_t j = 0; j < seen_.faint.size(); ++j) {
             const auto& [reading, way] = seen_.faint[j];
             const auto hit = caster_.closest(way.origin, way.direction);
             if (!hit) continue;
             for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
-                SampleStream stream(key.derived(j), i);
-                const Spectrum luminance =
+                math::SampleStream stream(key.derived(j), i);
+                const Rgb luminance =
                     tracer_.luminance(*hit, way.direction, max_reflections_ - way.reflections, stream);
                 sums.add(reading, static_cast<double>(chains) * way.transmission * luminance);
             }
         }
     }
 
-    std::vector<SplitPlan> plans(Split split, std::span<const double> weights, RandomKey key) const {
+    std::vector<SplitPlan> plans(Split split, std::span<const double> weights, math::RandomKey key) const {
         if (split == Split::none) {
             return std::vector<SplitPlan>(seen_.receivers.size(),
                                           {std::numeric_limits<double>::infinity(), kChainsPerSpecularRay});
         }
-        const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
+        const std::vector<transport::LightVertex> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
         const std::vector<double> direct = pilot_direct(key.derived(kDirect));
         const std::vector<double> alike(weights.empty() ? direct.size() : 0, 1.0);
         const PilotLight pilot{
@@ -181,14 +184,14 @@ class LocalEstimation final : public Estimator {
         return plans;
     }
 
-    std::vector<double> pilot_direct(RandomKey key) const {
+    std::vector<double> pilot_direct(math::RandomKey key) const {
         constexpr int samples = 4;
         std::vector<double> direct;
-        for (const Spectrum& known : seen_.known_part) direct.push_back(known.luminance());
+        for (const Rgb& known : seen_.known_part) direct.push_back(known.luminance());
         for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
-            const Receiver& receiver = seen_.receivers[j];
+            const transport::Receiver& receiver = seen_.receivers[j];
             for (int i = 0; i < samples; ++i) {
-                SampleStream stream(key.derived(j), static_cast<std::uint64_t>(i));
+                math::SampleStream stream(key.derived(j), static_cast<std::uint64_t>(i));
                 direct[receiver.reading()] +=
                     sample_direct_from_areas(receiver, caster_, lights_, stream).luminance() / samples;
             }
@@ -203,10 +206,10 @@ class LocalEstimation final : public Estimator {
     }
 
     const Scene& scene_;
-    const RayCaster& caster_;
+    const rays::RayCaster& caster_;
     int max_reflections_;
-    LightSampler lights_;
-    PathTracer tracer_;
+    transport::LightSampler lights_;
+    transport::PathTracer tracer_;
     Seen seen_;
     bool gathers_;
     std::uint64_t chains_per_selected_;
@@ -226,4 +229,4 @@ std::unique_ptr<Estimator> make_auto_estimator(const EstimatorInput& input) {
     return std::make_unique<LocalEstimation>(input, LocalEstimation::Split::balanced);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

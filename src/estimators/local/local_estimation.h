@@ -4,10 +4,10 @@
 
 #include "estimators/estimator_list.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Local estimation as published, and balanced with path tracing; see local_estimation.cpp.
 std::unique_ptr<Estimator> make_local_estimator(const EstimatorInput& input);
 std::unique_ptr<Estimator> make_auto_estimator(const EstimatorInput& input);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

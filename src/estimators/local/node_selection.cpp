@@ -7,7 +7,7 @@
 
 #include "math/morton.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// Which of the six axis directions a normal is nearest to.
@@ -17,11 +17,11 @@ int orientation(const Vec3& normal) {
     return 2 * axis + (normal[static_cast<std::size_t>(axis)] < 0 ? 1 : 0);
 }
 
-std::vector<std::size_t> order_over_surfaces(const std::vector<ChainNode>& nodes) {
+std::vector<std::size_t> order_over_surfaces(const std::vector<transport::LightVertex>& nodes) {
     std::vector<Vec3> positions;
     positions.reserve(nodes.size());
-    for (const ChainNode& node : nodes) positions.push_back(node.position);
-    const std::vector<std::uint64_t> codes = morton_codes(positions);
+    for (const transport::LightVertex& node : nodes) positions.push_back(node.position);
+    const std::vector<std::uint64_t> codes = math::morton_codes(positions);
     std::vector<std::tuple<int, std::uint64_t, std::size_t>> keys;
     keys.reserve(nodes.size());
     for (std::size_t n = 0; n < nodes.size(); ++n)
@@ -33,13 +33,13 @@ std::vector<std::size_t> order_over_surfaces(const std::vector<ChainNode>& nodes
     return order;
 }
 
-double reflected_flux_lm(const ChainNode& node) {
+double reflected_flux_lm(const transport::LightVertex& node) {
     return (node.flux_lm * reflectance_bound(*node.material)).luminance();
 }
 
 }  // namespace
 
-NodePool::NodePool(const std::vector<ChainNode>& nodes) {
+NodePool::NodePool(const std::vector<transport::LightVertex>& nodes) {
     nodes_.reserve(nodes.size());
     passed_lm_.reserve(nodes.size());
     double passed_lm = 0;
@@ -49,10 +49,10 @@ NodePool::NodePool(const std::vector<ChainNode>& nodes) {
     }
 }
 
-std::vector<ChainNode> NodePool::select(std::size_t count, double u) const {
+std::vector<transport::LightVertex> NodePool::select(std::size_t count, double u) const {
     if (count >= nodes_.size()) return nodes_;
     const double step = passed_lm_.back() / static_cast<double>(count);
-    std::vector<ChainNode> selected;
+    std::vector<transport::LightVertex> selected;
     selected.reserve(count + 1);
     double next = u * step;  // flux at which the next one is selected
     for (auto place = passed_lm_.begin(); place != passed_lm_.end(); ++place) {
@@ -60,11 +60,11 @@ std::vector<ChainNode> NodePool::select(std::size_t count, double u) const {
         if (place == passed_lm_.end()) break;
         const double times = std::ceil((*place - next) / step);
         next += times * step;
-        const ChainNode& node = nodes_[static_cast<std::size_t>(place - passed_lm_.begin())];
+        const transport::LightVertex& node = nodes_[static_cast<std::size_t>(place - passed_lm_.begin())];
         selected.push_back(node);
         selected.back().flux_lm *= times * step / reflected_flux_lm(node);
     }
     return selected;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

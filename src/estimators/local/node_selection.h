@@ -6,12 +6,12 @@
 
 #include "transport/light_path.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Nodes along a space-filling curve, surfaces of different orientation one after another.
 class NodePool {
   public:
-    explicit NodePool(const std::vector<ChainNode>& nodes);
+    explicit NodePool(const std::vector<transport::LightVertex>& nodes);
 
     std::size_t size() const { return nodes_.size(); }
 
@@ -21,11 +21,11 @@ class NodePool {
     /// Systematic sampling in proportion to the reflected flux: the selected nodes carry about equal fluxes
     /// and lie as evenly as the flux does, so that a kernel which varies slowly over surfaces is summed with
     /// far less variance than over as many nodes of chains of their own.
-    std::vector<ChainNode> select(std::size_t count, double u) const;
+    std::vector<transport::LightVertex> select(std::size_t count, double u) const;
 
   private:
-    std::vector<ChainNode> nodes_;
+    std::vector<transport::LightVertex> nodes_;
     std::vector<double> passed_lm_;  ///< reflected flux up to each node, its own included
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

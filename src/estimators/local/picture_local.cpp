@@ -19,7 +19,7 @@
 #include "estimators/local/split_plan.h"
 #include "transport/direct_light.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// Chains of a pass, and of so many of them a packet selects one chain's nodes. The more are walked, the more
@@ -60,7 +60,7 @@ class LocalPicture final : public PictureEstimator {
               pool_(picture.walk_chains(pass.key.derived(kWalks), pass.index * kChains,
                                         (pass.index + 1) * kChains)) {}
 
-        std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
+        std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
             for (int top = 0; top < block.height; top += kSide) {
                 for (int left = 0; left < block.width; left += kSide) sample_packet(block, left, top, sums);
@@ -80,7 +80,7 @@ class LocalPicture final : public PictureEstimator {
                 }
             }
             const std::vector<Pixel> pixels = pixels_of(packet);
-            std::vector<Receiver> receivers;
+            std::vector<transport::Receiver> receivers;
             std::vector<double> k_per_m2;
             receivers.reserve(kPacketWidth);
             CameraPaths started = picture_.tracing_.start_paths(pixels, pass_);
@@ -91,7 +91,7 @@ class LocalPicture final : public PictureEstimator {
             }
             if (receivers.empty()) return;
             // The packet's random numbers: those of its first pixel's place.
-            const RandomKey key = pass_.key.derived(kPackets).derived(
+            const math::RandomKey key = pass_.key.derived(kPackets).derived(
                 static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
             picture_.receive(receivers, k_per_m2, pool_, {key, pass_.index}, sums);
         }
@@ -108,27 +108,28 @@ class LocalPicture final : public PictureEstimator {
 
     /// Appends the sub-point that a path from the camera comes to; returns the emission that it sees and the
     /// direct light at the sub-point.
-    Spectrum look(Path& path, std::uint32_t reading, std::vector<Receiver>& receivers) const {
+    Rgb look(transport::Path& path, std::uint32_t reading,
+             std::vector<transport::Receiver>& receivers) const {
         const bool meets_surface = tracing_.tracer.look_through(path);
-        const Spectrum emission = path.luminance_cd_m2;
+        const Rgb emission = path.luminance_cd_m2;
         if (!meets_surface || path.reflections_left == 0) return emission;
         receivers.emplace_back(reading,
-                               SubPoint{path.hit, path.outgoing, path.throughput,
-                                        tracing_.max_reflections - path.reflections_left},
+                               transport::SubPoint{path.hit, path.outgoing, path.throughput,
+                                                   tracing_.max_reflections - path.reflections_left},
                                tracing_.scene.material(path.hit.material));
-        const Receiver& receiver = receivers.back();
+        const transport::Receiver& receiver = receivers.back();
         return emission + direct_from_points(receiver, tracing_.caster, tracing_.lights) +
                sample_direct_from_areas(receiver, tracing_.caster, tracing_.lights, path.stream);
     }
 
     /// Adds a sample of a packet's indirect light.
-    void receive(std::span<const Receiver> receivers, std::span<const double> k_per_m2, const NodePool& pool,
-                 const Pass& pass, ReadingSums& sums) const {
+    void receive(std::span<const transport::Receiver> receivers, std::span<const double> k_per_m2,
+                 const NodePool& pool, const Pass& pass, ReadingSums& sums) const {
         const std::vector<PointTile> tiles =
             tiles_of(receivers, k_per_m2, tracing_.caster, tracing_.max_reflections);
-        const double u = SampleStream(pass.key.derived(kSelection), pass.index).next();
-        std::vector<ChainNode> nodes = pool.select(pool.size() / kChainsPerSelected + 1, u);
-        for (ChainNode& node : nodes) node.flux_lm *= 1.0 / kChains;
+        const double u = math::SampleStream(pass.key.derived(kSelection), pass.index).next();
+        std::vector<transport::LightVertex> nodes = pool.select(pool.size() / kChainsPerSelected + 1, u);
+        for (transport::LightVertex& node : nodes) node.flux_lm *= 1.0 / kChains;
         Fan(tracing_.caster, tiles).collect(nodes, sums);
         if (!gathers_) return;
         const std::vector<SplitPlan> plans(receivers.size(), {0, 1});
@@ -136,17 +137,18 @@ class LocalPicture final : public PictureEstimator {
             .collect({pass.key.derived(kGather), pass.index, 1}, sums);
     }
 
-    std::vector<ChainNode> walk_chains(RandomKey key, std::uint64_t first, std::uint64_t end) const {
-        return walk_light_chains(tracing_.scene, tracing_.caster, tracing_.lights, tracing_.max_reflections,
+    std::vector<transport::LightVertex> walk_chains(math::RandomKey key, std::uint64_t first,
+                                                    std::uint64_t end) const {
+        return trace_light_paths(tracing_.scene, tracing_.caster, tracing_.lights, tracing_.max_reflections,
                                  key, first, end);
     }
 
     /// A k for each cell of kBlockSize pixels' edge, from a packet of sub-points spread over it.
-    std::vector<double> plan(Split split, RandomKey key) const {
+    std::vector<double> plan(Split split, math::RandomKey key) const {
         const std::vector<PixelBlock> cells = blocks_of(tracing_.camera.resolution);
         std::vector<double> k_per_m2(cells.size(), std::numeric_limits<double>::infinity());
         if (split == Split::none) return k_per_m2;
-        const std::vector<ChainNode> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
+        const std::vector<transport::LightVertex> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
         const PilotLight pilot{nodes,
                                kPilotChains,
                                {},
@@ -161,8 +163,8 @@ class LocalPicture final : public PictureEstimator {
                 pixels.push_back({cell.left + (4 * (i % 4) + 2) * cell.width / 16,
                                   cell.top + (4 * (i / 4) + 2) * cell.height / 16});
             }
-            std::vector<Receiver> receivers;
-            for (Path& path : tracing_.start_paths(pixels, pass).paths) look(path, 0, receivers);
+            std::vector<transport::Receiver> receivers;
+            for (transport::Path& path : tracing_.start_paths(pixels, pass).paths) look(path, 0, receivers);
             if (receivers.empty()) return;
             k_per_m2[c] = plan_constant(tracing_.caster, tracing_.tracer, receivers, pilot,
                                         kChains / kChainsPerSelected, kPilotRays, pass.key.derived(c));
@@ -186,4 +188,4 @@ std::unique_ptr<PictureEstimator> make_auto_picture(const PictureInput& input) {
     return std::make_unique<LocalPicture>(input, LocalPicture::Split::balanced);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

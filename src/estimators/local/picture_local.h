@@ -2,10 +2,10 @@
 
 #include "estimators/picture_estimator.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Double local estimation of pictures as published, and balanced with path tracing; see picture_local.cpp.
 std::unique_ptr<PictureEstimator> make_local_picture(const PictureInput& input);
 std::unique_ptr<PictureEstimator> make_auto_picture(const PictureInput& input);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -2,7 +2,7 @@
 
 #include "base/vectorized.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// Without the promise that nothing overlaps, the loop would stay scalar.
@@ -33,11 +33,12 @@ STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std:
 
 }  // namespace
 
-std::vector<PointTile> tiles_of(std::span<const Receiver> receivers, std::span<const double> k_per_m2,
-                                const RayCaster& caster, int max_reflections) {
+std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
+                                std::span<const double> k_per_m2, const rays::RayCaster& caster,
+                                int max_reflections) {
     std::vector<PointTile> tiles((receivers.size() + kPacketWidth - 1) / kPacketWidth);
     for (std::size_t j = 0; j < receivers.size(); ++j) {
-        const Receiver& receiver = receivers[j];
+        const transport::Receiver& receiver = receivers[j];
         const Vec3 p = receiver.position() - caster.center();
         const Vec3 lifted = receiver.lifted() - caster.center();
         const Vec3& normal = receiver.normal();
@@ -74,4 +75,4 @@ bool connect(const SegmentOrigin& origin, int reflections, const PointTile& tile
     return connect_lanes(origin, reflections, tile, segments, lanes, g_per_m2);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

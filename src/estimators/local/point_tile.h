@@ -9,7 +9,7 @@
 #include "rays/ray_caster.h"
 #include "transport/receiver.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// A packet of neighbouring receivers as a structure of arrays, relative to the ray caster's centre.
 struct alignas(64) PointTile {
@@ -20,13 +20,14 @@ struct alignas(64) PointTile {
     Floats inverse_k{};                         ///< of the kernel split [m2]
     /// Reflections that light may have met before it arrives.
     std::array<std::int32_t, kPacketWidth> reflections_left{};
-    std::span<const Receiver> receivers;  ///< of the first lanes
-    bool directional = false;             ///< the response of one of them depends on direction
+    std::span<const transport::Receiver> receivers;  ///< of the first lanes
+    bool directional = false;                        ///< the response of one of them depends on direction
 };
 
 /// Receivers in packets, in their order; keeps references to them. `k_per_m2`: of each; may be infinite.
-std::vector<PointTile> tiles_of(std::span<const Receiver> receivers, std::span<const double> k_per_m2,
-                                const RayCaster& caster, int max_reflections);
+std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
+                                std::span<const double> k_per_m2, const rays::RayCaster& caster,
+                                int max_reflections);
 
 /// A place on a surface in single precision, relative to the ray caster's centre.
 struct SegmentOrigin {
@@ -43,4 +44,4 @@ struct SegmentOrigin {
 bool connect(const SegmentOrigin& origin, int reflections, const PointTile& tile, RayPacket& segments,
              LaneMask& lanes, PointTile::Floats& g_per_m2);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -13,7 +13,7 @@
 #include "math/sampling.h"
 #include "transport/kernel_split.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -67,7 +67,7 @@ PointModel model_of(std::span<const RaySample> rays, double density_per_m2) {
         const double k = factor * kPi * density_per_m2;
         double fan_moment = 0, gathered = 0, gathered_moment = 0;
         for (const auto& [g, l, own_share] : rays) {
-            const double rest = GatheredShare{g / k}(1);
+            const double rest = transport::GatheredShare{g / k}(1);
             const double w = 1 - rest;
             if (w > 0) fan_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * density_per_m2));
             gathered += rest;
@@ -128,12 +128,13 @@ Prediction plan_packet(std::span<const PointModel> packet, double price, std::sp
 /// The mean of w over rays.
 double mean_chain_share(std::span<const RaySample> rays, double k_per_m2) {
     double sum = 0;
-    for (const RaySample& ray : rays) sum += 1 - GatheredShare{ray.g_per_m2 / k_per_m2}(1);
+    for (const RaySample& ray : rays) sum += 1 - transport::GatheredShare{ray.g_per_m2 / k_per_m2}(1);
     return sum / static_cast<double>(rays.size());
 }
 
 /// G of a lane over the sum of all lanes': visibility left out.
-double own_share(const RayCaster& caster, const Hit& hit, const PointTile& packet, std::size_t lane) {
+double own_share(const rays::RayCaster& caster, const rays::Hit& hit, const PointTile& packet,
+                 std::size_t lane) {
     RayPacket segments;
     LaneMask lanes;
     PointTile::Floats g_per_m2;
@@ -148,14 +149,14 @@ struct RaySamples {
     double indirect = 0;  ///< of the receiver, by these alone [lx or cd/m2]
 };
 
-RaySamples sample_rays(const RayCaster& caster, const PathTracer& tracer, const PointTile& packet,
-                       std::size_t lane, unsigned count, RandomKey key) {
+RaySamples sample_rays(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                       const PointTile& packet, std::size_t lane, unsigned count, math::RandomKey key) {
     constexpr double floor = 0.2;  // of the mean: single bright paths are not to decide alone
-    const Receiver& receiver = packet.receivers[lane];
+    const transport::Receiver& receiver = packet.receivers[lane];
     std::vector<RaySample> rays(count);
     double sum = 0;
     for (unsigned i = 0; i < count; ++i) {
-        SampleStream stream(key, i);
+        math::SampleStream stream(key, i);
         const auto [u1, u2] = stream.next_two();
         const auto sample = receiver.sample(u1, u2);
         if (!sample) continue;
@@ -171,7 +172,7 @@ RaySamples sample_rays(const RayCaster& caster, const PathTracer& tracer, const 
                                receiver.relative_response(direction);
             rays[i].own_share = own_share(caster, *hit, packet, lane);
         }
-        const Spectrum luminance =
+        const Rgb luminance =
             tracer.luminance_without_direct(*hit, direction, packet.reflections_left[lane], stream);
         rays[i].luminance = (sample->weight * luminance).luminance();
         sum += rays[i].luminance;
@@ -185,12 +186,12 @@ RaySamples sample_rays(const RayCaster& caster, const PathTracer& tracer, const 
 }
 
 /// Nodes of unit flux on white surfaces: what they send to a point adds up to nu.
-std::vector<ChainNode> unit_nodes(std::span<const ChainNode> nodes) {
-    static const Material white = Diffuse{Spectrum::grey(1)};
-    std::vector<ChainNode> result(nodes.begin(), nodes.end());
-    for (ChainNode& node : result) {
+std::vector<transport::LightVertex> unit_nodes(std::span<const transport::LightVertex> nodes) {
+    static const Material white = Diffuse{Rgb::grey(1)};
+    std::vector<transport::LightVertex> result(nodes.begin(), nodes.end());
+    for (transport::LightVertex& node : result) {
         node.material = &white;
-        node.flux_lm = Spectrum::grey(1);
+        node.flux_lm = Rgb::grey(1);
         node.only_by_light = false;
     }
     return result;
@@ -209,27 +210,30 @@ struct PilotSums {
     std::vector<double> indirect, density_per_m2;
 };
 
-PilotSums collect_pilot(const RayCaster& caster, std::span<const Receiver> receivers, double k_per_m2,
-                        const PilotLight& pilot, std::span<const ChainNode> units) {
+PilotSums collect_pilot(const rays::RayCaster& caster, std::span<const transport::Receiver> receivers,
+                        double k_per_m2, const PilotLight& pilot,
+                        std::span<const transport::LightVertex> units) {
     const std::vector<double> k(receivers.size(), k_per_m2);
-    const auto collect = [&](std::vector<Receiver> packet, std::span<const ChainNode> nodes) {
+    const auto collect = [&](std::vector<transport::Receiver> packet,
+                             std::span<const transport::LightVertex> nodes) {
         for (std::size_t i = 0; i < packet.size(); ++i) packet[i].set_reading(static_cast<std::uint32_t>(i));
         const std::vector<PointTile> tile = tiles_of(packet, k, caster, pilot.max_reflections);
         ReadingSums sums(packet.size());
         Fan(caster, tile).collect(nodes, sums);
         std::vector<double> luminous;
-        for (const Spectrum& sum : sums.sum) luminous.push_back(sum.luminance());
+        for (const Rgb& sum : sums.sum) luminous.push_back(sum.luminance());
         return luminous;
     };
-    std::vector<Receiver> of_illuminance;
-    for (const Receiver& receiver : receivers) of_illuminance.push_back(receiver.without_response());
+    std::vector<transport::Receiver> of_illuminance;
+    for (const transport::Receiver& receiver : receivers)
+        of_illuminance.push_back(receiver.without_response());
     return {collect({receivers.begin(), receivers.end()}, pilot.nodes), collect(of_illuminance, units)};
 }
 
-std::vector<Survey> survey_packet(const RayCaster& caster, const PathTracer& tracer,
-                                  std::span<const Receiver> receivers, const PilotLight& pilot,
-                                  std::span<const ChainNode> units, unsigned rays_per_receiver,
-                                  RandomKey key) {
+std::vector<Survey> survey_packet(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                                  std::span<const transport::Receiver> receivers, const PilotLight& pilot,
+                                  std::span<const transport::LightVertex> units, unsigned rays_per_receiver,
+                                  math::RandomKey key) {
     const double chains = static_cast<double>(pilot.chains);
     const double area_m2 = std::max(pilot.scene_area_m2, std::numeric_limits<double>::min());
     const double mean_density = (static_cast<double>(pilot.nodes.size()) + 1) / (chains * area_m2);
@@ -260,14 +264,14 @@ struct ReceiverModel {
     double indirect = 0;  ///< [lx or cd/m2]
 };
 
-std::vector<ReceiverModel> model_receivers(const RayCaster& caster, const PathTracer& tracer,
-                                           std::span<const Receiver> receivers, const PilotLight& pilot,
-                                           RandomKey key) {
+std::vector<ReceiverModel> model_receivers(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                                           std::span<const transport::Receiver> receivers,
+                                           const PilotLight& pilot, math::RandomKey key) {
     // As many for all points together, but for very few or very many points.
     constexpr std::size_t rays = 1u << 14;
     const auto rays_per_point =
         static_cast<unsigned>(std::clamp<std::size_t>(rays / receivers.size(), 16, 1024));
-    const std::vector<ChainNode> units = unit_nodes(pilot.nodes);
+    const std::vector<transport::LightVertex> units = unit_nodes(pilot.nodes);
     std::vector<ReceiverModel> models(receivers.size());
     const std::size_t packets = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
     tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
@@ -284,8 +288,8 @@ std::vector<ReceiverModel> model_receivers(const RayCaster& caster, const PathTr
 
 /// The models with variances relative to the readings that the receivers are parts of, times their weights.
 std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
-                                        std::span<const Receiver> receivers, std::span<const double> weights,
-                                        std::span<const double> direct) {
+                                        std::span<const transport::Receiver> receivers,
+                                        std::span<const double> weights, std::span<const double> direct) {
     std::vector<double> values(direct.begin(), direct.end());
     for (std::size_t j = 0; j < receivers.size(); ++j) values[receivers[j].reading()] += models[j].indirect;
     std::vector<PointModel> weighted;
@@ -303,9 +307,10 @@ std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
 
 }  // namespace
 
-std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
-                                   std::span<const Receiver> receivers, std::span<const double> weights,
-                                   const PilotLight& pilot, RandomKey key) {
+std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                                   std::span<const transport::Receiver> receivers,
+                                   std::span<const double> weights, const PilotLight& pilot,
+                                   math::RandomKey key) {
     if (receivers.empty()) return {};
     const std::vector<PointModel> models = weighted_models(
         model_receivers(caster, tracer, receivers, pilot, key), receivers, weights, pilot.direct);
@@ -337,9 +342,9 @@ std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tr
     return plans;
 }
 
-double plan_constant(const RayCaster& caster, const PathTracer& tracer, std::span<const Receiver> receivers,
-                     const PilotLight& pilot, std::uint64_t chains_per_ray, unsigned rays_per_receiver,
-                     RandomKey key) {
+double plan_constant(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                     std::span<const transport::Receiver> receivers, const PilotLight& pilot,
+                     std::uint64_t chains_per_ray, unsigned rays_per_receiver, math::RandomKey key) {
     const std::vector<Survey> surveys =
         survey_packet(caster, tracer, receivers, pilot, unit_nodes(pilot.nodes), rays_per_receiver, key);
     double density_per_m2 = 0;
@@ -374,4 +379,4 @@ double plan_constant(const RayCaster& caster, const PathTracer& tracer, std::spa
     return best.k_per_m2;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

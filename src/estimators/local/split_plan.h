@@ -9,7 +9,7 @@
 #include "transport/path_tracer.h"
 #include "transport/receiver.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 struct SplitPlan {
     double k_per_m2 = 0;
@@ -21,7 +21,7 @@ inline constexpr std::uint64_t kMostChainsPerRay = 64;
 
 /// What is known of the light before planning, roughly, and how it was learnt.
 struct PilotLight {
-    std::span<const ChainNode> nodes;
+    std::span<const transport::LightVertex> nodes;
     std::uint64_t chains = 1;        ///< that made the nodes
     std::span<const double> direct;  ///< of each reading: light straight from sources [lx or cd/m2]
     double scene_area_m2 = 1;
@@ -41,14 +41,15 @@ struct PilotLight {
 /// pilot gives nu and the share of indirect light, a few paths from each receiver G, l and r. Any plan is
 /// unbiased; a poor one costs time only. The plans depend on `key`, which must be independent of what they
 /// are used for.
-std::vector<SplitPlan> plan_splits(const RayCaster& caster, const PathTracer& tracer,
-                                   std::span<const Receiver> receivers, std::span<const double> weights,
-                                   const PilotLight& pilot, RandomKey key);
+std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                                   std::span<const transport::Receiver> receivers,
+                                   std::span<const double> weights, const PilotLight& pilot,
+                                   math::RandomKey key);
 
 /// One k for a packet of receivers (one at least, kPacketWidth at most), each of which gathers by one ray for
 /// so many chains of which all nodes are sent to it: by the same model.
-double plan_constant(const RayCaster& caster, const PathTracer& tracer, std::span<const Receiver> receivers,
-                     const PilotLight& pilot, std::uint64_t chains_per_ray, unsigned rays_per_receiver,
-                     RandomKey key);
+double plan_constant(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                     std::span<const transport::Receiver> receivers, const PilotLight& pilot,
+                     std::uint64_t chains_per_ray, unsigned rays_per_receiver, math::RandomKey key);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -9,7 +9,7 @@
 #include "math/sample_stream.h"
 #include "math/sampling.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 const double kSqrtPi = std::sqrt(std::numbers::pi);  // 1 / Z_0
@@ -22,12 +22,13 @@ template <typename Visit>
 void for_each_node(const Material& material, const Vec3& out, const Visit& visit) {
     constexpr std::uint32_t each = 256;
     for (std::uint32_t i = 0; i < each; ++i) {
-        const double u1 = (i + 0.5) / each, u2 = unit_interval(sobol(i, 0));
+        const double u1 = (i + 0.5) / each, u2 = math::unit_interval(math::sobol(i, 0));
         const auto add = [&](const Vec3& in) {
             if (!(in.z > 0)) return;
-            visit(in, 1 / (each * (pdf_per_sr(material, out, in) + cosine_hemisphere_pdf_per_sr(in.z))));
+            visit(in,
+                  1 / (each * (pdf_per_sr(material, out, in) + math::cosine_hemisphere_pdf_per_sr(in.z))));
         };
-        add(sample_cosine_hemisphere(u1, u2).direction);
+        add(math::sample_cosine_hemisphere(u1, u2).direction);
         if (const auto drawn = sample_brdf(material, out, u1, u2)) add(drawn->direction);
     }
 }
@@ -53,12 +54,12 @@ std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport) {
 }
 
 void TermSums::add(const BundleIteration& iteration) {
-    std::array<double, ZernikeBasis::kMostCount> values;
+    std::array<double, math::ZernikeBasis::kMostCount> values;
     for (const std::uint32_t side : layout_.sides()) {
-        Rgb* const sums = &sums_[layout_.first_of(side)];
+        FloatRgb* const sums = &sums_[layout_.first_of(side)];
         const std::size_t count = layout_.count_of(side);
         const Frame frame = Frame::of_surface(transport_.patches.normal_of(side));
-        iteration.for_each_arrival(side, [&](const Vec3& in, const Spectrum& illuminance_lx) {
+        iteration.for_each_arrival(side, [&](const Vec3& in, const Rgb& illuminance_lx) {
             if (count == 1) return add_to(*sums, illuminance_lx * (1 / kSqrtPi));
             layout_.basis().evaluate(frame.to_local(in), values);
             for (std::size_t k = 0; k < count; ++k) add_to(sums[k], illuminance_lx * values[k]);
@@ -67,44 +68,43 @@ void TermSums::add(const BundleIteration& iteration) {
     ++steps_;
 }
 
-std::vector<Rgb> TermSums::mean() const {
-    std::vector<Rgb> means;
+std::vector<FloatRgb> TermSums::mean() const {
+    std::vector<FloatRgb> means;
     means.reserve(sums_.size());
-    for (const Rgb& sum : sums_)
-        means.push_back(rgb_of(spectrum_of(sum) * (1 / static_cast<double>(steps_))));
+    for (const FloatRgb& sum : sums_)
+        means.push_back(to_float_rgb(to_rgb(sum) * (1 / static_cast<double>(steps_))));
     return means;
 }
 
-Spectrum TermSums::mean_illuminance_lx(std::uint32_t side) const {
-    return spectrum_of(sums_[layout_.first_of(side)]) * (kSqrtPi / static_cast<double>(steps_));
+Rgb TermSums::mean_illuminance_lx(std::uint32_t side) const {
+    return to_rgb(sums_[layout_.first_of(side)]) * (kSqrtPi / static_cast<double>(steps_));
 }
 
-std::vector<Rgb> reflection_factors(const PatchTransport& transport, const TermLayout& layout,
-                                    std::uint32_t side, const Vec3& out) {
+std::vector<FloatRgb> reflection_factors(const PatchTransport& transport, const TermLayout& layout,
+                                         std::uint32_t side, const Vec3& out) {
     const std::uint32_t patch = transport.patches.patch_of(side);
-    std::vector<Rgb> factors(layout.count_of(side));
+    std::vector<FloatRgb> factors(layout.count_of(side));
     if (factors.empty()) return factors;
     if (transport.reflects_alike(patch)) {
-        factors[0] = rgb_of(spectrum_of(transport.constant_brdf[patch]) * kSqrtPi);
+        factors[0] = to_float_rgb(to_rgb(transport.constant_brdf[patch]) * kSqrtPi);
         return factors;
     }
     const Material& material = transport.material_of(patch);
     const Vec3 local_out = Frame::of_surface(transport.patches.normal_of(side)).to_local(out);
-    std::array<double, ZernikeBasis::kMostCount> values;
+    std::array<double, math::ZernikeBasis::kMostCount> values;
     for_each_node(material, local_out, [&](const Vec3& in, double weight_sr) {
-        const Spectrum share = evaluate_brdf_per_sr(material, in, local_out) * (in.z * weight_sr);
+        const Rgb share = evaluate_brdf_per_sr(material, in, local_out) * (in.z * weight_sr);
         layout.basis().evaluate(in, values);
         for (std::size_t k = 0; k < factors.size(); ++k) add_to(factors[k], share * values[k]);
     });
     return factors;
 }
 
-Spectrum reflected_cd_m2(std::span<const Rgb> terms, std::span<const Rgb> factors) {
-    Spectrum luminance;
-    for (std::size_t k = 0; k < terms.size(); ++k)
-        luminance += spectrum_of(terms[k]) * spectrum_of(factors[k]);
+Rgb reflected_cd_m2(std::span<const FloatRgb> terms, std::span<const FloatRgb> factors) {
+    Rgb luminance;
+    for (std::size_t k = 0; k < terms.size(); ++k) luminance += to_rgb(terms[k]) * to_rgb(factors[k]);
     for (double& band : luminance.band) band = std::max(band, 0.0);
     return luminance;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -21,7 +21,7 @@
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 #include "math/zernike.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Where the terms of each side are among those of all: one of a side that reflects alike, a basis of others.
 class TermLayout {
@@ -29,7 +29,7 @@ class TermLayout {
     /// `sides`: those that have terms, ascending.
     TermLayout(const PatchTransport& transport, int degree, std::vector<std::uint32_t> sides);
 
-    const ZernikeBasis& basis() const { return basis_; }
+    const math::ZernikeBasis& basis() const { return basis_; }
     std::span<const std::uint32_t> sides() const { return sides_; }
     /// Of all sides together.
     std::size_t count() const { return first_.back(); }
@@ -38,7 +38,7 @@ class TermLayout {
     std::size_t count_of(std::uint32_t side) const { return first_[side + 1] - first_[side]; }
 
   private:
-    ZernikeBasis basis_;
+    math::ZernikeBasis basis_;
     std::vector<std::uint32_t> sides_;
     std::vector<std::size_t> first_;  ///< per side of all patches, and the end
 };
@@ -56,22 +56,22 @@ class TermSums {
     void add(const BundleIteration& iteration);
     std::uint64_t steps() const { return steps_; }
     /// [lx / sqrt(sr)]
-    std::vector<Rgb> mean() const;
-    Spectrum mean_illuminance_lx(std::uint32_t side) const;
+    std::vector<FloatRgb> mean() const;
+    Rgb mean_illuminance_lx(std::uint32_t side) const;
 
   private:
     const PatchTransport& transport_;
     const TermLayout& layout_;
     std::uint64_t steps_ = 0;
-    std::vector<Rgb> sums_;
+    std::vector<FloatRgb> sums_;
 };
 
 /// What the terms of a side are multiplied by for the luminance that it reflects towards the unit `out`, in
 /// front of it [1 / sqrt(sr)]. By a sum over directions: right to about 0.5 % for light that is alike from
 /// everywhere.
-std::vector<Rgb> reflection_factors(const PatchTransport& transport, const TermLayout& layout,
-                                    std::uint32_t side, const Vec3& out);
+std::vector<FloatRgb> reflection_factors(const PatchTransport& transport, const TermLayout& layout,
+                                         std::uint32_t side, const Vec3& out);
 /// The sum of their products [cd/m2]; 0 where that is below: a luminance is not.
-Spectrum reflected_cd_m2(std::span<const Rgb> terms, std::span<const Rgb> factors);
+Rgb reflected_cd_m2(std::span<const FloatRgb> terms, std::span<const FloatRgb> factors);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

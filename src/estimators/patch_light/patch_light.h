@@ -6,7 +6,7 @@
 #include "base/rgb.h"
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 class PatchLight {
   public:
@@ -14,7 +14,7 @@ class PatchLight {
 
     /// The luminance [cd/m2] that a side reflects towards the unit `out`, in front of it, as a mean over the
     /// patch; without emission and without first shot.
-    virtual Spectrum reflected(std::uint32_t side, const Vec3& out) const = 0;
+    virtual Rgb reflected(std::uint32_t side, const Vec3& out) const = 0;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

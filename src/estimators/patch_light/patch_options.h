@@ -8,7 +8,7 @@
 
 #include "estimators/patch_light/first_shot/first_shot.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Directions of a step of stochastic iteration (theory 8).
 enum class BundleDirections { single, pair, frame };
@@ -28,4 +28,4 @@ struct PatchOptions {
     int shot_resolution = 64;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -5,21 +5,21 @@
 
 #include "estimators/camera_paths.h"
 #include "estimators/patch_light/patch_light.h"
-#include "estimators/patch_light/patch_place.h"
+#include "estimators/patch_light/patch_location.h"
 #include "estimators/patch_light/patch_transport.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// What sides reflect towards the eye. Those that are turned away from it count only where there are mirrors
 /// or glass to show them, and then along their normals. Keeps a reference to the transport.
-class SeenSides {
+class VisibleSides {
   public:
-    SeenSides(const PatchTransport& transport, const Vec3& eye);
+    VisibleSides(const PatchTransport& transport, const Vec3& eye);
 
     /// Adds what each side reflects of the light to `sums_cd_m2`, first shot left out.
-    void add(const PatchLight& light, std::vector<Rgb>& sums_cd_m2) const;
+    void add(const PatchLight& light, std::vector<FloatRgb>& sums_cd_m2) const;
     /// The mean of as many lights as were added, and first shot [cd/m2].
-    std::vector<Rgb> mean_cd_m2(const std::vector<Rgb>& sums_cd_m2, double lights) const;
+    std::vector<FloatRgb> mean_cd_m2(const std::vector<FloatRgb>& sums_cd_m2, double lights) const;
 
     std::size_t count() const { return first_.size(); }
 
@@ -31,12 +31,12 @@ class SeenSides {
     const PatchTransport& transport_;
     Vec3 eye_;
     bool are_backs_seen_;
-    std::vector<Rgb> first_;  ///< [cd/m2] by first shot
+    std::vector<FloatRgb> first_;  ///< [cd/m2] by first shot
 };
 
 template <typename Visit>
-void SeenSides::for_each(const Visit& visit) const {
-    const Patches& patches = transport_.patches;
+void VisibleSides::for_each(const Visit& visit) const {
+    const patches::Patches& patches = transport_.patches;
     for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
         const Vec3 normal = patches.normal_of(patch);
         const std::uint32_t back = patches.other_side(patch);
@@ -58,17 +58,17 @@ class PatchPass final : public PicturePass {
   public:
     /// `sides_cd_m2`: of every side, towards the eye, first shot included. Keeps references to all but that.
     PatchPass(const PictureTracing& tracing, const PatchTransport& transport, const Pass& pass,
-              const std::vector<Rgb>& sides_cd_m2);
+              const std::vector<FloatRgb>& sides_cd_m2);
 
-    std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override;
+    std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override;
 
   private:
-    Spectrum reflected(const Path& path, const PatchPlace& seen) const;
+    Rgb reflected(const transport::Path& path, const PatchLocation& seen) const;
 
     const PictureTracing& tracing_;
     const PatchTransport& transport_;
     Pass pass_;
-    std::vector<Spectrum> fronts_, backs_;  ///< of the vertices
+    std::vector<Rgb> fronts_, backs_;  ///< of the vertices
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

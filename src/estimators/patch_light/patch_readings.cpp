@@ -5,7 +5,7 @@
 
 #include "transport/direct_light.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// From each point: a step of the light costs far more than a ray.
@@ -26,19 +26,20 @@ PatchReadings::PatchReadings(const PatchTransport& transport, std::span<const Me
 }
 
 void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measurand) {
-    const RayCaster& caster = transport_.caster;
+    const rays::RayCaster& caster = transport_.caster;
     if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
         points_.emplace_back(reading, *point, caster);
         known_part_[reading] = direct_from_points(points_.back(), caster, transport_.lights);
         return;
     }
-    const Sight sight = look(measurand, transport_.scene, caster, transport_.lights, kUnlimited);
+    const transport::VisibleSurfaces sight =
+        look(measurand, transport_.scene, caster, transport_.lights, transport::kUnlimited);
     known_part_[reading] = sight.emission_cd_m2;
-    std::vector<SeenPoint> points;
-    for (const SubPoint& sub_point : sight.sub_points) {
+    std::vector<ViewedHit> points;
+    for (const transport::SubPoint& sub_point : sight.sub_points) {
         points.push_back({sub_point.surface, sub_point.outgoing});
     }
-    const auto places = find_places(transport_.patch_caster, points);
+    const auto places = find_patch_locations(transport_.patch_caster, points);
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (!places[i]) continue;
         views_.push_back({reading, sight.sub_points[i].transmission, *places[i], points[i].hit.position,
@@ -47,7 +48,7 @@ void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measuran
 }
 
 void PatchReadings::add_shares() {
-    std::vector<VertexInterpolation::Place> places;
+    std::vector<patches::VertexInterpolation::Place> places;
     for (const View& view : views_) {
         places.push_back({transport_.patches.patch_of(view.seen.side), view.seen.place});
     }
@@ -60,22 +61,22 @@ void PatchReadings::add_shares() {
 
 template <typename Visit>
 void PatchReadings::for_each_share(const View& view, const Visit& visit) const {
-    const Patches& patches = transport_.patches;
+    const patches::Patches& patches = transport_.patches;
     const bool front = patches.is_front(view.seen.side);
     for (const auto& [patch, weight] : view.shares) visit(front ? patch : patches.other_side(patch), weight);
 }
 
-Spectrum PatchReadings::first_reflected(const View& view) const {
-    Spectrum luminance;
+Rgb PatchReadings::first_reflected(const View& view) const {
+    Rgb luminance;
     for_each_share(view, [&](std::uint32_t side, double weight) {
         luminance += transport_.first_reflected(side, view.outgoing) * weight;
     });
     return luminance;
 }
 
-void PatchReadings::add(const PatchLight& light, RandomKey key, std::uint64_t sample,
+void PatchReadings::add(const PatchLight& light, math::RandomKey key, std::uint64_t sample,
                         ReadingSums& sums) const {
-    const RandomKey key_of_views = key.derived(kViews).derived(sample);
+    const math::RandomKey key_of_views = key.derived(kViews).derived(sample);
     for (std::size_t i = 0; i < views_.size(); ++i) {
         add_luminance(light, views_[i], key_of_views.derived(i), sums);
     }
@@ -83,14 +84,14 @@ void PatchReadings::add(const PatchLight& light, RandomKey key, std::uint64_t sa
         const std::size_t count = std::min<std::size_t>(kPacketWidth, points_.size() - first);
         for (std::uint64_t ray = 0; ray < kRaysPerSample; ++ray) {
             add_illuminances(light, std::span(points_).subspan(first, count),
-                             SampleStream(key.derived(first), kRaysPerSample * sample + ray), sums);
+                             math::SampleStream(key.derived(first), kRaysPerSample * sample + ray), sums);
         }
     }
 }
 
-void PatchReadings::add_luminance(const PatchLight& light, const View& view, RandomKey key,
+void PatchReadings::add_luminance(const PatchLight& light, const View& view, math::RandomKey key,
                                   ReadingSums& sums) const {
-    Spectrum luminance = transport_.first_reflected_at(view.seen.side, view.position, key, view.outgoing);
+    Rgb luminance = transport_.first_reflected_at(view.seen.side, view.position, key, view.outgoing);
     for_each_share(view, [&](std::uint32_t side, double weight) {
         luminance += light.reflected(side, view.outgoing) * weight;
     });
@@ -98,13 +99,13 @@ void PatchReadings::add_luminance(const PatchLight& light, const View& view, Ran
 }
 
 /// The rays have one direction in the frames of their points, so that they are coherent.
-void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Receiver> points,
-                                     SampleStream stream, ReadingSums& sums) const {
+void PatchReadings::add_illuminances(const PatchLight& light, std::span<const transport::Receiver> points,
+                                     math::SampleStream stream, ReadingSums& sums) const {
     const Vec3& center = transport_.patches.center;
     const auto [u1, u2] = stream.next_two();
     RayPacket packet;
     LaneMask lanes{};
-    std::array<Receiver::Sample, kPacketWidth> samples;
+    std::array<transport::Receiver::Sample, kPacketWidth> samples;
     for (std::size_t i = 0; i < points.size(); ++i) {
         sums.add(points[i].reading(),
                  kShare * sample_direct_from_areas(points[i], transport_.caster, transport_.lights, stream));
@@ -116,7 +117,7 @@ void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Re
     }
     const auto sides = transport_.patch_caster.closest(packet, lanes).sides;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (sides[i] == kNoSide) continue;
+        if (sides[i] == patches::kNoSide) continue;
         const Vec3 out = -samples[i].direction;
         const Vec3 met = points[i].lifted() - double{packet.end[i]} * out;
         sums.add(points[i].reading(),
@@ -126,4 +127,4 @@ void PatchReadings::add_illuminances(const PatchLight& light, std::span<const Re
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -10,11 +10,11 @@
 
 #include "estimators/estimator.h"
 #include "estimators/patch_light/patch_light.h"
-#include "estimators/patch_light/patch_place.h"
+#include "estimators/patch_light/patch_location.h"
 #include "estimators/patch_light/patch_transport.h"
 #include "transport/receiver.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Keeps a reference to the transport. Immutable.
 class PatchReadings {
@@ -22,35 +22,36 @@ class PatchReadings {
     PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands);
 
     /// Emission and stored first shot along lines of sight, direct light of point-like sources at points.
-    std::span<const Spectrum> known_part() const { return known_part_; }
+    std::span<const Rgb> known_part() const { return known_part_; }
 
     /// Adds sample number `sample` of every reading, beside the known part.
-    void add(const PatchLight& light, RandomKey key, std::uint64_t sample, ReadingSums& sums) const;
+    void add(const PatchLight& light, math::RandomKey key, std::uint64_t sample, ReadingSums& sums) const;
 
   private:
     /// A sub-point as patches show it.
     struct View {
         std::uint32_t reading = 0;
-        Spectrum transmission;
-        PatchPlace seen;
+        Rgb transmission;
+        PatchLocation seen;
         Vec3 position, outgoing;
-        std::vector<VertexInterpolation::Share> shares{};  ///< of the patches around
+        std::vector<patches::VertexInterpolation::Share> shares{};  ///< of the patches around
     };
 
     void add_reading(std::uint32_t reading, const Measurand& measurand);
     void add_shares();
-    Spectrum first_reflected(const View& view) const;
-    void add_luminance(const PatchLight& light, const View& view, RandomKey key, ReadingSums& sums) const;
+    Rgb first_reflected(const View& view) const;
+    void add_luminance(const PatchLight& light, const View& view, math::RandomKey key,
+                       ReadingSums& sums) const;
     /// Calls `visit(side, weight)` for the sides that a view is interpolated between.
     template <typename Visit>
     void for_each_share(const View& view, const Visit& visit) const;
-    void add_illuminances(const PatchLight& light, std::span<const Receiver> points, SampleStream stream,
-                          ReadingSums& sums) const;
+    void add_illuminances(const PatchLight& light, std::span<const transport::Receiver> points,
+                          math::SampleStream stream, ReadingSums& sums) const;
 
     const PatchTransport& transport_;
-    std::vector<Spectrum> known_part_;
-    std::vector<Receiver> points_;
+    std::vector<Rgb> known_part_;
+    std::vector<transport::Receiver> points_;
     std::vector<View> views_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

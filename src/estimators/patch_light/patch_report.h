@@ -7,7 +7,7 @@
 
 #include "estimators/patch_light/first_shot/first_shot.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// All but the time is the same whenever the same is computed.
 struct PatchReport {
@@ -21,4 +21,4 @@ struct PatchReport {
     std::vector<FirstShotLight> lights;  ///< as Scene::lights
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

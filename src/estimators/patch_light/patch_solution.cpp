@@ -6,7 +6,7 @@
 #include "estimators/patch_light/first_shot/surface.h"
 #include "math/zernike.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 void require(bool holds, const char* what) {
@@ -28,12 +28,12 @@ bool is_row_table(std::span<const std::uint32_t> rows, std::size_t count, std::s
     return rows.size() == count + 1 && rows.front() == 0 && rows.back() == end && ascend(rows, false);
 }
 
-bool is_finite(const Rgb& rgb) { return spectrum_of(rgb).is_finite(); }
-bool is_finite(const Float3& v) { return stilb::is_finite(Vec3(v)); }
+bool is_finite(const FloatRgb& rgb) { return to_rgb(rgb).is_finite(); }
+bool is_finite(const patches::Float3& v) { return stilb::is_finite(Vec3(v)); }
 
-void require_patches(const Patches& patches, const Scene& scene) {
+void require_patches(const patches::Patches& patches, const Scene& scene) {
     const std::size_t count = patches.count();
-    require(count > 0 && count <= kMostPatches, "the number of patches");
+    require(count > 0 && count <= patches::kMostPatches, "the number of patches");
     require(patches.normals.size() == count && patches.areas_m2.size() == count &&
                 patches.materials.size() == count,
             "the lengths of the patches' lists differ");
@@ -44,7 +44,7 @@ void require_patches(const Patches& patches, const Scene& scene) {
     for (const MaterialId material : patches.materials) {
         require(index_of(material) < scene.materials.size(), "a material is none of the scene's");
     }
-    const auto finite = [](const Float3& v) { return is_finite(v); };
+    const auto finite = [](const patches::Float3& v) { return is_finite(v); };
     require(stilb::is_finite(patches.center) && std::ranges::all_of(patches.vertices, finite) &&
                 std::ranges::all_of(patches.normals, finite) &&
                 std::ranges::all_of(patches.areas_m2, [](float area) { return area > 0; }),
@@ -59,26 +59,28 @@ void require_factors(const FirstShotFactors& factors, std::size_t sides, std::si
 }
 
 void require_light(const PatchSolution& solution, const Scene& scene) {
-    const Patches& patches = solution.patches;
-    require(solution.degree >= 0 && solution.degree <= ZernikeBasis::kMostDegree, "the degree of the basis");
+    const patches::Patches& patches = solution.patches;
+    require(solution.degree >= 0 && solution.degree <= math::ZernikeBasis::kMostDegree,
+            "the degree of the basis");
     require(all_below(solution.lit_sides, 2 * patches.count()) && ascend(solution.lit_sides, true),
             "the sides with light");
     std::size_t terms = 0;
     for (const std::uint32_t side : solution.lit_sides) {
-        terms +=
-            reflects_alike(material_of(scene, patches, side)) ? 1 : ZernikeBasis(solution.degree).count();
+        terms += reflects_alike(material_of(scene, patches, side))
+                     ? 1
+                     : math::ZernikeBasis(solution.degree).count();
     }
     require(solution.replicates.size() >= 2, "the number of replicates");
     for (const auto& replicate : solution.replicates) {
         require(replicate.size() == terms, "the number of terms");
-        require(std::ranges::all_of(replicate, [](const Rgb& rgb) { return is_finite(rgb); }),
+        require(std::ranges::all_of(replicate, [](const FloatRgb& rgb) { return is_finite(rgb); }),
                 "light must be numbers");
     }
 }
 
 }  // namespace
 
-void require_consistency(const PatchSolution& solution, const Scene& scene, const RayCaster& caster) {
+void require_consistency(const PatchSolution& solution, const Scene& scene, const rays::RayCaster& caster) {
     require_patches(solution.patches, scene);
     if (solution.factors) {
         const auto lights = choose_first_shot_lights(scene, caster, solution.patches.center);
@@ -87,4 +89,4 @@ void require_consistency(const PatchSolution& solution, const Scene& scene, cons
     require_light(solution, scene);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -10,11 +10,11 @@
 #include "patches/patches.h"
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Plain values, which belong to a scene with the same objects, materials and lights.
 struct PatchSolution {
-    Patches patches;
+    patches::Patches patches;
     /// Of incoming first shot; nothing without first shot.
     std::optional<FirstShotFactors> factors;
     /// Of the basis that light is kept in (incoming_light.h).
@@ -22,11 +22,11 @@ struct PatchSolution {
     /// That receive light and reflect some, ascending.
     std::vector<std::uint32_t> lit_sides;
     /// Of each independent replicate: the terms [lx / sqrt(sr)] of all lit sides, one after the other.
-    std::vector<std::vector<Rgb>> replicates;
+    std::vector<std::vector<FloatRgb>> replicates;
 };
 
 /// Throws InputError where the parts do not fit one another or the scene: what is out of range would be
 /// looked up elsewhere.
-void require_consistency(const PatchSolution& solution, const Scene& scene, const RayCaster& caster);
+void require_consistency(const PatchSolution& solution, const Scene& scene, const rays::RayCaster& caster);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -7,24 +7,24 @@
 
 #include "patches/visibility/buffer_backend.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// Rays of a bundle that meet a patch of mean size which stands across it.
 constexpr double kRaysPerPatch = 2;
 
-double area_m2(const Patches& patches) {
+double area_m2(const patches::Patches& patches) {
     return std::accumulate(patches.areas_m2.begin(), patches.areas_m2.end(), 0.0);
 }
 
 }  // namespace
 
-PatchTransport::PatchTransport(const Scene& all, const RayCaster& rays, const PatchOptions& asked)
+PatchTransport::PatchTransport(const Scene& all, const rays::RayCaster& rays, const PatchOptions& asked)
     : FirstShotPatches(all, rays, asked) {
     describe_patches();
 }
 
-PatchTransport::PatchTransport(const Scene& all, const RayCaster& rays, Patches made,
+PatchTransport::PatchTransport(const Scene& all, const rays::RayCaster& rays, patches::Patches made,
                                std::optional<FirstShotFactors> factors)
     : FirstShotPatches(all, rays, std::move(made), std::move(factors)) {
     describe_patches();
@@ -54,11 +54,11 @@ void PatchTransport::add_reflection(std::uint32_t patch) {
         glossy_patches.push_back(patch);
         return;
     }
-    constant_brdf[patch] = rgb_of(diffuse->reflectance * std::numbers::inv_pi);
+    constant_brdf[patch] = to_float_rgb(diffuse->reflectance * std::numbers::inv_pi);
     for (const std::uint32_t side : {patch, patches.other_side(patch)}) {
         if (first_shot.needs_position(side)) continue;
         first_reflection[side] =
-            rgb_of(first_shot.reflected(side, patches.middle(patch), {}, patches.normal_of(side)));
+            to_float_rgb(first_shot.reflected(side, patches.middle(patch), {}, patches.normal_of(side)));
     }
 }
 
@@ -67,15 +67,15 @@ void PatchTransport::add_emission(std::size_t light) {
     if (!area_light || first_shot.replaces(light)) return;
     const std::size_t object = index_of(area_light->object);
     for (std::uint32_t p = patches.first_of_object[object]; p < patches.first_of_object[object + 1]; ++p) {
-        emission[p] = rgb_of(area_light->luminance_cd_m2);
+        emission[p] = to_float_rgb(area_light->luminance_cd_m2);
     }
 }
 
-Spectrum PatchTransport::first_reflected(std::uint32_t side, const Vec3& out) const {
+Rgb PatchTransport::first_reflected(std::uint32_t side, const Vec3& out) const {
     const std::uint32_t patch = patches.patch_of(side);
-    if (reflects_alike(patch)) return spectrum_of(first_reflection[side]);
-    return first_shot.needs_position(side) ? Spectrum{}
+    if (reflects_alike(patch)) return to_rgb(first_reflection[side]);
+    return first_shot.needs_position(side) ? Rgb{}
                                            : first_shot.reflected(side, patches.middle(patch), {}, out);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

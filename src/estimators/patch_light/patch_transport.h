@@ -11,30 +11,29 @@
 #include "patches/visibility/buffer_backend.h"
 #include "patches/visibility/bundle.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Single precision, for what every side has.
-using Rgb = std::array<float, kBands>;
+using FloatRgb = std::array<float, kBands>;
 
-inline Rgb rgb_of(const Spectrum& spectrum) {
-    return {static_cast<float>(spectrum[0]), static_cast<float>(spectrum[1]),
-            static_cast<float>(spectrum[2])};
+inline FloatRgb to_float_rgb(const Rgb& rgb) {
+    return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
 }
-inline Spectrum spectrum_of(const Rgb& rgb) { return {{rgb[0], rgb[1], rgb[2]}}; }
-inline void add_to(Rgb& sum, const Spectrum& value) {
+inline Rgb to_rgb(const FloatRgb& rgb) { return {{rgb[0], rgb[1], rgb[2]}}; }
+inline void add_to(FloatRgb& sum, const Rgb& value) {
     for (std::size_t b = 0; b < kBands; ++b) sum[b] += static_cast<float>(value[b]);
 }
 
 /// Of as many sides.
-inline void add_to(std::vector<Rgb>& sums, const std::vector<Rgb>& others) {
-    for (std::size_t side = 0; side < sums.size(); ++side) add_to(sums[side], spectrum_of(others[side]));
+inline void add_to(std::vector<FloatRgb>& sums, const std::vector<FloatRgb>& others) {
+    for (std::size_t side = 0; side < sums.size(); ++side) add_to(sums[side], to_rgb(others[side]));
 }
 
 /// Keeps references to scene and caster. Immutable once made.
 struct PatchTransport : FirstShotPatches {
     /// Both as FirstShotPatches.
-    PatchTransport(const Scene& scene, const RayCaster& caster, const PatchOptions& options);
-    PatchTransport(const Scene& scene, const RayCaster& caster, Patches patches,
+    PatchTransport(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options);
+    PatchTransport(const Scene& scene, const rays::RayCaster& caster, patches::Patches patches,
                    std::optional<FirstShotFactors> factors);
 
     const Material& material_of(std::uint32_t patch) const {
@@ -47,25 +46,26 @@ struct PatchTransport : FirstShotPatches {
     bool reflects_alike(std::uint32_t patch) const { return glossy_number[patch] == kConstant; }
 
     /// What first shot makes a side reflect, as a mean over the patch; nothing where it depends on the place.
-    Spectrum first_reflected(std::uint32_t side, const Vec3& out) const;
+    Rgb first_reflected(std::uint32_t side, const Vec3& out) const;
     /// The other part: what depends on the place.
-    Spectrum first_reflected_at(std::uint32_t side, const Vec3& position, RandomKey key,
-                                const Vec3& out) const {
-        return first_shot.needs_position(side) ? first_shot.reflected(side, position, key, out) : Spectrum{};
+    Rgb first_reflected_at(std::uint32_t side, const Vec3& position, math::RandomKey key,
+                           const Vec3& out) const {
+        return first_shot.needs_position(side) ? first_shot.reflected(side, position, key, out) : Rgb{};
     }
 
-    VertexInterpolation interpolation{patches};
-    std::unique_ptr<Bundles> bundles = make_bundles(options.first_shot.shooting.backend, patch_caster);
+    patches::VertexInterpolation interpolation{patches};
+    std::unique_ptr<patches::Bundles> bundles =
+        make_bundles(options.first_shot.shooting.backend, patch_caster);
     double spacing_m = 0;  ///< of bundles' rays
 
     static constexpr std::uint32_t kConstant = ~0u;
     /// Per patch: its place in `glossy_patches`, or kConstant: it reflects alike in all directions.
     std::vector<std::uint32_t> glossy_number;
     std::vector<std::uint32_t> glossy_patches;
-    std::vector<Rgb> constant_brdf;     ///< per patch [1/sr]; 0 where it depends on direction
-    std::vector<Rgb> first_reflection;  ///< per side [cd/m2]; 0 where it depends on direction or place
-    std::vector<Rgb> emission;          ///< per patch, of its front; 0 where first shot stands for it
-    double mean_reflectance = 0;        ///< by area
+    std::vector<FloatRgb> constant_brdf;     ///< per patch [1/sr]; 0 where it depends on direction
+    std::vector<FloatRgb> first_reflection;  ///< per side [cd/m2]; 0 where it depends on direction or place
+    std::vector<FloatRgb> emission;          ///< per patch, of its front; 0 where first shot stands for it
+    double mean_reflectance = 0;             ///< by area
 
   private:
     void describe_patches();
@@ -73,4 +73,4 @@ struct PatchTransport : FirstShotPatches {
     void add_emission(std::size_t light);
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

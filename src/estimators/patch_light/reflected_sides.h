@@ -7,18 +7,18 @@
 #include "estimators/patch_light/patch_light.h"
 #include "estimators/patch_light/patch_transport.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 class ReflectedSides final : public PatchLight {
   public:
     /// `cd_m2`: of every side.
-    explicit ReflectedSides(std::vector<Rgb> cd_m2) : cd_m2_(std::move(cd_m2)) {}
+    explicit ReflectedSides(std::vector<FloatRgb> cd_m2) : cd_m2_(std::move(cd_m2)) {}
 
-    Spectrum reflected(std::uint32_t side, const Vec3&) const override { return spectrum_of(cd_m2_[side]); }
-    const std::vector<Rgb>& cd_m2() const { return cd_m2_; }
+    Rgb reflected(std::uint32_t side, const Vec3&) const override { return to_rgb(cd_m2_[side]); }
+    const std::vector<FloatRgb>& cd_m2() const { return cd_m2_; }
 
   private:
-    std::vector<Rgb> cd_m2_;
+    std::vector<FloatRgb> cd_m2_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -10,7 +10,7 @@
 #include "estimators/patch_light/incoming_light.h"
 #include "estimators/patch_light/patch_picture.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 class SolutionPicture final : public PictureEstimator {
@@ -31,21 +31,21 @@ class SolutionPicture final : public PictureEstimator {
     }
 
   private:
-    void reflect(const TermLayout& layout, const std::vector<std::vector<Rgb>>& replicates) {
+    void reflect(const TermLayout& layout, const std::vector<std::vector<FloatRgb>>& replicates) {
         struct Seen {
             std::uint32_t side = 0;
             Vec3 out;
         };
-        const SeenSides sides(transport_, tracing_.view.position());
+        const VisibleSides sides(transport_, tracing_.view.position());
         std::vector<Seen> seen;
         sides.for_each([&](std::uint32_t side, const Vec3& out) { seen.push_back({side, out}); });
-        std::ranges::fill(replicates_cd_m2_, std::vector<Rgb>(sides.count()));
+        std::ranges::fill(replicates_cd_m2_, std::vector<FloatRgb>(sides.count()));
         tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
             const auto& [side, out] = seen[i];
-            const std::vector<Rgb> factors = reflection_factors(transport_, layout, side, out);
+            const std::vector<FloatRgb> factors = reflection_factors(transport_, layout, side, out);
             for (std::size_t r = 0; r < replicates.size(); ++r) {
                 const auto terms = std::span(replicates[r]).subspan(layout.first_of(side), factors.size());
-                replicates_cd_m2_[r][side] = rgb_of(reflected_cd_m2(terms, factors));
+                replicates_cd_m2_[r][side] = to_float_rgb(reflected_cd_m2(terms, factors));
             }
         });
         for (auto& sides_cd_m2 : replicates_cd_m2_) sides_cd_m2 = sides.mean_cd_m2(sides_cd_m2, 1);
@@ -53,7 +53,7 @@ class SolutionPicture final : public PictureEstimator {
 
     PictureTracing tracing_;
     PatchTransport transport_;
-    std::vector<std::vector<Rgb>> replicates_cd_m2_;  ///< of every side, towards the eye
+    std::vector<std::vector<FloatRgb>> replicates_cd_m2_;  ///< of every side, towards the eye
 };
 
 }  // namespace
@@ -63,4 +63,4 @@ std::unique_ptr<PictureEstimator> make_solution_picture(const PictureInput& inpu
     return std::make_unique<SolutionPicture>(input, std::move(solution));
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -6,10 +6,10 @@
 
 #include "estimators/limits.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
-std::unique_ptr<const FirstShotPatches> patches_for(const Scene& scene, const RayCaster& caster,
+std::unique_ptr<const FirstShotPatches> patches_for(const Scene& scene, const rays::RayCaster& caster,
                                                     const PatchOptions& options) {
     if (options.first_shot.variant.value_or(FirstShotVariant::none) == FirstShotVariant::none) return nullptr;
     return std::make_unique<FirstShotPatches>(scene, caster, options);
@@ -24,13 +24,13 @@ std::vector<bool> replaced(const FirstShotPatches* patches) {
 
 bool has_panes(const Scene& scene) {
     return std::ranges::any_of(scene.materials, [](const NamedMaterial& named) {
-        return std::holds_alternative<Pane>(named.material);
+        return std::holds_alternative<ThinDielectric>(named.material);
     });
 }
 
 }  // namespace
 
-FlattenedPaths::FlattenedPaths(const Scene& all, const RayCaster& caster, const PatchOptions& options)
+FlattenedPaths::FlattenedPaths(const Scene& all, const rays::RayCaster& caster, const PatchOptions& options)
     : scene(all),
       patches(patches_for(scene, caster, options)),
       lights(scene, caster, replaced(patches.get())),
@@ -57,4 +57,4 @@ std::optional<PatchReport> FlattenedPaths::report() const {
     return patches ? std::optional{patches->report()} : std::nullopt;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

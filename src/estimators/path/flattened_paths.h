@@ -10,12 +10,12 @@
 #include "estimators/patch_light/first_shot/first_shot_patches.h"
 #include "transport/path_tracer.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Keeps references to scene and caster. Stays where it is made. Immutable.
 struct FlattenedPaths {
     /// There are patches only where the options name a variant of first shot.
-    FlattenedPaths(const Scene& scene, const RayCaster& caster, const PatchOptions& options);
+    FlattenedPaths(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options);
     FlattenedPaths(const FlattenedPaths&) = delete;
     FlattenedPaths& operator=(const FlattenedPaths&) = delete;
 
@@ -24,8 +24,8 @@ struct FlattenedPaths {
 
     const Scene& scene;
     std::unique_ptr<const FirstShotPatches> patches;  ///< null without first shot
-    LightSampler lights;                              ///< those that are replaced are made elsewhere
-    PathTracer tracer;
+    transport::LightSampler lights;                   ///< those that are replaced are made elsewhere
+    transport::PathTracer tracer;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -15,7 +15,7 @@
 #include "transport/direct_light.h"
 #include "transport/receiver.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// Paths that are traced together: enough to fill packets until most of them have ended.
@@ -38,12 +38,12 @@ class PathEstimator final : public Estimator {
         const std::uint64_t end = batch.first + batch.count;
         for (std::uint64_t first = batch.first; first < end; first += kSideBySide) {
             const Batch part{batch.key, first, std::min(kSideBySide, end - first)};
-            for (const Receiver& point : points_) sample_illuminance(point, part, sums);
-            for (const Sighting& sighting : sights_) sample_luminance(sighting, part, sums);
+            for (const transport::Receiver& point : points_) sample_illuminance(point, part, sums);
+            for (const FirstHit& first_hit : sights_) sample_luminance(first_hit, part, sums);
         }
     }
 
-    std::span<const Spectrum> known_part() const override { return known_part_; }
+    std::span<const Rgb> known_part() const override { return known_part_; }
     /// Enough for a first look at the error not to miss what few paths find.
     std::uint64_t batch_granularity() const override { return 64; }
     double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
@@ -52,9 +52,9 @@ class PathEstimator final : public Estimator {
 
   private:
     /// The surface that a line of sight meets first, and the direction that it is seen along.
-    struct Sighting {
+    struct FirstHit {
         std::uint32_t reading = 0;
-        Hit hit;
+        rays::Hit hit;
         Vec3 direction;
     };
 
@@ -64,19 +64,19 @@ class PathEstimator final : public Estimator {
         if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
             points_.emplace_back(reading, *point, caster_);
             known_part_[reading] = direct_from_points(points_.back(), caster_, paths_.lights);
-        } else if (const auto hit = first_surface(measurand, caster_)) {
-            sights_.push_back({reading, *hit, looking_direction(measurand)});
+        } else if (const auto hit = transport::first_surface(measurand, caster_)) {
+            sights_.push_back({reading, *hit, transport::looking_direction(measurand)});
             known_part_[reading] = paths_.lights.emitted_luminance(*hit);
         }
     }
 
-    void sample_illuminance(const Receiver& point, const Batch& batch, ReadingSums& sums) const {
-        const RandomKey key = batch.key.derived(point.reading());
-        std::vector<Ray> rays;
-        std::vector<SampleStream> streams;
-        std::vector<Spectrum> weights;
+    void sample_illuminance(const transport::Receiver& point, const Batch& batch, ReadingSums& sums) const {
+        const math::RandomKey key = batch.key.derived(point.reading());
+        std::vector<rays::Ray> rays;
+        std::vector<math::SampleStream> streams;
+        std::vector<Rgb> weights;
         for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
-            SampleStream stream(key, i);
+            math::SampleStream stream(key, i);
             sums.add(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream));
             const auto [u1, u2] = stream.next_two();
             const auto sample = point.sample(u1, u2);
@@ -85,39 +85,40 @@ class PathEstimator final : public Estimator {
             streams.push_back(stream);
             weights.push_back(sample->weight);
         }
-        std::vector<std::optional<Hit>> hits(rays.size());
-        caster_.closest(rays, Coherence::scattered, hits);
-        std::vector<Path> paths;
-        std::vector<Spectrum> weight_of_path;
+        std::vector<std::optional<rays::Hit>> hits(rays.size());
+        caster_.closest(rays, rays::Coherence::scattered, hits);
+        std::vector<transport::Path> paths;
+        std::vector<Rgb> weight_of_path;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             if (!hits[i]) continue;
             paths.push_back({*hits[i], -rays[i].direction, streams[i], max_reflections_});
-            paths.back().lookout = kDirectIsKnown;
+            paths.back().previous_vertex = transport::kDirectIsKnown;
             weight_of_path.push_back(weights[i]);
         }
-        paths_.tracer.trace(paths, Coherence::scattered);
+        paths_.tracer.trace(paths, rays::Coherence::scattered);
         for (std::size_t i = 0; i < paths.size(); ++i) {
             sums.add(point.reading(), weight_of_path[i] * paths[i].luminance_cd_m2);
         }
     }
 
-    void sample_luminance(const Sighting& sighting, const Batch& batch, ReadingSums& sums) const {
-        const RandomKey key = batch.key.derived(sighting.reading);
-        std::vector<Path> paths;
+    void sample_luminance(const FirstHit& first_hit, const Batch& batch, ReadingSums& sums) const {
+        const math::RandomKey key = batch.key.derived(first_hit.reading);
+        std::vector<transport::Path> paths;
         for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
-            paths.push_back({sighting.hit, -sighting.direction, SampleStream(key, i), max_reflections_});
+            paths.push_back(
+                {first_hit.hit, -first_hit.direction, math::SampleStream(key, i), max_reflections_});
         }
-        paths_.tracer.trace(paths, Coherence::coherent);
-        for (const Path& path : paths) sums.add(sighting.reading, path.luminance_cd_m2);
+        paths_.tracer.trace(paths, rays::Coherence::coherent);
+        for (const transport::Path& path : paths) sums.add(first_hit.reading, path.luminance_cd_m2);
     }
 
     const Scene& scene_;
-    const RayCaster& caster_;
+    const rays::RayCaster& caster_;
     int max_reflections_;
     FlattenedPaths paths_;
-    std::vector<Receiver> points_;
-    std::vector<Sighting> sights_;
-    std::vector<Spectrum> known_part_;
+    std::vector<transport::Receiver> points_;
+    std::vector<FirstHit> sights_;
+    std::vector<Rgb> known_part_;
 };
 
 }  // namespace
@@ -126,4 +127,4 @@ std::unique_ptr<Estimator> make_path_estimator(const EstimatorInput& input) {
     return std::make_unique<PathEstimator>(input);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

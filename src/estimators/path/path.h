@@ -4,9 +4,9 @@
 
 #include "estimators/estimator_list.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Path tracing from every point; see path.cpp.
 std::unique_ptr<Estimator> make_path_estimator(const EstimatorInput& input);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

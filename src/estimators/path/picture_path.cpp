@@ -5,23 +5,23 @@
 #include "estimators/camera_paths.h"
 #include "estimators/path/flattened_paths.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 class Paths final : public PicturePass {
   public:
-    Paths(const PictureTracing& tracing, const PathTracer& tracer, const Pass& pass)
+    Paths(const PictureTracing& tracing, const transport::PathTracer& tracer, const Pass& pass)
         : tracing_(tracing), tracer_(tracer), pass_(pass) {}
 
-    std::uint64_t sample(const PixelBlock& block, std::span<Spectrum> pixels) const override {
+    std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
         CameraPaths started = tracing_.start_paths(pixels_of(block), pass_);
-        tracer_.trace(started.paths, Coherence::coherent);
+        tracer_.trace(started.paths, rays::Coherence::coherent);
         return started.write_to(pixels);
     }
 
   private:
     const PictureTracing& tracing_;
-    const PathTracer& tracer_;
+    const transport::PathTracer& tracer_;
     Pass pass_;
 };
 
@@ -47,4 +47,4 @@ std::unique_ptr<PictureEstimator> make_path_picture(const PictureInput& input) {
     return std::make_unique<PathPicture>(input);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -6,11 +6,11 @@
 #include "geometry/harmonics/cells.h"
 #include "math/gauss_legendre.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 double area_of_cell(const HarmonicCells& cells, std::size_t cell) {
-    static const GaussLegendre rule = gauss_legendre(7);
+    static const math::GaussLegendre rule = math::gauss_legendre(7);
     double area = 0;
     for (std::size_t m = 0; m < rule.nodes.size(); ++m) {
         for (std::size_t n = 0; n < rule.nodes.size(); ++n) {
@@ -26,7 +26,7 @@ double area_of_cell(const HarmonicCells& cells, std::size_t cell) {
 HarmonicArea::HarmonicArea(std::shared_ptr<const HarmonicCells> cells) : cells_(std::move(cells)) {
     std::vector<double> areas;
     for (std::size_t cell = 0; cell < cells_->count(); ++cell) areas.push_back(area_of_cell(*cells_, cell));
-    by_area_ = DiscreteDistribution(areas);
+    by_area_ = math::DiscreteDistribution(areas);
 }
 
 HarmonicArea::Point HarmonicArea::sample(const std::array<double, 2>& u) const {
@@ -36,4 +36,4 @@ HarmonicArea::Point HarmonicArea::sample(const std::array<double, 2>& u) const {
     return {element.position, element.normal, choice.probability / (4 * element.area)};
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

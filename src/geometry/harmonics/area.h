@@ -7,7 +7,7 @@
 #include "base/vec.h"
 #include "math/discrete.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 class HarmonicCells;
 
@@ -28,7 +28,7 @@ class HarmonicArea {
 
   private:
     std::shared_ptr<const HarmonicCells> cells_;
-    DiscreteDistribution by_area_;
+    math::DiscreteDistribution by_area_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::geometry

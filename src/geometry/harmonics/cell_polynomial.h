@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::geometry {
 
 template <std::size_t N>
 using Matrix = std::array<std::array<double, N>, N>;
@@ -136,4 +136,4 @@ Quadratic quadratic_part(const Matrix<N>& c) {
             to_float(2 * low[0][2])};
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

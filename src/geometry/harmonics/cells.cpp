@@ -12,7 +12,7 @@
 #include "geometry/harmonics/cube_face.h"
 #include "math/first_root.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -120,7 +120,7 @@ struct Largest {
 
 HarmonicCells::HarmonicCells(const HarmonicSurface& surface, double tolerance) {
     if (!(tolerance >= 1e-11)) throw std::invalid_argument("a tolerance of cells near rounding's, or below");
-    const HarmonicSeries<double>& radius = surface.radius();
+    const math::HarmonicSeries<double>& radius = surface.radius();
     const std::array series{MeridianSeries(radius, 0), MeridianSeries(radius, 1), MeridianSeries(radius, 2)};
     double on_edge = 2 + 0.15 * radius.degree();
     while (!divide(series, static_cast<std::size_t>(on_edge), tolerance)) {
@@ -284,9 +284,10 @@ double HarmonicCells::root_on(const Line& line, std::size_t number) const {
                              2 * double{cell.rest_ab} * da * db + double{cell.rest_bb} * db * db;
     if (parabola.least_slope() > double{cell.rest_a} * da + double{cell.rest_b} * db) {
         if (starts_negative == is_negative_at(1, parabola.last())) return kInfinity;
-        return root_between(excess, curvature, 0, 1, starts_negative, std::clamp(parabola.root(), 0.0, 1.0));
+        return math::root_between(excess, curvature, 0, 1, starts_negative,
+                                  std::clamp(parabola.root(), 0.0, 1.0));
     }
-    return first_root(excess, curvature, kNarrowest, 0, 1, starts_negative).value_or(kInfinity);
+    return math::first_root(excess, curvature, kNarrowest, 0, 1, starts_negative).value_or(kInfinity);
 }
 
 double HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec3& direction, double start,
@@ -339,4 +340,4 @@ HarmonicCells::Element HarmonicCells::element_at(std::size_t number, double a, d
             size / (w.value * w.value * w.value) * column.half * row.half};
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -23,7 +23,7 @@
 #include "geometry/harmonics/meridian_series.h"
 #include "geometry/harmonics/surface.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// Immutable. Lengths are in units of the series' values. Directions of rays may have any length but 0;
 /// distances along a ray are in units of it.
@@ -45,7 +45,8 @@ class HarmonicCells {
                     double end) const;
 
     /// What crossing() would find, where that is certain without it.
-    LaneVerdicts verdicts(std::size_t cell, const RayPacket& rays, const PacketPlacement& placement) const;
+    LaneVerdicts classifications(std::size_t cell, const RayPacket& rays,
+                                 const PacketPlacement& placement) const;
 
     /// By the cell's polynomial: at the default tolerance the normal is within about 3e-5 rad of
     /// HarmonicSurface::normal_at(), mostly within 2e-6.
@@ -94,4 +95,4 @@ class HarmonicCells {
     double error_ = 0;
 };
 
-}  // namespace stilb
+}  // namespace stilb::geometry

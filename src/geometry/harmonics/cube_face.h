@@ -6,7 +6,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// The axes (i, j, k) of a face and the sign of x_k.
 struct CubeFace {
@@ -25,4 +25,4 @@ struct CubeFace {
     }
 };
 
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stilb {
+namespace stilb::geometry {
 
 std::optional<HarmonicCrossing> march_crossing(const HarmonicSurface& surface, const Vec3& origin,
                                                const Vec3& direction, double start, double end, double step) {
@@ -32,4 +32,4 @@ std::optional<HarmonicCrossing> march_crossing(const HarmonicSurface& surface, c
     return std::nullopt;
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

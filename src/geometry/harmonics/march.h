@@ -7,7 +7,7 @@
 
 #include "geometry/harmonics/surface.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// A step's length as a share of the greatest radius. The paper states none.
 inline constexpr double kMarchedShare = 0.02;
@@ -17,4 +17,4 @@ inline constexpr double kMarchedShare = 0.02;
 std::optional<HarmonicCrossing> march_crossing(const HarmonicSurface& surface, const Vec3& origin,
                                                const Vec3& direction, double start, double end, double step);
 
-}  // namespace stilb
+}  // namespace stilb::geometry

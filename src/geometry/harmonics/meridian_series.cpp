@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -29,7 +29,7 @@ double dirichlet_kernel(std::size_t degree, double angle) {
 
 /// Directions are cos(e) (cos(a) e_k + sin(a) e_j) + sin(e) e_i. Samples are taken between the poles; beyond
 /// a pole the circle goes on on the opposite half.
-MeridianSeries::MeridianSeries(const HarmonicSeries<double>& series, std::size_t i)
+MeridianSeries::MeridianSeries(const math::HarmonicSeries<double>& series, std::size_t i)
     : degree_(static_cast<std::size_t>(series.degree())) {
     const std::size_t half = degree_ + 1, count = 2 * half, j = (i + 1) % 3, k = (i + 2) % 3;
     const auto elevation = [&](std::size_t m) {
@@ -107,4 +107,4 @@ void MeridianSeries::evaluate(std::span<const double> s, double t, double z, std
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

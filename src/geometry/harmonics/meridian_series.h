@@ -9,13 +9,13 @@
 
 #include "math/spherical_harmonics.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// Immutable.
 class MeridianSeries {
   public:
     /// Of the planes through axis i, where (i, j, k) are (0, 1, 2), (1, 2, 0) or (2, 0, 1).
-    MeridianSeries(const HarmonicSeries<double>& series, std::size_t i);
+    MeridianSeries(const math::HarmonicSeries<double>& series, std::size_t i);
 
     /// The series' values in the directions of (x_i, x_j, x_k) = (s, t, z), one for each s. z is not 0.
     void evaluate(std::span<const double> s, double t, double z, std::span<double> values) const;
@@ -33,4 +33,4 @@ class MeridianSeries {
     std::vector<Meridian> meridians_;  ///< at azimuths 2 pi n / (2 L + 2)
 };
 
-}  // namespace stilb
+}  // namespace stilb::geometry

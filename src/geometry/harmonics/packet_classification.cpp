@@ -14,7 +14,7 @@
 #define STILB_FOR_ALL_PROCESSORS
 #endif
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -60,7 +60,7 @@ struct HarmonicCells::FloatCell {
     float change;  ///< of W - w by a position's error, at most
 
     FloatCell(const Outline& cell, const Span& column, const Span& row, const PacketPlacement& placement);
-    Verdict verdict(const Vec3f& origin, const Vec3f& direction, float start, float end) const;
+    Classification classification(const Vec3f& origin, const Vec3f& direction, float start, float end) const;
 };
 
 HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, const Span& row,
@@ -87,9 +87,10 @@ HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, con
     rest = cell.rest + kRounding * w_most;
 }
 
-[[gnu::always_inline]] inline Verdict HarmonicCells::FloatCell::verdict(const Vec3f& origin,
-                                                                        const Vec3f& direction, float start,
-                                                                        float end) const {
+[[gnu::always_inline]] inline Classification HarmonicCells::FloatCell::classification(const Vec3f& origin,
+                                                                                      const Vec3f& direction,
+                                                                                      float start,
+                                                                                      float end) const {
     const Vec3f from{origin.x - center.x, origin.y - center.y, origin.z - center.z};
     const float x = dot(x_axis, from), y = dot(y_axis, from), z = dot(z_axis, from);
     const float dx = dot(x_axis, direction), dy = dot(y_axis, direction), dz = dot(z_axis, direction);
@@ -121,23 +122,25 @@ HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, con
     const float bound = rest + doubt * change;
     const float apart = greater(least - bound, -bound - greatest);
     const float across = lesser(-bound - least, greatest - bound);
-    const Verdict over = apart > 0 ? Verdict::misses : across > 0 ? Verdict::meets : Verdict::unclear;
-    const Verdict sure = near >= far ? Verdict::misses : over;
-    return doubt < most_doubt ? sure : Verdict::unclear;
+    const Classification over = apart > 0    ? Classification::misses
+                                : across > 0 ? Classification::meets
+                                             : Classification::unclear;
+    const Classification sure = near >= far ? Classification::misses : over;
+    return doubt < most_doubt ? sure : Classification::unclear;
 }
 
 STILB_FOR_ALL_PROCESSORS
-LaneVerdicts HarmonicCells::verdicts(std::size_t number, const RayPacket& rays,
-                                     const PacketPlacement& placement) const {
+LaneVerdicts HarmonicCells::classifications(std::size_t number, const RayPacket& rays,
+                                            const PacketPlacement& placement) const {
     const Outline& outline = outlines_[number];
     const FloatCell cell(outline, spans_[outline.column], spans_[outline.row], placement);
-    LaneVerdicts verdicts;
+    LaneVerdicts classifications;
     for (std::size_t n = 0; n < kPacketWidth; ++n) {
-        verdicts[n] = cell.verdict({rays.origin_x[n], rays.origin_y[n], rays.origin_z[n]},
-                                   {rays.direction_x[n], rays.direction_y[n], rays.direction_z[n]},
-                                   rays.start[n], rays.end[n]);
+        classifications[n] = cell.classification(
+            {rays.origin_x[n], rays.origin_y[n], rays.origin_z[n]},
+            {rays.direction_x[n], rays.direction_y[n], rays.direction_z[n]}, rays.start[n], rays.end[n]);
     }
-    return verdicts;
+    return classifications;
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -5,7 +5,7 @@
 
 #include "math/gauss_legendre.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -31,7 +31,7 @@ std::vector<Vec3> ParallelGrid::directions() const {
 }
 
 ParallelGrid gauss_grid(int parallels) {
-    const GaussLegendre rule = gauss_legendre(parallels);
+    const math::GaussLegendre rule = math::gauss_legendre(parallels);
     ParallelGrid grid{rule.nodes, rule.weights, 2 * rule.nodes.size(), 0};
     for (double& weight : grid.weights_sr) weight *= kTurn / static_cast<double>(grid.azimuths);
     return grid;
@@ -48,4 +48,4 @@ ParallelGrid even_grid(int parallels) {
     return grid;
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -6,7 +6,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// Values on it are numbered parallel by parallel: parallel * azimuths + k for phi = first_phi + 2 pi k /
 /// azimuths.
@@ -32,4 +32,4 @@ ParallelGrid gauss_grid(int parallels);
 /// Parallels in the middles of even steps of theta, weighted by their area.
 ParallelGrid even_grid(int parallels);
 
-}  // namespace stilb
+}  // namespace stilb::geometry

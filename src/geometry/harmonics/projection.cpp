@@ -7,15 +7,15 @@
 #include <stdexcept>
 #include <utility>
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 /// Y_lm at phi = 0 but for m < 0, where the cosine's value stands: what belongs to z of both.
 std::vector<double> legendre_parts(double z, int degree) {
-    std::vector<double> parts(harmonic_count(degree));
-    evaluate_harmonics({std::sqrt(1 - z * z), 0, z}, degree, parts);
+    std::vector<double> parts(math::harmonic_count(degree));
+    math::evaluate_harmonics({std::sqrt(1 - z * z), 0, z}, degree, parts);
     for (int l = 1; l <= degree; ++l) {
-        for (int m = 1; m <= l; ++m) parts[harmonic_number(l, -m)] = parts[harmonic_number(l, m)];
+        for (int m = 1; m <= l; ++m) parts[math::harmonic_number(l, -m)] = parts[math::harmonic_number(l, m)];
     }
     return parts;
 }
@@ -73,14 +73,14 @@ std::optional<double> mean_of_neighbours(const ParallelGrid& grid, std::span<con
 
 std::vector<double> project(const ParallelGrid& grid, std::span<const double> values, int degree) {
     const PhiParts phi_parts(grid, degree);
-    std::vector<double> coefficients(harmonic_count(degree));
+    std::vector<double> coefficients(math::harmonic_count(degree));
     for (std::size_t parallel = 0; parallel < grid.parallels(); ++parallel) {
         const auto own = values.subspan(parallel * grid.azimuths, grid.azimuths);
         const std::vector<double> legendre = legendre_parts(grid.z[parallel], degree);
         for (int m = -degree; m <= degree; ++m) {
             const double sum = grid.weights_sr[parallel] * inner_product(own, phi_parts.of(m));
             for (int l = std::abs(m); l <= degree; ++l) {
-                coefficients[harmonic_number(l, m)] += legendre[harmonic_number(l, m)] * sum;
+                coefficients[math::harmonic_number(l, m)] += legendre[math::harmonic_number(l, m)] * sum;
             }
         }
     }
@@ -89,7 +89,7 @@ std::vector<double> project(const ParallelGrid& grid, std::span<const double> va
 
 std::vector<DegreeError> errors_by_degree(const ParallelGrid& grid, std::span<const double> values,
                                           std::span<const double> coefficients) {
-    const int degree = HarmonicSeries<double>(coefficients).degree();
+    const int degree = math::HarmonicSeries<double>(coefficients).degree();
     const PhiParts phi_parts(grid, degree);
     std::vector<DegreeError> errors(static_cast<std::size_t>(degree) + 1);
     double all_weights = 0;
@@ -101,7 +101,7 @@ std::vector<DegreeError> errors_by_degree(const ParallelGrid& grid, std::span<co
         for (const double value : rest) all_weights += std::isnan(value) ? 0 : weight;
         for (int l = 0; l <= degree; ++l) {
             for (int m = -l; m <= l; ++m) {
-                const std::size_t number = harmonic_number(l, m);
+                const std::size_t number = math::harmonic_number(l, m);
                 const double factor = coefficients[number] * legendre[number];
                 const auto part = phi_parts.of(m);
                 for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= factor * part[k];
@@ -139,4 +139,4 @@ void fill_holes(const ParallelGrid& grid, std::span<double> values) {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

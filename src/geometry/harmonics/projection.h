@@ -8,7 +8,7 @@
 #include "geometry/harmonics/parallel_grid.h"
 #include "math/spherical_harmonics.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// The coefficients up to a degree, by harmonic_number(): sums of weight, value and Y_lm over the grid. On
 /// gauss_grid(n) they are exact for functions of degrees up to 2 n - 1 - degree. Takes, for each parallel,
@@ -28,4 +28,4 @@ std::vector<DegreeError> errors_by_degree(const ParallelGrid& grid, std::span<co
 /// the ones beside it), from the edges of a hole inwards. Throws std::invalid_argument where all are NaN.
 void fill_holes(const ParallelGrid& grid, std::span<double> values);
 
-}  // namespace stilb
+}  // namespace stilb::geometry

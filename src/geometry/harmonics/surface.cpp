@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "math/first_root.h"
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 constexpr double kNarrowest = 1e-9;  ///< interval [rad] that is not divided any more
@@ -38,8 +38,8 @@ struct HarmonicSurface::Line {
     }
 };
 
-HarmonicSurface::HarmonicSurface(HarmonicSeries<double> radius) : radius_(std::move(radius)) {
-    const HarmonicRange range = range_of(radius_);
+HarmonicSurface::HarmonicSurface(math::HarmonicSeries<double> radius) : radius_(std::move(radius)) {
+    const math::HarmonicRange range = range_of(radius_);
     least_radius_ = range.least, greatest_radius_ = range.greatest;
     if (!(least_radius_ > 0)) {
         throw InputError(
@@ -87,7 +87,7 @@ std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arm(const Line& lin
         const Vec3 turn = (line.direction - dot(line.direction, outwards) * outwards) / distance;
         return std::pair(distance - value, dot(line.direction, outwards) - dot(gradient, turn));
     };
-    const auto beyond = root_of_monotone(excess, low, high);
+    const auto beyond = math::root_of_monotone(excess, low, high);
     if (!beyond) return std::nullopt;
     return line.crossing(*beyond, excess(low).first > 0);
 }
@@ -104,9 +104,9 @@ std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arc(const Line& lin
     };
     const double from = std::atan(low / line.offset), to = std::atan(high / line.offset);
     const bool is_outside = depth(from).first < 0;
-    const auto angle = first_root(depth, curvature, kNarrowest, from, to, is_outside);
+    const auto angle = math::first_root(depth, curvature, kNarrowest, from, to, is_outside);
     if (!angle) return std::nullopt;
     return line.crossing(line.offset * std::tan(*angle), is_outside);
 }
 
-}  // namespace stilb
+}  // namespace stilb::geometry

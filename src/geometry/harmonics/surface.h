@@ -7,7 +7,7 @@
 #include "base/vec.h"
 #include "math/spherical_harmonics.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// Where a ray crosses the surface.
 struct HarmonicCrossing {
@@ -20,9 +20,9 @@ struct HarmonicCrossing {
 class HarmonicSurface {
   public:
     /// Throws InputError where R is not above 0 everywhere.
-    explicit HarmonicSurface(HarmonicSeries<double> radius);
+    explicit HarmonicSurface(math::HarmonicSeries<double> radius);
 
-    const HarmonicSeries<double>& radius() const { return radius_; }
+    const math::HarmonicSeries<double>& radius() const { return radius_; }
     /// Bounds of R, safe ones: within 4 % and a little more of the true ones.
     double least_radius() const { return least_radius_; }
     double greatest_radius() const { return greatest_radius_; }
@@ -49,8 +49,8 @@ class HarmonicSurface {
     std::optional<HarmonicCrossing> crossing_of_arm(const Line& line, double low, double high) const;
     std::optional<HarmonicCrossing> crossing_of_arc(const Line& line, double low, double high) const;
 
-    HarmonicSeries<double> radius_;
+    math::HarmonicSeries<double> radius_;
     double least_radius_ = 0, greatest_radius_ = 0;
 };
 
-}  // namespace stilb
+}  // namespace stilb::geometry

@@ -4,7 +4,7 @@
 
 #include "base/rgb.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 double linear_from_encoded(double encoded) {
@@ -52,4 +52,4 @@ Colour readable_on(const Colour& background) {
     return black_is_better ? grey(0) : grey(1);
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

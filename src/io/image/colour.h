@@ -1,7 +1,7 @@
 // Colours for drawing, and OKLab, in which equal distances look equally different.
 #pragma once
 
-namespace stilb {
+namespace stilb::io {
 
 /// sRGB, gamma-encoded, 0 to 1; alpha 1 is opaque.
 struct Colour {
@@ -29,4 +29,4 @@ double distance(const Oklab& first, const Oklab& second);
 /// Black or white, whichever has more contrast with `background` [W3C, WCAG 2.1]; at least 4.5 : 1.
 Colour readable_on(const Colour& background);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -18,7 +18,7 @@
 #include "io/image/picture_header.h"
 #include "io/image/primaries.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr std::array<const char*, 3> kRgbNames{"R", "G", "B"};
@@ -160,7 +160,7 @@ class ExrReader {
             if (!are_usable(*primaries)) fail("its chromaticities do not span a colour space.");
             const PrimariesConversion convert(*primaries, kRec709);
             for (std::array<float, 3>& rgb : picture_.rgb_cd_m2) {
-                const Rgb converted = convert({rgb[0], rgb[1], rgb[2]});
+                const Triple converted = convert({rgb[0], rgb[1], rgb[2]});
                 for (std::size_t i = 0; i < 3; ++i) rgb[i] = static_cast<float>(converted[i]);
             }
         }
@@ -218,4 +218,4 @@ Picture read_exr(std::string_view content, const std::string& name) {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -6,7 +6,7 @@
 
 #include "io/image/picture.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// The file's content, 32-bit floats without loss: channels R, G, B and Y (luminance) in cd/m2, where the
 /// picture has them SE.Y (standard error of Y), N.X, N.Y, N.Z (normals) and Z (depth [m], as OpenEXR calls
@@ -19,4 +19,4 @@ std::string to_exr(const Picture& picture);
 /// used in messages. Throws InputError for what is no such picture, damaged or truncated.
 Picture read_exr(std::string_view content, const std::string& name);
 
-}  // namespace stilb
+}  // namespace stilb::io

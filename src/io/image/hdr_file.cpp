@@ -11,12 +11,12 @@
 #include "io/image/primaries.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr double kLumenPerWatt = 179;
 /// Of Radiance's red, green and blue in the luminance.
-constexpr Rgb kWeights{0.265, 0.670, 0.065};
+constexpr Triple kWeights{0.265, 0.670, 0.065};
 /// cd/m2; fits a float and RGBE.
 constexpr double kLargest = 3e38;
 constexpr int kExponentBias = 128;
@@ -27,7 +27,7 @@ constexpr std::string_view kFormat = "32-bit_rle_rgbe";
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-Rgbe to_rgbe(const Rgb& rgb) {
+Rgbe to_rgbe(const Triple& rgb) {
     const double largest = std::max({rgb[0], rgb[1], rgb[2]});
     int exponent = 0;
     std::frexp(largest, &exponent);
@@ -43,20 +43,20 @@ Rgbe to_rgbe(const Rgb& rgb) {
             static_cast<std::uint8_t>(exponent + kExponentBias)};
 }
 
-Rgb from_rgbe(const Rgbe& rgbe) {
+Triple from_rgbe(const Rgbe& rgbe) {
     if (rgbe[3] == 0) return {};
     const double unit = std::ldexp(1.0, rgbe[3] - kExponentBias - 8);
     return {(rgbe[0] + 0.5) * unit, (rgbe[1] + 0.5) * unit, (rgbe[2] + 0.5) * unit};
 }
 
 /// A pixel in Radiance's unit and primaries.
-Rgb to_radiance(const PrimariesConversion& convert, const std::array<float, 3>& rgb_cd_m2) {
-    Spectrum wanted;
+Triple to_radiance(const PrimariesConversion& convert, const std::array<float, 3>& rgb_cd_m2) {
+    Rgb wanted;
     for (std::size_t b = 0; b < kBands; ++b)
         wanted[b] = std::clamp(double(rgb_cd_m2[b]), -kLargest, kLargest);
     const double luminance = wanted.luminance();
     if (!(luminance > 0)) return {};
-    Rgb rgb = convert(wanted.band);
+    Triple rgb = convert(wanted.band);
     for (double& component : rgb) component = std::max(component, 0.0);
     // Components below 0 cannot be stored; what their loss adds to the luminance is taken off again.
     const double stored = kWeights[0] * rgb[0] + kWeights[1] * rgb[1] + kWeights[2] * rgb[2];
@@ -127,7 +127,7 @@ class HdrReader {
         for (row_ = 0; row_ < picture_.height; ++row_) {
             read_scanline(scanline);
             for (const Rgbe& pixel : scanline) {
-                const Rgb rgb = convert(from_rgbe(pixel));
+                const Triple rgb = convert(from_rgbe(pixel));
                 picture_.rgb_cd_m2.push_back({to_cd_m2(rgb[0]), to_cd_m2(rgb[1]), to_cd_m2(rgb[2])});
             }
         }
@@ -281,4 +281,4 @@ Picture read_hdr(std::string_view content, const std::string& name) {
     return HdrReader(content, name).read();
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -11,7 +11,7 @@
 
 #include "io/image/picture.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// The file's content: run-length encoded scanlines from the top, with header_fields() (names in capitals).
 /// A component is exact to 1/256 of its pixel's largest one. Colours beyond Radiance's primaries keep their
@@ -23,4 +23,4 @@ std::string to_hdr(const Picture& picture);
 /// for whatever else, and for what is truncated.
 Picture read_hdr(std::string_view content, const std::string& name);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr long long kMostPixels = 100'000'000;
@@ -30,4 +30,4 @@ void require_consistency(const Picture& picture) {
     if (!is_consistent) throw std::invalid_argument("a picture whose size and channels differ");
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

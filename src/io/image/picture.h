@@ -11,7 +11,7 @@
 #include "base/rgb.h"
 #include "sensors/camera.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// How a picture came about. Empty texts and zeros are unknown.
 struct PictureOrigin {
@@ -47,7 +47,7 @@ struct Picture {
     }
     double luminance_cd_m2(std::size_t pixel) const {
         const std::array<float, 3>& rgb = rgb_cd_m2[pixel];
-        return Spectrum{{rgb[0], rgb[1], rgb[2]}}.luminance();
+        return Rgb{{rgb[0], rgb[1], rgb[2]}}.luminance();
     }
 };
 
@@ -59,4 +59,4 @@ std::string too_large_message(long long width, long long height);
 /// Throws std::invalid_argument where there are no pixels or a channel's size is not theirs.
 void require_consistency(const Picture& picture);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -14,7 +14,7 @@
 #include "io/text/text.h"
 #include "io/text/write_file.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr std::string_view kExrBeginning = "\x76\x2f\x31\x01";
@@ -65,4 +65,4 @@ Picture read_picture(const std::filesystem::path& path) {
                      {path.string()});
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

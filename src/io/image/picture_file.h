@@ -7,7 +7,7 @@
 #include "io/image/picture.h"
 #include "io/image/tone_curve.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// Throws InputError where no luminance picture can be written to `path`: another extension than .exr, .hdr
 /// or .png (any case), or a folder that does not exist. For a look before a long computation.
@@ -26,4 +26,4 @@ bool is_picture_file(const std::filesystem::path& path);
 /// too large.
 Picture read_picture(const std::filesystem::path& path);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -8,7 +8,7 @@
 
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr std::string_view kSoftware = "Stilb ";
@@ -150,4 +150,4 @@ void read_header_field(Picture& picture, std::string_view name, std::string_view
     if (is("PANORAMA")) read_camera(picture, text, Projection::panorama);
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -7,7 +7,7 @@
 
 #include "io/image/picture.h"
 
-namespace stilb {
+namespace stilb::io {
 
 struct HeaderField {
     std::string name;
@@ -26,4 +26,4 @@ std::vector<HeaderField> header_fields(const Picture& picture);
 /// and height must be known.
 void read_header_field(Picture& picture, std::string_view name, std::string_view text);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -9,7 +9,7 @@
 
 #include "io/image/picture_header.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 /// libpng's sink: the std::string that collects the file.
@@ -94,4 +94,4 @@ std::string to_png(const Picture& picture, const ToneCurve& curve) {
     return content;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

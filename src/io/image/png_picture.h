@@ -7,9 +7,9 @@
 #include "io/image/picture.h"
 #include "io/image/tone_curve.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// The file's content: 8-bit sRGB. Its texts are "Exposure" (per cd/m2), "Tone curve" and header_fields().
 std::string to_png(const Picture& picture, const ToneCurve& curve);
 
-}  // namespace stilb
+}  // namespace stilb::io

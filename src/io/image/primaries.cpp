@@ -5,7 +5,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 Vec3 xyz_of(const std::array<double, 2>& xy) { return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]}; }
@@ -51,12 +51,12 @@ PrimariesConversion::PrimariesConversion(const Primaries& from, const Primaries&
     }
 }
 
-Rgb PrimariesConversion::operator()(const Rgb& rgb) const {
-    Rgb result{};
+Triple PrimariesConversion::operator()(const Triple& rgb) const {
+    Triple result{};
     for (std::size_t row = 0; row < 3; ++row) {
         result[row] = rows_[row][0] * rgb[0] + rows_[row][1] * rgb[1] + rows_[row][2] * rgb[2];
     }
     return result;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

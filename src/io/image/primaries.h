@@ -3,9 +3,9 @@
 
 #include <array>
 
-namespace stilb {
+namespace stilb::io {
 
-using Rgb = std::array<double, 3>;
+using Triple = std::array<double, 3>;
 
 /// CIE 1931 xy chromaticities of red, green, blue and white.
 using Primaries = std::array<std::array<double, 2>, 4>;
@@ -24,10 +24,10 @@ class PrimariesConversion {
   public:
     /// Both must be usable.
     PrimariesConversion(const Primaries& from, const Primaries& to);
-    Rgb operator()(const Rgb& rgb) const;
+    Triple operator()(const Triple& rgb) const;
 
   private:
-    std::array<Rgb, 3> rows_;
+    std::array<Triple, 3> rows_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::io

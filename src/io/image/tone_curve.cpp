@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "io/image/primaries.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr double kMiddleGrey = 0.18;
@@ -23,13 +23,13 @@ std::uint8_t srgb_byte(double linear) {
 }
 
 /// Mixed with grey as far as all components need to be 0 to 1; the luminance stays.
-Rgb within_screen(const Rgb& rgb, double luminance) {
+Triple within_screen(const Triple& rgb, double luminance) {
     double share = 1;
     for (const double component : rgb) {
         if (component > 1) share = std::min(share, (1 - luminance) / (component - luminance));
         if (component < 0) share = std::min(share, luminance / (luminance - component));
     }
-    Rgb result;
+    Triple result;
     for (std::size_t i = 0; i < 3; ++i) result[i] = luminance + share * (rgb[i] - luminance);
     return result;
 }
@@ -52,12 +52,12 @@ double ToneCurve::display_luminance(double luminance_cd_m2) const {
 }
 
 std::array<std::uint8_t, 3> ToneCurve::srgb(const std::array<float, 3>& rgb_cd_m2) const {
-    const Spectrum rgb{{rgb_cd_m2[0], rgb_cd_m2[1], rgb_cd_m2[2]}};
+    const Rgb rgb{{rgb_cd_m2[0], rgb_cd_m2[1], rgb_cd_m2[2]}};
     const double luminance = rgb.luminance();
     const double shown = display_luminance(luminance);
     if (shown == 0) return {0, 0, 0};
     if (shown == 1) return {255, 255, 255};
-    Rgb display;
+    Triple display;
     for (std::size_t i = 0; i < 3; ++i) display[i] = rgb[i] * (shown / luminance);
     display = within_screen(display, shown);
     return {srgb_byte(display[0]), srgb_byte(display[1]), srgb_byte(display[2])};
@@ -80,4 +80,4 @@ double automatic_exposure(const Picture& picture) {
     return std::clamp(kWhite / *nth, exposure / kMostProtection, exposure);
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -8,7 +8,7 @@
 
 #include "io/image/picture.h"
 
-namespace stilb {
+namespace stilb::io {
 
 struct ToneOptions {
     /// Per cd/m2: a luminance of 0.18 / exposure becomes middle grey. Chosen from the picture where absent.
@@ -41,4 +41,4 @@ class ToneCurve {
 /// would be white by that, down to a quarter. 1 for a black picture.
 double automatic_exposure(const Picture& picture);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -14,7 +14,7 @@
 #include "io/text/write_file.h"
 #include "math/spherical_harmonics.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Json = nlohmann::json;
@@ -85,7 +85,7 @@ class Reader {
     static std::string expected(std::string_view key) {
         if (key == "format") return fmt::format("\"{}\"", kFormat);
         if (key == "version") return fmt::format("{}", kVersion);
-        if (key == "degree") return fmt::format("a whole number from 0 to {}", kMostHarmonicDegree);
+        if (key == "degree") return fmt::format("a whole number from 0 to {}", math::kMostHarmonicDegree);
         if (key == "center") return "x, y and z";
         return "(degree + 1)^2 coefficients, that of Y_lm as number l^2 + l + m";
     }
@@ -126,13 +126,14 @@ HarmonicsFile parse_harmonics(std::string_view content, const std::string& name)
                         version, STILB_VERSION, kVersion));
     }
     const int degree = reader.whole(json, "degree");
-    if (degree < 0 || degree > kMostHarmonicDegree) {
-        reader.fail(fmt::format("\"degree\" is {}. It should be from 0 to {}.", degree, kMostHarmonicDegree));
+    if (degree < 0 || degree > math::kMostHarmonicDegree) {
+        reader.fail(
+            fmt::format("\"degree\" is {}. It should be from 0 to {}.", degree, math::kMostHarmonicDegree));
     }
     HarmonicsFile file;
     const std::vector<double> center = reader.numbers(json, "center", 3);
     file.center = {center[0], center[1], center[2]};
-    file.coefficients = reader.numbers(json, "coefficients", harmonic_count(degree));
+    file.coefficients = reader.numbers(json, "coefficients", math::harmonic_count(degree));
     if (const auto mesh = json.find("mesh"); mesh != json.end() && mesh->is_string()) file.mesh = *mesh;
     if (const auto rms = json.find("rms_error"); rms != json.end() && rms->is_number() && *rms > 0)
         file.rms_error = *rms;
@@ -144,7 +145,7 @@ HarmonicsFile read_harmonics(const std::filesystem::path& path) {
 }
 
 std::string to_text(const HarmonicsFile& file) {
-    const int degree = HarmonicSeries<double>(file.coefficients).degree();
+    const int degree = math::HarmonicSeries<double>(file.coefficients).degree();
     std::string text = fmt::format("{{\n\"format\": \"{}\",\n\"version\": {},\n", kFormat, kVersion);
     if (!file.mesh.empty()) {
         text += fmt::format("\"mesh\": {},\n",
@@ -154,7 +155,8 @@ std::string to_text(const HarmonicsFile& file) {
     text += fmt::format("\"degree\": {},\n\"center\": [{}, {}, {}],\n\"coefficients\": [\n", degree,
                         shortest(file.center.x), shortest(file.center.y), shortest(file.center.z));
     for (int l = 0; l <= degree; ++l) {
-        const std::size_t first = harmonic_number(l, -l), count = harmonic_number(l, l) + 1 - first;
+        const std::size_t first = math::harmonic_number(l, -l),
+                          count = math::harmonic_number(l, l) + 1 - first;
         text += fmt::format("{}{}\n", list_text(std::span(file.coefficients).subspan(first, count)),
                             l < degree ? "," : "");
     }
@@ -165,4 +167,4 @@ void write_harmonics(const HarmonicsFile& file, const std::filesystem::path& pat
     replace_file(path, to_text(file));
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -9,7 +9,7 @@
 
 #include "base/vec.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// The surface |x - center| = R((x - center) / |x - center|).
 struct HarmonicsFile {
@@ -32,4 +32,4 @@ std::string to_text(const HarmonicsFile& file);
 /// Throws InputError where the file cannot be written; it changes in one step.
 void write_harmonics(const HarmonicsFile& file, const std::filesystem::path& path);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 /// Whether the triangle has no area but for rounding: it is a line or a point.
@@ -61,4 +61,4 @@ MeshFile MeshBuilder::finish(const std::string& name, std::string_view remedy) &
     return std::move(file_);
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -11,7 +11,7 @@
 
 #include "io/mesh/mesh_file.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// Coordinates beyond it (in the file's units) are wrong input: products of four must stay finite.
 inline constexpr double kLargestCoordinate = 1e30;
@@ -61,4 +61,4 @@ class MeshBuilder {
     std::vector<Vec3> polygon_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::io

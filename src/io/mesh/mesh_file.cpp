@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
     const std::string extension = extension_of(path);
@@ -18,4 +18,4 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
                      {path.string()});
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -9,7 +9,7 @@
 
 #include "geometry/shape.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// A mesh as its file gives it: coordinates untransformed, polygons triangulated, vertex normals and texture
 /// coordinates ignored (light is computed on the true geometry).
@@ -37,4 +37,4 @@ std::string to_obj(const Mesh& mesh);
 /// Triangles (indices into `polygon`) of a simple planar polygon, convex or not, in its own orientation.
 std::vector<Triangle> triangulate_polygon(const std::vector<Vec3>& polygon);
 
-}  // namespace stilb
+}  // namespace stilb::io

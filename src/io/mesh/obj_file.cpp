@@ -10,7 +10,7 @@
 #include "io/mesh/mesh_builder.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using namespace std::string_view_literals;
@@ -166,4 +166,4 @@ std::string to_obj(const Mesh& mesh) {
     return text;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -11,7 +11,7 @@
 #include "io/mesh/ply_header.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 /// Where the reader stands, for messages.
@@ -328,4 +328,4 @@ MeshFile read_ply(std::string_view content, const std::string& name) {
     return PlyReader<BinaryBody<std::endian::big>>(header, name).read();
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

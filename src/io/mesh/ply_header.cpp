@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using namespace std::string_view_literals;
@@ -168,4 +168,4 @@ PlyHeader read_ply_header(std::string_view content, const std::string& name) {
     return HeaderReader(content, name).read();
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

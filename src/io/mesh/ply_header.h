@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stilb {
+namespace stilb::io {
 
 enum class PlyScalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
@@ -41,4 +41,4 @@ struct PlyHeader {
 /// Throws InputError; `name` is the file's name for messages.
 PlyHeader read_ply_header(std::string_view content, const std::string& name);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -6,7 +6,7 @@
 
 #include "io/mesh/mesh_file.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 struct Point {
@@ -138,4 +138,4 @@ std::vector<Triangle> triangulate_polygon(const std::vector<Vec3>& polygon) {
     return EarClipper(flatten(polygon)).clip();
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

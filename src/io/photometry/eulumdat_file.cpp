@@ -9,7 +9,7 @@
 #include "io/photometry/photometry_parts.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 class FieldReader {
@@ -253,4 +253,4 @@ PhotometryFile read_eulumdat(std::string_view content, const std::string& name) 
     return file;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -10,7 +10,7 @@
 #include "io/photometry/photometry_parts.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr double kMetresPerFoot = 0.3048;
@@ -186,7 +186,7 @@ struct Header {
     double lumens_per_lamp = 0;
     double multiplier = 1;
     std::size_t vertical_angles = 0, horizontal_angles = 0;
-    PhotometryType type = PhotometryType::C;
+    lights::PhotometryType type = lights::PhotometryType::C;
     Vec3 opening_m;
     double ballast_factor = 1;  ///< times the ballast-lamp photometric factor of 1986 and 1991
 };
@@ -204,7 +204,8 @@ Header read_header(NumberReader& reader, int year, std::vector<std::string>& war
     header.multiplier = read_factor(reader, "candela multiplier");
     header.vertical_angles = reader.count("number of vertical angles");
     header.horizontal_angles = reader.count("number of horizontal angles");
-    constexpr std::array kTypes{PhotometryType::C, PhotometryType::B, PhotometryType::A};
+    constexpr std::array kTypes{lights::PhotometryType::C, lights::PhotometryType::B,
+                                lights::PhotometryType::A};
     header.type = kTypes[static_cast<std::size_t>(
         reader.whole_number("photometric type (1: C, 2: B, 3: A)", 1, 3) - 1)];
     const double metres =
@@ -282,9 +283,9 @@ PhotometricSolid::Grid read_grid(NumberReader& reader, const Header& header) {
     struct Limits {
         double horizontal_least, horizontal_greatest, vertical_least, vertical_greatest;
     };
-    const Limits limits = header.type == PhotometryType::A   ? Limits{-180, 180, -90, 90}
-                          : header.type == PhotometryType::B ? Limits{-90, 90, -180, 180}
-                                                             : Limits{-90, 360, 0, 180};
+    const Limits limits = header.type == lights::PhotometryType::A   ? Limits{-180, 180, -90, 90}
+                          : header.type == lights::PhotometryType::B ? Limits{-90, 90, -180, 180}
+                                                                     : Limits{-90, 360, 0, 180};
     if (header.vertical_angles < 2) {
         throw InputError("one vertical angle: intensities at two or more are needed", reader.here());
     }
@@ -300,12 +301,12 @@ PhotometricSolid::Grid read_grid(NumberReader& reader, const Header& header) {
     const auto intensities = reader.numbers(header.vertical_angles * header.horizontal_angles, "intensities");
     reader.expect_end();
     set_intensities(grid, intensities, header.multiplier * header.ballast_factor, reader.file());
-    if (header.type == PhotometryType::C) {
+    if (header.type == lights::PhotometryType::C) {
         unfold_turn(grid, planes_end);
     } else {
         unfold_sides(grid, planes_end);
     }
-    return header.type == PhotometryType::B ? transposed(grid) : grid;
+    return header.type == lights::PhotometryType::B ? transposed(grid) : grid;
 }
 
 }  // namespace
@@ -335,4 +336,4 @@ PhotometryFile read_ies(std::string_view content, const std::string& name) {
     return file;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

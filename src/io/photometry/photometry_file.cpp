@@ -8,7 +8,7 @@
 #include "io/photometry/photometry_parts.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 bool is_tilt_line(std::string_view line) { return trimmed(line).starts_with("TILT="); }
@@ -37,35 +37,36 @@ PhotometryFile read_photometry(std::string_view content, const std::string& name
 }
 
 FluxAgreement check_flux(const PhotometryFile& file, double integral_lm) {
-    using Verdict = FluxAgreement::Verdict;
+    using Classification = FluxAgreement::Classification;
     constexpr double kTolerance = FluxAgreement::kTolerance;
     if (file.stated_flux_lm > 0) {
         const double stated = file.stated_flux_lm;
         const bool agrees = std::abs(integral_lm - stated) <= kTolerance * stated;
-        return {agrees ? Verdict::Agrees : Verdict::Differs, integral_lm, stated};
+        return {agrees ? Classification::Agrees : Classification::Differs, integral_lm, stated};
     }
     if (file.lamp_flux_lm > 0) {
         const bool below = integral_lm <= (1 + kTolerance) * file.lamp_flux_lm;
-        return {below ? Verdict::BelowLampFlux : Verdict::AboveLampFlux, integral_lm, file.lamp_flux_lm};
+        return {below ? Classification::BelowLampFlux : Classification::AboveLampFlux, integral_lm,
+                file.lamp_flux_lm};
     }
-    return {Verdict::NothingStated, integral_lm, 0};
+    return {Classification::NothingStated, integral_lm, 0};
 }
 
 std::string FluxAgreement::description() const {
     const double percent = stated_lm > 0 ? 100 * (integral_lm / stated_lm - 1) : 0;
-    switch (verdict) {
-        case Verdict::NothingStated:
+    switch (classification) {
+        case Classification::NothingStated:
             return fmt::format("the integral is {:.4g} lm; the file states no flux", integral_lm);
-        case Verdict::Agrees:
-        case Verdict::Differs:
+        case Classification::Agrees:
+        case Classification::Differs:
             return fmt::format(
                 "file and integral {}: the integral, {:.4g} lm, is {:.1f} % {} the stated {:.4g} lm",
-                verdict == Verdict::Agrees ? "agree" : "differ", integral_lm, std::abs(percent),
+                classification == Classification::Agrees ? "agree" : "differ", integral_lm, std::abs(percent),
                 percent < 0 ? "below" : "above", stated_lm);
-        case Verdict::BelowLampFlux:
+        case Classification::BelowLampFlux:
             return fmt::format("the integral, {:.4g} lm, is {:.1f} % of the lamps' {:.4g} lm", integral_lm,
                                100 + percent, stated_lm);
-        case Verdict::AboveLampFlux:
+        case Classification::AboveLampFlux:
             break;
     }
     return fmt::format(
@@ -74,12 +75,13 @@ std::string FluxAgreement::description() const {
 }
 
 std::vector<std::string> photometry_warnings(const PhotometryFile& file, const PhotometricSolid& solid) {
-    using Verdict = FluxAgreement::Verdict;
+    using Classification = FluxAgreement::Classification;
     std::vector<std::string> warnings = file.warnings;
     const FluxAgreement flux = check_flux(file, solid.flux_lm());
-    if (flux.verdict == Verdict::Differs || flux.verdict == Verdict::AboveLampFlux)
+    if (flux.classification == Classification::Differs ||
+        flux.classification == Classification::AboveLampFlux)
         warnings.push_back(flux.description());
     return warnings;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -8,7 +8,7 @@
 
 #include "lights/photometric_solid.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// What a luminaire file says, in SI units. `grid.intensity_cd` is absolute: all factors of the file are in
 /// it. docs/photometry.md says which numbers those are.
@@ -38,7 +38,7 @@ PhotometryFile read_eulumdat(std::string_view content, const std::string& name);
 
 /// Whether the integral of a file's distribution is the flux that the file states.
 struct FluxAgreement {
-    enum class Verdict {
+    enum class Classification {
         NothingStated,  ///< absolute photometry, or lamps of no stated flux
         Agrees,         ///< within kTolerance of the stated flux
         Differs,        ///< by more than that
@@ -48,7 +48,7 @@ struct FluxAgreement {
     /// Files round output ratios to a percent, and interpolate between 5 degrees: 1 % is usual.
     static constexpr double kTolerance = 0.02;
 
-    Verdict verdict = Verdict::NothingStated;
+    Classification classification = Classification::NothingStated;
     double integral_lm = 0;
     double stated_lm = 0;  ///< of the luminaire, or of its lamps where only that is stated
 
@@ -60,4 +60,4 @@ FluxAgreement check_flux(const PhotometryFile& file, double integral_lm);
 /// The file's own warnings, and one where its flux and the integral of `solid` do not go together.
 std::vector<std::string> photometry_warnings(const PhotometryFile& file, const PhotometricSolid& solid);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 /// No luminaire comes near: a laser of a watt with a divergence of a milliradian has 1e9 cd.
@@ -143,4 +143,4 @@ bool same_angle(double a_deg, double b_deg) {
     return std::abs(a_deg - b_deg) < PhotometricSolid::kSmallestStepDeg;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -10,7 +10,7 @@
 #include "io/photometry/photometry_file.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// The lines without their ends (CR LF, LF or CR), a byte order mark, or the end-of-file mark of DOS.
 std::vector<std::string_view> split_lines(std::string_view content);
@@ -46,4 +46,4 @@ void close_circle(PhotometricSolid::Grid& grid);
 /// Equal but for what rounding in a file's angles does.
 bool same_angle(double a_deg, double b_deg);
 
-}  // namespace stilb
+}  // namespace stilb::io

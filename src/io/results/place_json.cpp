@@ -1,6 +1,6 @@
 #include "io/results/place_json.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -25,4 +25,4 @@ Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 Json place_json(const Measurand& measurand) { return std::visit(PlaceJson{}, measurand); }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -5,11 +5,11 @@
 
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::io {
 
 nlohmann::ordered_json vector_json(const Vec3& v);
 
 /// Position, and normal or direction or both.
 nlohmann::ordered_json place_json(const Measurand& measurand);
 
-}  // namespace stilb
+}  // namespace stilb::io

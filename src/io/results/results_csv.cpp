@@ -9,7 +9,7 @@
 #include "io/results/sub_point.h"
 #include "io/text/table.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 /// Columns of a sensor's readings, made of what is told of each.
@@ -58,7 +58,7 @@ void add_places(ReadingColumns& columns, const Sensor& sensor) {
 
 void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings, const Quantity& quantity) {
     const std::string unit = quantity.unit == "lx" ? "_lx" : "_cd_m2";
-    const auto estimate = [&](std::size_t j) -> const Estimate& { return readings[j].estimate; };
+    const auto estimate = [&](std::size_t j) -> const statistics::Estimate& { return readings[j].estimate; };
     columns.add(std::string(quantity.name) + unit, [&](std::size_t j) { return estimate(j).value; });
     columns.add("standard_error" + unit, [&](std::size_t j) { return estimate(j).standard_error; });
     columns.add("interval_low" + unit, [&](std::size_t j) { return estimate(j).lower; });
@@ -94,4 +94,4 @@ void write_results_csv(const RunResult& result, std::span<const Sensor> sensors,
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -6,11 +6,11 @@
 
 #include "run/run.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// Writes DIR/<sensor>.csv, a line per reading; makes the folder where it is missing. Throws InputError where
 /// a file cannot be written.
 void write_results_csv(const RunResult& result, std::span<const Sensor> sensors,
                        const std::filesystem::path& directory);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -11,7 +11,7 @@
 #include "base/vec.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Json = nlohmann::json;
@@ -160,4 +160,4 @@ ResultsFile read_results_file(const std::filesystem::path& path) {
     return read_results(read_whole_file(path), path.string());
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stilb {
+namespace stilb::io {
 
 /// Of all of a grid's values; NaN where the results have none.
 struct MeasuredSummary {
@@ -37,4 +37,4 @@ ResultsFile read_results_file(const std::filesystem::path& path);
 /// The reader itself; `name` is used in messages.
 ResultsFile read_results(std::string_view content, const std::string& name);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -3,12 +3,12 @@
 #include "io/results/place_json.h"
 #include "io/results/sub_point.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json interval_json(const Estimate& e) { return {e.lower, e.upper}; }
+Json interval_json(const statistics::Estimate& e) { return {e.lower, e.upper}; }
 
 Json reading_json(const SensorResult& result, const Sensor& sensor, std::size_t j) {
     Json json = place_json(sensor.measurands[j]);
@@ -29,7 +29,7 @@ Json reading_json(const SensorResult& result, const Sensor& sensor, std::size_t 
 }
 
 /// Uniformity is a property of an illuminated area: luminances in several directions have none.
-Json summary_json(const GridSummary& summary, bool has_uniformity) {
+Json summary_json(const statistics::GridSummary& summary, bool has_uniformity) {
     Json json{
         {"mean", summary.mean.value}, {"minimum", summary.minimum.value}, {"maximum", summary.maximum.value}};
     if (has_uniformity) json["uniformity"] = summary.uniformity.value;
@@ -56,16 +56,16 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     return json;
 }
 
-Json light_json(const FirstShotLight& light) {
+Json light_json(const estimators::FirstShotLight& light) {
     return {{"name", light.name},
             {"replaced", light.is_replaced},
             {"samples", light.samples},
             {"reason", light.why}};
 }
 
-Json patches_json(const PatchReport& report) {
+Json patches_json(const estimators::PatchReport& report) {
     Json lights = Json::array();
-    for (const FirstShotLight& light : report.lights) lights.push_back(light_json(light));
+    for (const estimators::FirstShotLight& light : report.lights) lights.push_back(light_json(light));
     return {{"count", report.count},
             {"size_m", report.size_m},
             {"first_shot",
@@ -111,7 +111,7 @@ std::string to_json(const RunResult& result, std::span<const Sensor> sensors, co
         json["first_shot_set_up_s"] = result.patches->set_up_s;
         json["patches"] = patches_json(*result.patches);
     }
-    for (const LevelOfDetail& level : result.levels_of_detail) {
+    for (const run::LevelOfDetail& level : result.levels_of_detail) {
         json["levels_of_detail"].push_back({{"object", level.object},
                                             {"degree", level.degree},
                                             {"full_degree", level.full_degree},
@@ -125,4 +125,4 @@ std::string to_json(const RunResult& result, std::span<const Sensor> sensors, co
     return json.dump(1) + "\n";
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

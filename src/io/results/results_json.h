@@ -6,10 +6,10 @@
 
 #include "run/run.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// `scene` is the scene file as the user named it. Two runs that did the same give the same text but for
 /// elapsed_s and first_shot_set_up_s.
 std::string to_json(const RunResult& result, std::span<const Sensor> sensors, const std::string& scene);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -14,7 +14,7 @@
 #include "io/text/text.h"
 #include "io/text/write_file.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
@@ -97,7 +97,7 @@ class ByteReader {
     const std::string& name_;
 };
 
-void write_patches(const Patches& patches, ByteWriter& bytes) {
+void write_patches(const patches::Patches& patches, ByteWriter& bytes) {
     bytes.add(patches.center);
     bytes.add_list(patches.vertices);
     bytes.add_list(patches.corners);
@@ -107,12 +107,12 @@ void write_patches(const Patches& patches, ByteWriter& bytes) {
     bytes.add_list(patches.first_of_object);
 }
 
-Patches read_patches(ByteReader& bytes) {
-    Patches patches;
+patches::Patches read_patches(ByteReader& bytes) {
+    patches::Patches patches;
     patches.center = bytes.take<Vec3>("the patches' centre");
-    patches.vertices = bytes.take_list<std::vector<Float3>>("the vertices");
+    patches.vertices = bytes.take_list<std::vector<patches::Float3>>("the vertices");
     patches.corners = bytes.take_list<std::vector<Triangle>>("the patches' corners");
-    patches.normals = bytes.take_list<std::vector<Float3>>("the patches' normals");
+    patches.normals = bytes.take_list<std::vector<patches::Float3>>("the patches' normals");
     patches.areas_m2 = bytes.take_list<std::vector<float>>("the patches' areas");
     patches.materials = bytes.take_list<std::vector<MaterialId>>("the patches' materials");
     patches.first_of_object = bytes.take_list<std::vector<std::uint32_t>>("the objects' first patches");
@@ -120,7 +120,7 @@ Patches read_patches(ByteReader& bytes) {
 }
 
 std::string body_of(const StoredSolution& stored) {
-    const PatchSolution& solution = stored.solution;
+    const estimators::PatchSolution& solution = stored.solution;
     ByteWriter bytes;
     bytes.add_list(stored.version);
     bytes.add_list(stored.scene);
@@ -137,7 +137,7 @@ std::string body_of(const StoredSolution& stored) {
     bytes.add(static_cast<std::uint32_t>(solution.degree));
     bytes.add_list(solution.lit_sides);
     bytes.add(static_cast<std::uint32_t>(solution.replicates.size()));
-    for (const std::vector<Rgb>& terms : solution.replicates) bytes.add_list(terms);
+    for (const std::vector<estimators::FloatRgb>& terms : solution.replicates) bytes.add_list(terms);
     return bytes.take();
 }
 
@@ -149,20 +149,21 @@ StoredSolution read_body(ByteReader& bytes) {
     stored.seed = bytes.take<std::uint64_t>("the seed");
     stored.steps = bytes.take<std::uint64_t>("the steps");
     stored.attained_error = bytes.take<double>("the error");
-    PatchSolution& solution = stored.solution;
+    estimators::PatchSolution& solution = stored.solution;
     solution.patches = read_patches(bytes);
     const auto first_shot = bytes.take<std::uint32_t>("first shot");
     if (first_shot > 1) bytes.fail(fmt::format("first shot is {}, and 0 and 1 are known", first_shot));
     if (first_shot == 1) {
         auto rows = bytes.take_list<std::vector<std::uint32_t>>("the rows of first shot");
-        auto factors = bytes.take_list<std::vector<FirstShotFactors::Factor>>("the factors of first shot");
+        auto factors =
+            bytes.take_list<std::vector<estimators::FirstShotFactors::Factor>>("the factors of first shot");
         solution.factors.emplace(std::move(rows), std::move(factors));
     }
     solution.degree = static_cast<int>(bytes.take<std::uint32_t>("the degree"));
     solution.lit_sides = bytes.take_list<std::vector<std::uint32_t>>("the sides with light");
     const auto replicates = bytes.take<std::uint32_t>("the number of replicates");
     for (std::uint32_t r = 0; r < replicates; ++r)
-        solution.replicates.push_back(bytes.take_list<std::vector<Rgb>>("the light"));
+        solution.replicates.push_back(bytes.take_list<std::vector<estimators::FloatRgb>>("the light"));
     bytes.expect_end();
     return stored;
 }
@@ -222,4 +223,4 @@ void write_solution_file(const StoredSolution& stored, const std::filesystem::pa
     replace_file(path, to_bytes(stored));
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

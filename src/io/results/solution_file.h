@@ -8,7 +8,7 @@
 
 #include "estimators/patch_light/patch_solution.h"
 
-namespace stilb {
+namespace stilb::io {
 
 struct StoredSolution {
     std::string version;     ///< of Stilb
@@ -17,7 +17,7 @@ struct StoredSolution {
     std::uint64_t seed = 0;
     std::uint64_t steps = 0;    ///< of all walks together
     double attained_error = 0;  ///< as SolveResult has it
-    PatchSolution solution;
+    estimators::PatchSolution solution;
 };
 
 std::string to_bytes(const StoredSolution& stored);
@@ -32,4 +32,4 @@ void write_solution_file(const StoredSolution& stored, const std::filesystem::pa
 /// What a file of these contents begins with: for the fuzz target, whose contents are foreign.
 std::string solution_header(std::string_view body);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -9,20 +9,20 @@
 #include "io/mesh/harmonics_file.h"
 #include "io/scene/sections.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr Range kCoefficient{-1e9, 1e9, "a number from -1e9 to 1e9"};
 constexpr std::array<std::string_view, 3> kMethods{"cells", "roots", "march"};
 
 int degree_of(const TomlItem& item, std::size_t count) {
-    for (int degree = 0; degree <= kMostHarmonicDegree; ++degree) {
-        if (harmonic_count(degree) == count) return degree;
+    for (int degree = 0; degree <= math::kMostHarmonicDegree; ++degree) {
+        if (math::harmonic_count(degree) == count) return degree;
     }
     item.fail(
         fmt::format("found {} coefficients. Allowed: (degree + 1)^2 of them for a degree from 0 to {}: "
                     "1, 4, 9, 16 ...",
-                    count, kMostHarmonicDegree));
+                    count, math::kMostHarmonicDegree));
 }
 
 HarmonicsFile read_series(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
@@ -42,12 +42,12 @@ void truncate(const TomlTable& table, std::vector<double>& coefficients) {
     const auto item = table.find("degree");
     if (!item) return;
     const auto largest = degree_of(*item, coefficients.size());
-    coefficients.resize(harmonic_count(static_cast<int>(item->integer(0, largest))));
+    coefficients.resize(math::harmonic_count(static_cast<int>(item->integer(0, largest))));
 }
 
 Harmonics harmonics_of(const HarmonicsFile& series, const TomlTable& table) {
     try {
-        return Harmonics(HarmonicSurface(HarmonicSeries<double>(series.coefficients)));
+        return Harmonics(geometry::HarmonicSurface(math::HarmonicSeries<double>(series.coefficients)));
     } catch (const InputError& error) {
         table.fail(error.what());
     }
@@ -67,4 +67,4 @@ Harmonics read_harmonic_shape(const TomlTable& table, const std::filesystem::pat
     return harmonics;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

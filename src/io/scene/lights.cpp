@@ -12,11 +12,12 @@
 #include "lights/colour_temperature.h"
 #include "lights/luminaire_frame.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr Range kColourTemperature{kMinColourTemperature_k, kMaxColourTemperature_k, "from 1000 to 25000 K"};
+constexpr Range kColourTemperature{lights::kMinColourTemperature_k, lights::kMaxColourTemperature_k,
+                                   "from 1000 to 25000 K"};
 constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
 
 /// What the reader of one light sees besides its table.
@@ -27,12 +28,13 @@ struct Context {
 };
 
 /// Luminance 1.
-Spectrum read_colour(const TomlTable& table) {
+Rgb read_colour(const TomlTable& table) {
     table.expect_not_both("cct", "color");
-    if (const auto cct = table.find("cct")) return colour_of_temperature(cct->number(kColourTemperature));
+    if (const auto cct = table.find("cct"))
+        return lights::colour_of_temperature(cct->number(kColourTemperature));
     const auto color = table.find("color");
-    if (!color) return Spectrum::grey(1);
-    const Spectrum rgb = color->spectrum(kColour);
+    if (!color) return Rgb::grey(1);
+    const Rgb rgb = color->rgb(kColour);
     constexpr double darkest = 1e-9;
     if (rgb.luminance() < darkest)
         color->fail("black has no colour. Allowed: [r, g, b] with a channel above 0.");
@@ -116,15 +118,15 @@ SolidId read_solid(const TomlItem& item, const Context& context) {
     return SolidId{index};
 }
 
-PhotometryLight read_photometry(TomlTable& table, const Context& context) {
+Luminaire read_photometry(TomlTable& table, const Context& context) {
     table.expect_keys({"type", "file", "position", "aim", "spin", "dimming", "flux", "cct", "color"},
                       "type \"photometry\"");
     const Vec3 position = table.at("position").vector();
     const auto aim = table.find("aim"), spin = table.find("spin"), dimming = table.find("dimming"),
                flux = table.find("flux");
     const auto [c0, c90, nadir] =
-        aim_luminaire(aim ? aim->direction() : Vec3{0, 0, -1}, spin ? spin->number(kAngle) : 0);
-    Spectrum factor = read_colour(table);
+        lights::aim_luminaire(aim ? aim->direction() : Vec3{0, 0, -1}, spin ? spin->number(kAngle) : 0);
+    Rgb factor = read_colour(table);
     if (dimming) factor *= dimming->number(kLightQuantity);
     const SolidId solid = read_solid(table.at("file"), context);
     if (flux) factor *= flux->number(kLightQuantity) / context.file.scene.solid(solid).flux_lm();
@@ -149,4 +151,4 @@ void read_lights(const TomlTable& section, const std::filesystem::path& director
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -5,7 +5,7 @@
 
 #include "io/scene/sections.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr Range kReflectance{0, 1, "from 0 to 1 (no surface reflects more light than it receives)"};
@@ -15,10 +15,10 @@ constexpr Range kRoughness{0.001, 1, "from 0.001 to 1 (a mirror has type \"mirro
 
 Material read_diffuse(TomlTable& table) {
     table.expect_keys({"type", "reflectance"}, "type \"diffuse\"");
-    return Diffuse{table.at("reflectance").spectrum(kReflectance)};
+    return Diffuse{table.at("reflectance").rgb(kReflectance)};
 }
 
-void expect_no_gain(const TomlTable& table, const Spectrum& diffuse, const Spectrum& specular) {
+void expect_no_gain(const TomlTable& table, const Rgb& diffuse, const Rgb& specular) {
     constexpr double rounding = 1e-12;  // 0.7 + 0.3 need not be 1 to the last bit
     const double largest = (diffuse + specular).max();
     if (largest > 1 + rounding) {
@@ -31,7 +31,7 @@ void expect_no_gain(const TomlTable& table, const Spectrum& diffuse, const Spect
 
 Material read_phong(TomlTable& table) {
     table.expect_keys({"type", "diffuse", "specular", "exponent"}, "type \"phong\"");
-    const Phong phong{table.at("diffuse").spectrum(kReflectance), table.at("specular").spectrum(kReflectance),
+    const Phong phong{table.at("diffuse").rgb(kReflectance), table.at("specular").rgb(kReflectance),
                       table.at("exponent").number(kPhongExponent)};
     expect_no_gain(table, phong.diffuse, phong.specular);
     return phong;
@@ -39,13 +39,14 @@ Material read_phong(TomlTable& table) {
 
 Material read_rough(TomlTable& table) {
     table.expect_keys({"type", "reflectance", "roughness"}, "type \"rough\"");
-    return Rough(table.at("reflectance").spectrum(kReflectance), table.at("roughness").number(kRoughness));
+    return RoughConductor(table.at("reflectance").rgb(kReflectance),
+                          table.at("roughness").number(kRoughness));
 }
 
 Material read_ward(TomlTable& table) {
     table.expect_keys({"type", "diffuse", "specular", "roughness", "rotation"}, "type \"ward\"");
-    const Spectrum diffuse = table.at("diffuse").spectrum(kReflectance);
-    const Spectrum specular = table.at("specular").spectrum(kReflectance);
+    const Rgb diffuse = table.at("diffuse").rgb(kReflectance);
+    const Rgb specular = table.at("specular").rgb(kReflectance);
     expect_no_gain(table, diffuse, specular);
     const std::vector<double> roughness = table.at("roughness").numbers(2, kRoughness);
     const auto rotation = table.find("rotation");
@@ -54,23 +55,23 @@ Material read_ward(TomlTable& table) {
 
 Material read_plastic(TomlTable& table) {
     table.expect_keys({"type", "diffuse", "ior", "roughness"}, "type \"plastic\"");
-    return Plastic(table.at("diffuse").spectrum(kReflectance), table.at("ior").number(kIor),
+    return Plastic(table.at("diffuse").rgb(kReflectance), table.at("ior").number(kIor),
                    table.at("roughness").number(kRoughness));
 }
 
 Material read_mirror(TomlTable& table) {
     table.expect_keys({"type", "reflectance"}, "type \"mirror\"");
-    return Mirror{table.at("reflectance").spectrum(kReflectance)};
+    return Mirror{table.at("reflectance").rgb(kReflectance)};
 }
 
 Material read_glass(TomlTable& table) {
     table.expect_keys({"type", "ior"}, "type \"glass\"");
-    return Glass{table.at("ior").number(kIor)};
+    return Dielectric{table.at("ior").number(kIor)};
 }
 
 Material read_pane(TomlTable& table) {
     table.expect_keys({"type", "ior", "internal_transmittance"}, "type \"pane\"");
-    return Pane{table.at("ior").number(kIor), table.at("internal_transmittance").spectrum(kReflectance)};
+    return ThinDielectric{table.at("ior").number(kIor), table.at("internal_transmittance").rgb(kReflectance)};
 }
 
 Material read_black(TomlTable& table) {
@@ -104,4 +105,4 @@ std::vector<NamedMaterial> read_materials(const TomlTable& section) {
     return materials;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -12,7 +12,7 @@
 #include "io/text/messages.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 using Names = std::vector<std::string_view>;
@@ -207,7 +207,7 @@ Object read_untransformed(TomlTable& table, const std::filesystem::path& directo
     return of_one_material(read_simple_shape(table, shape, file));
 }
 
-void expect_possible(const Transform& transform, const Shape& shape, const TomlTable& table) {
+void expect_possible(const geometry::Transform& transform, const Shape& shape, const TomlTable& table) {
     const bool is_round = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Disk>(shape);
     const bool is_harmonic = std::holds_alternative<Harmonics>(shape);
     if ((is_round || is_harmonic) && !transform.is_similarity()) {
@@ -219,8 +219,8 @@ void expect_possible(const Transform& transform, const Shape& shape, const TomlT
 }
 
 /// A series with a centre is scaled and turned about it.
-Transform transform_of(const Shape& shape, const TomlTable& table) {
-    Transform transform = read_transform(table);
+geometry::Transform transform_of(const Shape& shape, const TomlTable& table) {
+    geometry::Transform transform = read_transform(table);
     if (std::holds_alternative<Harmonics>(shape)) {
         if (const auto center = table.find("center")) transform.translation += center->vector();
     }
@@ -233,11 +233,11 @@ void read_objects(const TomlTable& section, const std::filesystem::path& directo
     for (auto& [name, table] : named_tables(section)) {
         Object object = read_untransformed(table, directory, file);
         object.name = name;
-        const Transform transform = transform_of(object.shape, table);
+        const geometry::Transform transform = transform_of(object.shape, table);
         expect_possible(transform, object.shape, table);
-        if (transform != Transform{}) object.shape = transformed(object.shape, transform);
+        if (transform != geometry::Transform{}) object.shape = transformed(object.shape, transform);
         file.scene.objects.push_back(std::move(object));
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -12,7 +12,7 @@
 #include "io/text/text.h"
 #include "run/relative_error.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr Range kRelativeError{1e-9, 0.999999, "a share between 0 and 1, such as 0.01 or \"1%\""};
@@ -21,13 +21,14 @@ constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
 
 std::string read_method(const TomlItem& item) {
     std::vector<std::string_view> methods;
-    for (const EstimatorEntry& entry : estimator_list()) methods.push_back(entry.name);
+    for (const estimators::EstimatorEntry& entry : estimators::estimator_list())
+        methods.push_back(entry.name);
     return std::string(methods[item.index_in(methods, "method")]);
 }
 
 double read_error(const TomlItem& item) {
     if (!item.is_text()) return item.number(kRelativeError);
-    const auto error = parse_relative_error(item.text());
+    const auto error = run::parse_relative_error(item.text());
     if (!error)
         item.fail(
             fmt::format("{} is not allowed. Allowed: {}.", in_quotes(item.text()), kRelativeError.allowed));
@@ -152,4 +153,4 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
     return file;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
-namespace stilb {
+namespace stilb::io {
 
 struct SceneFile {
     Scene scene;
@@ -29,4 +29,4 @@ SceneFile read_scene_file(const std::filesystem::path& path);
 /// The reader itself; `directory` is where the scene's file paths start, `name` is used in messages.
 SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -9,7 +9,7 @@
 #include "io/scene/scene_file.h"
 #include "io/scene/toml_table.h"
 
-namespace stilb {
+namespace stilb::io {
 
 struct NamedTable {
     std::string name;
@@ -27,7 +27,7 @@ void read_sensors(const TomlTable& section, SceneFile& file);
 RunOptions read_run(TomlTable section);
 
 /// The keys scale, rotate, translate or transform of an object.
-Transform read_transform(const TomlTable& object);
+geometry::Transform read_transform(const TomlTable& object);
 
 /// A direction made a unit vector, with a warning where it was far from one.
 Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings);
@@ -38,4 +38,4 @@ Harmonics read_harmonic_shape(const TomlTable& table, const std::filesystem::pat
 /// The keys corner, edge_u, edge_v.
 Rectangle read_rectangle(const TomlTable& table);
 
-}  // namespace stilb
+}  // namespace stilb::io

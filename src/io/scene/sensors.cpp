@@ -7,7 +7,7 @@
 #include "io/scene/sections.h"
 #include "sensors/goniometer.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 /// Of all sensors together: 10 million measurands take 0.8 gigabytes.
@@ -162,19 +162,20 @@ Sensor read_camera(TomlTable& table) {
     expect_upright(table, camera, camera.up);
     camera.resolution = read_counts(table.at("resolution"), kPictureLimit);
     if (const auto projection = table.find("projection"))
-        camera.projection = static_cast<Projection>(projection->index_in(kProjectionNames, "projection"));
+        camera.projection =
+            static_cast<Projection>(projection->index_in(sensors::kProjectionNames, "projection"));
     const FieldOfView view = field_of_view(camera.projection);
     const auto fov = table.find("fov");
     camera.fov_deg = fov ? fov->number(view.range) : view.default_deg;
     if (const auto filter = table.find("filter"))
-        camera.filter = static_cast<PixelFilter>(filter->index_in(kPixelFilterNames, "filter"));
+        camera.filter = static_cast<PixelFilter>(filter->index_in(sensors::kPixelFilterNames, "filter"));
     return sensor;
 }
 
 SensorType read_type(const TomlTable& table) {
-    const std::string_view type = table.choose("type", kSensorTypeNames);
-    const auto place = std::find(kSensorTypeNames.begin(), kSensorTypeNames.end(), type);
-    return static_cast<SensorType>(place - kSensorTypeNames.begin());
+    const std::string_view type = table.choose("type", sensors::kSensorTypeNames);
+    const auto place = std::find(sensors::kSensorTypeNames.begin(), sensors::kSensorTypeNames.end(), type);
+    return static_cast<SensorType>(place - sensors::kSensorTypeNames.begin());
 }
 
 Sensor read_sensor(TomlTable& table, SensorType type, Warnings& warnings) {
@@ -211,4 +212,4 @@ void read_sensors(const TomlTable& section, SceneFile& file) {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

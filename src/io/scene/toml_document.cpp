@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 TomlValue converted(const toml::node& node);
@@ -88,4 +88,4 @@ TomlValue parse_toml(std::string_view text, const std::string& name) {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

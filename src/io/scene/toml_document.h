@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace stilb {
+namespace stilb::io {
 
 struct TomlMember;
 struct TomlValue;
@@ -32,4 +32,4 @@ struct TomlMember {
 /// The top table of a TOML 1.0 text. Throws InputError for what is not TOML; `name` is used in messages.
 TomlValue parse_toml(std::string_view text, const std::string& name);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -11,7 +11,7 @@
 #include "io/text/messages.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 std::string described(const TomlValue& value) {
@@ -103,14 +103,14 @@ const TomlArray& TomlItem::array_of(std::size_t count, std::string_view needed) 
     return *array;
 }
 
-Spectrum TomlItem::spectrum(const Range& range) const {
+Rgb TomlItem::rgb(const Range& range) const {
     const bool is_grey = std::holds_alternative<double>(value_->content) ||
                          std::holds_alternative<std::int64_t>(value_->content);
-    if (is_grey) return Spectrum::grey(number(range));
+    if (is_grey) return Rgb::grey(number(range));
     const TomlArray& array = array_of(kBands, "a number or a colour [r, g, b]");
-    Spectrum spectrum;
-    for (std::size_t b = 0; b < kBands; ++b) spectrum[b] = element(array, b).number(range);
-    return spectrum;
+    Rgb rgb;
+    for (std::size_t b = 0; b < kBands; ++b) rgb[b] = element(array, b).number(range);
+    return rgb;
 }
 
 Vec3 TomlItem::vector() const {
@@ -236,4 +236,4 @@ void TomlTable::expect_not_both(std::string_view first, std::string_view second)
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -13,7 +13,7 @@
 #include "base/vec.h"
 #include "io/scene/toml_document.h"
 
-namespace stilb {
+namespace stilb::io {
 
 /// The numbers that a key takes, and the words for them in messages: "2 is not {allowed}".
 struct Range {
@@ -44,7 +44,7 @@ class TomlItem {
     /// true or false.
     bool boolean() const;
     /// [r, g, b], or one number for a grey triple.
-    Spectrum spectrum(const Range& range) const;
+    Rgb rgb(const Range& range) const;
     /// [x, y, z].
     Vec3 vector() const;
     /// [x, y, z] but not zero, made a unit vector.
@@ -120,4 +120,4 @@ struct TomlTable::NamedItem {
     TomlItem item;
 };
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -8,7 +8,7 @@
 #include "io/scene/toml_document.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 constexpr std::array<std::string_view, 3> kLightSections{"materials", "objects", "lights"};
@@ -74,4 +74,4 @@ std::string light_hash(std::span<const std::filesystem::path> sources) {
     return digits(hash_of_files(sources.subspan(1), hash_of(text)));
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

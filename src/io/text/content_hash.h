@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace stilb {
+namespace stilb::io {
 
 inline constexpr std::uint64_t kEmptyHash = 0xcbf29ce484222325;
 
@@ -24,4 +24,4 @@ std::string content_hash(std::span<const std::filesystem::path> files);
 /// cannot be read.
 std::string light_hash(std::span<const std::filesystem::path> sources);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "io/text/text.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 std::string listed(std::span<const std::string_view> names) {
@@ -30,4 +30,4 @@ std::string suggestion(std::string_view found, std::span<const std::string_view>
     return fmt::format("{} Allowed: {}.", question, listed(allowed));
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

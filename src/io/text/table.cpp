@@ -7,7 +7,7 @@
 
 #include "io/text/write_file.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 std::string quoted_where_needed(const std::string& text) {
@@ -55,4 +55,4 @@ void write_csv(std::span<const Column> columns, const std::filesystem::path& pat
     write_file(path, to_csv(columns));
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace stilb {
+namespace stilb::io {
 
 struct Column {
     std::string name;
@@ -21,4 +21,4 @@ std::string to_csv(std::span<const Column> columns);
 /// Throws InputError where the file cannot be written.
 void write_csv(std::span<const Column> columns, const std::filesystem::path& path);
 
-}  // namespace stilb
+}  // namespace stilb::io

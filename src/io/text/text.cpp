@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 template <class Number>
@@ -89,4 +89,4 @@ bool TextLines::next() {
     return true;
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace stilb {
+namespace stilb::io {
 
 /// The file, byte for byte. Throws InputError where it cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
@@ -48,4 +48,4 @@ class TextLines {
     std::size_t number_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::io

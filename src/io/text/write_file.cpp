@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::io {
 namespace {
 
 InputError cannot_write(const std::filesystem::path& path) {
@@ -55,4 +55,4 @@ void replace_file(const std::filesystem::path& path, std::string_view content) {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::io

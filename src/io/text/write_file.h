@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace stilb {
+namespace stilb::io {
 
 /// Throws InputError where `path` is in a folder that does not exist. For a look before a long computation.
 void require_folder_of(const std::filesystem::path& path);
@@ -16,4 +16,4 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// is no plain file, such as a link or a device, is written to as it is.)
 void replace_file(const std::filesystem::path& path, std::string_view content);
 
-}  // namespace stilb
+}  // namespace stilb::io

@@ -5,7 +5,7 @@
 #include "patches/visibility/ray_bundles.h"
 #include "patches/visibility/ray_item_buffers.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 std::unique_ptr<ItemBuffers> make_item_buffers(BufferBackend backend, const PatchCaster& caster) {
     if (backend == BufferBackend::rays) return std::make_unique<RayItemBuffers>(caster);
@@ -17,4 +17,4 @@ std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& 
     return std::make_unique<OpenGlBundles>(caster.patches());
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

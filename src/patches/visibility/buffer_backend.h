@@ -10,7 +10,7 @@
 #include "patches/visibility/item_buffer.h"
 #include "patches/visibility/patch_caster.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 enum class BufferBackend { rays, opengl };
 
@@ -24,4 +24,4 @@ constexpr std::string_view name_of(BufferBackend backend) {
 std::unique_ptr<ItemBuffers> make_item_buffers(BufferBackend backend, const PatchCaster& caster);
 std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& caster);
 
-}  // namespace stilb
+}  // namespace stilb::patches

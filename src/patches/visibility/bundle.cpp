@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// Room before and behind the patches, for rounding.
@@ -60,4 +60,4 @@ LineGrid::LineGrid(const Bounds& bounds, const Bundle& bundle) {
     depth_m = 2 * half_w;
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -20,7 +20,7 @@
 #include "patches/patches.h"
 #include "patches/visibility/patch_caster.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 struct Bundle {
     Frame frame;                     ///< w: where the rays go; u and v: the axes of the grid
@@ -97,4 +97,4 @@ struct LineGrid {
     Vec3 origin(int x, int y) const { return first + x * step_x + y * step_y; }
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

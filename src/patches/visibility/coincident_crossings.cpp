@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 constexpr double kRelativeTolerance = 0x1p-19;
@@ -28,4 +28,4 @@ bool CoincidentCrossings::is_same(const Crossing& before, const Crossing& after)
            gap_m * std::abs(dot(direction_, patches_.normal_of(after.side))) <= tolerance_m_;
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -8,7 +8,7 @@
 #include "patches/patches.h"
 #include "patches/visibility/patch_caster.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// Keeps one crossing of those that are one and the same: where the next one has the same orientation (both
 /// fronts or both backs) and lies no farther behind than 2^-19 of half the bounding box, as measured across
@@ -30,4 +30,4 @@ class CoincidentCrossings {
     double tolerance_m_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

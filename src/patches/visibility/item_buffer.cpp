@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
@@ -78,4 +78,4 @@ BufferPixel ItemBufferLayout::pixel(const BufferFace& face, int x, int y) const 
     return {point(0.5, 0.5), part * pixel_size_ * pixel_size_ / (r * r * r), counted.z / r};
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

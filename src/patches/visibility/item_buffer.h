@@ -17,7 +17,7 @@
 #include "base/vec.h"
 #include "patches/visibility/viewpoint.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 enum class BufferShape {
     cube,               ///< six faces: the whole sphere
@@ -104,4 +104,4 @@ class ItemBuffers {
                       std::span<std::uint32_t> sides) = 0;
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

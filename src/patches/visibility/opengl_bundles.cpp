@@ -18,7 +18,7 @@
 #include "patches/visibility/coincident_crossings.h"
 #include "patches/visibility/opengl_patches.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// `axes` are the bundle's u, v and w, `corner` is that of the picture; `scale` maps the picture to [0, 1]^3.
@@ -204,4 +204,4 @@ void OpenGlBundles::cast(const Bundle& bundle, const LineVisitor& visit) const {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

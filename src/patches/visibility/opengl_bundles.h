@@ -7,7 +7,7 @@
 #include "patches/patches.h"
 #include "patches/visibility/bundle.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// Draws the patches without perspective, layer behind layer, until nothing is left to draw; without a card
 /// by Mesa's software. A pixel's middle is a line. Casts may run in parallel, but draw one after another.
@@ -30,4 +30,4 @@ class OpenGlBundles : public Bundles {
     std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

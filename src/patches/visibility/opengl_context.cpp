@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 [[noreturn]] void throw_missing(const std::string& what) {
@@ -85,4 +85,4 @@ OpenGlContext::Current::~Current() {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

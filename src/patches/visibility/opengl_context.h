@@ -1,7 +1,7 @@
 // OpenGL without a window.
 #pragma once
 
-namespace stilb {
+namespace stilb::patches {
 
 /// An OpenGL 4.5 context by EGL: of the first device that has one (a graphics card where there is one), else
 /// of Mesa without a device. Functions of OpenGL work in the thread that holds a Current.
@@ -30,4 +30,4 @@ class OpenGlContext {
     void* context_ = nullptr;  ///< EGLContext
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -19,7 +19,7 @@
 #include "base/error.h"
 #include "patches/visibility/opengl_patches.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// `axes` are the face's right, up and forward; the window maps the picture's plane to [-1, 1]^2.
@@ -121,4 +121,4 @@ void OpenGlItemBuffers::fill(const ItemBufferLayout& layout, const Viewpoint& vi
     check_opengl();
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -7,7 +7,7 @@
 #include "patches/patches.h"
 #include "patches/visibility/item_buffer.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// Draws the patches with their number as colour, without a window, by Mesa's software where there is no
 /// card. One buffer at a time, from any thread. Copies of the patches' geometry go to the driver.
@@ -30,4 +30,4 @@ class OpenGlItemBuffers : public ItemBuffers {
     std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 GLuint compiled(GLenum kind, const char* source) {
@@ -87,4 +87,4 @@ void set_uniform(int location, std::initializer_list<Vec3> vectors) {
     glUniform3fv(location, static_cast<GLsizei>(vectors.size()), coordinates.data());
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -7,7 +7,7 @@
 #include "patches/patches.h"
 #include "patches/visibility/opengl_context.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// Shaders in GLSL. The vertex shader gets each patch's corners in location 0, relative to Patches::center;
 /// the fragment shader knows the patch by gl_PrimitiveID.
@@ -46,4 +46,4 @@ void check_opengl();
 /// Of the program in use: vec3 at `location`, or an array of them.
 void set_uniform(int location, std::initializer_list<Vec3> vectors);
 
-}  // namespace stilb
+}  // namespace stilb::patches

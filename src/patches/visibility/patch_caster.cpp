@@ -12,7 +12,7 @@
 
 #include "rays/embree_context.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 static_assert(sizeof(RayPacket) == sizeof(RTCRay16));
@@ -108,7 +108,7 @@ PatchCaster::~PatchCaster() = default;
 const Patches& PatchCaster::patches() const { return implementation_->patches; }
 std::size_t PatchCaster::bytes() const { return static_cast<std::size_t>(implementation_->bytes.load()); }
 
-PatchHits PatchCaster::closest(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
+PatchHits PatchCaster::closest(RayPacket& packet, const LaneMask& lanes, rays::Coherence coherence) const {
     RTCRayHit16 found = unanswered(packet);
     RTCIntersectContext context = context_for(coherence);
     rtcIntersect16(lanes.data(), implementation_->scene, &context, &found);
@@ -131,10 +131,10 @@ void PatchCaster::all(const RayPacket& packet, const LaneMask& lanes, PacketCros
     for (auto& of_lane : crossings) of_lane.clear();
     RTCRayHit16 rays = unanswered(packet);
     std::iota(std::begin(rays.ray.id), std::end(rays.ray.id), 0u);
-    CollectingContext context{context_for(Coherence::coherent), implementation_->patches, crossings};
+    CollectingContext context{context_for(rays::Coherence::coherent), implementation_->patches, crossings};
     context.filter = collect;
     rtcIntersect16(lanes.data(), implementation_->scene, &context, &rays);
     for (auto& of_lane : crossings) std::ranges::sort(of_lane, std::less<>{});
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -11,14 +11,14 @@
 #include "patches/patches.h"
 #include "rays/ray_caster.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// What sixteen rays met first.
 struct PatchHits {
     std::array<std::uint32_t, kPacketWidth> sides;  ///< kNoSide where a ray met nothing, or is not asked for
     RayPacket::Floats b1, b2;                       ///< where on the patch, of those that met one
 
-    Barycentric place(std::size_t lane) const {
+    math::Barycentric place(std::size_t lane) const {
         const double u = b1[lane], v = b2[lane];
         return {1 - u - v, u, v};
     }
@@ -49,7 +49,7 @@ class PatchCaster {
     /// Coordinates are relative to Patches::center. Embree divides packets where the processor has narrower
     /// vectors.
     PatchHits closest(RayPacket& packet, const LaneMask& lanes,
-                      Coherence coherence = Coherence::coherent) const;
+                      rays::Coherence coherence = rays::Coherence::coherent) const;
 
     /// For lanes that are set: all that is met between `start` and `end`, by distance; other lanes have
     /// nothing. Takes the place of what was in `crossings`, whose memory can so be used again. A ray on the
@@ -65,4 +65,4 @@ class PatchCaster {
     std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

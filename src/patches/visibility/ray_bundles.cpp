@@ -4,7 +4,7 @@
 
 #include "patches/visibility/coincident_crossings.h"
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// A packet is a square of the grid, whose rays stay closest together.
@@ -71,4 +71,4 @@ void RayBundles::cast(const Bundle& bundle, const LineVisitor& visit) const {
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

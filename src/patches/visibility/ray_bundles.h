@@ -4,7 +4,7 @@
 #include "patches/visibility/bundle.h"
 #include "patches/visibility/patch_caster.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// Casts may run in parallel, each on its thread. Keeps a reference to the caster.
 class RayBundles : public Bundles {
@@ -18,4 +18,4 @@ class RayBundles : public Bundles {
     Bounds bounds_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

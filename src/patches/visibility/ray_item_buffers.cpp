@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// A packet is a square of pixels, whose rays stay closest together.
@@ -81,4 +81,4 @@ void RayItemBuffers::fill(const ItemBufferLayout& layout, const Viewpoint& viewp
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

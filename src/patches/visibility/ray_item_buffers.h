@@ -4,7 +4,7 @@
 #include "patches/visibility/item_buffer.h"
 #include "patches/visibility/patch_caster.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// Fills buffers on one thread; each thread may have an object of its own, they are light. Keeps a reference
 /// to the caster.
@@ -19,4 +19,4 @@ class RayItemBuffers : public ItemBuffers {
     const PatchCaster& caster_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stilb {
+namespace stilb::patches {
 namespace {
 
 /// As RayCaster's offset, for positions relative to the centre.
@@ -20,7 +20,7 @@ double longest_edge_m(const Patches& patches, std::uint32_t patch) {
 
 }  // namespace
 
-Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const Barycentric& place) {
+Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& place) {
     const std::uint32_t patch = patches.patch_of(side);
     const Vec3 wanted = patches.position(patch, place), middle = patches.middle(patch);
     const double longest_m = longest_edge_m(patches, patch);
@@ -32,4 +32,4 @@ Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const Barycen
     return {wanted + towards_middle * (middle - wanted) + lift_m * normal, Frame::around(normal)};
 }
 
-}  // namespace stilb
+}  // namespace stilb::patches

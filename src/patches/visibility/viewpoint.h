@@ -5,7 +5,7 @@
 #include "math/sampling.h"
 #include "patches/patches.h"
 
-namespace stilb {
+namespace stilb::patches {
 
 /// A place in world coordinates, and the axes that it looks along; w is where a hemisphere is seen.
 struct Viewpoint {
@@ -17,6 +17,6 @@ struct Viewpoint {
 /// the surface, and drawn in from the patch's edges by eight times as much, as RayCaster does (ray_caster.h,
 /// for the reasons): so it does not see its own plane, nor past a wall that begins at an edge of the patch. A
 /// place may be a corner of the patch.
-Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const Barycentric& place);
+Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& place);
 
-}  // namespace stilb
+}  // namespace stilb::patches

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -48,7 +48,7 @@ Vec3 HemisphereBins::direction(std::uint32_t bin, double u1, double u2) const {
     return {sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1 - squared_sine)};
 }
 
-ClassicalFirstShot::ClassicalFirstShot(const Scene& scene, const Patches& patches,
+ClassicalFirstShot::ClassicalFirstShot(const Scene& scene, const patches::Patches& patches,
                                        const IncomingFirstShot& incoming, const HemisphereBins& bins)
     : patches_(patches), bins_(bins), first_{0} {
     const auto sides = static_cast<std::uint32_t>(2 * patches.count());
@@ -71,18 +71,18 @@ void ClassicalFirstShot::store(std::uint32_t side, const IncomingFirstShot& inco
     for (std::uint32_t bin = 0; count > 1 && bin < count; ++bin) {
         for (const auto& [u1, u2] : kPlaces) outs.push_back(frame.to_world(bins_.direction(bin, u1, u2)));
     }
-    std::vector<Spectrum> sums(outs.size());
+    std::vector<Rgb> sums(outs.size());
     incoming.add_reflected(side, {}, {}, outs, sums);
     const std::size_t per_bin = outs.size() / count;
     for (std::size_t bin = 0; bin < count; ++bin) {
-        Spectrum mean;
+        Rgb mean;
         for (std::size_t i = 0; i < per_bin; ++i) mean += sums[bin * per_bin + i];
         radiance_cd_m2_[first_[side] + bin] = in_floats(mean * (1 / static_cast<double>(per_bin)));
     }
 }
 
-void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, RandomKey, std::span<const Vec3> outs,
-                                       std::span<Spectrum> sums) const {
+void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, math::RandomKey,
+                                       std::span<const Vec3> outs, std::span<Rgb> sums) const {
     const std::size_t count = bins_of(side);
     if (count == 0) return;
     const Frame frame = frame_of(patches_, side);
@@ -94,4 +94,4 @@ void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, RandomKe
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

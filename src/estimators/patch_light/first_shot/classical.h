@@ -8,7 +8,7 @@
 #include "estimators/patch_light/first_shot/incoming.h"
 #include "math/random.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// The hemisphere in bins of equal projected solid angle, so that all weigh the same in flux: rings of equal
 /// steps in sin^2(theta), each in four times as many sectors as there are rings, from the frame's u on.
@@ -30,12 +30,12 @@ class HemisphereBins {
 /// Keeps a reference to the patches.
 class ClassicalFirstShot {
   public:
-    ClassicalFirstShot(const Scene& scene, const Patches& patches, const IncomingFirstShot& incoming,
+    ClassicalFirstShot(const Scene& scene, const patches::Patches& patches, const IncomingFirstShot& incoming,
                        const HemisphereBins& bins);
 
     /// As FirstShot; the position does not matter.
-    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
-                       std::span<Spectrum> sums) const;
+    void add_reflected(std::uint32_t side, const Vec3& position, math::RandomKey key,
+                       std::span<const Vec3> outs, std::span<Rgb> sums) const;
     bool is_constant(std::uint32_t side) const { return bins_of(side) <= 1; }
     std::size_t bytes() const {
         return first_.size() * sizeof first_[0] + radiance_cd_m2_.size() * sizeof radiance_cd_m2_[0];
@@ -46,10 +46,11 @@ class ClassicalFirstShot {
     std::size_t bins_of(std::uint32_t side) const { return first_[side + 1] - first_[side]; }
     void store(std::uint32_t side, const IncomingFirstShot& incoming);
 
-    const Patches& patches_;
+    const patches::Patches& patches_;
     HemisphereBins bins_;
-    std::vector<std::size_t> first_;      ///< per side, and the end
-    std::vector<Float3> radiance_cd_m2_;  ///< per bin and band: the mean over the bin's projected solid angle
+    std::vector<std::size_t> first_;  ///< per side, and the end
+    std::vector<patches::Float3>
+        radiance_cd_m2_;  ///< per bin and band: the mean over the bin's projected solid angle
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

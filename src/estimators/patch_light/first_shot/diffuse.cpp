@@ -2,14 +2,14 @@
 
 #include <numbers>
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 // A BRDF as a sum: a part that is the same for all directions, of which pi times stands here, and the rest.
 // Rough and Plastic are all rest: what they reflect diffusely depends on both angles.
 
 struct SplitMaterial {
-    Spectrum diffuse;
+    Rgb diffuse;
     Material rest;
 };
 
@@ -24,10 +24,10 @@ SplitMaterial split(const auto& material) { return {{}, material}; }
 
 }  // namespace
 
-DiffuseFirstShot::DiffuseFirstShot(const Scene& scene, const Patches& patches,
+DiffuseFirstShot::DiffuseFirstShot(const Scene& scene, const patches::Patches& patches,
                                    const IncomingFirstShot& incoming, const ShadowRays& rays)
     : scene_(scene), patches_(patches), rays_(rays), radiance_cd_m2_(2 * patches.count()) {
-    std::vector<Spectrum> diffuse;
+    std::vector<Rgb> diffuse;
     for (const NamedMaterial& named : scene.materials) {
         const SplitMaterial parts = std::visit([](const auto& m) { return split(m); }, named.material);
         diffuse.push_back(parts.diffuse * std::numbers::inv_pi);
@@ -39,8 +39,8 @@ DiffuseFirstShot::DiffuseFirstShot(const Scene& scene, const Patches& patches,
     }
 }
 
-void DiffuseFirstShot::add_reflected(std::uint32_t side, const Vec3& position, RandomKey key,
-                                     std::span<const Vec3> outs, std::span<Spectrum> sums) const {
+void DiffuseFirstShot::add_reflected(std::uint32_t side, const Vec3& position, math::RandomKey key,
+                                     std::span<const Vec3> outs, std::span<Rgb> sums) const {
     const Vec3 normal = patches_.normal_of(side);
     for (std::size_t i = 0; i < outs.size(); ++i) {
         if (dot(outs[i], normal) > 0) sums[i] += to_spectrum(radiance_cd_m2_[side]);
@@ -49,4 +49,4 @@ void DiffuseFirstShot::add_reflected(std::uint32_t side, const Vec3& position, R
     rays_.add_reflected_by(rest, side, position, key, outs, sums);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -8,7 +8,7 @@
 #include <memory>
 #include <numeric>
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// A side that a sample sees.
@@ -20,20 +20,20 @@ struct Lit {
 /// What one thread shoots with.
 class Shooter {
   public:
-    Shooter(const PatchCaster& caster, const ShootingOptions& options)
+    Shooter(const patches::PatchCaster& caster, const ShootingOptions& options)
         : patches_(caster.patches()),
           buffers_(make_item_buffers(options.backend, caster)),
-          whole_(BufferShape::cube, options.resolution),
+          whole_(patches::BufferShape::cube, options.resolution),
           half_(options.window, options.resolution),
           flux_lm_(2 * patches_.count()) {}
 
     std::vector<Lit> shoot(const LightSample& sample) {
-        const ItemBufferLayout& layout = sample.is_point ? whole_ : half_;
+        const patches::ItemBufferLayout& layout = sample.is_point ? whole_ : half_;
         seen_.resize(layout.pixel_count());
         buffers_->fill(layout, sample.viewpoint, seen_);
-        layout.for_each_pixel([&](std::size_t index, const BufferPixel& pixel) {
+        layout.for_each_pixel([&](std::size_t index, const patches::BufferPixel& pixel) {
             const std::uint32_t side = seen_[index];
-            if (side == kNoSide) return;
+            if (side == patches::kNoSide) return;
             const double flux_lm = sample.intensity_cd(pixel) * pixel.solid_angle_sr;
             if (!(flux_lm > 0)) return;
             if (flux_lm_[side] == 0) touched_.push_back(side);
@@ -55,19 +55,20 @@ class Shooter {
         return lit;
     }
 
-    const Patches& patches_;
-    std::unique_ptr<ItemBuffers> buffers_;
-    ItemBufferLayout whole_, half_;
+    const patches::Patches& patches_;
+    std::unique_ptr<patches::ItemBuffers> buffers_;
+    patches::ItemBufferLayout whole_, half_;
     std::vector<std::uint32_t> seen_;
     std::vector<double> flux_lm_;         ///< per side, of the sample; 0 before and after
     std::vector<std::uint32_t> touched_;  ///< sides with flux
 };
 
 /// Sides that every sample sees. Those of a sample do not depend on who else works.
-std::vector<std::vector<Lit>> shoot_all(const PatchCaster& caster, std::span<const LightSample> samples,
+std::vector<std::vector<Lit>> shoot_all(const patches::PatchCaster& caster,
+                                        std::span<const LightSample> samples,
                                         const ShootingOptions& options) {
     std::vector<std::vector<Lit>> lit(samples.size());
-    if (options.backend == BufferBackend::opengl) {  // one buffer at a time, the driver has threads
+    if (options.backend == patches::BufferBackend::opengl) {  // one buffer at a time, the driver has threads
         Shooter shooter(caster, options);
         std::ranges::transform(samples, lit.begin(), [&](const LightSample& s) { return shooter.shoot(s); });
         return lit;
@@ -86,7 +87,7 @@ int first_shot_resolution(std::size_t patches) {
     return 2 * static_cast<int>(std::ceil(std::clamp(wanted, 64., kMost) / 2));
 }
 
-FirstShotFactors::FirstShotFactors(const PatchCaster& caster, std::span<const LightSample> samples,
+FirstShotFactors::FirstShotFactors(const patches::PatchCaster& caster, std::span<const LightSample> samples,
                                    const ShootingOptions& options)
     : first_(2 * caster.patches().count() + 1) {
     std::vector<std::vector<Lit>> lit = shoot_all(caster, samples, options);
@@ -102,4 +103,4 @@ FirstShotFactors::FirstShotFactors(const PatchCaster& caster, std::span<const Li
     }
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -19,15 +19,16 @@
 #include "patches/visibility/buffer_backend.h"
 #include "patches/visibility/patch_caster.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// An even number of pixels along a face that leaves 100 pixels or more of a cube for each patch in the mean,
 /// 2048 at most: from 250,000 patches on they are fewer.
 int first_shot_resolution(std::size_t patches);
 
 struct ShootingOptions {
-    BufferShape window = BufferShape::hemicube;  ///< around samples of area lights; points have cubes
-    BufferBackend backend = BufferBackend::rays;
+    patches::BufferShape window =
+        patches::BufferShape::hemicube;  ///< around samples of area lights; points have cubes
+    patches::BufferBackend backend = patches::BufferBackend::rays;
     int resolution = 512;
 };
 
@@ -41,7 +42,7 @@ class FirstShotFactors {
 
     /// Fills a buffer around every sample, by rays with all threads. Throws InputError where the resolution
     /// is none (ItemBufferLayout) and where OpenGL is missing.
-    FirstShotFactors(const PatchCaster& caster, std::span<const LightSample> samples,
+    FirstShotFactors(const patches::PatchCaster& caster, std::span<const LightSample> samples,
                      const ShootingOptions& options);
     /// What rows() and all() gave: rows ascend from 0 to the number of factors.
     FirstShotFactors(std::vector<std::uint32_t> rows, std::vector<Factor> factors)
@@ -63,4 +64,4 @@ class FirstShotFactors {
     std::vector<Factor> factors_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -5,30 +5,32 @@
 
 #include "estimators/patch_light/first_shot/missed.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
-FirstShot::FirstShot(const Scene& scene, const RayCaster& caster, const LightSampler& sampler,
-                     const PatchCaster& patch_caster, const FirstShotOptions& options) {
+FirstShot::FirstShot(const Scene& scene, const rays::RayCaster& caster,
+                     const transport::LightSampler& sampler, const patches::PatchCaster& patch_caster,
+                     const FirstShotOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     set_up(scene, caster, sampler, patch_caster, options);
     set_up_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-FirstShot::FirstShot(const Scene& scene, const RayCaster& caster, const Patches& patches,
+FirstShot::FirstShot(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
                      FirstShotFactors factors)
     : lights_(choose_first_shot_lights(scene, caster, patches.center)) {
     stored_.emplace<IncomingFirstShot>(scene, patches, lights_, std::move(factors));
 }
 
-void FirstShot::set_up(const Scene& scene, const RayCaster& caster, const LightSampler& sampler,
-                       const PatchCaster& patch_caster, const FirstShotOptions& options) {
+void FirstShot::set_up(const Scene& scene, const rays::RayCaster& caster,
+                       const transport::LightSampler& sampler, const patches::PatchCaster& patch_caster,
+                       const FirstShotOptions& options) {
     const FirstShotVariant variant = options.variant.value_or(kUsualFirstShot);
     if (variant == FirstShotVariant::none) {
         for (const Light& light : scene.lights)
             lights_.lights.push_back({light.name, false, "no first shot"});
         return;
     }
-    const Patches& patches = patch_caster.patches();
+    const patches::Patches& patches = patch_caster.patches();
     lights_ = choose_first_shot_lights(scene, caster, patches.center);
     const ShadowRays rays(scene, patches, caster, sampler, lights_);
     if (variant == FirstShotVariant::on_the_fly) {
@@ -48,15 +50,15 @@ void FirstShot::set_up(const Scene& scene, const RayCaster& caster, const LightS
     }
 }
 
-Spectrum FirstShot::reflected(std::uint32_t side, const Vec3& position, RandomKey key,
-                              const Vec3& out) const {
-    Spectrum sum;
+Rgb FirstShot::reflected(std::uint32_t side, const Vec3& position, math::RandomKey key,
+                         const Vec3& out) const {
+    Rgb sum;
     add_reflected(side, position, key, {&out, 1}, {&sum, 1});
     return sum;
 }
 
-void FirstShot::add_reflected(std::uint32_t side, const Vec3& position, RandomKey key,
-                              std::span<const Vec3> outs, std::span<Spectrum> sums) const {
+void FirstShot::add_reflected(std::uint32_t side, const Vec3& position, math::RandomKey key,
+                              std::span<const Vec3> outs, std::span<Rgb> sums) const {
     std::visit([&](const auto& stored) { stored.add_reflected(side, position, key, outs, sums); }, stored_);
 }
 
@@ -68,4 +70,4 @@ std::size_t FirstShot::bytes() const {
     return std::visit([](const auto& stored) { return stored.bytes(); }, stored_);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

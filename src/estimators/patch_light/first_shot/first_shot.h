@@ -32,7 +32,7 @@
 #include "estimators/patch_light/first_shot/shadow_rays.h"
 #include "math/random.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 enum class FirstShotVariant { none, classical, diffuse, incoming, on_the_fly };
 
@@ -53,8 +53,8 @@ struct FirstShotOptions {
 
 /// Replaces no light.
 struct NoFirstShot {
-    void add_reflected(std::uint32_t, const Vec3&, RandomKey, std::span<const Vec3>,
-                       std::span<Spectrum>) const {}
+    void add_reflected(std::uint32_t, const Vec3&, math::RandomKey, std::span<const Vec3>,
+                       std::span<Rgb>) const {}
     bool is_constant(std::uint32_t) const { return true; }
     std::size_t bytes() const { return 0; }
 };
@@ -64,10 +64,11 @@ class FirstShot {
   public:
     /// Throws InputError where the options make no sense (ItemBufferLayout, HemisphereBins) and where OpenGL
     /// is asked for and missing.
-    FirstShot(const Scene& scene, const RayCaster& caster, const LightSampler& sampler,
-              const PatchCaster& patch_caster, const FirstShotOptions& options);
+    FirstShot(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& sampler,
+              const patches::PatchCaster& patch_caster, const FirstShotOptions& options);
     /// Incoming first shot with factors of another one, of the same scene and patches.
-    FirstShot(const Scene& scene, const RayCaster& caster, const Patches& patches, FirstShotFactors factors);
+    FirstShot(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
+              FirstShotFactors factors);
     FirstShot(const FirstShot&) = delete;
     FirstShot& operator=(const FirstShot&) = delete;
 
@@ -78,10 +79,10 @@ class FirstShot {
     /// [cd/m2]; nothing towards directions behind the side. `position` is on the side's patch; where light is
     /// stored it does not matter. Shadow rays end at points on area lights that are drawn by key and
     /// position: another key for each sample, where positions are always the same.
-    Spectrum reflected(std::uint32_t side, const Vec3& position, RandomKey key, const Vec3& out) const;
+    Rgb reflected(std::uint32_t side, const Vec3& position, math::RandomKey key, const Vec3& out) const;
     /// The same added to `sums` for several directions: what arrives is found once.
-    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
-                       std::span<Spectrum> sums) const;
+    void add_reflected(std::uint32_t side, const Vec3& position, math::RandomKey key,
+                       std::span<const Vec3> outs, std::span<Rgb> sums) const;
     /// Whether that is the same for all positions and all directions in front of the side: one call is then
     /// enough for all steps.
     bool is_constant(std::uint32_t side) const;
@@ -108,8 +109,8 @@ class FirstShot {
     double set_up_s() const { return set_up_s_; }
 
   private:
-    void set_up(const Scene& scene, const RayCaster& caster, const LightSampler& sampler,
-                const PatchCaster& patch_caster, const FirstShotOptions& options);
+    void set_up(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& sampler,
+                const patches::PatchCaster& patch_caster, const FirstShotOptions& options);
 
     FirstShotLights lights_;
     std::optional<int> resolution_;
@@ -119,4 +120,4 @@ class FirstShot {
     double set_up_s_ = 0;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

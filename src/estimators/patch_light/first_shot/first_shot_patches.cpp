@@ -5,12 +5,12 @@
 #include <cmath>
 #include <utility>
 
-#include "estimators/patch_light/patch_place.h"
+#include "estimators/patch_light/patch_location.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
-FirstShotOptions first_shot_options(const PatchOptions& asked, const Patches& patches) {
+FirstShotOptions first_shot_options(const PatchOptions& asked, const patches::Patches& patches) {
     FirstShotOptions options = asked.first_shot;
     options.shooting.resolution = asked.resolution.value_or(first_shot_resolution(patches.count()));
     return options;
@@ -21,7 +21,7 @@ FirstShot first_shot_of(const FirstShotPatches& all, std::optional<FirstShotFact
     return {all.scene, all.caster, all.lights, all.patch_caster, {FirstShotVariant::none, {}}};
 }
 
-double longest_edge_m(const Patches& patches) {
+double longest_edge_m(const patches::Patches& patches) {
     double longest = 0;
     for (const Triangle& corners : patches.corners) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -34,17 +34,17 @@ double longest_edge_m(const Patches& patches) {
 
 }  // namespace
 
-FirstShotPatches::FirstShotPatches(const Scene& all, const RayCaster& rays, const PatchOptions& asked)
+FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, const PatchOptions& asked)
     : scene(all),
       caster(rays),
       options(asked),
       lights(scene, caster),
-      size_m(options.patch_m.value_or(patch_size_m(scene))),
-      patches(make_patches(scene, size_m)),
+      size_m(options.patch_m.value_or(patches::patch_size_m(scene))),
+      patches(patches::make_patches(scene, size_m)),
       patch_caster(patches),
       first_shot(scene, caster, lights, patch_caster, first_shot_options(options, patches)) {}
 
-FirstShotPatches::FirstShotPatches(const Scene& all, const RayCaster& rays, Patches made,
+FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, patches::Patches made,
                                    std::optional<FirstShotFactors> factors)
     : scene(all),
       caster(rays),
@@ -54,17 +54,17 @@ FirstShotPatches::FirstShotPatches(const Scene& all, const RayCaster& rays, Patc
       patch_caster(patches),
       first_shot(first_shot_of(*this, std::move(factors))) {}
 
-void FirstShotPatches::add_to(std::span<Path* const> paths, Coherence coherence) const {
-    std::vector<SeenPoint> points;
-    for (const Path* path : paths) points.push_back({path->hit, path->outgoing});
-    const auto places = find_places(patch_caster, points, coherence);
+void FirstShotPatches::add_to(std::span<transport::Path* const> paths, rays::Coherence coherence) const {
+    std::vector<ViewedHit> points;
+    for (const transport::Path* path : paths) points.push_back({path->hit, path->outgoing});
+    const auto places = find_patch_locations(patch_caster, points, coherence);
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (!places[i]) continue;
-        Path& path = *paths[i];
+        transport::Path& path = *paths[i];
         const std::uint32_t side = places[i]->side;
         // Many paths stand at the same place: each has points of its own on lights.
-        const RandomKey key{first_shot.needs_position(side) ? std::bit_cast<std::uint64_t>(path.stream.next())
-                                                            : 0};
+        const math::RandomKey key{
+            first_shot.needs_position(side) ? std::bit_cast<std::uint64_t>(path.stream.next()) : 0};
         path.luminance_cd_m2 +=
             path.throughput * first_shot.reflected(side, path.hit.position, key, path.outgoing);
     }
@@ -79,4 +79,4 @@ PatchReport FirstShotPatches::report() const {
         first_shot.set_up_s(), {decided.begin(), decided.end()}};
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

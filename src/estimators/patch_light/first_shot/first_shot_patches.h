@@ -7,29 +7,29 @@
 #include "transport/light_sampler.h"
 #include "transport/path_tracer.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Keeps references to scene and caster. Immutable once made.
-struct FirstShotPatches : StoredReflection {
-    FirstShotPatches(const Scene& scene, const RayCaster& caster, const PatchOptions& options);
+struct FirstShotPatches : transport::StoredReflection {
+    FirstShotPatches(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options);
     /// With what others of the same scene made: patches, and factors of incoming first shot; without factors
     /// there is no first shot.
-    FirstShotPatches(const Scene& scene, const RayCaster& caster, Patches patches,
+    FirstShotPatches(const Scene& scene, const rays::RayCaster& caster, patches::Patches patches,
                      std::optional<FirstShotFactors> factors);
 
     /// Surfaces reflect what the patches that stand for them do.
-    void add_to(std::span<Path* const> paths, Coherence coherence) const override;
+    void add_to(std::span<transport::Path* const> paths, rays::Coherence coherence) const override;
 
     PatchReport report() const;
 
     const Scene& scene;
-    const RayCaster& caster;
+    const rays::RayCaster& caster;
     PatchOptions options;
-    LightSampler lights;
+    transport::LightSampler lights;
     double size_m;  ///< no edge is longer
-    Patches patches;
-    PatchCaster patch_caster;
+    patches::Patches patches;
+    patches::PatchCaster patch_caster;
     FirstShot first_shot;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

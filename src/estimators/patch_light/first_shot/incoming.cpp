@@ -2,9 +2,9 @@
 
 #include <utility>
 
-namespace stilb {
+namespace stilb::estimators {
 
-IncomingFirstShot::IncomingFirstShot(const Scene& scene, const Patches& patches,
+IncomingFirstShot::IncomingFirstShot(const Scene& scene, const patches::Patches& patches,
                                      const FirstShotLights& lights, FirstShotFactors factors)
     : scene_(scene), patches_(patches), factors_(std::move(factors)) {
     for (const LightSample& sample : lights.samples) {
@@ -12,16 +12,16 @@ IncomingFirstShot::IncomingFirstShot(const Scene& scene, const Patches& patches,
     }
 }
 
-Spectrum IncomingFirstShot::illuminance_lx(std::uint32_t side) const {
-    Spectrum sum;
+Rgb IncomingFirstShot::illuminance_lx(std::uint32_t side) const {
+    Rgb sum;
     for (const auto& factor : factors_.of(side)) {
         sum += sources_[factor.sample].colour * factor.illuminance_lx;
     }
     return sum;
 }
 
-void IncomingFirstShot::add_reflected(std::uint32_t side, const Vec3&, RandomKey, std::span<const Vec3> outs,
-                                      std::span<Spectrum> sums) const {
+void IncomingFirstShot::add_reflected(std::uint32_t side, const Vec3&, math::RandomKey,
+                                      std::span<const Vec3> outs, std::span<Rgb> sums) const {
     const auto factors = factors_.of(side);
     if (factors.empty()) return;
     const Vec3 middle = patches_.middle(patches_.patch_of(side));
@@ -38,4 +38,4 @@ bool IncomingFirstShot::is_constant(std::uint32_t side) const {
     return factors_.of(side).empty() || reflects_alike(material_of(scene_, patches_, side));
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -12,33 +12,33 @@
 #include "estimators/patch_light/first_shot/surface.h"
 #include "math/random.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Keeps references to scene and patches.
 class IncomingFirstShot {
   public:
-    IncomingFirstShot(const Scene& scene, const Patches& patches, const FirstShotLights& lights,
+    IncomingFirstShot(const Scene& scene, const patches::Patches& patches, const FirstShotLights& lights,
                       FirstShotFactors factors);
 
     const FirstShotFactors& factors() const { return factors_; }
-    Spectrum illuminance_lx(std::uint32_t side) const;
+    Rgb illuminance_lx(std::uint32_t side) const;
 
     /// As FirstShot; the position does not matter.
-    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
-                       std::span<Spectrum> sums) const;
+    void add_reflected(std::uint32_t side, const Vec3& position, math::RandomKey key,
+                       std::span<const Vec3> outs, std::span<Rgb> sums) const;
     bool is_constant(std::uint32_t side) const;
     std::size_t bytes() const { return factors_.bytes(); }
 
   private:
     struct Source {
         Vec3 position;
-        Spectrum colour;
+        Rgb colour;
     };
 
     const Scene& scene_;
-    const Patches& patches_;
+    const patches::Patches& patches_;
     std::vector<Source> sources_;  ///< per light sample
     FirstShotFactors factors_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -10,7 +10,7 @@
 #include "patches/patches.h"
 #include "transport/light_sampler.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -44,11 +44,11 @@ Shape coarse(const Shape& shape) {
 
 /// The light alone. Places are relative to the centre of all patches, as viewpoints are lifted by how far
 /// they are from it.
-Patches light_patches(const Shape& shape, double longest_edge_m, const Vec3& center) {
+patches::Patches light_patches(const Shape& shape, double longest_edge_m, const Vec3& center) {
     Scene alone;
     alone.objects.push_back({"", shape, {MaterialId{}}});
-    Patches patches = make_patches(alone, longest_edge_m);
-    for (Float3& vertex : patches.vertices) {
+    patches::Patches patches = patches::make_patches(alone, longest_edge_m);
+    for (patches::Float3& vertex : patches.vertices) {
         const Vec3 moved = Vec3(vertex) + (patches.center - center);
         vertex = {static_cast<float>(moved.x), static_cast<float>(moved.y), static_cast<float>(moved.z)};
     }
@@ -58,16 +58,16 @@ Patches light_patches(const Shape& shape, double longest_edge_m, const Vec3& cen
 
 /// The distance that half of the flux of an area light flies at least; what leaves the scene counts as flying
 /// through all of it.
-double median_flight_m(const Object& light, const RayCaster& caster) {
+double median_flight_m(const Object& light, const rays::RayCaster& caster) {
     constexpr std::uint64_t kRays = 256;
     Scene alone;
     alone.objects.push_back(light);
-    alone.lights.push_back({"", AreaLight{ObjectId{0}, Spectrum::grey(1)}});
-    const LightSampler sampler(alone, caster);
+    alone.lights.push_back({"", AreaLight{ObjectId{0}, Rgb::grey(1)}});
+    const transport::LightSampler sampler(alone, caster);
     std::vector<double> flights_m;
     for (std::uint64_t i = 0; i < kRays; ++i) {
-        SampleStream stream(RandomKey{}, i);
-        const EmittedParticle particle = sampler.sample_emission(stream);
+        math::SampleStream stream(math::RandomKey{}, i);
+        const transport::EmittedParticle particle = sampler.sample_emission(stream);
         const auto hit = caster.closest(particle.origin, particle.direction);
         flights_m.push_back(hit ? hit->distance_m : 2 * caster.half_extent_m());
     }
@@ -89,7 +89,7 @@ Frame turned() { return turned_about(normalized(Vec3{0.3, -0.5, 0.8})); }
 /// Makes the samples of one light after the other.
 class Chooser {
   public:
-    Chooser(const Scene& scene, const RayCaster& caster, const Vec3& center)
+    Chooser(const Scene& scene, const rays::RayCaster& caster, const Vec3& center)
         : scene_(scene), caster_(caster), center_(center) {}
 
     FirstShotLights run() {
@@ -101,7 +101,7 @@ class Chooser {
     void add(const Light& light) {
         FirstShotLight& decision = chosen_.lights.emplace_back();
         decision.name = light.name;
-        const Spectrum flux = flux_lm(scene_, light);
+        const Rgb flux = flux_lm(scene_, light);
         if (!(flux.luminance() > 0)) {
             decision.why = "it is dark";
             return;
@@ -113,8 +113,8 @@ class Chooser {
         decision.is_replaced = decision.samples > 0;
     }
 
-    void add_sample(bool is_point, const Viewpoint& viewpoint,
-                    std::function<double(const BufferPixel&)> intensity_cd) {
+    void add_sample(bool is_point, const patches::Viewpoint& viewpoint,
+                    std::function<double(const patches::BufferPixel&)> intensity_cd) {
         const auto light = static_cast<std::uint32_t>(chosen_.lights.size() - 1);
         chosen_.samples.push_back({light, is_point, viewpoint, std::move(intensity_cd)});
     }
@@ -123,11 +123,12 @@ class Chooser {
 
     std::string shoot_from(const PointLight& point) {
         const double intensity_cd = point.intensity_cd.luminance();
-        add_sample(true, {point.position, turned()}, [=](const BufferPixel&) { return intensity_cd; });
+        add_sample(true, {point.position, turned()},
+                   [=](const patches::BufferPixel&) { return intensity_cd; });
         return "a point";
     }
 
-    std::string shoot_from(const PhotometryLight& luminaire) {
+    std::string shoot_from(const Luminaire& luminaire) {
         const PhotometricSolid& solid = scene_.solid(luminaire.solid);
         const double factor = luminaire.factor.luminance();
         const Frame frame = turned();
@@ -136,7 +137,7 @@ class Chooser {
         const Vec3 c0 = frame.to_local(luminaire.c0), c90 = frame.to_local(luminaire.c90),
                    nadir = frame.to_local(luminaire.nadir);
         add_sample(true, {luminaire.position + lift_m * luminaire.nadir, frame},
-                   [=, &solid](const BufferPixel& pixel) {
+                   [=, &solid](const patches::BufferPixel& pixel) {
                        const Vec3 w = normalized(pixel.direction);
                        return factor * solid.intensity_cd({dot(w, c0), dot(w, c90), dot(w, nadir)});
                    });
@@ -168,7 +169,7 @@ class Chooser {
             for (const Vec3& normal : normals) local.push_back(frame.to_local(normal));
             const double lift_m = caster_.offset_m(vertices[i], sphere.radius);
             add_sample(false, {vertices[i] + lift_m * normals[i], frame},
-                       [intensity_cd, local = std::move(local)](const BufferPixel& pixel) {
+                       [intensity_cd, local = std::move(local)](const patches::BufferPixel& pixel) {
                            double all = 0;
                            for (const Vec3& normal : local)
                                all += std::max(dot(normal, pixel.direction), 0.0);
@@ -182,7 +183,7 @@ class Chooser {
         const double area = area_m2(shape);
         // No triangle is larger than the regular one, and there are at least half as many vertices.
         if (area / (std::sqrt(3) / 2 * spacing_m * spacing_m) > kMostLightSamples) return false;
-        const Patches light = light_patches(coarse(shape), spacing_m, center_);
+        const patches::Patches light = light_patches(coarse(shape), spacing_m, center_);
         if (light.vertices.size() > kMostLightSamples) return false;
         double total_m2 = 0;
         for (const float patch_m2 : light.areas_m2) total_m2 += patch_m2;
@@ -191,7 +192,7 @@ class Chooser {
         return true;
     }
 
-    void shoot_from_vertex(const Patches& light, std::uint32_t vertex, double luminance_cd_m2) {
+    void shoot_from_vertex(const patches::Patches& light, std::uint32_t vertex, double luminance_cd_m2) {
         double around_m2 = 0;
         Vec3 normal, position;
         for (std::uint32_t p = 0; p < light.count(); ++p) {
@@ -205,19 +206,20 @@ class Chooser {
         }
         const double normal_intensity_cd = luminance_cd_m2 * around_m2 / 3;
         add_sample(false, {position, turned_about(normalized(normal))},
-                   [=](const BufferPixel& pixel) { return normal_intensity_cd * pixel.cosine; });
+                   [=](const patches::BufferPixel& pixel) { return normal_intensity_cd * pixel.cosine; });
     }
 
     const Scene& scene_;
-    const RayCaster& caster_;
+    const rays::RayCaster& caster_;
     Vec3 center_;
     FirstShotLights chosen_;
 };
 
 }  // namespace
 
-FirstShotLights choose_first_shot_lights(const Scene& scene, const RayCaster& caster, const Vec3& center) {
+FirstShotLights choose_first_shot_lights(const Scene& scene, const rays::RayCaster& caster,
+                                         const Vec3& center) {
     return Chooser(scene, caster, center).run();
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

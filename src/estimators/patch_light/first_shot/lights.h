@@ -22,7 +22,7 @@
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Of the distance that half of an area light's light flies at least.
 inline constexpr double kVertexSpacing = 0.25;
@@ -31,12 +31,12 @@ inline constexpr std::size_t kMostLightSamples = 32;
 
 /// A point that light is shot from.
 struct LightSample {
-    std::uint32_t light = 0;  ///< of Scene::lights
-    bool is_point = false;    ///< shines all around, else to the hemisphere about the viewpoint's w
-    Viewpoint viewpoint;      ///< lifted off the light
+    std::uint32_t light = 0;       ///< of Scene::lights
+    bool is_point = false;         ///< shines all around, else to the hemisphere about the viewpoint's w
+    patches::Viewpoint viewpoint;  ///< lifted off the light
     /// Its share of the light's luminous intensity [cd] towards a pixel of an item buffer there, the cosine
     /// of area lights included; nothing comes where it is below 0.
-    std::function<double(const BufferPixel&)> intensity_cd;
+    std::function<double(const patches::BufferPixel&)> intensity_cd;
 };
 
 /// What became of a light, for the report.
@@ -45,7 +45,7 @@ struct FirstShotLight {
     bool is_replaced = false;
     std::string why;          ///< in words: "a point", "large: it would take more than 32 vertices ..."
     std::size_t samples = 0;  ///< 0 where it is not replaced
-    Spectrum colour{};        ///< of its light: luminance 1; nothing where it is dark
+    Rgb colour{};             ///< of its light: luminance 1; nothing where it is dark
 };
 
 struct FirstShotLights {
@@ -55,6 +55,7 @@ struct FirstShotLights {
 
 /// Decides for every light. `center` is that of the patches which will be seen from the samples. The samples
 /// keep references to the scene.
-FirstShotLights choose_first_shot_lights(const Scene& scene, const RayCaster& caster, const Vec3& center);
+FirstShotLights choose_first_shot_lights(const Scene& scene, const rays::RayCaster& caster,
+                                         const Vec3& center);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

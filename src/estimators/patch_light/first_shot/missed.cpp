@@ -8,14 +8,15 @@
 
 #include "estimators/patch_light/first_shot/shadow_rays.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// Looks from the sides' middles.
-class Looker {
+class LineOfSightFollower {
   public:
-    Looker(const Scene& scene, const RayCaster& caster, const Patches& patches,
-           std::span<const LightSample> samples, const FirstShotFactors& factors, double small_sr)
+    LineOfSightFollower(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
+                        std::span<const LightSample> samples, const FirstShotFactors& factors,
+                        double small_sr)
         : scene_(scene),
           caster_(caster),
           patches_(patches),
@@ -51,8 +52,8 @@ class Looker {
     }
 
     const Scene& scene_;
-    const RayCaster& caster_;
-    const Patches& patches_;
+    const rays::RayCaster& caster_;
+    const patches::Patches& patches_;
     std::span<const LightSample> samples_;
     const FirstShotFactors& factors_;
     double small_sr_;
@@ -60,21 +61,21 @@ class Looker {
 
 }  // namespace
 
-std::size_t count_missed(const Scene& scene, const RayCaster& caster, const Patches& patches,
+std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
                          std::span<const LightSample> samples, const FirstShotFactors& factors,
                          int resolution) {
     // Of four pixels in the middle of a cube's face, where they are largest.
     const double small_sr = 16. / (static_cast<double>(resolution) * resolution);
-    const Looker looker(scene, caster, patches, samples, factors, small_sr);
+    const LineOfSightFollower follower(scene, caster, patches, samples, factors, small_sr);
     using Range = tbb::blocked_range<std::uint32_t>;
     return tbb::parallel_reduce(
         Range(0, static_cast<std::uint32_t>(2 * patches.count())), std::size_t{0},
         [&](const Range& sides, std::size_t count) {
             for (std::uint32_t side = sides.begin(); side != sides.end(); ++side)
-                count += looker.missed(side);
+                count += follower.missed(side);
             return count;
         },
         std::plus<>());
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

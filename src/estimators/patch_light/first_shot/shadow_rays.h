@@ -11,28 +11,28 @@
 #include "math/random.h"
 #include "transport/light_sampler.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Where rays from a position on a patch start: lifted off the true surface on that side. Spheres bulge out
 /// beyond their patches.
-Vec3 lifted_off(const Scene& scene, const Patches& patches, const RayCaster& caster, std::uint32_t side,
-                const Vec3& position);
+Vec3 lifted_off(const Scene& scene, const patches::Patches& patches, const rays::RayCaster& caster,
+                std::uint32_t side, const Vec3& position);
 
 /// Keeps references to all arguments.
 class ShadowRays {
   public:
-    ShadowRays(const Scene& scene, const Patches& patches, const RayCaster& caster,
-               const LightSampler& sampler, const FirstShotLights& lights)
+    ShadowRays(const Scene& scene, const patches::Patches& patches, const rays::RayCaster& caster,
+               const transport::LightSampler& sampler, const FirstShotLights& lights)
         : scene_(scene), patches_(patches), caster_(caster), sampler_(sampler), lights_(lights) {}
 
     /// As FirstShot.
-    void add_reflected(std::uint32_t side, const Vec3& position, RandomKey key, std::span<const Vec3> outs,
-                       std::span<Spectrum> sums) const {
+    void add_reflected(std::uint32_t side, const Vec3& position, math::RandomKey key,
+                       std::span<const Vec3> outs, std::span<Rgb> sums) const {
         add_reflected_by(material_of(scene_, patches_, side), side, position, key, outs, sums);
     }
     /// As if the side were of another material.
-    void add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position, RandomKey key,
-                          std::span<const Vec3> outs, std::span<Spectrum> sums) const;
+    void add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position,
+                          math::RandomKey key, std::span<const Vec3> outs, std::span<Rgb> sums) const;
     /// Where nothing is reflected: light differs from position to position.
     bool is_constant(std::uint32_t side) const {
         return reflects_nothing(material_of(scene_, patches_, side));
@@ -41,10 +41,10 @@ class ShadowRays {
 
   private:
     const Scene& scene_;
-    const Patches& patches_;
-    const RayCaster& caster_;
-    const LightSampler& sampler_;
+    const patches::Patches& patches_;
+    const rays::RayCaster& caster_;
+    const transport::LightSampler& sampler_;
     const FirstShotLights& lights_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -8,22 +8,22 @@
 #include "patches/patches.h"
 #include "scene/scene.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
-inline const Material& material_of(const Scene& scene, const Patches& patches, std::uint32_t side) {
+inline const Material& material_of(const Scene& scene, const patches::Patches& patches, std::uint32_t side) {
     return scene.material(patches.materials[patches.patch_of(side)]);
 }
 
 /// The frame that the material of a side knows directions in, by world coordinates.
-inline Frame frame_of(const Patches& patches, std::uint32_t side) {
+inline Frame frame_of(const patches::Patches& patches, std::uint32_t side) {
     return Frame::of_surface(patches.normal_of(side));
 }
 
 /// Bands in single precision, for what is stored per side.
-inline Float3 in_floats(const Spectrum& s) {
+inline patches::Float3 in_floats(const Rgb& s) {
     return {static_cast<float>(s[0]), static_cast<float>(s[1]), static_cast<float>(s[2])};
 }
-inline Spectrum to_spectrum(const Float3& bands) { return {{bands.x, bands.y, bands.z}}; }
+inline Rgb to_spectrum(const patches::Float3& bands) { return {{bands.x, bands.y, bands.z}}; }
 
 /// Mirrors, glass and panes too: they have no BRDF.
 inline bool reflects_nothing(const Material& material) {
@@ -39,10 +39,10 @@ inline bool reflects_alike(const Material& material) {
 /// `in` being the unit world direction that it comes from.
 template <typename ForEachArrival>
 void reflect(const Material& any, const Frame& frame, const ForEachArrival& for_each_arrival,
-             std::span<const Vec3> outs, std::span<Spectrum> sums) {
+             std::span<const Vec3> outs, std::span<Rgb> sums) {
     std::visit(
         [&](const auto& material) {
-            for_each_arrival([&](const Vec3& in, const Spectrum& illuminance_lx) {
+            for_each_arrival([&](const Vec3& in, const Rgb& illuminance_lx) {
                 const Vec3 local_in = frame.to_local(in);
                 for (std::size_t i = 0; i < outs.size(); ++i) {
                     const Vec3 out = frame.to_local(outs[i]);
@@ -53,4 +53,4 @@ void reflect(const Material& any, const Frame& frame, const ForEachArrival& for_
         any);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

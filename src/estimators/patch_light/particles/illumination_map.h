@@ -13,7 +13,7 @@
 #include "estimators/patch_light/patch_transport.h"
 #include "math/sample_stream.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Keeps a reference to the transport, of diffuse and black materials. One thread at a time.
 class IlluminationMap {
@@ -21,27 +21,27 @@ class IlluminationMap {
     explicit IlluminationMap(const PatchTransport& transport);
 
     /// Adds particles number `first` ... `first + count - 1` of the streams of `key`.
-    void add(RandomKey key, std::uint64_t first, std::uint64_t count);
+    void add(math::RandomKey key, std::uint64_t first, std::uint64_t count);
 
     /// What every side reflects [cd/m2], by all particles so far.
-    std::vector<Rgb> reflected_cd_m2() const;
+    std::vector<FloatRgb> reflected_cd_m2() const;
     std::uint64_t rays() const { return rays_; }
 
   private:
     struct Particle {
-        SampleStream stream;
+        math::SampleStream stream;
         Vec3 origin, direction;
-        Spectrum flux_lm;
+        Rgb flux_lm;
     };
 
-    Particle leave_light(SampleStream stream) const;
+    Particle leave_light(math::SampleStream stream) const;
     void walk(std::vector<Particle>& particles);
-    bool land(Particle& particle, std::uint32_t side, const Barycentric& place);
+    bool land(Particle& particle, std::uint32_t side, const math::Barycentric& place);
 
     const PatchTransport& transport_;
-    std::vector<Rgb> flux_lm_;  ///< of every side, by all particles
+    std::vector<FloatRgb> flux_lm_;  ///< of every side, by all particles
     std::uint64_t particles_ = 0;
     std::uint64_t rays_ = 0;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -13,7 +13,7 @@
 #include "estimators/patch_light/patch_readings.h"
 #include "estimators/patch_light/reflected_sides.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr std::string_view kName = "particles";
@@ -24,7 +24,7 @@ constexpr std::uint64_t kLeastParticles = 4096;
 enum Purpose : std::uint64_t { kWalks = kPixels + 1, kLooks };
 
 /// All lights shine by particles.
-PatchTransport transport_for(const Scene& scene, const RayCaster& caster, PatchOptions options,
+PatchTransport transport_for(const Scene& scene, const rays::RayCaster& caster, PatchOptions options,
                              int max_reflections) {
     require_diffuse(scene, kName);
     require_all_reflections(max_reflections, kName);
@@ -53,7 +53,7 @@ class Particles final : public Estimator {
         sums.rays += map.rays();
     }
 
-    std::span<const Spectrum> known_part() const override { return readings_.known_part(); }
+    std::span<const Rgb> known_part() const override { return readings_.known_part(); }
     std::uint64_t batch_granularity() const override { return kLeastParticles; }
     double rays_per_sample() const override {
         constexpr double reflections = 5, looks = 2. / kParticlesPerLook;
@@ -75,17 +75,17 @@ class ParticlesPicture final : public PictureEstimator {
           transport_(transport_for(input.scene, input.caster, input.patches, input.max_reflections)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
-        const RandomKey key = pass.key.derived(kWalks);
-        std::array<std::vector<Rgb>, kMaps> maps;
+        const math::RandomKey key = pass.key.derived(kWalks);
+        std::array<std::vector<FloatRgb>, kMaps> maps;
         tbb::parallel_for(std::uint64_t{0}, kMaps, [&](std::uint64_t i) {
             IlluminationMap map(transport_);
             map.add(key, (pass.index * kMaps + i) * particles_, particles_);
             maps[i] = map.reflected_cd_m2();
         });
-        std::vector<Rgb> mean(maps[0].size());
+        std::vector<FloatRgb> mean(maps[0].size());
         for (const auto& map : maps) {
             for (std::size_t side = 0; side < mean.size(); ++side)
-                add_to(mean[side], spectrum_of(map[side]) * (1. / kMaps));
+                add_to(mean[side], to_rgb(map[side]) * (1. / kMaps));
         }
         return std::make_unique<PatchPass>(tracing_, transport_, pass, mean);
     }
@@ -111,4 +111,4 @@ std::unique_ptr<PictureEstimator> make_particles_picture(const PictureInput& inp
     return std::make_unique<ParticlesPicture>(input);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -8,12 +8,12 @@
 #include <memory>
 #include <numbers>
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
-Viewpoint turned_viewpoint(const Patches& patches, std::uint32_t side) {
+patches::Viewpoint turned_viewpoint(const patches::Patches& patches, std::uint32_t side) {
     constexpr double kThird = 1. / 3;
-    Viewpoint viewpoint = viewpoint_on(patches, side, {kThird, kThird, kThird});
+    patches::Viewpoint viewpoint = viewpoint_on(patches, side, {kThird, kThird, kThird});
     // Multiples of the golden section are spread evenly over the circle, in whatever order.
     const double turn = 2 * std::numbers::pi * std::fmod(side / std::numbers::phi, 1.0);
     const auto [u, v, w] = viewpoint.frame;
@@ -25,8 +25,8 @@ Viewpoint turned_viewpoint(const Patches& patches, std::uint32_t side) {
 /// What one thread shoots with.
 class Shooter {
   public:
-    Shooter(const PatchCaster& caster, BufferBackend backend, const ItemBufferLayout& layout,
-            std::span<const float> weights)
+    Shooter(const patches::PatchCaster& caster, patches::BufferBackend backend,
+            const patches::ItemBufferLayout& layout, std::span<const float> weights)
         : patches_(caster.patches()),
           layout_(layout),
           weights_(weights),
@@ -39,7 +39,7 @@ class Shooter {
         std::vector<FormFactor> factors;
         for (std::size_t pixel = 0; pixel < seen_.size(); ++pixel) {
             const std::uint32_t side = seen_[pixel];
-            if (side == kNoSide || weights_[pixel] == 0) continue;
+            if (side == patches::kNoSide || weights_[pixel] == 0) continue;
             if (shares_[side] == 0) factors.push_back({side, 0});
             shares_[side] += weights_[pixel];
         }
@@ -48,23 +48,23 @@ class Shooter {
     }
 
   private:
-    const Patches& patches_;
-    const ItemBufferLayout& layout_;
+    const patches::Patches& patches_;
+    const patches::ItemBufferLayout& layout_;
     std::span<const float> weights_;
-    std::unique_ptr<ItemBuffers> buffers_;
+    std::unique_ptr<patches::ItemBuffers> buffers_;
     std::vector<std::uint32_t> seen_;
     std::vector<float> shares_;  ///< per side; 0 before and after
 };
 
 /// cos dW of every pixel over the sum of all.
-std::vector<float> shares_of_pixels(const ItemBufferLayout& layout) {
+std::vector<float> shares_of_pixels(const patches::ItemBufferLayout& layout) {
     double sum = 0;
-    const auto weight = [](const BufferPixel& pixel) {
+    const auto weight = [](const patches::BufferPixel& pixel) {
         return std::max(pixel.cosine, 0.0) * pixel.solid_angle_sr;
     };
-    layout.for_each_pixel([&](std::size_t, const BufferPixel& pixel) { sum += weight(pixel); });
+    layout.for_each_pixel([&](std::size_t, const patches::BufferPixel& pixel) { sum += weight(pixel); });
     std::vector<float> shares(layout.pixel_count());
-    layout.for_each_pixel([&](std::size_t index, const BufferPixel& pixel) {
+    layout.for_each_pixel([&](std::size_t index, const patches::BufferPixel& pixel) {
         shares[index] = static_cast<float>(weight(pixel) / sum);
     });
     return shares;
@@ -73,11 +73,11 @@ std::vector<float> shares_of_pixels(const ItemBufferLayout& layout) {
 }  // namespace
 
 struct PatchShots::Shooters {
-    BufferBackend backend;
+    patches::BufferBackend backend;
     tbb::enumerable_thread_specific<Shooter> of_threads;
 };
 
-PatchShots::PatchShots(const PatchCaster& caster, const ShootingOptions& options)
+PatchShots::PatchShots(const patches::PatchCaster& caster, const ShootingOptions& options)
     : caster_(caster),
       layout_(options.window, options.resolution),
       weights_(shares_of_pixels(layout_)),
@@ -90,7 +90,8 @@ PatchShots::~PatchShots() = default;
 std::vector<std::vector<FormFactor>> PatchShots::from(std::span<const std::uint32_t> sides) {
     std::vector<std::vector<FormFactor>> factors(sides.size());
     const auto shoot = [&](std::size_t i) { factors[i] = shooters_->of_threads.local().shoot(sides[i]); };
-    if (shooters_->backend == BufferBackend::opengl) {  // one buffer at a time, the driver has threads
+    if (shooters_->backend ==
+        patches::BufferBackend::opengl) {  // one buffer at a time, the driver has threads
         for (std::size_t i = 0; i < sides.size(); ++i) shoot(i);
     } else {
         tbb::parallel_for(std::size_t{0}, sides.size(), shoot);
@@ -98,4 +99,4 @@ std::vector<std::vector<FormFactor>> PatchShots::from(std::span<const std::uint3
     return factors;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

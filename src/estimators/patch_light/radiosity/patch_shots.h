@@ -13,7 +13,7 @@
 #include "estimators/patch_light/first_shot/factors.h"
 #include "patches/visibility/item_buffer.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 struct FormFactor {
     std::uint32_t side = 0;  ///< that receives
@@ -24,7 +24,7 @@ struct FormFactor {
 class PatchShots {
   public:
     /// Throws InputError where the resolution is none (ItemBufferLayout) and where OpenGL is missing.
-    PatchShots(const PatchCaster& caster, const ShootingOptions& options);
+    PatchShots(const patches::PatchCaster& caster, const ShootingOptions& options);
     ~PatchShots();
 
     /// The form factors of each of `sides` to all that it sees, which add up to 1 in a closed scene. Rays
@@ -37,10 +37,10 @@ class PatchShots {
   private:
     struct Shooters;
 
-    const PatchCaster& caster_;
-    ItemBufferLayout layout_;
+    const patches::PatchCaster& caster_;
+    patches::ItemBufferLayout layout_;
     std::vector<float> weights_;  ///< per pixel: its share of the flux
     std::unique_ptr<Shooters> shooters_;
 };
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -16,7 +16,7 @@
 #include "estimators/patch_light/patch_readings.h"
 #include "estimators/patch_light/radiosity/radiosity_solution.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr std::string_view kName = "radiosity";
@@ -32,7 +32,8 @@ void require_known_first_shot(const Scene& scene, FirstShotVariant variant) {
 
 /// The patches and their light.
 struct LitPatches {
-    LitPatches(const Scene& scene, const RayCaster& caster, const PatchOptions& options, int max_reflections)
+    LitPatches(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
+               int max_reflections)
         : transport(checked(scene, options, max_reflections), caster, options),
           solution(solve_radiosity(transport)) {}
 
@@ -56,7 +57,7 @@ ReadingSums sum_readings(const PatchReadings& readings, const PatchLight& light)
     std::vector<ReadingSums> blocks(kBlocks, ReadingSums(readings.known_part().size()));
     tbb::parallel_for(std::uint64_t{0}, kBlocks, [&](std::uint64_t block) {
         for (std::uint64_t i = 0; i < kSamplesOfABlock; ++i) {
-            readings.add(light, RandomKey{}, block * kSamplesOfABlock + i, blocks[block]);
+            readings.add(light, math::RandomKey{}, block * kSamplesOfABlock + i, blocks[block]);
         }
     });
     ReadingSums sums(readings.known_part().size());
@@ -85,14 +86,14 @@ class Radiosity final : public Estimator {
         sums.rays += rays_;
         sums.invalid += invalid_;
     }
-    std::span<const Spectrum> known_part() const override { return values_; }
+    std::span<const Rgb> known_part() const override { return values_; }
     std::uint64_t batch_granularity() const override { return 1; }
     double rays_per_sample() const override { return 1; }
     std::vector<std::string> warnings() const override { return {}; }
     std::optional<PatchReport> patch_report() const override { return report_; }
 
   private:
-    std::vector<Spectrum> values_;
+    std::vector<Rgb> values_;
     std::uint64_t invalid_ = 0, rays_ = 0;
     PatchReport report_;
 };
@@ -102,7 +103,7 @@ class RadiosityPicture final : public PictureEstimator {
     explicit RadiosityPicture(const PictureInput& input)
         : tracing_(input),
           patches_(input.scene, input.caster, input.patches, input.max_reflections),
-          sides_cd_m2_(SeenSides(patches_.transport, tracing_.view.position())
+          sides_cd_m2_(VisibleSides(patches_.transport, tracing_.view.position())
                            .mean_cd_m2(patches_.solution.light.cd_m2(), 1)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
@@ -114,7 +115,7 @@ class RadiosityPicture final : public PictureEstimator {
   private:
     PictureTracing tracing_;
     LitPatches patches_;
-    std::vector<Rgb> sides_cd_m2_;
+    std::vector<FloatRgb> sides_cd_m2_;
 };
 
 }  // namespace
@@ -127,4 +128,4 @@ std::unique_ptr<PictureEstimator> make_radiosity_picture(const PictureInput& inp
     return std::make_unique<RadiosityPicture>(input);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "estimators/patch_light/radiosity/patch_shots.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr std::size_t kMostAtATime = 256;
@@ -18,8 +18,8 @@ constexpr std::size_t kMostAtATime = 256;
 constexpr std::size_t kPartAtATime = 32;
 constexpr std::uint64_t kMostShotsOfASide = 1000;
 
-double magnitude(const Rgb& light) {
-    return Spectrum{{std::abs(light[0]), std::abs(light[1]), std::abs(light[2])}}.luminance();
+double magnitude(const FloatRgb& light) {
+    return Rgb{{std::abs(light[0]), std::abs(light[1]), std::abs(light[2])}}.luminance();
 }
 
 ShootingOptions shooting_options(const PatchOptions& options) {
@@ -37,7 +37,7 @@ class Shooting {
           reflected_(transport.first_reflection.size()),
           unshot_(transport.first_reflection) {
         for (std::size_t patch = 0; patch < transport.patches.count(); ++patch) {
-            add_to(unshot_[patch], spectrum_of(transport.emission[patch]));
+            add_to(unshot_[patch], to_rgb(transport.emission[patch]));
         }
     }
 
@@ -91,12 +91,12 @@ class Shooting {
     }
 
     void send(std::uint32_t from, const std::vector<FormFactor>& factors) {
-        const Spectrum sent_cd_m2 = overshoot_ * spectrum_of(unshot_[from]);
+        const Rgb sent_cd_m2 = overshoot_ * to_rgb(unshot_[from]);
         add_to(unshot_[from], -1 * sent_cd_m2);
-        const Spectrum sent_lm = std::numbers::pi * area_m2(from) * sent_cd_m2;
+        const Rgb sent_lm = std::numbers::pi * area_m2(from) * sent_cd_m2;
         for (const auto& [to, share] : factors) {
-            const Rgb& brdf = transport_.constant_brdf[transport_.patches.patch_of(to)];
-            const Spectrum reflected = spectrum_of(brdf) * sent_lm * (double{share} / area_m2(to));
+            const FloatRgb& brdf = transport_.constant_brdf[transport_.patches.patch_of(to)];
+            const Rgb reflected = to_rgb(brdf) * sent_lm * (double{share} / area_m2(to));
             add_to(reflected_[to], reflected);
             add_to(unshot_[to], reflected);
         }
@@ -109,8 +109,8 @@ class Shooting {
     const PatchTransport& transport_;
     PatchShots shots_;
     double overshoot_;
-    std::vector<Rgb> reflected_;  ///< [cd/m2], of every side, without first shot
-    std::vector<Rgb> unshot_;     ///< [cd/m2], of every side
+    std::vector<FloatRgb> reflected_;  ///< [cd/m2], of every side, without first shot
+    std::vector<FloatRgb> unshot_;     ///< [cd/m2], of every side
     std::vector<Candidate> candidates_;
     std::uint64_t done_ = 0;
 };
@@ -119,4 +119,4 @@ class Shooting {
 
 RadiositySolution solve_radiosity(const PatchTransport& transport) { return Shooting(transport).run(); }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -19,7 +19,7 @@
 
 #include "estimators/patch_light/reflected_sides.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// Sum of the unshot flux's magnitudes that may be left, over the flux of the lights: in an evenly lit scene
 /// the share of the light that is missing.
@@ -35,4 +35,4 @@ struct RadiositySolution {
 /// InputError where item buffers do, and where reflectances are so close to 1 that there is no end.
 RadiositySolution solve_radiosity(const PatchTransport& transport);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

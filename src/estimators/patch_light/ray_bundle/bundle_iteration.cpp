@@ -7,7 +7,7 @@
 
 #include "math/sample_stream.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -29,12 +29,12 @@ Frame random_frame(double u1, double u2, double u3) {
 }
 
 /// Where number `step` stands in the random order of its block.
-std::uint64_t shuffled(std::uint64_t step, RandomKey key) {
+std::uint64_t shuffled(std::uint64_t step, math::RandomKey key) {
     const std::uint64_t block = step / kShuffled;
     std::array<std::uint16_t, kShuffled> order;
     std::iota(order.begin(), order.end(), std::uint16_t{0});
     for (std::size_t i = kShuffled - 1; i > 0; --i) {
-        const double u = unit_interval(random_block(key, block, i)[0]);
+        const double u = math::unit_interval(random_block(key, block, i)[0]);
         std::swap(order[i], order[static_cast<std::size_t>(u * static_cast<double>(i + 1))]);
     }
     return block * kShuffled + order[step % kShuffled];
@@ -63,7 +63,7 @@ double weight_of(BundleDirections directions) {
 
 }  // namespace
 
-BundleIteration::BundleIteration(const PatchTransport& transport, RandomKey key)
+BundleIteration::BundleIteration(const PatchTransport& transport, math::RandomKey key)
     : transport_(transport),
       key_(key),
       axes_(axes_of(transport.options.directions)),
@@ -75,11 +75,11 @@ BundleIteration::BundleIteration(const PatchTransport& transport, RandomKey key)
       glossy_receiving_(glossy_received_.size()) {}
 
 void BundleIteration::step() {
-    SampleStream stream(key_.derived(kPoints), shuffled(steps_++, key_.derived(kOrder)), kDimensions);
+    math::SampleStream stream(key_.derived(kPoints), shuffled(steps_++, key_.derived(kOrder)), kDimensions);
     const auto [u1, u2] = stream.next_two();
     const Frame frame = random_frame(u1, u2, stream.next());
-    std::ranges::fill(receiving_, Rgb{});
-    std::ranges::fill(glossy_receiving_, Rgb{});
+    std::ranges::fill(receiving_, FloatRgb{});
+    std::ranges::fill(glossy_receiving_, FloatRgb{});
     radiate_constant();
     for (std::size_t axis = 0; axis < axes_; ++axis) {
         radiate_glossy(axis_of(frame, axis));
@@ -122,26 +122,27 @@ void BundleIteration::radiate_glossy(const Vec3& axis) {
     for (std::uint32_t patch : transport_.glossy_patches) {
         for (const Vec3& out : {axis, -axis}) {
             const std::uint32_t side = transport_.side_towards(patch, out);
-            Spectrum luminance = transport_.first_reflected(side, out) + reflected(side, out);
-            if (side == patch) luminance += spectrum_of(transport_.emission[patch]);
-            radiance_[side] = rgb_of(luminance);
+            Rgb luminance = transport_.first_reflected(side, out) + reflected(side, out);
+            if (side == patch) luminance += to_rgb(transport_.emission[patch]);
+            radiance_[side] = to_float_rgb(luminance);
         }
     }
 }
 
-void BundleIteration::transfer(std::size_t axis, const Bundle& bundle) {
-    const Patches& patches = transport_.patches;
+void BundleIteration::transfer(std::size_t axis, const patches::Bundle& bundle) {
+    const patches::Patches& patches = transport_.patches;
     const bool both_ways = transport_.options.directions != BundleDirections::single;
     const Vec3& along = bundle.frame.w;
     const double ray_area_m2 = bundle.spacing_m * bundle.spacing_m;
-    const auto luminance = [&](std::uint32_t side, const CrossedLine& line, std::size_t i, const Vec3& out) {
+    const auto luminance = [&](std::uint32_t side, const patches::CrossedLine& line, std::size_t i,
+                               const Vec3& out) {
         if (!transport_.first_shot.needs_position(side)) return radiance_[side];
         const Vec3 position = line.origin + double{line.distances_m[i]} * along;
-        return rgb_of(spectrum_of(radiance_[side]) + transport_.first_reflected_at(side, position, {}, out));
+        return to_float_rgb(to_rgb(radiance_[side]) + transport_.first_reflected_at(side, position, {}, out));
     };
-    transport_.bundles->cast(bundle, [&](const CrossedLines& lines) {
+    transport_.bundles->cast(bundle, [&](const patches::CrossedLines& lines) {
         for (std::size_t n = 0; n < lines.count(); ++n) {
-            const CrossedLine line = lines.line(n);
+            const patches::CrossedLine line = lines.line(n);
             for (std::size_t i = 0; i + 1 < line.sides.size(); ++i) {
                 const std::uint32_t from = patches.other_side(line.sides[i]), to = line.sides[i + 1];
                 receive(to, axis, luminance(from, line, i, along), ray_area_m2);
@@ -152,12 +153,12 @@ void BundleIteration::transfer(std::size_t axis, const Bundle& bundle) {
     });
 }
 
-void BundleIteration::receive(std::uint32_t side, std::size_t axis, const Rgb& luminance,
+void BundleIteration::receive(std::uint32_t side, std::size_t axis, const FloatRgb& luminance,
                               double ray_area_m2) {
     const std::uint32_t patch = transport_.patches.patch_of(side);
     const std::uint32_t glossy = transport_.glossy_number[patch];
-    Rgb& sum = glossy == PatchTransport::kConstant ? receiving_[side]
-                                                   : glossy_receiving_[glossy_index(side, glossy, axis)];
+    FloatRgb& sum = glossy == PatchTransport::kConstant ? receiving_[side]
+                                                        : glossy_receiving_[glossy_index(side, glossy, axis)];
     const auto weight = static_cast<float>(ray_area_m2 / double{transport_.patches.areas_m2[patch]});
     for (std::size_t b = 0; b < kBands; ++b) sum[b] += weight * luminance[b];
 }
@@ -167,20 +168,20 @@ std::size_t BundleIteration::glossy_index(std::uint32_t side, std::uint32_t numb
     return (2 * std::size_t{number} + back) * axes_ + axis;
 }
 
-Spectrum BundleIteration::reflected(std::uint32_t side, const Vec3& out) const {
+Rgb BundleIteration::reflected(std::uint32_t side, const Vec3& out) const {
     const std::uint32_t patch = transport_.patches.patch_of(side);
     const std::uint32_t glossy = transport_.glossy_number[patch];
     if (glossy == PatchTransport::kConstant) {
-        return spectrum_of(transport_.constant_brdf[patch]) * spectrum_of(received_[side]) * weight_;
+        return to_rgb(transport_.constant_brdf[patch]) * to_rgb(received_[side]) * weight_;
     }
     const Material& material = transport_.material_of(patch);
     const Frame frame = Frame::of_surface(transport_.patches.normal_of(side));
     const Vec3 local_out = frame.to_local(out);
-    Spectrum luminance;
-    for_each_arrival(side, [&](const Vec3& in, const Spectrum& illuminance_lx) {
+    Rgb luminance;
+    for_each_arrival(side, [&](const Vec3& in, const Rgb& illuminance_lx) {
         luminance += evaluate_brdf_per_sr(material, frame.to_local(in), local_out) * illuminance_lx;
     });
     return luminance;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -23,18 +23,18 @@
 #include "estimators/patch_light/patch_transport.h"
 #include "math/random.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 /// One walk of the iteration. Keeps a reference to the transport. One thread at a time.
 class BundleIteration final : public PatchLight {
   public:
     /// Starts from darkness. What follows depends on the key alone.
-    BundleIteration(const PatchTransport& transport, RandomKey key);
+    BundleIteration(const PatchTransport& transport, math::RandomKey key);
 
     void step();
 
     /// Of the light that was received in the last step.
-    Spectrum reflected(std::uint32_t side, const Vec3& out) const override;
+    Rgb reflected(std::uint32_t side, const Vec3& out) const override;
 
     /// Calls `visit(in, illuminance_lx)` for the light that a side received in the last step, `in` being the
     /// unit world direction that it came from. Of sides that reflect alike only the sum is known: once, with
@@ -47,34 +47,36 @@ class BundleIteration final : public PatchLight {
   private:
     void radiate_constant();
     void radiate_glossy(const Vec3& axis);
-    void transfer(std::size_t axis, const Bundle& bundle);
-    void receive(std::uint32_t side, std::size_t axis, const Rgb& luminance, double ray_area_m2);
+    void transfer(std::size_t axis, const patches::Bundle& bundle);
+    void receive(std::uint32_t side, std::size_t axis, const FloatRgb& luminance, double ray_area_m2);
     static const Vec3& axis_of(const Frame& frame, std::size_t axis) {
         return axis == 0 ? frame.w : axis == 1 ? frame.u : frame.v;
     }
     std::size_t glossy_index(std::uint32_t side, std::uint32_t number, std::size_t axis) const;
 
     const PatchTransport& transport_;
-    RandomKey key_;
+    math::RandomKey key_;
     std::size_t axes_;
     double weight_;  ///< of each axis
     std::uint64_t steps_ = 0;
     std::uint64_t rays_ = 0;
-    Frame received_along_;        ///< the axes that `received_` came along
-    std::vector<Rgb> radiance_;   ///< of every side along the present axis; see FirstShot::needs_position()
-    std::vector<Rgb> received_;   ///< sum over the axes of J, of sides that reflect alike in all directions
-    std::vector<Rgb> receiving_;  ///< the same of the step that is under way
+    Frame received_along_;  ///< the axes that `received_` came along
+    std::vector<FloatRgb>
+        radiance_;  ///< of every side along the present axis; see FirstShot::needs_position()
+    std::vector<FloatRgb>
+        received_;  ///< sum over the axes of J, of sides that reflect alike in all directions
+    std::vector<FloatRgb> receiving_;  ///< the same of the step that is under way
     /// J of the other sides, for each axis by itself.
-    std::vector<Rgb> glossy_received_, glossy_receiving_;
+    std::vector<FloatRgb> glossy_received_, glossy_receiving_;
 };
 
 template <typename Visit>
 void BundleIteration::for_each_arrival(std::uint32_t side, const Visit& visit) const {
     const std::uint32_t glossy = transport_.glossy_number[transport_.patches.patch_of(side)];
     const Vec3 normal = transport_.patches.normal_of(side);
-    if (glossy == PatchTransport::kConstant) return visit(normal, spectrum_of(received_[side]) * weight_);
+    if (glossy == PatchTransport::kConstant) return visit(normal, to_rgb(received_[side]) * weight_);
     for (std::size_t axis = 0; axis < axes_; ++axis) {
-        const Spectrum received = spectrum_of(glossy_received_[glossy_index(side, glossy, axis)]);
+        const Rgb received = to_rgb(glossy_received_[glossy_index(side, glossy, axis)]);
         if (!(received.max() > 0)) continue;
         const Vec3& along = axis_of(received_along_, axis);
         visit(dot(along, normal) < 0 ? -along : along, received * weight_);
@@ -85,4 +87,4 @@ void BundleIteration::for_each_arrival(std::uint32_t side, const Visit& visit) c
 /// as many more.
 std::uint64_t first_steps(const PatchTransport& transport);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

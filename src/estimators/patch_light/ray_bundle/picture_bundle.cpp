@@ -11,7 +11,7 @@
 #include "estimators/patch_light/patch_picture.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 /// Of a pass, each a task of its own.
@@ -41,10 +41,10 @@ class BundlePicture final : public PictureEstimator {
     std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
-    std::vector<Rgb> mean_of_walks(const Pass& pass) const {
+    std::vector<FloatRgb> mean_of_walks(const Pass& pass) const {
         const std::uint64_t first = first_steps(transport_), steps = std::max(first, kLeastSteps);
-        const RandomKey key = pass.key.derived(kWalk).derived(pass.index);
-        std::array<std::vector<Rgb>, kWalks> sums;
+        const math::RandomKey key = pass.key.derived(kWalk).derived(pass.index);
+        std::array<std::vector<FloatRgb>, kWalks> sums;
         tbb::parallel_for(std::uint64_t{0}, kWalks, [&](std::uint64_t walk) {
             sums[walk].resize(seen_.count());
             BundleIteration iteration(transport_, key.derived(walk));
@@ -60,7 +60,7 @@ class BundlePicture final : public PictureEstimator {
 
     PictureTracing tracing_;
     PatchTransport transport_;
-    SeenSides seen_;
+    VisibleSides seen_;
 };
 
 }  // namespace
@@ -69,4 +69,4 @@ std::unique_ptr<PictureEstimator> make_ray_bundle_picture(const PictureInput& in
     return std::make_unique<BundlePicture>(input);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -2,8 +2,8 @@
 
 #include "estimators/picture_estimator.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 std::unique_ptr<PictureEstimator> make_ray_bundle_picture(const PictureInput& input);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -9,7 +9,7 @@
 #include "estimators/patch_light/patch_readings.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 
-namespace stilb {
+namespace stilb::estimators {
 namespace {
 
 enum Purpose : std::uint64_t { kWalk, kReadings };
@@ -33,7 +33,7 @@ class RayBundle final : public Estimator {
         sums.rays += iteration.rays();
     }
 
-    std::span<const Spectrum> known_part() const override { return readings_.known_part(); }
+    std::span<const Rgb> known_part() const override { return readings_.known_part(); }
     /// At least twice the first steps that are left out.
     std::uint64_t batch_granularity() const override {
         return std::bit_ceil(std::max<std::uint64_t>(2 * first_steps(transport_), 16));
@@ -58,4 +58,4 @@ std::unique_ptr<Estimator> make_ray_bundle_estimator(const EstimatorInput& input
     return std::make_unique<RayBundle>(input);
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -2,8 +2,8 @@
 
 #include "estimators/estimator_list.h"
 
-namespace stilb {
+namespace stilb::estimators {
 
 std::unique_ptr<Estimator> make_ray_bundle_estimator(const EstimatorInput& input);
 
-}  // namespace stilb
+}  // namespace stilb::estimators

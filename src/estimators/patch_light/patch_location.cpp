@@ -1,16 +1,17 @@
-#include "estimators/patch_light/patch_place.h"
+#include "estimators/patch_light/patch_location.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace stilb {
+namespace stilb::estimators {
 
-std::vector<std::optional<PatchPlace>> find_places(const PatchCaster& caster,
-                                                   std::span<const SeenPoint> points, Coherence coherence) {
+std::vector<std::optional<PatchLocation>> find_patch_locations(const patches::PatchCaster& caster,
+                                                               std::span<const ViewedHit> points,
+                                                               rays::Coherence coherence) {
     // The way to the hit is free. So is a short stretch of it, from where patches that bulge out of the true
     // surface by rounding are met.
     constexpr double stretch = 1e-3;
-    std::vector<std::optional<PatchPlace>> places(points.size());
+    std::vector<std::optional<PatchLocation>> places(points.size());
     for (std::size_t first = 0; first < points.size(); first += kPacketWidth) {
         const std::size_t count = std::min<std::size_t>(kPacketWidth, points.size() - first);
         RayPacket packet;
@@ -21,13 +22,13 @@ std::vector<std::optional<PatchPlace>> find_places(const PatchCaster& caster,
                        -outgoing, std::numeric_limits<float>::infinity());
             lanes[lane] = -1;
         }
-        const PatchHits hits = caster.closest(packet, lanes, coherence);
+        const patches::PatchHits hits = caster.closest(packet, lanes, coherence);
         for (std::size_t lane = 0; lane < count; ++lane) {
-            if (hits.sides[lane] == kNoSide) continue;
-            places[first + lane] = PatchPlace{hits.sides[lane], hits.place(lane)};
+            if (hits.sides[lane] == patches::kNoSide) continue;
+            places[first + lane] = PatchLocation{hits.sides[lane], hits.place(lane)};
         }
     }
     return places;
 }
 
-}  // namespace stilb
+}  // namespace stilb::estimators

@@ -1,8 +1,8 @@
-#include "geometry/shells.h"
+#include "geometry/connected_components.h"
 
 #include <gtest/gtest.h>
 
-namespace stilb {
+namespace stilb::geometry {
 namespace {
 
 Mesh joined(Mesh first, const Mesh& second) {
@@ -26,41 +26,41 @@ Mesh unwelded(const Mesh& mesh) {
 
 const Box kUnitBox{{0, 0, 0}, {1, 1, 1}};
 
-TEST(Shells, ABoxIsOneClosedShell) {
-    const Shells shells = find_shells(Shape{kUnitBox});
+TEST(ConnectedComponents, ABoxIsOneClosedShell) {
+    const ConnectedComponents shells = find_components(Shape{kUnitBox});
     EXPECT_EQ(shells.count(), 1u);
     EXPECT_TRUE(shells.is_closed(0));
     EXPECT_EQ(shells.turned_edges, 0u);
     EXPECT_EQ(shells.of_triangle, std::vector<std::uint32_t>(12, 0));
 }
 
-TEST(Shells, RepeatedVerticesAreOne) {
-    const Shells shells = find_shells(unwelded(triangulated(kUnitBox)));
+TEST(ConnectedComponents, RepeatedVerticesAreOne) {
+    const ConnectedComponents shells = find_components(unwelded(triangulated(kUnitBox)));
     EXPECT_EQ(shells.count(), 1u);
     EXPECT_TRUE(shells.is_closed(0));
 }
 
-TEST(Shells, AMissingTriangleOpensItsThreeEdges) {
+TEST(ConnectedComponents, AMissingTriangleOpensItsThreeEdges) {
     Mesh mesh = unwelded(triangulated(kUnitBox));
     mesh.triangles.pop_back();
-    const Shells shells = find_shells(mesh);
+    const ConnectedComponents shells = find_components(mesh);
     EXPECT_EQ(shells.count(), 1u);
     EXPECT_EQ(shells.total_open_edges(), 3u);
 }
 
-TEST(Shells, ARectangleHasFourOpenEdges) {
-    EXPECT_EQ(find_shells(Shape{Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}).total_open_edges(), 4u);
+TEST(ConnectedComponents, ARectangleHasFourOpenEdges) {
+    EXPECT_EQ(find_components(Shape{Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}).total_open_edges(), 4u);
 }
 
-TEST(Shells, SpheresAreClosedAndDisksAreNot) {
-    EXPECT_TRUE(find_shells(Shape{Sphere{{0, 0, 0}, 1}}).is_closed(0));
-    EXPECT_FALSE(find_shells(Shape{Disk{{0, 0, 0}, {0, 0, 1}, 1}}).is_closed(0));
+TEST(ConnectedComponents, SpheresAreClosedAndDisksAreNot) {
+    EXPECT_TRUE(find_components(Shape{Sphere{{0, 0, 0}, 1}}).is_closed(0));
+    EXPECT_FALSE(find_components(Shape{Disk{{0, 0, 0}, {0, 0, 1}, 1}}).is_closed(0));
 }
 
-TEST(Shells, SeparatePartsAreSeparateShells) {
+TEST(ConnectedComponents, SeparatePartsAreSeparateShells) {
     Mesh open_box = triangulated(Box{{2, 0, 0}, {3, 1, 1}});
     open_box.triangles.erase(open_box.triangles.begin());
-    const Shells shells = find_shells(joined(triangulated(kUnitBox), open_box));
+    const ConnectedComponents shells = find_components(joined(triangulated(kUnitBox), open_box));
     ASSERT_EQ(shells.count(), 2u);
     EXPECT_TRUE(shells.is_closed(0));
     EXPECT_FALSE(shells.is_closed(1));
@@ -68,20 +68,20 @@ TEST(Shells, SeparatePartsAreSeparateShells) {
     EXPECT_EQ(shells.of_triangle.back(), 1u);
 }
 
-TEST(Shells, BoxesThatShareAnEdgeStayClosed) {
-    const Shells shells =
-        find_shells(joined(triangulated(kUnitBox), triangulated(Box{{1, 1, 0}, {2, 2, 1}})));
+TEST(ConnectedComponents, BoxesThatShareAnEdgeStayClosed) {
+    const ConnectedComponents shells =
+        find_components(joined(triangulated(kUnitBox), triangulated(Box{{1, 1, 0}, {2, 2, 1}})));
     EXPECT_EQ(shells.total_open_edges(), 0u);
     EXPECT_EQ(shells.turned_edges, 0u);
 }
 
-TEST(Shells, AFlippedTriangleTurnsItsThreeEdges) {
+TEST(ConnectedComponents, AFlippedTriangleTurnsItsThreeEdges) {
     Mesh mesh = triangulated(kUnitBox);
     std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
-    const Shells shells = find_shells(mesh);
+    const ConnectedComponents shells = find_components(mesh);
     EXPECT_EQ(shells.total_open_edges(), 0u);
     EXPECT_EQ(shells.turned_edges, 3u);
 }
 
 }  // namespace
-}  // namespace stilb
+}  // namespace stilb::geometry

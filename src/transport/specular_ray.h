@@ -6,23 +6,23 @@
 
 #include "rays/ray_caster.h"
 
-namespace stilb {
+namespace stilb::transport {
 
-struct SpecularWay {
+struct SpecularRay {
     Vec3 origin;  ///< off the surface, on the side that the way goes to
     Vec3 direction;
-    Spectrum share;               ///< of the flux; as SpecularBranch has it
+    Rgb share;                    ///< of the flux; as SpecularBranch has it
     double luminance_factor = 1;  ///< likewise
     /// Through a pane: straight on, so that such light counts as not reflected, and shadow rays make it too.
     bool straight = false;
 };
 
 /// All ways on from `hit` on a specular surface; `from`: unit, towards where the path came from.
-std::vector<SpecularWay> specular_ways(const Material& material, const Hit& hit, const Vec3& from);
+std::vector<SpecularRay> specular_rays(const Material& material, const rays::Hit& hit, const Vec3& from);
 
 /// One of them, drawn in proportion to its luminous share by `u` in [0, 1); the share is divided by the
 /// probability. Nothing where all light is absorbed.
-std::optional<SpecularWay> choose_specular_way(const Material& material, const Hit& hit, const Vec3& from,
-                                               double u);
+std::optional<SpecularRay> choose_specular_ray(const Material& material, const rays::Hit& hit,
+                                               const Vec3& from, double u);
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -51,7 +51,7 @@ struct Spot {
     int left = 1 << 30, right = -1;
 };
 
-inline Spot find_colour(const Pixels& pixels, const Colour& colour, int x_end = 1 << 30) {
+inline Spot find_colour(const Pixels& pixels, const io::Colour& colour, int x_end = 1 << 30) {
     const auto close = [](std::uint32_t byte, double component) {
         return std::abs(double(byte & 0xff) - 255 * component) <= 1;
     };

@@ -7,11 +7,11 @@
 
 #include "geometry/shape.h"
 
-namespace stilb {
+namespace stilb::geometry {
 
 /// The shells of a shape: triangles that hang together along edges. Vertices at the same place are one
 /// vertex, as files often repeat them.
-struct Shells {
+struct ConnectedComponents {
     /// Per triangle (Hit::triangle), the shell that it belongs to.
     std::vector<std::uint32_t> of_triangle;
     /// Per shell, the edges in which an odd number of triangles meet. 0: the shell is closed, every ray from
@@ -25,8 +25,8 @@ struct Shells {
     std::size_t total_open_edges() const;
 };
 
-Shells find_shells(const Mesh& mesh);
+ConnectedComponents find_components(const Mesh& mesh);
 /// Spheres are one closed shell, disks an open one (their rim counts as one edge).
-Shells find_shells(const Shape& shape);
+ConnectedComponents find_components(const Shape& shape);
 
-}  // namespace stilb
+}  // namespace stilb::geometry

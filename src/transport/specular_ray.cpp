@@ -1,23 +1,24 @@
-#include "transport/specular_branch.h"
+#include "transport/specular_ray.h"
 
-namespace stilb {
+namespace stilb::transport {
 namespace {
 
 /// Everything that the two functions need of a surface and the way that a path came to it.
 struct Meeting {
-    const Hit& hit;
+    const rays::Hit& hit;
     bool is_pane;
     Frame frame;
-    SpecularBranches branches;
+    materials::SpecularBranches branches;
 
-    Meeting(const Material& material, const Hit& met, const Vec3& from)
+    Meeting(const Material& material, const rays::Hit& met, const Vec3& from)
         : hit(met),
-          is_pane(std::holds_alternative<Pane>(material)),
+          is_pane(std::holds_alternative<ThinDielectric>(material)),
           frame(Frame::of_surface(met.normal)),
-          branches(specular_branches(material, met.on_front ? LightSide::outside : LightSide::inside,
-                                     frame.to_local(from))) {}
+          branches(specular_branches(
+              material, met.on_front ? materials::LightSide::outside : materials::LightSide::inside,
+              frame.to_local(from))) {}
 
-    SpecularWay way(const SpecularBranch& branch, double probability) const {
+    SpecularRay way(const materials::SpecularBranch& branch, double probability) const {
         const bool reflected = branch.direction.z > 0;
         return {reflected ? hit.lifted : hit.lifted_behind(), frame.to_world(branch.direction),
                 branch.share * (1 / probability), branch.luminance_factor, is_pane && !reflected};
@@ -26,15 +27,16 @@ struct Meeting {
 
 }  // namespace
 
-std::vector<SpecularWay> specular_ways(const Material& material, const Hit& hit, const Vec3& from) {
+std::vector<SpecularRay> specular_rays(const Material& material, const rays::Hit& hit, const Vec3& from) {
     const Meeting meeting(material, hit, from);
-    std::vector<SpecularWay> ways;
-    for (const SpecularBranch& branch : meeting.branches.list()) ways.push_back(meeting.way(branch, 1));
+    std::vector<SpecularRay> ways;
+    for (const materials::SpecularBranch& branch : meeting.branches.list())
+        ways.push_back(meeting.way(branch, 1));
     return ways;
 }
 
-std::optional<SpecularWay> choose_specular_way(const Material& material, const Hit& hit, const Vec3& from,
-                                               double u) {
+std::optional<SpecularRay> choose_specular_ray(const Material& material, const rays::Hit& hit,
+                                               const Vec3& from, double u) {
     const Meeting meeting(material, hit, from);
     const auto branches = meeting.branches.list();
     if (branches.empty()) return std::nullopt;
@@ -45,4 +47,4 @@ std::optional<SpecularWay> choose_specular_way(const Material& material, const H
                            : meeting.way(branches[1], 1 - probability);
 }
 
-}  // namespace stilb
+}  // namespace stilb::transport

@@ -1,0 +1,133 @@
+#include "checks/enclosures.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+namespace stilb::checks {
+namespace {
+
+/// Unit vectors in general position: along no axis, diagonal or symmetry that rooms have.
+constexpr std::array<Vec3, 3> kDirections{
+    {{0.2673, 0.5345, 0.8018}, {-0.6851, 0.2114, 0.6971}, {0.4412, -0.7727, 0.4565}}};
+/// Rays through more surfaces than this say nothing.
+constexpr int kMostCrossings = 10'000;
+/// Lights that a point is tried to see before its space is found out.
+constexpr std::size_t kMostLightsTried = 8;
+
+/// Off the surface at `position` on the side of the unit vector `normal`.
+ProbeRay probe_ray_off(const Vec3& position, const Vec3& normal, double size_m,
+                       const rays::RayCaster& caster) {
+    return {position + caster.offset_m(position, size_m) * normal, normal};
+}
+
+/// One from every shell, off its front.
+struct ProbeRaysOfShape {
+    const geometry::ConnectedComponents& shells;
+    const rays::RayCaster& caster;
+
+    std::vector<ProbeRay> operator()(const Mesh& mesh) const {
+        std::vector<ProbeRay> probe_rays;
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            if (shells.of_triangle[t] != probe_rays.size()) continue;  // numbered by their first triangles
+            const auto [i, j, k] = mesh.triangles[t];
+            const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+            const Vec3 normal = normalized(cross(b - a, c - a));
+            probe_rays.push_back(
+                probe_ray_off((a + b + c) / 3, normal, length(b - a) + length(c - a), caster));
+        }
+        return probe_rays;
+    }
+    std::vector<ProbeRay> operator()(const Rectangle& rectangle) const {
+        return (*this)(triangulated(rectangle));
+    }
+    std::vector<ProbeRay> operator()(const Box& box) const { return (*this)(triangulated(box)); }
+    std::vector<ProbeRay> operator()(const Sphere& sphere) const {
+        const Vec3 up{0, 0, 1};
+        return {probe_ray_off(sphere.center + sphere.radius * up, up, sphere.radius, caster)};
+    }
+    std::vector<ProbeRay> operator()(const Harmonics& harmonics) const {
+        const Vec3 up{0, 0, 1}, top = harmonics.point_towards(up);
+        return {probe_ray_off(top, harmonics.normal_towards(up), length(top - harmonics.center), caster)};
+    }
+    std::vector<ProbeRay> operator()(const Disk& disk) const {
+        return {probe_ray_off(disk.center, disk.normal, disk.radius, caster)};
+    }
+};
+
+}  // namespace
+
+Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scene_(scene), caster_(caster) {
+    for (const Object& object : scene.objects) shells_.push_back(find_components(object.shape));
+    for (const Light& light : scene.lights) {
+        std::vector<Enclosure>& spaces = of_lights_.emplace_back();
+        for (const ProbeRay& probe_ray : probe_rays_of(light)) {
+            spaces.push_back(voted_enclosure(probe_ray));
+            if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, spaces.back()});
+        }
+    }
+}
+
+std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
+    if (const auto* point = std::get_if<PointLight>(&light.source))
+        return {{point->position, kDirections[0]}};
+    if (const auto* luminaire = std::get_if<Luminaire>(&light.source))
+        return {probe_ray_off(luminaire->position, luminaire->nadir, caster_.half_extent_m(), caster_)};
+    const ObjectId object = std::get<AreaLight>(light.source).object;
+    return std::visit(ProbeRaysOfShape{shells_[index_of(object)], caster_}, scene_.object(object).shape);
+}
+
+Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const Vec3& direction) const {
+    Enclosure crossed;
+    Vec3 from = origin;
+    for (int i = 0; i < kMostCrossings; ++i) {
+        const auto hit = caster_.closest(from, direction);
+        if (!hit) break;
+        const geometry::ConnectedComponents& shells = shells_[index_of(hit->object)];
+        const std::uint32_t shell = shells.of_triangle[hit->triangle];
+        if (shells.is_closed(shell)) crossed.push_back({hit->object, shell});
+        from = hit->position - (hit->lifted - hit->position);  // just behind the surface
+    }
+    std::sort(crossed.begin(), crossed.end());
+    Enclosure odd;
+    for (auto first = crossed.begin(); first != crossed.end();) {
+        const auto last = std::upper_bound(first, crossed.end(), *first);
+        if ((last - first) % 2 != 0) odd.push_back(*first);
+        first = last;
+    }
+    return odd;
+}
+
+Enclosure Enclosures::voted_enclosure(const ProbeRay& probe_ray) const {
+    std::array<Enclosure, 3> votes;
+    for (std::size_t i = 0; i < votes.size(); ++i) {
+        const Vec3& d = kDirections[i];
+        const bool is_outwards = dot(d, probe_ray.direction) > 0;
+        votes[i] = crossed_an_odd_number_of_times(probe_ray.position, is_outwards ? d : -d);
+    }
+    Enclosure space;
+    const auto add_common = [&](const Enclosure& a, const Enclosure& b) {
+        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(space));
+    };
+    add_common(votes[0], votes[1]);
+    add_common(votes[0], votes[2]);
+    add_common(votes[1], votes[2]);
+    std::sort(space.begin(), space.end());
+    space.erase(std::unique(space.begin(), space.end()), space.end());
+    return space;
+}
+
+Enclosure Enclosures::enclosure_of(const ProbeRay& probe_ray) const {
+    const auto seen = std::find_if(tried_.begin(), tried_.end(), [&](const LightPlace& light) {
+        return !caster_.occluded(probe_ray.position, light.position);
+    });
+    return seen != tried_.end() ? seen->space : voted_enclosure(probe_ray);
+}
+
+bool Enclosures::is_lit(const Enclosure& space) const {
+    return std::any_of(of_lights_.begin(), of_lights_.end(), [&](const std::vector<Enclosure>& spaces) {
+        return std::find(spaces.begin(), spaces.end(), space) != spaces.end();
+    });
+}
+
+}  // namespace stilb::checks
