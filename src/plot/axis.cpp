@@ -55,7 +55,7 @@ std::string power_text(double mantissa, int decimals, int exponent) {
 
 bool needs_powers(double smallest, double largest) { return smallest < 0.9e-4 || largest >= 0.9e6; }
 
-std::vector<double> multiples_within(const Range& range, const NiceStep& step) {
+std::vector<double> multiples_within(const AxisRange& range, const NiceStep& step) {
     std::vector<double> values;
     const double last = std::floor(range.high / step.value() + kSlack);
     for (double i = std::ceil(range.low / step.value() - kSlack); i <= last; ++i) {
@@ -64,7 +64,7 @@ std::vector<double> multiples_within(const Range& range, const NiceStep& step) {
     return values;
 }
 
-Ticks linear_ticks(const Range& range, int most) {
+Ticks linear_ticks(const AxisRange& range, int most) {
     const NiceStep step = nice_step((range.high - range.low) / std::max(most - 1, 1));
     Ticks ticks;
     const double largest = std::max(std::abs(range.low), std::abs(range.high));
@@ -91,7 +91,7 @@ struct PowerTick {
 };
 
 /// mantissas x 10^(every stride-th power) within the range.
-std::vector<PowerTick> powers_within(const Range& range, std::span<const double> mantissas, int stride) {
+std::vector<PowerTick> powers_within(const AxisRange& range, std::span<const double> mantissas, int stride) {
     std::vector<PowerTick> ticks;
     const int first = static_cast<int>(std::floor(std::log10(range.low))) - 1;
     const int last = static_cast<int>(std::ceil(std::log10(range.high))) + 1;
@@ -107,7 +107,7 @@ std::vector<PowerTick> powers_within(const Range& range, std::span<const double>
     return ticks;
 }
 
-Ticks logarithmic_ticks(const Range& range, int most) {
+Ticks logarithmic_ticks(const AxisRange& range, int most) {
     const std::span<const double> decade(kRound.data(), 1);
     std::vector<PowerTick> chosen = powers_within(range, kRound, 1);
     if (chosen.size() < 3) return linear_ticks(range, most);
@@ -126,7 +126,7 @@ Ticks logarithmic_ticks(const Range& range, int most) {
     return ticks;
 }
 
-Range nice_linear_range(double low, double high) {
+AxisRange nice_linear_range(double low, double high) {
     if (low == high) {
         const double margin = low == 0 ? 1 : std::abs(low) / 10;
         low -= margin;
@@ -137,7 +137,7 @@ Range nice_linear_range(double low, double high) {
             step.multiple(std::ceil(high / step.value() - kSlack))};
 }
 
-Range nice_logarithmic_range(double low, double high) {
+AxisRange nice_logarithmic_range(double low, double high) {
     const NiceStep top = nice_step(high);
     // The largest round number not above `low` is the inverse of the smallest one not below 1 / low.
     const NiceStep inverse = nice_step(1 / low);
@@ -147,7 +147,7 @@ Range nice_logarithmic_range(double low, double high) {
 
 }  // namespace
 
-Scale::Scale(ScaleType type, Range range) : type_(type), range_(range) {
+Scale::Scale(ScaleType type, AxisRange range) : type_(type), range_(range) {
     if (!std::isfinite(range.low) || !std::isfinite(range.high) || !(range.low < range.high)) {
         throw InputError(fmt::format("a scale from {} to {} is empty. Give a minimum below the maximum.",
                                      range.low, range.high));
@@ -176,7 +176,7 @@ Ticks nice_ticks(const Scale& scale, int most) {
                                              : logarithmic_ticks(scale.range(), most);
 }
 
-Range nice_range(ScaleType type, std::span<const double> values) {
+AxisRange nice_range(ScaleType type, std::span<const double> values) {
     const bool logarithmic = type == ScaleType::logarithmic;
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -185,7 +185,7 @@ Range nice_range(ScaleType type, std::span<const double> values) {
         low = std::min(low, value);
         high = std::max(high, value);
     }
-    if (low > high) return logarithmic ? Range{1, 10} : Range{0, 1};
+    if (low > high) return logarithmic ? AxisRange{1, 10} : AxisRange{0, 1};
     return logarithmic ? nice_logarithmic_range(low, high) : nice_linear_range(low, high);
 }
 

@@ -9,7 +9,7 @@ namespace stilb::plot {
 
 enum class ScaleType { linear, logarithmic };
 
-struct Range {
+struct AxisRange {
     double low = 0, high = 1;
 };
 
@@ -17,10 +17,10 @@ struct Range {
 class Scale {
   public:
     /// Throws InputError where low < high does not hold, or for a logarithmic scale from 0 or below.
-    Scale(ScaleType type, Range range);
+    Scale(ScaleType type, AxisRange range);
 
     ScaleType type() const { return type_; }
-    Range range() const { return range_; }
+    AxisRange range() const { return range_; }
 
     /// Not limited to 0 .. 1; minus infinity where the value has no logarithm, NaN for NaN.
     double fraction_of(double value) const;
@@ -28,7 +28,7 @@ class Scale {
 
   private:
     ScaleType type_;
-    Range range_;
+    AxisRange range_;
 };
 
 struct Tick {
@@ -47,7 +47,7 @@ Ticks nice_ticks(const Scale& scale, int most);
 
 /// A range with round ends that holds all finite values (on a logarithmic scale: the positive ones). 0 to 1,
 /// or 1 to 10, where there are none.
-Range nice_range(ScaleType type, std::span<const double> values);
+AxisRange nice_range(ScaleType type, std::span<const double> values);
 
 /// A number as a reader likes it: a true minus sign, thousands set apart from 10 000 on, `decimals` places.
 std::string number_text(double value, int decimals);

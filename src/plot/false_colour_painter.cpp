@@ -46,7 +46,7 @@ PixelImage image_of(const FalseColourPanel& panel, const Scale& scale, const Col
 }  // namespace
 
 Scale choose_scale(std::span<const double> values, const FalseColourOptions& options) {
-    Range range = nice_range(options.scale, values);
+    AxisRange range = nice_range(options.scale, values);
     if (options.scale == ScaleType::logarithmic) {
         range.low = std::max(range.low, range.high * std::pow(10.0, -kMostDecades));
     }

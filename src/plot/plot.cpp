@@ -21,7 +21,7 @@ constexpr double kEdgeSlack = 1e-6;
 constexpr double kFarthest = 8;
 
 Scale make_scale(const PlotAxis& axis, const std::vector<double>& values) {
-    const Range range = nice_range(axis.scale, values);
+    const AxisRange range = nice_range(axis.scale, values);
     return Scale(axis.scale, {axis.minimum.value_or(range.low), axis.maximum.value_or(range.high)});
 }
 

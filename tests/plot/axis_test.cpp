@@ -102,16 +102,16 @@ TEST(Axis, RefusesEmptyScales) {
     EXPECT_THROW(Scale(kLogarithmic, {0, 1}), InputError);
 }
 
-Range range_of(ScaleType type, std::vector<double> values) { return nice_range(type, values); }
+AxisRange range_of(ScaleType type, std::vector<double> values) { return nice_range(type, values); }
 
 TEST(Axis, RangesHoldTheDataAndEndRound) {
-    const Range linear = range_of(kLinear, {103, NAN, 487, 250});
+    const AxisRange linear = range_of(kLinear, {103, NAN, 487, 250});
     EXPECT_EQ(linear.low, 100);
     EXPECT_EQ(linear.high, 500);
-    const Range logarithmic = range_of(kLogarithmic, {0, -1, 0.03, 700, INFINITY});
+    const AxisRange logarithmic = range_of(kLogarithmic, {0, -1, 0.03, 700, INFINITY});
     EXPECT_DOUBLE_EQ(logarithmic.low, 0.02);
     EXPECT_DOUBLE_EQ(logarithmic.high, 1000);
-    const Range exact = range_of(kLogarithmic, {0.001, 1000});
+    const AxisRange exact = range_of(kLogarithmic, {0.001, 1000});
     EXPECT_DOUBLE_EQ(exact.low, 0.001);
     EXPECT_DOUBLE_EQ(exact.high, 1000);
 }
@@ -120,7 +120,7 @@ TEST(Axis, RangesAreNeverEmpty) {
     for (const ScaleType type : {kLinear, kLogarithmic}) {
         for (const std::vector<double>& values :
              {std::vector<double>{}, {NAN}, {0}, {7}, {100}, {-5}, {1e-30}, {1e20, 1e20}, {5, 5.0000001}}) {
-            const Range range = nice_range(type, values);
+            const AxisRange range = nice_range(type, values);
             EXPECT_NO_THROW(Scale(type, range)) << range.low << " " << range.high;
             for (const double value : values) {
                 if (!std::isfinite(value) || (type == kLogarithmic && value <= 0)) continue;

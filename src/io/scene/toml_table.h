@@ -9,17 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/field.h"
 #include "base/rgb.h"
 #include "base/vec.h"
 #include "io/scene/toml_document.h"
 
 namespace stilb::io {
-
-/// The numbers that a key takes, and the words for them in messages: "2 is not {allowed}".
-struct Range {
-    double min = 0, max = 0;
-    std::string_view allowed;
-};
 
 /// Metres; the limit keeps squares and products of lengths far from overflow.
 inline constexpr Range kCoordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
