@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "cli/commands.h"
 
 namespace stilb::papers {
 namespace {
@@ -83,27 +82,26 @@ int run_reproduce(const Request& request) {
 
 }  // namespace
 
-void add_reproduce(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand(
+void add_reproduce(cli::CommandLine& line) {
+    cli::Command command = line.add_command(
         "reproduce", "The figures of the papers on local estimations and on first shot, computed anew");
-    cli::set_examples(*command,
-                      "  stilb reproduce sobolev -o figures\n"
-                      "  stilb reproduce harmonics --mesh head.ply -o figures\n"
-                      "  stilb reproduce -o figures\n");
+    command.set_examples(
+        "  stilb reproduce sobolev -o figures\n"
+        "  stilb reproduce harmonics --mesh head.ply -o figures\n"
+        "  stilb reproduce -o figures\n");
     std::string description = "Figure (default: all)";
     for (const Figure& figure : kFigures)
         description += fmt::format("\n  {}: {}", figure.name, figure.summary);
     auto request = std::make_shared<Request>();
-    command->add_option("FIGURE", request->figure, description);
-    command->add_option("-o,--output", request->directory, "Folder for the files; made where it is missing")
-        ->type_name("DIR")
-        ->required();
+    command.add("FIGURE", request->figure, description);
+    command.add("-o,--output", request->directory, "Folder for the files; made where it is missing")
+        .value_name("DIR")
+        .required();
     command
-        ->add_option(
-            "--mesh", request->mesh,
-            "Another head for the figure harmonics (.obj, .ply), of any size: y up, its face along z")
-        ->type_name("FILE");
-    command->callback([request, &exit_code] { exit_code = run_reproduce(*request); });
+        .add("--mesh", request->mesh,
+             "Another head for the figure harmonics (.obj, .ply), of any size: y up, its face along z")
+        .value_name("FILE");
+    command.run([request] { return run_reproduce(*request); });
 }
 
 }  // namespace stilb::papers

@@ -2,9 +2,10 @@
 // exists. docs/reproduce.md says what they show and what was chosen.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+
+#include "cli/command_line.h"
 
 namespace stilb::papers {
 
@@ -23,6 +24,6 @@ void reproduce_first_shot(const std::filesystem::path& directory);
 void reproduce_directions(const std::filesystem::path& directory);
 
 /// Declares the command `reproduce`.
-void add_reproduce(CLI::App& app, int& exit_code);
+void add_reproduce(cli::CommandLine& line);
 
 }  // namespace stilb::papers

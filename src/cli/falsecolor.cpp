@@ -68,31 +68,30 @@ int run_falsecolor(const FalseColourRequest& request) {
 
 }  // namespace
 
-void add_falsecolor(CLI::App& app, int& exit_code) {
-    CLI::App* command =
-        app.add_subcommand("falsecolor", "Draw measured grids or a luminance picture in false colours");
-    set_examples(*command,
-                 "  stilb measure office.toml --json > office.json\n"
-                 "  stilb falsecolor office.json -o office.png --isolines\n"
-                 "  stilb falsecolor office.json -o desk.svg --sensor desk --numbers --min 0 --max 750\n"
-                 "  stilb falsecolor view.exr -o luminance.png --log --isolines\n");
+void add_falsecolor(CommandLine& line) {
+    Command command =
+        line.add_command("falsecolor", "Draw measured grids or a luminance picture in false colours");
+    command.set_examples(
+        "  stilb measure office.toml --json > office.json\n"
+        "  stilb falsecolor office.json -o office.png --isolines\n"
+        "  stilb falsecolor office.json -o desk.svg --sensor desk --numbers --min 0 --max 750\n"
+        "  stilb falsecolor view.exr -o luminance.png --log --isolines\n");
     auto request = std::make_shared<FalseColourRequest>();
     plot::FalseColourOptions& options = request->options;
     command
-        ->add_option("IN", request->input,
-                     "Results of 'stilb measure --json', or a picture: OpenEXR or Radiance HDR")
-        ->required();
-    command->add_option("-o,--output", request->output, "Picture to write: .png or .svg")->required();
-    command->add_option("--sensor", request->sensors, "Of results, draw this grid only (may be repeated)")
-        ->allow_extra_args(false);
-    command->add_flag_callback(
+        .add("IN", request->input, "Results of 'stilb measure --json', or a picture: OpenEXR or Radiance HDR")
+        .required();
+    command.add("-o,--output", request->output, "Picture to write: .png or .svg").required();
+    command.add("--sensor", request->sensors, "Of results, draw this grid only (may be repeated)")
+        .repeatable();
+    command.add_switch(
         "--log", [&options] { options.scale = plot::ScaleType::logarithmic; }, "Logarithmic scale");
-    command->add_option("--min", options.minimum, "Lower end of the scale; a round number by default");
-    command->add_option("--max", options.maximum, "Upper end of the scale");
-    command->add_flag("--isolines", options.isolines, "Lines of equal value, labelled");
-    command->add_flag("--numbers", options.numbers,
-                      "Values: in cells that are large enough, on a coarse grid over pictures");
-    command->callback([request, &exit_code] { exit_code = run_falsecolor(*request); });
+    command.add("--min", options.minimum, "Lower end of the scale; a round number by default");
+    command.add("--max", options.maximum, "Upper end of the scale");
+    command.add("--isolines", options.isolines, "Lines of equal value, labelled");
+    command.add("--numbers", options.numbers,
+                "Values: in cells that are large enough, on a coarse grid over pictures");
+    command.run([request] { return run_falsecolor(*request); });
 }
 
 }  // namespace stilb::cli

@@ -93,40 +93,37 @@ int run_fit(const FitRequest& request) {
 
 }  // namespace
 
-void add_fit(CLI::App& app, int& exit_code) {
-    CLI::App* command =
-        app.add_subcommand("fit", "A star-shaped mesh as a surface by spherical harmonics, in a small file");
-    set_examples(*command,
-                 "  stilb fit head.ply -o head.json --degree 32\n"
-                 "  stilb fit head.ply -o head.json --degree 64 --plot error.svg\n"
-                 "  stilb fit vase.obj -o vase.json --degree 16 --center 0,0,0.4 --tolerance 2%\n"
-                 "  stilb fit monkey.obj -o monkey.json --degree 32 --force\n");
+void add_fit(CommandLine& line) {
+    Command command =
+        line.add_command("fit", "A star-shaped mesh as a surface by spherical harmonics, in a small file");
+    command.set_examples(
+        "  stilb fit head.ply -o head.json --degree 32\n"
+        "  stilb fit head.ply -o head.json --degree 64 --plot error.svg\n"
+        "  stilb fit vase.obj -o vase.json --degree 16 --center 0,0,0.4 --tolerance 2%\n"
+        "  stilb fit monkey.obj -o monkey.json --degree 32 --force\n");
     auto request = std::make_shared<FitRequest>();
-    command->add_option("MESH", request->mesh, "Mesh (.obj, .ply)")->required();
-    command->add_option("-o,--output", request->output, "Series to write (JSON)")
-        ->required()
-        ->type_name("FILE");
-    command->add_option("--degree", request->degree, "Of the harmonics: (degree + 1)^2 coefficients")
-        ->required()
-        ->check(CLI::Range(0, math::kMostHarmonicDegree))
-        ->type_name("N");
+    command.add("MESH", request->mesh, "Mesh (.obj, .ply)").required();
+    command.add("-o,--output", request->output, "Series to write (JSON)").required().value_name("FILE");
+    command.add("--degree", request->degree, "Of the harmonics: (degree + 1)^2 coefficients")
+        .required()
+        .from_to(0, math::kMostHarmonicDegree)
+        .value_name("N");
     command
-        ->add_option("--center", request->center,
-                     "Point that the radius counts from: x,y,z; auto (default) searches one that all of the "
-                     "surface is seen from")
-        ->type_name("X,Y,Z");
+        .add("--center", request->center,
+             "Point that the radius counts from: x,y,z; auto (default) searches one that all of the "
+             "surface is seen from")
+        .value_name("X,Y,Z");
     command
-        ->add_option(
-            "--tolerance", request->tolerance,
-            "Refuse the mesh if it is not met exactly once in more than this share of the directions "
-            "from the centre: 0.5% (default) or 0.005")
-        ->type_name("SHARE");
-    command->add_flag("--force", request->force,
-                      "Do not refuse: take the outermost surface, close holes by what is next to them");
-    command->add_option("--plot", request->plot, "Draw errors over degrees: .svg or .png")->type_name("FILE");
-    command->add_flag("--json", request->json, "One JSON document instead of the table (docs/fit.md)");
-    command->add_flag("--quiet", request->quiet, "No warnings on stderr");
-    command->callback([request, &exit_code] { exit_code = run_fit(*request); });
+        .add("--tolerance", request->tolerance,
+             "Refuse the mesh if it is not met exactly once in more than this share of the directions "
+             "from the centre: 0.5% (default) or 0.005")
+        .value_name("SHARE");
+    command.add("--force", request->force,
+                "Do not refuse: take the outermost surface, close holes by what is next to them");
+    command.add("--plot", request->plot, "Draw errors over degrees: .svg or .png").value_name("FILE");
+    command.add("--json", request->json, "One JSON document instead of the table (docs/fit.md)");
+    command.add("--quiet", request->quiet, "No warnings on stderr");
+    command.run([request] { return run_fit(*request); });
 }
 
 }  // namespace stilb::cli

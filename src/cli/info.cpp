@@ -29,25 +29,23 @@ InfoReport report_file(const std::string& file) {
 
 }  // namespace
 
-void add_info(CLI::App& app, int& exit_code) {
-    CLI::App* command =
-        app.add_subcommand("info", "What a scene, luminaire or mesh file holds, with warnings");
-    set_examples(*command,
-                 "  stilb info office.toml\n"
-                 "  stilb info downlight.ies\n"
-                 "  stilb info room.obj --json\n");
+void add_info(CommandLine& line) {
+    Command command = line.add_command("info", "What a scene, luminaire or mesh file holds, with warnings");
+    command.set_examples(
+        "  stilb info office.toml\n"
+        "  stilb info downlight.ies\n"
+        "  stilb info room.obj --json\n");
     auto request = std::make_shared<InfoRequest>();
-    command->add_option("FILE", request->file, "Scene (TOML), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
-        ->required();
-    command->add_flag(
-        "--json", request->json,
-        "One JSON document instead: {\"file\", \"materials\", \"objects\", \"lights\", "
-        "\"total_flux_lm\", \"luminaires\", \"sensors\", \"run\", \"warnings\", \"memory\"}, those "
-        "that the file has; units are in the keys");
-    command->callback([request, &exit_code] {
+    command.add("FILE", request->file, "Scene (TOML), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
+        .required();
+    command.add("--json", request->json,
+                "One JSON document instead: {\"file\", \"materials\", \"objects\", \"lights\", "
+                "\"total_flux_lm\", \"luminaires\", \"sensors\", \"run\", \"warnings\", \"memory\"}, those "
+                "that the file has; units are in the keys");
+    command.run([request] {
         const InfoReport report = report_file(request->file);
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
-        exit_code = kExitDone;
+        return kExitDone;
     });
 }
 

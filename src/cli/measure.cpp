@@ -101,28 +101,25 @@ int run_measure(const MeasureRequest& request) {
 
 }  // namespace
 
-void add_measure(CLI::App& app, int& exit_code) {
-    CLI::App* command =
-        app.add_subcommand("measure", "Illuminance at all sensors of a scene, with error bars");
-    set_examples(*command,
-                 "  stilb measure office.toml\n"
-                 "  stilb measure office.toml --error 0.5% --sensor desk\n"
-                 "  stilb measure office.toml --json > office.json\n"
-                 "  stilb measure office.toml --csv results --falsecolor office.png\n");
+void add_measure(CommandLine& line) {
+    Command command = line.add_command("measure", "Illuminance at all sensors of a scene, with error bars");
+    command.set_examples(
+        "  stilb measure office.toml\n"
+        "  stilb measure office.toml --error 0.5% --sensor desk\n"
+        "  stilb measure office.toml --json > office.json\n"
+        "  stilb measure office.toml --csv results --falsecolor office.png\n");
     auto request = std::make_shared<MeasureRequest>();
-    command->add_option("SCENE", request->scene, "Scene file (TOML)")->required();
-    command->add_option("--sensor", request->sensors, "Only this sensor (may be repeated)")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-    command->add_flag("--json", request->json, "One JSON document on stdout instead of the table");
-    command->add_option("--csv", request->csv_directory, "Also a CSV file per sensor into this folder")
-        ->type_name("DIR");
-    command
-        ->add_option("--falsecolor", request->picture,
-                     "Also a false-colour picture of the grids (.png, .svg)")
-        ->type_name("FILE");
-    request->flags.add_to(*command);
-    command->callback([request, &exit_code] { exit_code = run_measure(*request); });
+    command.add("SCENE", request->scene, "Scene file (TOML)").required();
+    command.add("--sensor", request->sensors, "Only this sensor (may be repeated)")
+        .value_name("NAME")
+        .repeatable();
+    command.add("--json", request->json, "One JSON document on stdout instead of the table");
+    command.add("--csv", request->csv_directory, "Also a CSV file per sensor into this folder")
+        .value_name("DIR");
+    command.add("--falsecolor", request->picture, "Also a false-colour picture of the grids (.png, .svg)")
+        .value_name("FILE");
+    request->flags.add_to(command);
+    command.run([request] { return run_measure(*request); });
 }
 
 }  // namespace stilb::cli

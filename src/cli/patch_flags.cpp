@@ -33,11 +33,11 @@ std::optional<Enum> read(const char* flag, const std::optional<std::string>& typ
 
 }  // namespace
 
-void PatchFlags::add_to(CLI::App& command) {
+void PatchFlags::add_to(Command& command) {
     const std::string group =
         "Patches and first shot (ray-bundle, radiosity; path with --first-shot; particles: --patch only)";
     const auto add = [&](const char* name, auto& value, const std::string& text, const char* type) {
-        command.add_option(name, value, text)->type_name(type)->group(group);
+        command.add(name, value, text).value_name(type).heading(group);
     };
     add("--patch", patch_m, "Longest edge of a patch [m] (default: about 10,000 patches)", "SIZE");
     add("--first-shot", first_shot,

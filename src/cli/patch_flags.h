@@ -1,12 +1,12 @@
 // The flags of methods that light patches.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "estimators/estimator_list.h"
 
 namespace stilb::cli {
@@ -16,7 +16,7 @@ struct PatchFlags {
     std::optional<std::string> first_shot, window, visibility, directions;
     std::optional<int> resolution;
 
-    void add_to(CLI::App& command);
+    void add_to(Command& command);
     /// Throws InputError where one of them is given that means nothing to the method, or has no such value.
     estimators::PatchOptions options_for(const std::string& method) const;
     /// What was typed.

@@ -188,37 +188,36 @@ int run_render(RenderRequest request) {
 
 }  // namespace
 
-void add_render(CLI::App& app, const std::string& command_line, int& exit_code) {
-    CLI::App* command =
-        app.add_subcommand("render", "A luminance picture of one camera, with standard errors");
-    set_examples(*command,
-                 "  stilb render office.toml -o office.exr\n"
-                 "  stilb render office.toml -o office.png --time 20 --sensor desk\n"
-                 "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n"
-                 "  stilb render --from office.solution --sensor door -o door.png\n");
+void add_render(CommandLine& line) {
+    Command command = line.add_command("render", "A luminance picture of one camera, with standard errors");
+    command.set_examples(
+        "  stilb render office.toml -o office.exr\n"
+        "  stilb render office.toml -o office.png --time 20 --sensor desk\n"
+        "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n"
+        "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<RenderRequest>();
-    request->command = command_line;
-    command->add_option("SCENE", request->scene, "Scene file (TOML); with --from only where it has moved");
+    command.add("SCENE", request->scene, "Scene file (TOML); with --from only where it has moved");
     command
-        ->add_option("--from", request->solution,
-                     "A solution that `stilb solve` wrote: nothing is computed but what the eye sees of it")
-        ->type_name("FILE");
-    command->add_option("-o,--output", request->output, "Picture to write: .exr, .hdr or .png")
-        ->required()
-        ->type_name("FILE");
-    command->add_option("--sensor", request->sensor, "Which camera, where there are several")
-        ->type_name("NAME");
+        .add("--from", request->solution,
+             "A solution that `stilb solve` wrote: nothing is computed but what the eye sees of it")
+        .value_name("FILE");
+    command.add("-o,--output", request->output, "Picture to write: .exr, .hdr or .png")
+        .required()
+        .value_name("FILE");
+    command.add("--sensor", request->sensor, "Which camera, where there are several").value_name("NAME");
     command
-        ->add_option("--preview", request->preview,
-                     "Also the picture so far, every few seconds (.exr, .hdr or .png)")
-        ->type_name("FILE");
+        .add("--preview", request->preview, "Also the picture so far, every few seconds (.exr, .hdr or .png)")
+        .value_name("FILE");
     command
-        ->add_option("--exposure", request->tone.exposure,
-                     "For .png, per cd/m2: 0.18 over this becomes middle grey (default: by the picture)")
-        ->check(CLI::PositiveNumber)
-        ->type_name("E");
-    request->flags.add_to(*command);
-    command->callback([request, &exit_code] { exit_code = run_render(*request); });
+        .add("--exposure", request->tone.exposure,
+             "For .png, per cd/m2: 0.18 over this becomes middle grey (default: by the picture)")
+        .above_zero()
+        .value_name("E");
+    request->flags.add_to(command);
+    command.run([request, &line] {
+        request->command = line.text();
+        return run_render(*request);
+    });
 }
 
 }  // namespace stilb::cli

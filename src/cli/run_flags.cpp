@@ -18,38 +18,33 @@ constexpr std::int64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
-void RunFlags::add_to(CLI::App& command) {
+void RunFlags::add_to(Command& command) {
     std::string methods = "How to compute (default: auto)";
     for (const estimators::EstimatorEntry& entry : estimators::estimator_list()) {
         methods += fmt::format("\n  {:12} {}", entry.name, entry.summary);
     }
-    command.add_option("--method", method, methods)->type_name("NAME");
-    command
-        .add_option("--bounces", bounces, "At most this many reflections (default: no limit, without bias)")
-        ->type_name("N");
+    command.add("--method", method, methods).value_name("NAME");
+    command.add("--bounces", bounces, "At most this many reflections (default: no limit, without bias)")
+        .value_name("N");
     add_those_of_one_method(command);
 }
 
-void RunFlags::add_those_of_one_method(CLI::App& command) {
+void RunFlags::add_those_of_one_method(Command& command) {
     command
-        .add_option(
-            "--error", error,
-            "Stop when 95 % of each sensor's readings have a 95 % interval within this share of their "
-            "value: 1% or 0.01")
-        ->type_name("SHARE");
-    command.add_option("--time", time_s, "Stop after this many seconds")->type_name("S");
-    command
-        .add_option("--paths", paths, "Stop after this many light chains (method path: paths per reading)")
-        ->check(CLI::Range(std::int64_t{1}, kMostPaths))
-        ->type_name("N");
-    command.add_option("--seed", seed, "Another seed gives an independent result")
-        ->check(CLI::Range(std::int64_t{0}, kGreatestSeed))
-        ->type_name("N");
-    command
-        .add_option("--threads", threads,
-                    "Processor threads (default: all); the result does not depend on it")
-        ->type_name("N");
-    command.add_flag("--quiet", quiet, "No progress, no warnings on stderr");
+        .add("--error", error,
+             "Stop when 95 % of each sensor's readings have a 95 % interval within this share of their "
+             "value: 1% or 0.01")
+        .value_name("SHARE");
+    command.add("--time", time_s, "Stop after this many seconds").value_name("S");
+    command.add("--paths", paths, "Stop after this many light chains (method path: paths per reading)")
+        .from_to(1, kMostPaths)
+        .value_name("N");
+    command.add("--seed", seed, "Another seed gives an independent result")
+        .from_to(0, kGreatestSeed)
+        .value_name("N");
+    command.add("--threads", threads, "Processor threads (default: all); the result does not depend on it")
+        .value_name("N");
+    command.add("--quiet", quiet, "No progress, no warnings on stderr");
     patches.add_to(command);
 }
 

@@ -1,12 +1,12 @@
 // The flags that all commands which compute have in common.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "cli/patch_flags.h"
 #include "run/options.h"
 
@@ -21,9 +21,9 @@ struct RunFlags {
     bool quiet = false;
     PatchFlags patches;
 
-    void add_to(CLI::App& command);
+    void add_to(Command& command);
     /// All but --method and --bounces.
-    void add_those_of_one_method(CLI::App& command);
+    void add_those_of_one_method(Command& command);
     /// What was typed of all but --threads and --quiet.
     std::vector<std::string_view> given() const;
     /// --paths alone drops the file's error and time: so many paths are done, no fewer.

@@ -73,32 +73,31 @@ int run_solve(const SolveRequest& request) {
 
 }  // namespace
 
-void add_solve(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand(
+void add_solve(CommandLine& line) {
+    Command command = line.add_command(
         "solve", "The light of a scene for all eyes at once, as a file that render --from makes pictures of");
-    set_examples(*command,
-                 "  stilb solve office.toml -o office.solution\n"
-                 "  stilb solve office.toml -o office.solution --error 0.5% --patch 0.1\n"
-                 "  stilb render --from office.solution --sensor door -o door.png\n");
+    command.set_examples(
+        "  stilb solve office.toml -o office.solution\n"
+        "  stilb solve office.toml -o office.solution --error 0.5% --patch 0.1\n"
+        "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<SolveRequest>();
-    command->add_option("SCENE", request->scene, "Scene file (TOML)")->required();
-    command->add_option("-o,--output", request->output, "Solution to write")->required()->type_name("FILE");
+    command.add("SCENE", request->scene, "Scene file (TOML)").required();
+    command.add("-o,--output", request->output, "Solution to write").required().value_name("FILE");
     command
-        ->add_option("--degree", request->degree,
-                     fmt::format("Of the functions that keep the light of glossy surfaces (default: {}): "
-                                 "more are sharper, and take more room",
-                                 run::kDefaultDegree))
-        ->check(CLI::Range(0, math::ZernikeBasis::kMostDegree))
-        ->type_name("N");
-    request->flags.add_those_of_one_method(*command);
-    command->get_option("--error")->description(
+        .add("--degree", request->degree,
+             fmt::format("Of the functions that keep the light of glossy surfaces (default: {}): "
+                         "more are sharper, and take more room",
+                         run::kDefaultDegree))
+        .from_to(0, math::ZernikeBasis::kMostDegree)
+        .value_name("N");
+    request->flags.add_those_of_one_method(command);
+    command.find("--error").description(
         "Stop when 95 % of the light falls on sides of patches with a 95 % interval within this share of "
         "their "
         "illuminance: 1% or 0.01");
-    command->get_option("--paths")->description("Stop after this many steps of ray-bundle iteration");
-    command->get_option("--first-shot")
-        ->description("What stands for small lights: incoming (default), none");
-    command->callback([request, &exit_code] { exit_code = run_solve(*request); });
+    command.find("--paths").description("Stop after this many steps of ray-bundle iteration");
+    command.find("--first-shot").description("What stands for small lights: incoming (default), none");
+    command.run([request] { return run_solve(*request); });
 }
 
 }  // namespace stilb::cli

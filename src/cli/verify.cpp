@@ -213,30 +213,28 @@ int run_verify(const VerifyRequest& request) {
 
 }  // namespace
 
-void add_verify(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("verify", "Hold every method against the exact solutions");
-    set_examples(*command,
-                 "  stilb verify\n"
-                 "  stilb verify --error 0.2%\n"
-                 "  stilb verify --case \"photometric sphere\" --method auto --all\n");
+void add_verify(CommandLine& line) {
+    Command command = line.add_command("verify", "Hold every method against the exact solutions");
+    command.set_examples(
+        "  stilb verify\n"
+        "  stilb verify --error 0.2%\n"
+        "  stilb verify --case \"photometric sphere\" --method auto --all\n");
     auto request = std::make_shared<VerifyRequest>();
-    command->add_option("--case", request->cases, "Only this exact solution (may be repeated)")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-    command->add_option("--method", request->methods, "Only this method (may be repeated)")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--error", request->error, "How wide the 95 % interval of a reading may be: 1% or 0.01")
-        ->type_name("SHARE")
-        ->capture_default_str();
-    command->add_option("--time", request->time_s, "At most this many seconds for a case and method")
-        ->type_name("S");
-    command->add_option("--seed", request->seed, "Another seed gives an independent result")->type_name("N");
-    command->add_option("--threads", request->threads, "Processor threads (default: all)")->type_name("N");
-    command->add_flag("--all", request->all, "Show all readings, not only the worst of each row");
-    command->add_flag("--json", request->json, "One JSON document on stdout instead of the table");
-    command->callback([request, &exit_code] { exit_code = run_verify(*request); });
+    command.add("--case", request->cases, "Only this exact solution (may be repeated)")
+        .value_name("NAME")
+        .repeatable();
+    command.add("--method", request->methods, "Only this method (may be repeated)")
+        .value_name("NAME")
+        .repeatable();
+    command.add("--error", request->error, "How wide the 95 % interval of a reading may be: 1% or 0.01")
+        .value_name("SHARE")
+        .show_default();
+    command.add("--time", request->time_s, "At most this many seconds for a case and method").value_name("S");
+    command.add("--seed", request->seed, "Another seed gives an independent result").value_name("N");
+    command.add("--threads", request->threads, "Processor threads (default: all)").value_name("N");
+    command.add("--all", request->all, "Show all readings, not only the worst of each row");
+    command.add("--json", request->json, "One JSON document on stdout instead of the table");
+    command.run([request] { return run_verify(*request); });
 }
 
 }  // namespace stilb::cli

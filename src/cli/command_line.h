@@ -1,0 +1,90 @@
+// Commands and their flags. CLI11 is behind it, and nothing else includes it: each file that does takes
+// seconds to compile.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace stilb::cli {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitCheckFailed = 1;
+inline constexpr int kExitWrongInput = 2;
+inline constexpr int kExitStoppedEarly = 3;
+
+/// A flag or argument of a command, to say more of it.
+class Flag {
+  public:
+    explicit Flag(CLI::Option& option) : option_(&option) {}
+
+    Flag& required();
+    /// What stands for the value in --help, such as "FILE".
+    Flag& value_name(const std::string& name);
+    /// The heading in --help that it stands under.
+    Flag& heading(const std::string& text);
+    Flag& description(const std::string& text);
+    Flag& from_to(std::int64_t least, std::int64_t greatest);
+    Flag& above_zero();
+    /// Takes one value each time it is given, and may be repeated.
+    Flag& repeatable();
+    /// --help shows the value that the variable has now.
+    Flag& show_default();
+
+  private:
+    CLI::Option* option_;
+};
+
+/// One command. The variables outlive the parsing of the command line.
+class Command {
+  public:
+    explicit Command(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}
+
+    /// Examples, one a line, which --help prints before everything else.
+    void set_examples(const std::string& examples);
+    /// An argument ("SCENE") or a flag with a value ("-o,--output"). T: bool for a flag without a value,
+    /// std::string, int, double, std::uint64_t, std::optional of these, std::vector<std::string>.
+    template <typename T>
+    Flag add(const std::string& names, T& value, const std::string& description);
+    /// A flag without a value that calls `set`.
+    void add_switch(const std::string& names, std::function<void()> set, const std::string& description);
+    /// One that was added before.
+    Flag find(const std::string& name);
+    /// Runs when the command was chosen; returns the exit code.
+    void run(std::function<int()> command);
+
+  private:
+    CLI::App* app_;
+    int* exit_code_;
+};
+
+/// All commands of the program.
+class CommandLine {
+  public:
+    CommandLine();
+    ~CommandLine();
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+
+    Command add_command(const std::string& name, const std::string& summary);
+    /// Parses the arguments and runs the chosen command; returns the program's exit code. Throws InputError
+    /// where there is no such command, and whatever the command throws.
+    int run(int argument_count, const char* const* arguments);
+    /// As typed, for the headers of files.
+    const std::string& text() const { return text_; }
+
+  private:
+    std::unique_ptr<CLI::App> app_;
+    std::string text_;
+    int exit_code_ = kExitDone;
+};
+
+}  // namespace stilb::cli
