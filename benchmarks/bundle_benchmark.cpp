@@ -13,8 +13,8 @@
 
 #include "base/error.h"
 #include "best_time.h"
+#include "patches/visibility/bundle.h"
 #include "patches/visibility/opengl_bundles.h"
-#include "patches/visibility/ray_bundles.h"
 #include "rooms.h"
 
 namespace stilb {

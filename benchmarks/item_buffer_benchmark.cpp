@@ -10,9 +10,9 @@
 #include "base/error.h"
 #include "best_time.h"
 #include "patches/vertex_interpolation.h"
+#include "patches/visibility/item_buffer.h"
 #include "patches/visibility/opengl_item_buffers.h"
 #include "patches/visibility/patch_caster.h"
-#include "patches/visibility/ray_item_buffers.h"
 #include "rooms.h"
 
 namespace stilb {

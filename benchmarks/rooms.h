@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "math/sample_stream.h"
+#include "math/random.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "io/image/hdr_file.h"
+#include "io/image/picture_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     stilb::io::Picture picture;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/text/table.h"
-#include "plot/series.h"
+#include "plot/plot.h"
 #include "run/run.h"
 
 namespace stilb::papers {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "base/bounds.h"
+#include "base/vec.h"
 #include "io/scene/scene_file.h"
 #include "papers/paper_room.h"
 #include "rays/ray_caster.h"

@@ -13,12 +13,12 @@
 #include "cli/rendered_picture.h"
 #include "io/image/picture_file.h"
 #include "io/mesh/mesh_file.h"
-#include "io/text/write_file.h"
+#include "io/text/table.h"
 #include "papers/head_in_room.h"
 #include "papers/head_report.h"
 #include "papers/head_shape.h"
 #include "papers/reproduce.h"
-#include "plot/picture_sheet.h"
+#include "plot/canvas.h"
 
 namespace stilb::papers {
 namespace {

@@ -11,9 +11,9 @@
 #include "papers/estimate_series.h"
 #include "papers/multiply_reflected.h"
 #include "papers/reproduce.h"
-#include "plot/polar_plot.h"
+#include "plot/plot.h"
 #include "sensors/goniometer.h"
-#include "verification/sobolev_scene.h"
+#include "verification/sobolev.h"
 
 namespace stilb::papers {
 namespace {

@@ -11,7 +11,7 @@
 #include "papers/estimate_series.h"
 #include "papers/reproduce.h"
 #include "plot/plot.h"
-#include "verification/sobolev_scene.h"
+#include "verification/sobolev.h"
 
 namespace stilb::papers {
 namespace {

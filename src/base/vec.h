@@ -1,8 +1,10 @@
 // Vectors in three dimensions, in double precision; single precision exists only inside the ray caster.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace stilb {
 
@@ -63,6 +65,24 @@ struct Frame {
     }
     Vec3 to_world(const Vec3& local) const { return local.x * u + local.y * v + local.z * w; }
     Vec3 to_local(const Vec3& world) const { return {dot(world, u), dot(world, v), dot(world, w)}; }
+};
+
+// Axis-parallel bounding boxes.
+
+struct Bounds {
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Vec3 min{kInfinity, kInfinity, kInfinity};
+    Vec3 max{-kInfinity, -kInfinity, -kInfinity};
+
+    constexpr bool is_empty() const { return min.x > max.x; }
+    /// Half of the longest edge; 0 where there is nothing.
+    constexpr double half_extent() const {
+        return is_empty() ? 0 : std::max({max.x - min.x, max.y - min.y, max.z - min.z}) / 2;
+    }
+    constexpr void include(const Vec3& p) {
+        min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+        max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+    }
 };
 
 }  // namespace stilb

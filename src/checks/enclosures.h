@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/connected_components.h"
+#include "geometry/mesh_topology.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
 

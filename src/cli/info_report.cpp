@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "base/bounds.h"
-#include "checks/holes.h"
-#include "checks/overlaps.h"
+#include "base/vec.h"
 #include "checks/placement.h"
+#include "checks/surfaces.h"
 #include "checks/unlit.h"
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/mesh_file.h"

@@ -15,7 +15,7 @@
 #include "io/results/solution_file.h"
 #include "io/scene/scene_file.h"
 #include "io/text/content_hash.h"
-#include "io/text/write_file.h"
+#include "io/text/table.h"
 #include "math/zernike.h"
 
 namespace stilb::cli {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/mesh_edges.h"
+#include "geometry/mesh_topology.h"
 
 namespace stilb::fit {
 namespace {

@@ -1,9 +1,10 @@
 // Points from which a mesh is star-shaped: rays from there meet it once.
 #pragma once
 
-#include "base/bounds.h"
+#include <span>
+
 #include "base/vec.h"
-#include "fit/radial_caster.h"
+#include "fit/star_survey.h"
 
 namespace stilb::fit {
 
@@ -28,5 +29,25 @@ double superfluous_crossings(const Mesh& mesh, const Vec3& from);
 /// one that is farthest from the surface. It is searched within the bounding box, from the middle of the
 /// volume and from that of the ball. Fronts are outside; `caster` is that of the same mesh.
 StarCenter find_star_center(const Mesh& mesh, const RadialCaster& caster);
+
+// The largest ball behind planes: a linear programme in its centre and radius.
+
+/// The points x with dot(normal, x) <= offset; `normal` is a unit vector.
+struct HalfSpace {
+    Vec3 normal;
+    double offset = 0;
+};
+
+/// `radius` may be negative: then no point is behind all planes, and the centre is the one that is least far
+/// before any.
+struct InnerBall {
+    Vec3 center;
+    double radius = 0;
+};
+
+/// The greatest radius with dot(normal, center) + radius <= offset for all walls. It lies among the points
+/// within `reach` of the origin, or little farther where the walls leave it open. The radius is true of the
+/// centre, and the greatest but for 1e-6 of `reach`.
+InnerBall largest_ball(std::span<const HalfSpace> walls, double reach);
 
 }  // namespace stilb::fit

@@ -4,8 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/bounds.h"
-#include "geometry/harmonics/area.h"
+#include "base/vec.h"
 #include "geometry/harmonics/cells.h"
 #include "geometry/harmonics/surface.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/bounds.h"
+#include "base/vec.h"
 
 namespace stilb::math {
 namespace {

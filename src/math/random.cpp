@@ -1,6 +1,10 @@
+
 #include "math/random.h"
 
 #include <Random123/philox.h>
+
+#include <bit>
+#include <boost/random/detail/sobol_table.hpp>
 
 namespace stilb::math {
 
@@ -17,6 +21,88 @@ RandomKey RandomKey::derived(std::uint64_t part) const {
     constexpr std::uint64_t derivation = ~std::uint64_t{0};  // a block that no stream reaches
     const auto words = random_block(*this, part, derivation);
     return {words[0] | std::uint64_t{words[1]} << 32};
+}
+
+namespace {
+
+constexpr unsigned kBits = 32;
+/// direction_numbers[dimension][k] is what bit k of the index contributes.
+using DirectionNumbers = std::array<std::array<std::uint32_t, kBits>, kSobolDimensions>;
+
+/// The recurrence of Bratley and Fox 1988 on the primitive polynomials and initial numbers of Joe and Kuo.
+DirectionNumbers make_direction_numbers() {
+    using Table = boost::random::detail::qrng_tables::sobol;
+    DirectionNumbers numbers{};
+    for (unsigned k = 0; k < kBits; ++k) numbers[0][k] = 1u << (kBits - 1 - k);
+    for (unsigned dimension = 1; dimension < kSobolDimensions; ++dimension) {
+        auto& v = numbers[dimension];
+        const std::uint32_t polynomial = Table::polynomial(dimension - 1);
+        const unsigned degree = static_cast<unsigned>(std::bit_width(polynomial)) - 1;
+        for (unsigned k = 0; k < kBits; ++k) {
+            if (k < degree) {
+                v[k] = std::uint32_t{Table::minit(dimension - 1, k)} << (kBits - 1 - k);
+                continue;
+            }
+            v[k] = v[k - degree] ^ (v[k - degree] >> degree);
+            for (unsigned j = 1; j < degree; ++j) {
+                if ((polynomial >> (degree - j)) & 1u) v[k] ^= v[k - j];
+            }
+        }
+    }
+    return numbers;
+}
+
+const DirectionNumbers& direction_numbers() {
+    static const DirectionNumbers numbers = make_direction_numbers();
+    return numbers;
+}
+
+std::uint32_t reversed_bits(std::uint32_t x) {
+    x = __builtin_bswap32(x);
+    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
+    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
+    return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
+}
+
+/// A random permutation in which a bit influences only higher bits: on reversed fractions that is Owen's
+/// nested scrambling. Multipliers: Vegdahl's, chosen there for small bias.
+std::uint32_t permuted_upwards(std::uint32_t x, std::uint32_t seed) {
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+}  // namespace
+
+std::uint32_t sobol(std::uint32_t index, unsigned dimension) {
+    const auto& numbers = direction_numbers()[dimension];
+    std::uint32_t result = 0;
+    for (; index != 0; index &= index - 1) result ^= numbers[std::countr_zero(index)];
+    return result;
+}
+
+std::uint32_t scrambled_sobol(std::uint32_t index, unsigned dimension, std::uint32_t scramble) {
+    return reversed_bits(permuted_upwards(reversed_bits(sobol(index, dimension)), scramble));
+}
+
+SampleStream SampleStream::continued(RandomKey key) const {
+    SampleStream stream(key, index_, sobol_dimensions_);
+    stream.dimension_ = (dimension_ + 3) / 4 * 4;  // words are drawn four at a time
+    return stream;
+}
+
+std::array<std::uint32_t, 4> SampleStream::words_from(unsigned dimension) const {
+    if (dimension >= sobol_dimensions_) return random_block(key_, index_, dimension / 4);
+    // Four dimensions' scrambles come from one block, which belongs to the key alone, not to the index.
+    constexpr std::uint64_t scrambles = ~std::uint64_t{0} - 1;
+    std::array<std::uint32_t, 4> words = random_block(key_, scrambles, dimension / 4);
+    for (unsigned lane = 0; lane < 4; ++lane) {
+        words[lane] = scrambled_sobol(static_cast<std::uint32_t>(index_), dimension + lane, words[lane]);
+    }
+    return words;
 }
 
 }  // namespace stilb::math

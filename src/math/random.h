@@ -21,4 +21,54 @@ std::array<std::uint32_t, 4> random_block(RandomKey key, std::uint64_t index, st
 /// A number in [0, 1) on the grid of 2^-32.
 constexpr double unit_interval(std::uint32_t word) { return word * 0x1p-32; }
 
+// The numbers that one sample (a chain, a path, a direction) is made from: scrambled Sobol' points in the
+// first dimensions, where smoothness pays, and counter-based random numbers behind them.
+
+/// Coordinate `dimension` of Sobol' point `index` [Joe and Kuo 2008], scrambled after Owen by hashing under
+/// `scramble` [Laine and Karras 2011; Burley 2020], as a 32-bit fraction. Every point by itself is uniform.
+std::uint32_t scrambled_sobol(std::uint32_t index, unsigned dimension, std::uint32_t scramble);
+
+/// Unscrambled coordinate, as a 32-bit fraction.
+std::uint32_t sobol(std::uint32_t index, unsigned dimension);
+
+/// Dimensions that come from Sobol' points; later ones are random.
+inline constexpr unsigned kSobolDimensions = 32;
+
+/// The coordinates of point `index`, one after another. Streams of different keys are independent; the points
+/// of one key, index 0, 1, 2 ..., are a scrambled low-discrepancy sequence.
+class SampleStream {
+  public:
+    /// Fewer Sobol' dimensions where points are too few for the later ones to matter, and time counts.
+    SampleStream(RandomKey key, std::uint64_t index, unsigned sobol_dimensions = kSobolDimensions)
+        : key_(key), index_(index), sobol_dimensions_(sobol_dimensions) {}
+
+    /// What comes after the dimensions drawn so far, under another key: for points that share their first
+    /// dimensions. (A new stream of the same index would repeat the point's first dimensions, not independent
+    /// of these.)
+    SampleStream continued(RandomKey key) const;
+
+    /// Uniform in [0, 1).
+    double next() {
+        const unsigned dimension = dimension_++;
+        const unsigned lane = dimension % 4;
+        if (lane == 0) words_ = words_from(dimension);
+        return unit_interval(words_[lane]);
+    }
+    /// Two coordinates, in the order drawn.
+    std::array<double, 2> next_two() {
+        const double first = next();
+        return {first, next()};
+    }
+
+  private:
+    /// Of four dimensions.
+    std::array<std::uint32_t, 4> words_from(unsigned dimension) const;
+
+    RandomKey key_;
+    std::uint64_t index_;
+    unsigned sobol_dimensions_;  ///< a multiple of 4
+    unsigned dimension_ = 0;
+    std::array<std::uint32_t, 4> words_{};
+};
+
 }  // namespace stilb::math

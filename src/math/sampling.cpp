@@ -1,9 +1,12 @@
+
 #include "math/sampling.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace stilb::math {
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -54,6 +57,26 @@ DirectionSample sample_cosine_power(double exponent, double u1, double u2) {
 Barycentric sample_triangle(double u1, double u2) {
     const double root = std::sqrt(u1);
     return {1 - root, root * (1 - u2), root * u2};
+}
+
+DiscreteDistribution::DiscreteDistribution(std::span<const double> weights) : cumulative_(weights.size()) {
+    std::partial_sum(weights.begin(), weights.end(), cumulative_.begin());
+}
+
+DiscreteDistribution::Choice DiscreteDistribution::choose(double u) const {
+    if (cumulative_.size() == 1) return {0, 1, u};
+    const double target = u * total();
+    // upper_bound passes over entries of weight zero: it finds the first sum that is greater.
+    auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);
+    if (found == cumulative_.end()) found = std::lower_bound(cumulative_.begin(), cumulative_.end(), total());
+    const double below = found == cumulative_.begin() ? 0 : *(found - 1);
+    const double weight = *found - below;
+    const double remainder = std::clamp((target - below) / weight, 0.0, std::nextafter(1.0, 0.0));
+    return {static_cast<std::size_t>(found - cumulative_.begin()), weight / total(), remainder};
+}
+
+double DiscreteDistribution::probability(std::size_t index) const {
+    return (cumulative_[index] - (index == 0 ? 0 : cumulative_[index - 1])) / total();
 }
 
 }  // namespace stilb::math

@@ -1,7 +1,10 @@
 // Directions and points drawn from two numbers in [0, 1), each with its density next to it.
 #pragma once
 
+#include <cstddef>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "base/vec.h"
 
@@ -42,5 +45,29 @@ struct Barycentric {
     double b0 = 0, b1 = 0, b2 = 0;
 };
 Barycentric sample_triangle(double u1, double u2);
+
+// Choosing one of several by weight.
+
+/// Draws indices in proportion to fixed weights, by inversion: neighbouring numbers give neighbouring
+/// indices, and what is left of the number can be used again.
+class DiscreteDistribution {
+  public:
+    DiscreteDistribution() = default;
+    /// Weights are finite, none is negative, at least one is positive.
+    explicit DiscreteDistribution(std::span<const double> weights);
+
+    struct Choice {
+        std::size_t index = 0;
+        double probability = 1;
+        double remainder = 0;  ///< uniform in [0, 1), independent of the choice
+    };
+    Choice choose(double u) const;
+    double probability(std::size_t index) const;
+
+    double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
+
+  private:
+    std::vector<double> cumulative_;
+};
 
 }  // namespace stilb::math

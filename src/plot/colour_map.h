@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "io/image/colour.h"
+#include "io/image/tone_curve.h"
 
 namespace stilb::plot {
 

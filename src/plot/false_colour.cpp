@@ -8,7 +8,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "plot/axis_drawing.h"
+#include "plot/axis.h"
 #include "plot/canvas.h"
 #include "plot/false_colour_painter.h"
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plot/axis_drawing.h"
+#include "plot/axis.h"
 #include "plot/isolines.h"
-#include "plot/label_placer.h"
 
 namespace stilb::plot {
 namespace {

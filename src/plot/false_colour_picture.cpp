@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plot/axis_drawing.h"
+#include "plot/axis.h"
 #include "plot/canvas.h"
 #include "plot/false_colour_painter.h"
 

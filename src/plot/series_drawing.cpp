@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "plot/axis_drawing.h"
+#include "plot/axis.h"
 
 namespace stilb::plot {
 namespace {

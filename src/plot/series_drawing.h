@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "plot/canvas.h"
-#include "plot/series.h"
+#include "plot/plot.h"
 
 namespace stilb::plot {
 

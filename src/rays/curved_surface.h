@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "base/bounds.h"
 #include "base/ray_packet.h"
+#include "base/vec.h"
 #include "geometry/shape.h"
 
 namespace stilb::rays {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "base/bounds.h"
+#include "base/vec.h"
 #include "rays/embree_context.h"
 #include "rays/embree_geometry.h"
 

@@ -16,7 +16,7 @@
 #include "checks/placement.h"
 #include "estimators/estimator_list.h"
 #include "estimators/patch_light/solution_picture.h"
-#include "math/sample_stream.h"
+#include "math/random.h"
 #include "run/clock.h"
 #include "run/remaining_time.h"
 #include "run/threads.h"

@@ -16,7 +16,7 @@
 #include "run/clock.h"
 #include "run/remaining_time.h"
 #include "run/threads.h"
-#include "statistics/heavy_tail.h"
+#include "statistics/interval.h"
 #include "statistics/stopping.h"
 #include "transport/line_of_sight.h"
 

@@ -21,7 +21,7 @@
 #include <limits>
 #include <vector>
 
-#include "statistics/replicate_moments.h"
+#include "statistics/interval.h"
 
 namespace stilb::statistics {
 namespace {

@@ -2,7 +2,9 @@
 // well.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -46,5 +48,37 @@ std::vector<Estimate> estimate_readings(const ReplicateTable& table, double conf
 /// Half the interval's width over the value: 0 where both are 0 (a dark point is known exactly), infinite
 /// where only the value is 0.
 double relative_half_width(const Estimate& estimate);
+
+// Means and standard errors over a table's replicates, all readings at once.
+
+struct ReplicateMoments {
+    std::vector<double> means, standard_errors;  ///< one per reading
+};
+
+/// Throws std::invalid_argument for fewer than two replicates or a table whose size is no multiple of its
+/// readings.
+ReplicateMoments compute_replicate_moments(const ReplicateTable& table);
+
+/// Standard errors over the replicates r of the readings' mean residuals (x_rj - mean_j) - slope_j *
+/// common_r, where the residuals `common` have mean 0 over the replicates.
+std::vector<double> residual_standard_errors(const ReplicateTable& table, std::span<const double> means,
+                                             std::span<const double> slopes, std::span<const double> common);
+
+// Whether single contributions carry so much of a sum that its interval cannot be trusted.
+
+/// The share of a sum of `count` independent contributions that its largest one may have: 1/sqrt(count).
+///
+/// Where the contributions' variance is finite, the largest one's share times sqrt(count) falls to 0 as they
+/// become more; where it is infinite (tails of index below 2, such as local estimation has in corners), it
+/// grows without limit. At this share the largest contribution alone moves the sum by the standard error of
+/// contributions that vary as much as their mean. A fixed share would miss slowly converging sums at large
+/// counts and blame small counts for nothing.
+inline double heavy_tail_share(std::uint64_t count) { return 1 / std::sqrt(static_cast<double>(count)); }
+
+/// Whether the result deserves a warning. A sum of 0 does not; `count` counts the contributions that are 0
+/// too.
+inline bool is_heavy_tailed(double largest, double sum, std::uint64_t count) {
+    return std::abs(largest) > heavy_tail_share(count) * std::abs(sum);
+}
 
 }  // namespace stilb::statistics

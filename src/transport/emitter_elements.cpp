@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/harmonics/area.h"
+#include "geometry/harmonics/cells.h"
 #include "geometry/harmonics/surface.h"
 #include "lights/solid_angle.h"
 #include "math/sampling.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/bounds.h"
+#include "base/vec.h"
 #include "math/sampling.h"
 
 namespace stilb::transport {

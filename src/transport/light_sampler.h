@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "math/discrete.h"
-#include "math/sample_stream.h"
+#include "math/random.h"
+#include "math/sampling.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
 #include "transport/emitter_elements.h"

@@ -1,3 +1,6 @@
+
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -5,10 +8,12 @@
 #include <utility>
 
 #include "exact/configuration_factors.h"
-#include "verification/case_families.h"
-#include "verification/case_scenes.h"
+#include "exact/pane.h"
+#include "io/mesh/mesh_file.h"
+#include "verification/verification_cases.h"
 
 namespace stilb::verification {
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -80,6 +85,95 @@ VerificationCase sphere_source_case() {
 
 std::vector<VerificationCase> source_cases() {
     return {point_source_case(), rectangle_source_case(), disk_source_case(), sphere_source_case()};
+}
+
+namespace {
+
+constexpr double kLuminance = 1000;
+constexpr double kReflectance = 0.85;
+constexpr exact::PaneOptics kPane{1.52, 0.96};
+
+/// What all meters look at: every source has its front there, upwards.
+constexpr Vec3 kTarget{0.05, 0.03, 0};
+
+enum class Back { dark, bright };
+
+/// Unit, `polar_deg` from the vertical.
+Vec3 direction_at(double polar_deg, double azimuth_deg) {
+    constexpr double degree = std::numbers::pi / 180;
+    const double sine = std::sin(polar_deg * degree);
+    return {sine * std::cos(azimuth_deg * degree), sine * std::sin(azimuth_deg * degree),
+            std::cos(polar_deg * degree)};
+}
+
+LineOfSight towards(const Vec3& target, const Vec3& from_there, double distance_m) {
+    return {target + distance_m * from_there, -from_there};
+}
+
+void add_straight(VerificationCase& result, Back back) {
+    for (const double azimuth_deg : {10.0, 130.0, 250.0}) {
+        result.readings.push_back({towards(kTarget, direction_at(50, azimuth_deg), 2), kLuminance});
+    }
+    result.readings.push_back({towards(kTarget, {0, 0, -1}, 2), back == Back::bright ? kLuminance : 0});
+}
+
+/// A small mirror in the way from the source, and a meter that looks into it.
+void add_in_mirror(VerificationCase& result) {
+    const Vec3 to_mirror = direction_at(40, 0), to_meter = direction_at(80, 90);
+    const Vec3 middle = kTarget + to_mirror;
+    add_object(result.scene, Disk{middle, normalized(to_meter - to_mirror), 0.05},
+               Mirror{Rgb::grey(kReflectance)});
+    result.readings.push_back({towards(middle, to_meter, 0.7), kReflectance * kLuminance});
+}
+
+void add_through_pane(VerificationCase& result, double azimuth_deg, double angle_deg) {
+    const Vec3 to_meter = direction_at(35, azimuth_deg);
+    const Vec3 across = normalized(cross(to_meter, {0, 0, 1}));
+    const double angle_rad = angle_deg * std::numbers::pi / 180;
+    const Vec3 normal = std::cos(angle_rad) * to_meter + std::sin(angle_rad) * across;
+    add_object(result.scene, Disk{kTarget + 0.8 * to_meter, normal, 0.1},
+               ThinDielectric{kPane.ior, Rgb::grey(kPane.internal_transmittance)});
+    result.readings.push_back(
+        {towards(kTarget, to_meter, 1.5), exact::pane_transmittance(kPane, angle_rad) * kLuminance});
+}
+
+VerificationCase seen_source_case(const std::string& shape_name, const Shape& shape, Back back) {
+    VerificationCase result{"seen source", shape_name, {}, {}};
+    result.note = fmt::format(
+        "straight, from behind, in a mirror of {}, and through a pane (ior {}, internal\n"
+        "  transmittance {}) at 0 and 60 degrees.",
+        kReflectance, kPane.ior, kPane.internal_transmittance);
+    add_area_light(result.scene, add_object(result.scene, shape, Black{}), kLuminance);
+    add_straight(result, back);
+    add_in_mirror(result);
+    add_through_pane(result, 180, 0);
+    add_through_pane(result, 270, 60);
+    return result;
+}
+
+/// A flat roof of four triangles.
+Mesh roof() {
+    return {{{-0.3, -0.3, -0.1}, {0.3, -0.3, -0.1}, {0.3, 0.3, -0.1}, {-0.3, 0.3, -0.1}, {0, 0, 0}},
+            {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
+}
+
+Mesh l_shaped_polygon() {
+    const std::vector<Vec3> corners{{-0.1, -0.1, 0}, {0.4, -0.1, 0}, {0.4, 0.1, 0},
+                                    {0.1, 0.1, 0},   {0.1, 0.4, 0},  {-0.1, 0.4, 0}};
+    return {corners, io::triangulate_polygon(corners)};
+}
+
+}  // namespace
+
+std::vector<VerificationCase> seen_source_cases() {
+    return {
+        seen_source_case("rectangle", Rectangle{{-0.5, -0.3, 0}, {1, 0, 0}, {0.2, 0.6, 0}}, Back::dark),
+        seen_source_case("disk", Disk{{}, {0, 0, 1}, 0.4}, Back::dark),
+        seen_source_case("polygon", l_shaped_polygon(), Back::dark),
+        seen_source_case("mesh", roof(), Back::dark),
+        seen_source_case("box", Box{{-0.3, -0.2, -0.1}, {0.3, 0.2, 0}}, Back::bright),
+        seen_source_case("sphere", Sphere{{0, 0, -0.3}, 0.3}, Back::bright),
+    };
 }
 
 }  // namespace stilb::verification

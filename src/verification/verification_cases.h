@@ -1,6 +1,7 @@
 // Scenes whose illuminance or luminance is known exactly, for `stilb verify`.
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -34,5 +35,29 @@ struct VerificationCase {
 };
 
 std::vector<VerificationCase> verification_cases();
+
+// The verification cases by the exact solutions that they are of.
+
+std::vector<VerificationCase> sobolev_cases();
+std::vector<VerificationCase> sphere_cases();
+std::vector<VerificationCase> furnace_cases();
+/// Elements lit by single sources.
+std::vector<VerificationCase> source_cases();
+/// Single sources that are looked at, straight, in a mirror and through a pane.
+std::vector<VerificationCase> seen_source_cases();
+
+// What the verification cases' scenes are made of.
+
+/// Directions each turned by it against the last never line up.
+inline constexpr double kGoldenAngle = 2 * std::numbers::pi * (2 - std::numbers::phi);
+
+MaterialId add_material(Scene& scene, const Material& material);
+ObjectId add_object(Scene& scene, const Shape& shape, const Material& material);
+void add_area_light(Scene& scene, ObjectId object, double luminance_cd_m2);
+
+inline Diffuse diffuse(double reflectance) { return {Rgb::grey(reflectance)}; }
+
+/// `count` unit vectors spread evenly over the sphere: a Fibonacci spiral, from +z to -z.
+std::vector<Vec3> spread_directions(int count);
 
 }  // namespace stilb::verification

@@ -4,8 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "exact/furnace.h"
-#include "exact/photometric_sphere.h"
+#include "exact/closed_rooms.h"
 #include "exact/sobolev.h"
 #include "run/run.h"
 #include "support/scene_builder.h"

@@ -1,8 +1,8 @@
-#include "checks/holes.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "checks/surfaces.h"
 
 namespace stilb::checks {
 namespace {

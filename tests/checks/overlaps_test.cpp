@@ -1,6 +1,6 @@
-#include "checks/overlaps.h"
-
 #include <gtest/gtest.h>
+
+#include "checks/surfaces.h"
 
 namespace stilb::checks {
 namespace {

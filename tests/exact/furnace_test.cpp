@@ -1,9 +1,9 @@
-#include "exact/furnace.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <stdexcept>
+
+#include "exact/closed_rooms.h"
 
 namespace stilb::exact {
 namespace {

@@ -1,11 +1,10 @@
-#include "exact/photometric_sphere.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "exact/closed_rooms.h"
 #include "exact/quadrature.h"
 
 namespace stilb::exact {

@@ -1,5 +1,3 @@
-#include "exact/two_surfaces.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "exact/closed_rooms.h"
 #include "exact/configuration_factors.h"
 #include "exact/quadrature.h"
 

@@ -1,11 +1,10 @@
-#include "fit/largest_ball.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "fit/star_center.h"
 #include "support/harmonic_shapes.h"
 
 namespace stilb::fit {

@@ -1,6 +1,6 @@
-#include "geometry/connected_components.h"
-
 #include <gtest/gtest.h>
+
+#include "geometry/mesh_topology.h"
 
 namespace stilb::geometry {
 namespace {

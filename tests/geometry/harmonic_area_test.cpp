@@ -4,7 +4,7 @@
 #include <memory>
 #include <numbers>
 
-#include "geometry/harmonics/area.h"
+#include "geometry/harmonics/cells.h"
 #include "geometry/harmonics/surface.h"
 #include "geometry/transform.h"
 #include "support/harmonic_shapes.h"

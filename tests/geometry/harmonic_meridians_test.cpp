@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/harmonics/meridian_series.h"
+#include "geometry/harmonics/surface.h"
 #include "support/harmonic_shapes.h"
 
 namespace stilb::geometry {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "io/text/write_file.h"
+#include "io/text/table.h"
 
 namespace stilb::io {
 namespace {

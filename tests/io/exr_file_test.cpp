@@ -1,5 +1,3 @@
-#include "io/image/exr_file.h"
-
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -15,6 +13,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "io/image/picture_file.h"
 #include "io/sample_picture.h"
 
 namespace stilb::io {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/text/write_file.h"
+#include "io/text/table.h"
 #include "math/spherical_harmonics.h"
 
 namespace stilb::io {

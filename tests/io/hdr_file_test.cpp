@@ -1,11 +1,10 @@
-#include "io/image/hdr_file.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "io/image/picture_file.h"
 #include "io/sample_picture.h"
 
 namespace stilb::io {

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "io/sample_picture.h"
-#include "io/text/write_file.h"
+#include "io/text/table.h"
 #include "support/picture_pixels.h"
 
 namespace stilb::io {

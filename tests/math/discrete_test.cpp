@@ -1,7 +1,6 @@
-#include "math/discrete.h"
-
 #include <gtest/gtest.h>
 
+#include "math/sampling.h"
 #include "statistics/hypothesis.h"
 #include "support/random_pairs.h"
 

@@ -1,5 +1,3 @@
-#include "math/sample_stream.h"
-
 #include <gtest/gtest.h>
 
 #include <boost/random/sobol.hpp>
@@ -7,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "math/random.h"
 #include "statistics/hypothesis.h"
 #include "statistics/moments.h"
 

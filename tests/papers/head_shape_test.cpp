@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "fit/mesh_fit.h"
-#include "geometry/harmonics/parallel_grid.h"
+#include "geometry/harmonics/surface.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh_checks.h"
 

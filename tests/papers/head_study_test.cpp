@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/bounds.h"
+#include "base/vec.h"
 #include "papers/head_in_room.h"
 #include "papers/head_report.h"
 #include "papers/head_shape.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/sobolev_scene.h"
+#include "verification/sobolev.h"
 
 namespace stilb::papers {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "patches/visibility/buffer_backend.h"
-#include "patches/visibility/opengl_context.h"
+#include "patches/visibility/opengl_patches.h"
 
 namespace stilb::patches {
 

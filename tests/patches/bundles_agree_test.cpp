@@ -8,8 +8,8 @@
 
 #include "patches/backends.h"
 #include "patches/rooms.h"
+#include "patches/visibility/bundle.h"
 #include "patches/visibility/opengl_bundles.h"
-#include "patches/visibility/ray_bundles.h"
 
 namespace stilb::patches {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "geometry/harmonics/surface.h"
-#include "geometry/mesh_edges.h"
+#include "geometry/mesh_topology.h"
 #include "support/closed_meshes.h"
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"

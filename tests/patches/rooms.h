@@ -1,7 +1,7 @@
 // Rooms to look around in, for tests of item buffers.
 #pragma once
 
-#include "patches/visibility/viewpoint.h"
+#include "patches/visibility/item_buffer.h"
 #include "support/scene_builder.h"
 
 namespace stilb::patches {

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "plot/label_placer.h"
-
 namespace stilb::plot {
 namespace {
 

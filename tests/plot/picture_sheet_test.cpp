@@ -1,7 +1,6 @@
-#include "plot/picture_sheet.h"
-
 #include <gtest/gtest.h>
 
+#include "plot/canvas.h"
 #include "support/picture_pixels.h"
 
 namespace stilb::plot {

@@ -1,11 +1,10 @@
-#include "plot/polar_plot.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "base/error.h"
+#include "plot/plot.h"
 #include "support/picture_pixels.h"
 
 namespace stilb::plot {

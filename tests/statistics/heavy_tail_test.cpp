@@ -1,10 +1,10 @@
-#include "statistics/heavy_tail.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "statistics/interval.h"
 
 namespace stilb::statistics {
 namespace {

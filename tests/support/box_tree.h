@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/bounds.h"
+#include "base/vec.h"
 
 namespace stilb {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "io/image/colour.h"
+#include "io/image/tone_curve.h"
 
 namespace stilb {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "verification/sobolev_scene.h"
+#include "verification/sobolev.h"
 
 namespace stilb::verification {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "math/sample_stream.h"
+#include "math/random.h"
 #include "math/sampling.h"
 
 namespace stilb::estimators {

@@ -15,15 +15,35 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "base/bounds.h"
 #include "base/ray_packet.h"
+#include "base/vec.h"
 #include "geometry/harmonics/cell_polynomial.h"
-#include "geometry/harmonics/meridian_series.h"
 #include "geometry/harmonics/surface.h"
+#include "math/sampling.h"
 
 namespace stilb::geometry {
+
+// Faces of a cube about the origin.
+
+/// The axes (i, j, k) of a face and the sign of x_k.
+struct CubeFace {
+    std::size_t i, j, k;
+    double sign;
+
+    explicit CubeFace(std::size_t number)
+        : i((number / 2 + 1) % 3), j((number / 2 + 2) % 3), k(number / 2), sign(number % 2 == 0 ? 1 : -1) {}
+
+    /// (x_i, x_j, |x_k|).
+    Vec3 to_local(const Vec3& x) const { return {x[i], x[j], sign * x[k]}; }
+    Vec3 to_world(const Vec3& local) const {
+        std::array<double, 3> x{};
+        x[i] = local.x, x[j] = local.y, x[k] = sign * local.z;
+        return {x[0], x[1], x[2]};
+    }
+};
 
 /// Immutable. Lengths are in units of the series' values. Directions of rays may have any length but 0;
 /// distances along a ray are in units of it.
@@ -93,6 +113,30 @@ class HarmonicCells {
     std::vector<Outline> outlines_;
     std::vector<Polynomial> polynomials_;  ///< coefficients of a^p b^q
     double error_ = 0;
+};
+
+// Area of surfaces by harmonics, and points on them by area.
+
+class HarmonicCells;
+
+/// Immutable. Areas are in squares of the series' units.
+class HarmonicArea {
+  public:
+    /// The area element is exact for the cells' polynomials, and summed over each by Gauss's rule.
+    explicit HarmonicArea(std::shared_ptr<const HarmonicCells> cells);
+
+    double total() const { return by_area_.total(); }
+
+    struct Point {
+        Vec3 position, normal;  ///< unit, outwards
+        double pdf_per_area = 0;
+    };
+    /// In a cell drawn by area, uniform in its coordinates: nearly uniform by area.
+    Point sample(const std::array<double, 2>& u) const;
+
+  private:
+    std::shared_ptr<const HarmonicCells> cells_;
+    math::DiscreteDistribution by_area_;
 };
 
 }  // namespace stilb::geometry

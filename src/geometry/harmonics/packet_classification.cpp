@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "geometry/harmonics/cells.h"
-#include "geometry/harmonics/cube_face.h"
 
 // Compiled for several kinds of processors; the best that the machine knows is taken.
 #if defined(__x86_64__) && !defined(__clang__)

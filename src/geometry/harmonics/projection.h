@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/harmonics/parallel_grid.h"
+#include "geometry/harmonics/surface.h"
 #include "math/spherical_harmonics.h"
 
 namespace stilb::geometry {

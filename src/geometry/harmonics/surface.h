@@ -2,7 +2,10 @@
 // 5].
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "base/vec.h"
 #include "math/spherical_harmonics.h"
@@ -51,6 +54,58 @@ class HarmonicSurface {
 
     math::HarmonicSeries<double> radius_;
     double least_radius_ = 0, greatest_radius_ = 0;
+};
+
+// Directions on parallels of the sphere, evenly spaced on each.
+
+/// Values on it are numbered parallel by parallel: parallel * azimuths + k for phi = first_phi + 2 pi k /
+/// azimuths.
+struct ParallelGrid {
+    std::vector<double> z;           ///< cos(theta) per parallel
+    std::vector<double> weights_sr;  ///< per parallel, of each of its directions; they sum up to 4 pi
+    std::size_t azimuths = 0;
+    double first_phi = 0;
+
+    std::size_t parallels() const { return z.size(); }
+    std::size_t size() const { return z.size() * azimuths; }
+    double phi(std::size_t k) const;
+    /// Unit.
+    Vec3 direction(std::size_t parallel, std::size_t k) const;
+    /// All, in their order.
+    std::vector<Vec3> directions() const;
+};
+
+/// Gauss-Legendre nodes in cos(theta), twice as many azimuths as parallels: sums over it are integrals of
+/// spherical harmonics, exactly, up to degree 2 parallels - 1.
+ParallelGrid gauss_grid(int parallels);
+
+/// Parallels in the middles of even steps of theta, weighted by their area.
+ParallelGrid even_grid(int parallels);
+
+// A series of spherical harmonics on planes through an axis of coordinates, for many points at once: on the
+// great circle of such a plane, and around the axis, it is a trigonometric polynomial of the series' degree
+// L, which 2 L + 2 samples give exactly.
+
+/// Immutable.
+class MeridianSeries {
+  public:
+    /// Of the planes through axis i, where (i, j, k) are (0, 1, 2), (1, 2, 0) or (2, 0, 1).
+    MeridianSeries(const math::HarmonicSeries<double>& series, std::size_t i);
+
+    /// The series' values in the directions of (x_i, x_j, x_k) = (s, t, z), one for each s. z is not 0.
+    void evaluate(std::span<const double> s, double t, double z, std::span<double> values) const;
+
+  private:
+    /// Coefficients of cos(n e) and sin(n e), e the elevation over the plane across the axis.
+    struct Pair {
+        double cosine = 0, sine = 0;
+    };
+    using Meridian = std::vector<Pair>;  ///< n = 0, 1 ... L
+
+    Meridian meridian_at(double azimuth) const;
+
+    std::size_t degree_ = 0;
+    std::vector<Meridian> meridians_;  ///< at azimuths 2 pi n / (2 L + 2)
 };
 
 }  // namespace stilb::geometry

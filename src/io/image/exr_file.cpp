@@ -1,5 +1,3 @@
-#include "io/image/exr_file.h"
-
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -15,7 +13,8 @@
 #include <stdexcept>
 
 #include "base/error.h"
-#include "io/image/picture_header.h"
+#include "io/image/picture.h"
+#include "io/image/picture_file.h"
 #include "io/image/primaries.h"
 
 namespace stilb::io {

@@ -1,5 +1,3 @@
-#include "io/image/hdr_file.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,8 @@
 #include <cstdint>
 
 #include "base/error.h"
-#include "io/image/picture_header.h"
+#include "io/image/picture.h"
+#include "io/image/picture_file.h"
 #include "io/image/primaries.h"
 #include "io/text/text.h"
 

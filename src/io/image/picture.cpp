@@ -1,10 +1,17 @@
+
 #include "io/image/picture.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 
+#include "io/text/text.h"
+
 namespace stilb::io {
+
 namespace {
 
 constexpr long long kMostPixels = 100'000'000;
@@ -28,6 +35,147 @@ void require_consistency(const Picture& picture) {
                                fits(picture.standard_error_cd_m2.size()) && fits(picture.normals.size()) &&
                                fits(picture.depth_m.size());
     if (!is_consistent) throw std::invalid_argument("a picture whose size and channels differ");
+}
+
+namespace {
+
+constexpr std::string_view kSoftware = "Stilb ";
+
+/// Between 0 and 180 degrees for a perspective, else to 360.
+double vertical_fov_deg(const Camera& camera) {
+    const double aspect = double(camera.resolution[1]) / camera.resolution[0];
+    if (camera.projection != Projection::perspective) return camera.fov_deg * aspect;
+    constexpr double kDegree = std::numbers::pi / 180;
+    return 2 * std::atan(aspect * std::tan(camera.fov_deg / 2 * kDegree)) / kDegree;
+}
+
+std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
+
+HeaderField view_field(const Camera& camera) {
+    const std::string view = fmt::format("-vp {} -vd {} -vu {} -vh {} -vv {}", text_of(camera.position),
+                                         text_of(camera.target - camera.position), text_of(camera.up),
+                                         camera.fov_deg, vertical_fov_deg(camera));
+    switch (camera.projection) {
+        case Projection::perspective:
+            return {"VIEW", "-vtv " + view};
+        case Projection::fisheye:
+            return {"VIEW", "-vta " + view};
+        case Projection::panorama:
+            break;
+    }
+    return {"PANORAMA", view};
+}
+
+std::optional<Vec3> read_vector(std::string_view& words) {
+    Vec3 v;
+    for (double* component : {&v.x, &v.y, &v.z}) {
+        const std::optional<double> number = parse_number(next_word(words));
+        if (!number || std::abs(*number) > 1e9) return std::nullopt;
+        *component = *number;
+    }
+    return v;
+}
+
+std::optional<Projection> projection_of(std::string_view word) {
+    if (word == "-vtv") return Projection::perspective;
+    if (word == "-vta") return Projection::fisheye;
+    return std::nullopt;
+}
+
+/// Radiance's defaults stand for what is not there.
+std::optional<Camera> read_view(std::string_view words, Projection projection) {
+    Camera camera;
+    camera.fov_deg = 45;
+    camera.projection = projection;
+    Vec3 direction{0, 1, 0};
+    for (std::string_view word = next_word(words); !word.empty(); word = next_word(words)) {
+        if (word.starts_with("-vt")) {
+            const std::optional<Projection> found = projection_of(word);
+            if (!found) return std::nullopt;
+            camera.projection = *found;
+        } else if (word == "-vh") {
+            camera.fov_deg = parse_number(next_word(words)).value_or(0);
+        } else if (word == "-vp" || word == "-vd" || word == "-vu") {
+            const std::optional<Vec3> v = read_vector(words);
+            if (!v) return std::nullopt;
+            (word == "-vp" ? camera.position : word == "-vd" ? direction : camera.up) = *v;
+        } else if (word == "-vs" || word == "-vl") {
+            // A view that is shifted or lifted off its axis.
+            if (parse_number(next_word(words)).value_or(1) != 0) return std::nullopt;
+        }
+    }
+    const double most_deg = camera.projection == Projection::perspective ? 179.9 : 360;
+    const bool has_axes = length(cross(direction, camera.up)) > 1e-9 * length(direction) * length(camera.up);
+    if (!has_axes || !(camera.fov_deg > 0 && camera.fov_deg <= most_deg)) return std::nullopt;
+    camera.target = camera.position + direction;
+    return camera;
+}
+
+bool is_same_name(std::string_view a, std::string_view b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::string on_one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+    return text;
+}
+
+std::uint64_t whole_number(std::string_view text, std::uint64_t most = ~0ull) {
+    return std::min(static_cast<std::uint64_t>(std::max(parse_integer(text).value_or(0), 0ll)), most);
+}
+
+void read_camera(Picture& picture, std::string_view text, Projection projection) {
+    picture.camera = read_view(text, projection);
+    if (picture.camera) picture.camera->resolution = {picture.width, picture.height};
+}
+
+}  // namespace
+
+std::vector<HeaderField> header_fields(const Picture& picture) {
+    const PictureOrigin& origin = picture.origin;
+    std::vector<HeaderField> fields;
+    const auto add = [&](std::string name, std::string text) {
+        if (!text.empty()) fields.push_back({std::move(name), on_one_line(std::move(text))});
+    };
+    if (!origin.version.empty()) add("software", std::string(kSoftware) + origin.version);
+    add("command", origin.command);
+    add("scene", origin.scene);
+    add("sceneHash", origin.scene_hash);
+    add("sensor", origin.sensor);
+    add("method", origin.method);
+    if (origin.seed) add("seed", fmt::to_string(*origin.seed));
+    if (origin.paths > 0) add("paths", fmt::to_string(origin.paths));
+    if (origin.replicates > 0) add("replicates", fmt::to_string(origin.replicates));
+    if (origin.elapsed_s > 0) add("elapsed_s", fmt::format("{:.3f}", origin.elapsed_s));
+    if (origin.patches > 0) add("patches", fmt::to_string(origin.patches));
+    if (origin.patch_size_m > 0) add("patchSize_m", fmt::to_string(origin.patch_size_m));
+    add("firstShot", origin.first_shot);
+    if (picture.camera) fields.push_back(view_field(*picture.camera));
+    return fields;
+}
+
+void read_header_field(Picture& picture, std::string_view name, std::string_view text) {
+    text = trimmed(text);
+    PictureOrigin& origin = picture.origin;
+    const auto is = [&](std::string_view wanted) { return is_same_name(name, wanted); };
+    if (is("software") && text.starts_with(kSoftware)) origin.version = text.substr(kSoftware.size());
+    if (is("command")) origin.command = text;
+    if (is("scene")) origin.scene = text;
+    if (is("sceneHash")) origin.scene_hash = text;
+    if (is("sensor")) origin.sensor = text;
+    if (is("method")) origin.method = text;
+    if (is("seed")) origin.seed = whole_number(text);
+    if (is("paths")) origin.paths = whole_number(text);
+    if (is("replicates")) origin.replicates = static_cast<int>(whole_number(text, 1'000'000));
+    if (is("elapsed_s")) origin.elapsed_s = std::max(parse_number(text).value_or(0), 0.0);
+    if (is("patches")) origin.patches = whole_number(text);
+    if (is("patchSize_m")) origin.patch_size_m = std::max(parse_number(text).value_or(0), 0.0);
+    if (is("firstShot")) origin.first_shot = text;
+    if (is("VIEW")) read_camera(picture, text, Projection::perspective);
+    if (is("PANORAMA")) read_camera(picture, text, Projection::panorama);
 }
 
 }  // namespace stilb::io

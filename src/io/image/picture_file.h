@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "io/image/picture.h"
 #include "io/image/tone_curve.h"
@@ -25,5 +27,41 @@ bool is_picture_file(const std::filesystem::path& path);
 /// Reads an OpenEXR or Radiance picture, whatever its name. Throws InputError where it is neither, damaged or
 /// too large.
 Picture read_picture(const std::filesystem::path& path);
+
+// OpenEXR pictures. The only file that sees OpenEXR.
+
+/// The file's content, 32-bit floats without loss: channels R, G, B and Y (luminance) in cd/m2, where the
+/// picture has them SE.Y (standard error of Y), N.X, N.Y, N.Z (normals) and Z (depth [m], as OpenEXR calls
+/// it). The header has whiteLuminance 1 (so values are cd/m2), Rec. 709 chromaticities, and header_fields()
+/// as texts.
+std::string to_exr(const Picture& picture);
+
+/// Reads R, G, B, or Y alone as grey, of any type, and the optional channels that are there. Values are
+/// multiplied by whiteLuminance and converted from other chromaticities where the header has them. `name` is
+/// used in messages. Throws InputError for what is no such picture, damaged or truncated.
+Picture read_exr(std::string_view content, const std::string& name);
+
+// Radiance pictures (.hdr): four bytes a pixel, three mantissas and a common exponent.
+//
+// The unit: Radiance's pixels are radiances in W/(sr m2), and its programs take 179 lm/W times
+// 0.265 R + 0.670 G + 0.065 B (divided by EXPOSURE) for the luminance in cd/m2. pvalue, pcomb and evalglare
+// do so whatever a line PRIMARIES says. Pixels are therefore written in Radiance's own primaries, with Rec.
+// 709 white as its white: luminances come out right in all of them, and grey is grey. EXPOSURE is 1.
+
+/// The file's content: run-length encoded scanlines from the top, with header_fields() (names in capitals).
+/// A component is exact to 1/256 of its pixel's largest one. Colours beyond Radiance's primaries keep their
+/// luminance. Pixels of a luminance that is negative or NaN are black. Optional channels are left out.
+std::string to_hdr(const Picture& picture);
+
+/// Reads run-length encoded scanlines of both kinds and flat ones, of rows from the top and from left to
+/// right; honours EXPOSURE (all lines multiply) and PRIMARIES. `name` is used in messages. Throws InputError
+/// for whatever else, and for what is truncated.
+Picture read_hdr(std::string_view content, const std::string& name);
+
+// Pictures as PNG, to look at. The only file that sees libpng: Cairo, which draws everything else, cannot
+// keep notes in a PNG.
+
+/// The file's content: 8-bit sRGB. Its texts are "Exposure" (per cd/m2), "Tone curve" and header_fields().
+std::string to_png(const Picture& picture, const ToneCurve& curve);
 
 }  // namespace stilb::io

@@ -10,8 +10,8 @@
 #include <span>
 
 #include "base/error.h"
+#include "io/text/table.h"
 #include "io/text/text.h"
-#include "io/text/write_file.h"
 #include "math/spherical_harmonics.h"
 
 namespace stilb::io {

@@ -1,3 +1,4 @@
+
 #include "io/mesh/mesh_file.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,60 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
     throw InputError(fmt::format("the extension {} names no mesh format that is read: use .obj or .ply",
                                  in_quotes(extension)),
                      {path.string()});
+}
+
+namespace {
+
+/// Whether the triangle has no area but for rounding: it is a line or a point.
+bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
+    constexpr double kThinnest = 1e-12;  // height over longest side
+    const double longest_squared =
+        std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
+    return !(length(cross(b - a, c - a)) > kThinnest * longest_squared);
+}
+
+}  // namespace
+
+std::uint32_t PartNames::index() {
+    if (!index_) {
+        const auto [entry, is_new] =
+            indices_.try_emplace(current_, static_cast<std::uint32_t>(names_.size()));
+        if (is_new) names_.push_back(current_);
+        index_ = entry->second;
+    }
+    return *index_;
+}
+
+void MeshBuilder::add_triangle(const Triangle& t) {
+    const std::vector<Vec3>& vertices = file_.mesh.vertices;
+    if (is_degenerate(vertices[t[0]], vertices[t[1]], vertices[t[2]])) {
+        ++file_.degenerate_triangles;
+        return;
+    }
+    file_.mesh.triangles.push_back(t);
+    file_.material_of_triangle.push_back(materials_.index());
+    file_.group_of_triangle.push_back(groups_.index());
+}
+
+void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners) {
+    if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
+    polygon_.clear();
+    for (const std::uint32_t corner : corners) polygon_.push_back(file_.mesh.vertices[corner]);
+    for (const Triangle& t : triangulate_polygon(polygon_))
+        add_triangle({corners[t[0]], corners[t[1]], corners[t[2]]});
+}
+
+MeshFile MeshBuilder::finish(const std::string& name, std::string_view remedy) && {
+    if (file_.mesh.triangles.empty()) {
+        const std::string dropped = file_.degenerate_triangles == 0 ? ""
+                                                                    : fmt::format(" ({} of no area left out)",
+                                                                                  file_.degenerate_triangles);
+        throw InputError(
+            fmt::format("no triangle in the file{}, so there is no surface; {}", dropped, remedy), {name});
+    }
+    file_.material_names = std::move(materials_).names();
+    file_.group_names = std::move(groups_).names();
+    return std::move(file_);
 }
 
 }  // namespace stilb::io

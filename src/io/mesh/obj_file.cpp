@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/error.h"
-#include "io/mesh/mesh_builder.h"
+#include "io/mesh/mesh_file.h"
 #include "io/text/text.h"
 
 namespace stilb::io {

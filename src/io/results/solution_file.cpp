@@ -11,8 +11,8 @@
 
 #include "base/error.h"
 #include "io/text/content_hash.h"
+#include "io/text/table.h"
 #include "io/text/text.h"
-#include "io/text/write_file.h"
 
 namespace stilb::io {
 namespace {

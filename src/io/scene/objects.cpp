@@ -1,18 +1,123 @@
 // [objects.NAME]
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
-#include "io/mesh/mesh_builder.h"
+#include "base/error.h"
+#include "geometry/harmonics/surface.h"
+#include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/sections.h"
-#include "io/text/messages.h"
 #include "io/text/text.h"
 
 namespace stilb::io {
+
+// scale, rotate, translate or transform of an object
+
+namespace {
+
+constexpr Range kScale{1e-9, 1e9, "a factor above 0 (from 1e-9 to 1e9)"};
+/// A sine between axes below this leaves too few digits to tell the front from the back.
+constexpr double kLeastRegularity = 1e-6;
+
+geometry::Transform read_matrix(const TomlItem& item) {
+    const std::vector<double> m = item.numbers(16, kCoordinate);
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
+        item.fail(
+            "the last row is not [0, 0, 0, 1]. Allowed: 16 numbers row by row; the translation is the "
+            "fourth of each of the first three rows.");
+    }
+    const geometry::Transform transform{
+        {m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}, {m[3], m[7], m[11]}};
+    if (transform.regularity() < kLeastRegularity) {
+        item.fail("the matrix is singular: it squashes the object flat. Allowed: any invertible one.");
+    }
+    return transform;
+}
+
+geometry::Transform read_rotation(const TomlItem& item) {
+    const std::vector<double> parts = item.numbers(4, kCoordinate);
+    return geometry::Transform::rotation(item.made_unit({parts[0], parts[1], parts[2]}), parts[3]);
+}
+
+}  // namespace
+
+geometry::Transform read_transform(const TomlTable& object) {
+    for (const std::string_view key : {"scale", "rotate", "translate"})
+        object.expect_not_both(key, "transform");
+    if (const auto matrix = object.find("transform")) return read_matrix(*matrix);
+    geometry::Transform transform;
+    if (const auto scale = object.find("scale"))
+        transform = geometry::Transform::scaling(scale->number(kScale));
+    if (const auto rotation = object.find("rotate")) transform = compose(read_rotation(*rotation), transform);
+    if (const auto translation = object.find("translate")) transform.translation = translation->vector();
+    return transform;
+}
+
+// shape = "harmonics" of an object
+
+namespace {
+
+constexpr Range kCoefficient{-1e9, 1e9, "a number from -1e9 to 1e9"};
+constexpr std::array<std::string_view, 3> kMethods{"cells", "roots", "march"};
+
+int degree_of(const TomlItem& item, std::size_t count) {
+    for (int degree = 0; degree <= math::kMostHarmonicDegree; ++degree) {
+        if (math::harmonic_count(degree) == count) return degree;
+    }
+    item.fail(
+        fmt::format("found {} coefficients. Allowed: (degree + 1)^2 of them for a degree from 0 to {}: "
+                    "1, 4, 9, 16 ...",
+                    count, math::kMostHarmonicDegree));
+}
+
+HarmonicsFile read_series(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
+    const auto [key, item] = table.one_of({"file", "coefficients"});
+    if (key == "file") {
+        file.sources.push_back(item.existing_file(directory));
+        return read_harmonics(file.sources.back());
+    }
+    HarmonicsFile series;
+    for (const TomlItem& element : item.elements())
+        series.coefficients.push_back(element.number(kCoefficient));
+    degree_of(item, series.coefficients.size());
+    return series;
+}
+
+void truncate(const TomlTable& table, std::vector<double>& coefficients) {
+    const auto item = table.find("degree");
+    if (!item) return;
+    const auto largest = degree_of(*item, coefficients.size());
+    coefficients.resize(math::harmonic_count(static_cast<int>(item->integer(0, largest))));
+}
+
+Harmonics harmonics_of(const HarmonicsFile& series, const TomlTable& table) {
+    try {
+        return Harmonics(geometry::HarmonicSurface(math::HarmonicSeries<double>(series.coefficients)));
+    } catch (const InputError& error) {
+        table.fail(error.what());
+    }
+}
+
+}  // namespace
+
+Harmonics read_harmonic_shape(const TomlTable& table, const std::filesystem::path& directory,
+                              SceneFile& file) {
+    HarmonicsFile series = read_series(table, directory, file);
+    truncate(table, series.coefficients);
+    Harmonics harmonics = harmonics_of(series, table);
+    if (!table.has("center")) harmonics.center = series.center;
+    if (const auto method = table.find("intersection"))
+        harmonics.method = static_cast<HarmonicMethod>(method->index_in(kMethods, "intersection"));
+    if (const auto detail = table.find("lod")) harmonics.has_levels_of_detail = detail->boolean();
+    return harmonics;
+}
+
 namespace {
 
 using Names = std::vector<std::string_view>;

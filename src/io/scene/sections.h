@@ -7,7 +7,7 @@
 
 #include "geometry/transform.h"
 #include "io/scene/scene_file.h"
-#include "io/scene/toml_table.h"
+#include "io/scene/toml.h"
 
 namespace stilb::io {
 

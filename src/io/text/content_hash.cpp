@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/scene/toml_document.h"
+#include "io/scene/toml.h"
 #include "io/text/text.h"
 
 namespace stilb::io {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -47,5 +48,11 @@ class TextLines {
     std::string_view rest_, line_;
     std::size_t number_;
 };
+
+// Wording that error messages share.
+
+/// ` Did you mean "wall"? Allowed: wall, floor.` (the question only where a name is near), to follow a
+/// sentence.
+std::string suggestion(std::string_view found, std::span<const std::string_view> allowed);
 
 }  // namespace stilb::io

@@ -1,9 +1,9 @@
 #include "patches/visibility/buffer_backend.h"
 
+#include "patches/visibility/bundle.h"
+#include "patches/visibility/item_buffer.h"
 #include "patches/visibility/opengl_bundles.h"
 #include "patches/visibility/opengl_item_buffers.h"
-#include "patches/visibility/ray_bundles.h"
-#include "patches/visibility/ray_item_buffers.h"
 
 namespace stilb::patches {
 

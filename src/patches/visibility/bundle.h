@@ -15,12 +15,33 @@
 #include <span>
 #include <vector>
 
-#include "base/bounds.h"
 #include "base/vec.h"
 #include "patches/patches.h"
 #include "patches/visibility/patch_caster.h"
 
 namespace stilb::patches {
+
+// Rays that go through the edge between two patches meet both of them, though they cross one surface.
+
+/// Keeps one crossing of those that are one and the same: where the next one has the same orientation (both
+/// fronts or both backs) and lies no farther behind than 2^-19 of half the bounding box, as measured across
+/// the patch. Left alone, the two patches would see each other, one from its wrong side. What is thicker
+/// keeps both its sides, and so does everything closed, however thin, whose two sides are of different
+/// orientation.
+class CoincidentCrossings {
+  public:
+    /// For rays along a unit vector. Keeps a reference to the patches.
+    CoincidentCrossings(const Patches& patches, const Bounds& bounds, const Vec3& direction);
+    /// `crossings` are in the order of distances.
+    void remove_from(std::vector<Crossing>& crossings) const;
+
+  private:
+    bool is_same(const Crossing& before, const Crossing& after) const;
+
+    const Patches& patches_;
+    Vec3 direction_;
+    double tolerance_m_;
+};
 
 struct Bundle {
     Frame frame;                     ///< w: where the rays go; u and v: the axes of the grid
@@ -95,6 +116,20 @@ struct LineGrid {
     /// Throws as Bundles::cast.
     LineGrid(const Bounds& bounds, const Bundle& bundle);
     Vec3 origin(int x, int y) const { return first + x * step_x + y * step_y; }
+};
+
+// Bundles by rays.
+
+/// Casts may run in parallel, each on its thread. Keeps a reference to the caster.
+class RayBundles : public Bundles {
+  public:
+    explicit RayBundles(const PatchCaster& caster) : caster_(caster), bounds_(bounds_of(caster.patches())) {}
+
+    void cast(const Bundle& bundle, const LineVisitor& visit) const override;
+
+  private:
+    const PatchCaster& caster_;
+    Bounds bounds_;
 };
 
 }  // namespace stilb::patches

@@ -1,13 +1,45 @@
+
 #include "patches/visibility/item_buffer.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
 
 namespace stilb::patches {
+
+namespace {
+
+/// As RayCaster's offset, for positions relative to the centre.
+constexpr double kRelativeLift = 0x1p-19;
+constexpr double kEdgeMargin = 8;
+
+double largest_coordinate(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+double longest_edge_m(const Patches& patches, std::uint32_t patch) {
+    const auto& [a, b, c] = patches.corners[patch];
+    const Vec3 u(patches.vertices[a]), v(patches.vertices[b]), w(patches.vertices[c]);
+    return std::max({length(v - u), length(w - v), length(u - w)});
+}
+
+}  // namespace
+
+Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& place) {
+    const std::uint32_t patch = patches.patch_of(side);
+    const Vec3 wanted = patches.position(patch, place), middle = patches.middle(patch);
+    const double longest_m = longest_edge_m(patches, patch);
+    const double lift_m = kRelativeLift * std::max(largest_coordinate(wanted - patches.center), longest_m);
+    // A third of the least height is how far the middle is from an edge.
+    const double middle_to_edge_m = 2 * patches.areas_m2[patch] / longest_m / 3;
+    const double towards_middle = std::min(kEdgeMargin * lift_m / middle_to_edge_m, 1.0);
+    const Vec3 normal = patches.normal_of(side);
+    return {wanted + towards_middle * (middle - wanted) + lift_m * normal, Frame::around(normal)};
+}
+
 namespace {
 
 constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
@@ -76,6 +108,83 @@ BufferPixel ItemBufferLayout::pixel(const BufferFace& face, int x, int y) const 
     const Vec3 counted = point(centre, centre);
     const double r = length(counted);
     return {point(0.5, 0.5), part * pixel_size_ * pixel_size_ / (r * r * r), counted.z / r};
+}
+
+namespace {
+
+/// A packet is a square of pixels, whose rays stay closest together.
+constexpr int kTile = 4;
+static_assert(kTile * kTile == kPacketWidth);
+
+/// The rays through the pixels of a face: they all begin in one place, and their directions are linear in x
+/// and y.
+class FaceRays {
+  public:
+    FaceRays(const ItemBufferLayout& layout, const BufferFace& face, const Viewpoint& viewpoint,
+             const Vec3& center)
+        : layout_(layout), face_(face) {
+        const auto direction = [&](int x, int y) {
+            return viewpoint.frame.to_world(layout.pixel(face, x, y).direction);
+        };
+        first_ = direction(0, 0);
+        step_x_ = direction(1, 0) - first_;
+        step_y_ = direction(0, 1) - first_;
+        const Vec3 origin = viewpoint.position - center;
+        template_.origin_x.fill(static_cast<float>(origin.x));
+        template_.origin_y.fill(static_cast<float>(origin.y));
+        template_.origin_z.fill(static_cast<float>(origin.z));
+        template_.end.fill(std::numeric_limits<float>::infinity());
+    }
+
+    /// The packet whose lower left pixel is (x0, y0).
+    RayPacket packet(int x0, int y0) const {
+        RayPacket rays = template_;
+        for (int lane = 0; lane < kPacketWidth; ++lane) {
+            const int x = x0 + lane % kTile, y = y0 + lane / kTile;
+            rays.direction_x[lane] = packet_direction(first_.x + x * step_x_.x + y * step_y_.x);
+            rays.direction_y[lane] = packet_direction(first_.y + x * step_x_.y + y * step_y_.y);
+            rays.direction_z[lane] = packet_direction(first_.z + x * step_x_.z + y * step_y_.z);
+        }
+        return rays;
+    }
+
+    /// Those whose pixels are on the face and in front of the horizon.
+    LaneMask lanes(int x0, int y0) const {
+        LaneMask lanes{};
+        for (int lane = 0; lane < kPacketWidth; ++lane) {
+            const int x = x0 + lane % kTile, y = y0 + lane / kTile;
+            const bool is_seen = y < face_.height && x < face_.width && x >= layout_.first_column(face_, y);
+            lanes[lane] = is_seen ? -1 : 0;
+        }
+        return lanes;
+    }
+
+  private:
+    const ItemBufferLayout& layout_;
+    const BufferFace& face_;
+    Vec3 first_, step_x_, step_y_;
+    RayPacket template_;
+};
+
+}  // namespace
+
+void RayItemBuffers::fill(const ItemBufferLayout& layout, const Viewpoint& viewpoint,
+                          std::span<std::uint32_t> sides) {
+    std::ranges::fill(sides, kNoSide);
+    for (const BufferFace& face : layout.faces()) {
+        const FaceRays rays(layout, face, viewpoint, caster_.patches().center);
+        for (int y = 0; y < face.height; y += kTile) {
+            for (int x = 0; x < face.width; x += kTile) {
+                RayPacket packet = rays.packet(x, y);
+                const LaneMask lanes = rays.lanes(x, y);
+                const PatchHits seen = caster_.closest(packet, lanes);
+                for (int lane = 0; lane < kPacketWidth; ++lane) {
+                    if (lanes[lane] != 0)
+                        sides[face.pixel_at(x + lane % kTile, y + lane / kTile)] = seen.sides[lane];
+                }
+            }
+        }
+    }
 }
 
 }  // namespace stilb::patches

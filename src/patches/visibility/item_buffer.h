@@ -15,9 +15,25 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "patches/visibility/viewpoint.h"
+#include "math/sampling.h"
+#include "patches/patches.h"
+#include "patches/visibility/patch_caster.h"
 
 namespace stilb::patches {
+
+// Places to look from.
+
+/// A place in world coordinates, and the axes that it looks along; w is where a hemisphere is seen.
+struct Viewpoint {
+    Vec3 position;
+    Frame frame;
+};
+
+/// A place on a side of a patch, looking along its normal: a light sample on an area light. It is lifted off
+/// the surface, and drawn in from the patch's edges by eight times as much, as RayCaster does (ray_caster.h,
+/// for the reasons): so it does not see its own plane, nor past a wall that begins at an edge of the patch. A
+/// place may be a corner of the patch.
+Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& place);
 
 enum class BufferShape {
     cube,               ///< six faces: the whole sphere
@@ -102,6 +118,21 @@ class ItemBuffers {
     /// kNoSide. Patches are seen from both sides.
     virtual void fill(const ItemBufferLayout& layout, const Viewpoint& viewpoint,
                       std::span<std::uint32_t> sides) = 0;
+};
+
+// Item buffers by rays.
+
+/// Fills buffers on one thread; each thread may have an object of its own, they are light. Keeps a reference
+/// to the caster.
+class RayItemBuffers : public ItemBuffers {
+  public:
+    explicit RayItemBuffers(const PatchCaster& caster) : caster_(caster) {}
+
+    void fill(const ItemBufferLayout& layout, const Viewpoint& viewpoint,
+              std::span<std::uint32_t> sides) override;
+
+  private:
+    const PatchCaster& caster_;
 };
 
 }  // namespace stilb::patches

@@ -15,7 +15,7 @@
 #include <mutex>
 #include <vector>
 
-#include "patches/visibility/coincident_crossings.h"
+#include "patches/visibility/bundle.h"
 #include "patches/visibility/opengl_patches.h"
 
 namespace stilb::patches {

@@ -5,9 +5,37 @@
 #include <string>
 
 #include "patches/patches.h"
-#include "patches/visibility/opengl_context.h"
 
 namespace stilb::patches {
+
+// OpenGL without a window.
+
+/// An OpenGL 4.5 context by EGL: of the first device that has one (a graphics card where there is one), else
+/// of Mesa without a device. Functions of OpenGL work in the thread that holds a Current.
+class OpenGlContext {
+  public:
+    /// Throws InputError, with what to install, where there is no EGL or none of its drivers has OpenGL 4.5.
+    OpenGlContext();
+    ~OpenGlContext();
+    OpenGlContext(const OpenGlContext&) = delete;
+    OpenGlContext& operator=(const OpenGlContext&) = delete;
+
+    /// While it lives, the context is the calling thread's; one at a time.
+    class Current {
+      public:
+        explicit Current(const OpenGlContext& context);
+        ~Current();
+        Current(const Current&) = delete;
+        Current& operator=(const Current&) = delete;
+
+      private:
+        void* display_;
+    };
+
+  private:
+    void* display_ = nullptr;  ///< EGLDisplay; EGL itself keeps it to the end of the program
+    void* context_ = nullptr;  ///< EGLContext
+};
 
 /// Shaders in GLSL. The vertex shader gets each patch's corners in location 0, relative to Patches::center;
 /// the fragment shader knows the patch by gl_PrimitiveID.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "math/sample_stream.h"
+#include "math/random.h"
 #include "patches/patches.h"
 #include "transport/light_sampler.h"
 

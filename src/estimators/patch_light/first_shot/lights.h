@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "patches/visibility/item_buffer.h"
-#include "patches/visibility/viewpoint.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "patches/visibility/viewpoint.h"
+#include "patches/visibility/item_buffer.h"
 #include "transport/russian_roulette.h"
 
 namespace stilb::estimators {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "estimators/patch_light/patch_transport.h"
-#include "math/sample_stream.h"
+#include "math/random.h"
 
 namespace stilb::estimators {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "math/sample_stream.h"
+#include "math/random.h"
 
 namespace stilb::estimators {
 namespace {

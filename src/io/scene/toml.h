@@ -1,20 +1,46 @@
-// Typed access to a TOML document. Whatever is missing, unknown, of the wrong type or out of range throws an
-// InputError that says where it stands, what was found and what is allowed.
+// A TOML file as a tree of plain values that know their lines. The only header of the TOML parser's wrapper.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "base/field.h"
 #include "base/rgb.h"
 #include "base/vec.h"
-#include "io/scene/toml_document.h"
 
 namespace stilb::io {
+
+struct TomlMember;
+struct TomlValue;
+
+using TomlArray = std::vector<TomlValue>;
+/// In the order of the file.
+using TomlMembers = std::vector<TomlMember>;
+/// Dates and times, which no key takes.
+struct TomlDate {};
+
+struct TomlValue {
+    std::variant<TomlDate, bool, std::int64_t, double, std::string, TomlArray, TomlMembers> content;
+    std::size_t line = 0;
+};
+
+struct TomlMember {
+    std::string key;
+    std::size_t line = 0;  ///< of the key
+    TomlValue value;
+};
+
+/// The top table of a TOML 1.0 text. Throws InputError for what is not TOML; `name` is used in messages.
+TomlValue parse_toml(std::string_view text, const std::string& name);
+
+// Typed access to a TOML document. Whatever is missing, unknown, of the wrong type or out of range throws an
+// InputError that says where it stands, what was found and what is allowed.
 
 /// Metres; the limit keeps squares and products of lengths far from overflow.
 inline constexpr Range kCoordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};

@@ -1,13 +1,22 @@
-// Surfaces that lie in one another.
+// Surfaces that were probably meant to be closed.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "checks/enclosures.h"
+#include "geometry/mesh_topology.h"
 #include "scene/scene.h"
 
 namespace stilb::checks {
+
+/// A sentence for each object with shells that are open but nearly enclose a space: light goes through their
+/// holes. And one for emitters whose triangles do not all face the same side. `shells` are those of every
+/// object.
+std::vector<std::string> hole_warnings(const Scene& scene,
+                                       const std::vector<geometry::ConnectedComponents>& shells);
+
+// Surfaces that lie in one another.
 
 /// Two triangles that lie over each other in one plane and do not look alike: rounding decides which of them
 /// a ray meets.

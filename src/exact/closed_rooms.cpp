@@ -1,10 +1,41 @@
-#include "exact/two_surfaces.h"
+
+#include "exact/closed_rooms.h"
 
 #include <cmath>
+#include <numbers>
 
+#include "exact/configuration_factors.h"
 #include "exact/domain.h"
 
 namespace stilb::exact {
+
+double furnace_luminance_cd_m2(double emitted_cd_m2, double reflectance) {
+    require_not_negative(emitted_cd_m2, "furnace: the emitted luminance is negative or not finite");
+    require(reflectance >= 0 && reflectance < 1, "furnace: the reflectance is not from 0 to less than 1");
+    return emitted_cd_m2 / (1 - reflectance);
+}
+
+double furnace_illuminance_lx(double emitted_cd_m2, double reflectance) {
+    return std::numbers::pi * furnace_luminance_cd_m2(emitted_cd_m2, reflectance);
+}
+
+double indirect_illuminance_lx(const PhotometricSphere& sphere, double flux_lm) {
+    require_positive(sphere.radius_m, "photometric sphere: the radius is not positive and finite");
+    require(sphere.reflectance >= 0 && sphere.reflectance < 1,
+            "photometric sphere: the reflectance is not from 0 to less than 1");
+    require_not_negative(flux_lm, "photometric sphere: the flux is negative or not finite");
+    const double area_m2 = 4 * std::numbers::pi * sphere.radius_m * sphere.radius_m;
+    return flux_lm / area_m2 * sphere.reflectance / (1 - sphere.reflectance);
+}
+
+double illuminance_lx(const PhotometricSphere& sphere, double flux_lm, const Vec3& source,
+                      const Vec3& to_wall) {
+    const double indirect_lx = indirect_illuminance_lx(sphere, flux_lm);
+    require(length(source) < sphere.radius_m, "photometric sphere: the source is not inside the sphere");
+    const Vec3 outward = require_direction(to_wall, "photometric sphere: to_wall is zero or not finite");
+    const Receiver wall{sphere.radius_m * outward, -outward};
+    return indirect_lx + illuminance_by_point_lx(wall, source, flux_lm / (4 * std::numbers::pi));
+}
 
 FormFactors coaxial_disk_form_factors(double radius_1_m, double radius_2_m, double distance_m) {
     require_positive(radius_1_m, "coaxial disks: radius_1_m is not positive and finite");
