@@ -142,6 +142,25 @@ double worst_z(const Measured& a, const Measured& b) {
     return worst;
 }
 
+/// As if the method's readings were all too high by the same share.
+Measured biased(Measured measured, double share) {
+    for (statistics::Estimate& e : measured.estimates) e.value *= 1 + share;
+    return measured;
+}
+
+/// Whether the suite fails where one of the methods is wrong by one per cent: by a comparison with some
+/// other.
+bool notices_one_per_cent(const std::vector<TwoRuns>& all, std::size_t wrong) {
+    for (const double share : {-0.01, 0.01}) {
+        const Measured planted = biased(all[wrong].both, share);
+        const bool noticed = std::ranges::any_of(all, [&](const TwoRuns& other) {
+            return &other != &all[wrong] && worst_z(planted, other.both) > threshold_z();
+        });
+        if (!noticed) return false;
+    }
+    return true;
+}
+
 /// The parameter is a scene's place in the table.
 class Agreement : public testing::TestWithParam<std::size_t> {};
 
@@ -158,6 +177,10 @@ TEST_P(Agreement, OfAllMethods) {
         EXPECT_LT(largest_relative_error(all[i].both.estimates), kLargestError) << all[i].both.what;
         compare(all[i].first, all[i].second);
         for (std::size_t j = 0; j < i; ++j) compare(all[i].both, all[j].both);
+    }
+    // The comparison itself: a method that is wrong by one per cent does not pass.
+    for (std::size_t i = 0; i < all.size() && all.size() > 1; ++i) {
+        EXPECT_TRUE(notices_one_per_cent(all, i)) << all[i].both.what;
     }
     RecordProperty("worst_z", std::to_string(worst));
 }
