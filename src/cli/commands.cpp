@@ -1,5 +1,7 @@
 #include "cli/commands.h"
 
+#include <CLI/CLI.hpp>
+
 namespace stilb::cli {
 
 void set_examples(CLI::App& command, const std::string& examples) {

@@ -3,15 +3,18 @@
 // exits with 2.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace stilb::cli {
 
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitCheckFailed = 1;
 inline constexpr int kExitWrongInput = 2;
-inline constexpr int kExitStoppedEarly = 3;
+inline constexpr int kExitStoppedEarly = 3;  ///< also before there was any result
 
 /// Puts examples, one a line, before everything else that the command's --help says.
 void set_examples(CLI::App& command, const std::string& examples);

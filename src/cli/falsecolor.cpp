@@ -1,6 +1,7 @@
 // stilb falsecolor: measured grids, or a luminance picture, in false colours.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>

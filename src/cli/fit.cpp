@@ -1,6 +1,7 @@
 // stilb fit: a star-shaped mesh as a surface by spherical harmonics.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,8 +15,8 @@
 #include "io/text/text.h"
 #include "io/text/write_file.h"
 #include "plot/canvas.h"
-#include "run/clock.h"
-#include "run/relative_error.h"
+#include "run/options.h"
+#include "run/schedule.h"
 
 namespace stilb::cli {
 namespace {

@@ -1,6 +1,7 @@
 // stilb info: what a scene, a luminaire file or a mesh file holds, and what is odd about it.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <memory>

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/monitor.h"
 #include "cli/commands.h"
 #include "papers/reproduce.h"
 
@@ -54,6 +55,9 @@ int main(int argument_count, char** arguments) {
     } catch (const CLI::ParseError& error) {
         const int code = app.exit(error);
         return code == 0 ? stilb::cli::kExitDone : stilb::cli::kExitWrongInput;
+    } catch (const stilb::Cancelled& cancelled) {
+        fmt::print(stderr, "stilb: {}\n", cancelled.what());
+        return stilb::cli::kExitStoppedEarly;
     } catch (const stilb::InputError& error) {
         fmt::print(stderr, "stilb: {}\n", error.what());
         return stilb::cli::kExitWrongInput;

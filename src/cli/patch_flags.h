@@ -1,13 +1,20 @@
 // The flags of methods that light patches.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "estimators/estimator_list.h"
+#include "estimators/patch_light/patch_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stilb::estimators {
+struct EstimatorEntry;
+}
 
 namespace stilb::cli {
 

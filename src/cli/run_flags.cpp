@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <limits>
 
 #include "base/error.h"
 #include "estimators/estimator_list.h"
-#include "run/relative_error.h"
+#include "run/options.h"
 
 namespace stilb::cli {
 namespace {

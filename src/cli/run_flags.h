@@ -1,7 +1,6 @@
 // The flags that all commands which compute have in common.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +8,10 @@
 
 #include "cli/patch_flags.h"
 #include "run/options.h"
+
+namespace CLI {
+class App;
+}
 
 namespace stilb::cli {
 

@@ -1,6 +1,7 @@
 // stilb verify: every method against the exact solutions.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,7 +16,7 @@
 #include "cli/progress.h"
 #include "estimators/estimator_list.h"
 #include "io/results/place_json.h"
-#include "run/relative_error.h"
+#include "run/options.h"
 #include "verification/verification.h"
 
 namespace stilb::cli {

@@ -7,7 +7,7 @@
 #include "exact/furnace.h"
 #include "exact/photometric_sphere.h"
 #include "exact/sobolev.h"
-#include "run/run.h"
+#include "run/measure.h"
 #include "support/scene_builder.h"
 
 namespace stilb {

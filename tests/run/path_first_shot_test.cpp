@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "run/render.h"
-#include "run/run.h"
+#include "run/measure.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "run/render.h"
-#include "run/run.h"
+#include "run/measure.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 
