@@ -92,9 +92,9 @@ TEST(ResultsJson, WithoutPatchesThereIsNoReport) {
 
 TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
     RunResult made = luminance_results();
-    made.sensors.push_back(
-        sensors::make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1}));
-    made.sensors.push_back({{reading(500), reading(510)}, {}, {}, 0.01});
+    const Sensor desk =
+        sensors::make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1});
+    made.sensors.push_back({desk, {reading(500), reading(510)}, {}, {}, 0.01});
     const ResultsFile read = read_results(to_json(made, "room.toml"), "room.json");
     ASSERT_EQ(read.grids.size(), 1u);
     EXPECT_EQ(read.grids[0].name, "desk");
