@@ -121,10 +121,14 @@ std::string title_of(const std::vector<SensorResult>& sensors) {
     return luminances < std::ssize(sensors) ? "Illuminance and luminance" : "Luminance";
 }
 
+/// Not where chance has no part in the method, whether it came to its end or not.
+bool has_intervals(const RunResult& result) {
+    return result.stop_reason != StopReason::solved && result.replicates != 1;
+}
+
 std::string ending_with_error(const RunResult& result) {
     const std::string ended = ending(result.stop_reason, "paths");
-    if (result.stop_reason == StopReason::solved)
-        return ended + "; the error by the size of the patches is not known";
+    if (!has_intervals(result)) return ended + "; the error by the size of the patches is not known";
     const std::string attained = fmt::format("{:.2g} %", 100 * result.attained_error);
     if (result.stop_reason == StopReason::target_reached) return fmt::format("{} ({})", ended, attained);
     return fmt::format("{}; error {}", ended, attained);
@@ -139,11 +143,10 @@ std::string with_error(const statistics::Estimate& estimate) {
 }
 
 std::string to_table(const RunResult& result) {
-    const bool has_intervals = result.stop_reason != StopReason::solved;
-    std::string text =
-        title_of(result.sensors) + (has_intervals ? ", with 95 % intervals\n\n" : ", without intervals\n\n");
+    std::string text = title_of(result.sensors) +
+                       (has_intervals(result) ? ", with 95 % intervals\n\n" : ", without intervals\n\n");
     for (const SensorResult& sensor : result.sensors) text += sensor_table(sensor);
-    const std::string paths = has_intervals ? fmt::format(", {} paths", result.samples) : "";
+    const std::string paths = has_intervals(result) ? fmt::format(", {} paths", result.samples) : "";
     text += fmt::format("\n{}{} in {:.2f} s: {}\n", result.method, paths, result.elapsed_s,
                         ending_with_error(result));
     text += detail_text(result.levels_of_detail);

@@ -59,6 +59,17 @@ TEST(ResultsTable, ShowsNoErrorsWhereNoneAreKnown) {
               "auto in 0.00 s: solved; the error by the size of the patches is not known\n");
 }
 
+TEST(ResultsTable, ShowsNoErrorsWhereTheTimeLimitEndsAMethodWithoutChance) {
+    RunResult made = io::luminance_results();
+    made.stop_reason = StopReason::time_over;
+    made.replicates = 1;
+    const std::string table = table_of(made);
+    EXPECT_TRUE(table.starts_with("Luminance, without intervals\n")) << table;
+    EXPECT_TRUE(
+        has(table, "auto in 0.00 s: time limit reached; the error by the size of the patches is not known"))
+        << table;
+}
+
 TEST(ResultsTable, SaysWhatPatchesStandFor) {
     RunResult made = io::luminance_results();
     made.patches = io::patch_report();
