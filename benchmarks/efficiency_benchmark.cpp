@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "efficiency.h"
+#include "estimators/estimator.h"
 #include "estimators/estimator_list.h"
 #include "rooms.h"
 #include "sensors/goniometer.h"
+#include "transport/receiver.h"
 
 namespace stilb {
 namespace {
@@ -34,11 +36,11 @@ Efficiency of_readings(const estimators::EstimatorEntry& method, const Scene& sc
                        const std::vector<Measurand>& measurands) {
     const rays::RayCaster caster(scene);
     const auto estimator =
-        method.make({scene, caster, measurands, transport::kUnlimited, math::RandomKey{5}});
+        method.make({scene, caster, transport::kUnlimited, math::RandomKey{5}, measurands});
     return efficiency_of(measure_with(*estimator), estimator->batch_granularity());
 }
 
-Measure measure_with(const estimators::PictureEstimator& estimator, const std::array<int, 2>& resolution) {
+Measure picture_with(const estimators::Estimator& estimator, const std::array<int, 2>& resolution) {
     return [&, resolution](std::uint64_t round, std::uint64_t passes) {
         std::vector<double> pixels;
         for (std::uint64_t index = 0; index < passes; ++index) {
@@ -60,8 +62,8 @@ Measure measure_with(const estimators::PictureEstimator& estimator, const std::a
 Efficiency of_picture(const estimators::EstimatorEntry& method, const Scene& scene, const Camera& camera) {
     const rays::RayCaster caster(scene);
     const auto estimator =
-        method.make_picture({scene, caster, camera, transport::kUnlimited, math::RandomKey{5}});
-    return efficiency_of(measure_with(*estimator, camera.resolution), 1);
+        method.make({scene, caster, transport::kUnlimited, math::RandomKey{5}, {}, {}, camera});
+    return efficiency_of(picture_with(*estimator, camera.resolution), 1);
 }
 
 /// `efficiency`: of a method.

@@ -7,7 +7,7 @@
 
 #include "io/text/table.h"
 #include "plot/plot.h"
-#include "run/run.h"
+#include "run/result.h"
 
 namespace stilb::papers {
 

@@ -9,7 +9,7 @@
 #include "estimators/patch_light/patch_location.h"
 #include "estimators/patch_light/patch_picture.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
-#include "run/clock.h"
+#include "run/schedule.h"
 
 namespace stilb::papers {
 namespace {

@@ -15,7 +15,7 @@
 #include "math/spherical_harmonics.h"
 #include "papers/head_in_room.h"
 #include "rays/ray_caster.h"
-#include "run/clock.h"
+#include "run/schedule.h"
 
 namespace stilb::papers {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "run/run.h"
+#include "run/measure.h"
 
 namespace stilb::papers {
 

@@ -15,6 +15,7 @@
 #include "papers/furnished_room.h"
 #include "papers/reproduce.h"
 #include "plot/plot.h"
+#include "transport/receiver.h"
 
 namespace stilb::papers {
 namespace {
@@ -113,8 +114,13 @@ io::Picture picture_of(const estimators::PictureTracing& tracing, const Converge
 void reproduce_scene(std::string_view lights, const std::filesystem::path& directory) {
     const io::SceneFile file = furnished_room(lights);
     const rays::RayCaster caster(file.scene);
-    const estimators::PictureTracing tracing(
-        {file.scene, caster, file.sensors.front().camera, transport::kUnlimited, math::RandomKey{1}});
+    const transport::LightSampler lights_of_scene(file.scene, caster);
+    const estimators::PictureTracing tracing({.scene = file.scene,
+                                              .caster = caster,
+                                              .max_reflections = transport::kUnlimited,
+                                              .preparation_key = math::RandomKey{1},
+                                              .camera = file.sensors.front().camera},
+                                             lights_of_scene);
     const auto look = [&](const ConvergenceState& state) {
         if (!state.method.is_shown || std::ranges::find(kShownSteps, state.steps) == kShownSteps.end())
             return;

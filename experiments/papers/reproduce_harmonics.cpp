@@ -48,7 +48,7 @@ io::Picture picture_of(const RenderedHead& head, const std::string& name) {
         for (std::size_t b = 0; b < sum.size(); ++b) mean.rgb_cd_m2[i][b] = sum[b] / rounds;
         mean.standard_error_cd_m2[i] = std::sqrt(variance) / rounds;
     }
-    mean.origin.paths = first.passes * head.rounds.size();
+    mean.origin.paths = first.samples * head.rounds.size();
     mean.origin.replicates = first.replicates * static_cast<int>(head.rounds.size());
     return mean;
 }
@@ -90,7 +90,7 @@ std::pair<Mesh, std::string> read_or_make_head(const fs::path& directory, const 
 
 void reproduce_harmonics(const fs::path& directory, const std::string& mesh_file) {
     const auto [mesh, name] = read_or_make_head(directory, mesh_file);
-    cli::TerminalPictureProgress progress;
+    cli::TerminalProgress progress("passes");
     const HeadStudy study = study_head(mesh, name, {}, &progress);
     for (const std::string& warning : warnings_of(study.report)) fmt::print(stderr, "warning: {}\n", warning);
     fmt::print("{}", to_text(study));

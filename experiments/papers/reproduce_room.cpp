@@ -8,6 +8,7 @@
 #include "io/scene/scene_file.h"
 #include "papers/paper_room.h"
 #include "papers/reproduce.h"
+#include "run/render.h"
 
 namespace stilb::papers {
 
@@ -21,7 +22,7 @@ void reproduce_room(const std::filesystem::path& directory) {
     origin.sensor = view.name;
     origin.method = file.run.method;
     origin.seed = file.run.seed;
-    cli::TerminalPictureProgress progress;
+    cli::TerminalProgress progress("passes");
     const io::Picture picture =
         cli::picture_of(render(file.scene, view, file.run, &progress), view.camera, origin);
     for (const char* name : {"room.exr", "room.png"}) write_picture(picture, directory / name);

@@ -11,6 +11,7 @@
 #include "papers/estimate_series.h"
 #include "papers/reproduce.h"
 #include "plot/plot.h"
+#include "run/measure.h"
 #include "verification/sobolev.h"
 
 namespace stilb::papers {

@@ -19,7 +19,7 @@ namespace stilb::cli {
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitCheckFailed = 1;
 inline constexpr int kExitWrongInput = 2;
-inline constexpr int kExitStoppedEarly = 3;
+inline constexpr int kExitStoppedEarly = 3;  ///< also before there was any result
 
 /// A flag or argument of a command, to say more of it.
 class Flag {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "run/level_of_detail.h"
+#include "run/result.h"
 
 namespace stilb::cli {
 

@@ -11,7 +11,7 @@ std::string ending(StopReason reason, std::string_view all) {
         case StopReason::paths_done:
             return fmt::format("all {} done", all);
         case StopReason::time_over:
-            return "the time is over";
+            return "time limit reached";
         case StopReason::interrupted:
             return "interrupted";
         case StopReason::solved:

@@ -14,8 +14,8 @@
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "plot/canvas.h"
-#include "run/clock.h"
-#include "run/relative_error.h"
+#include "run/options.h"
+#include "run/schedule.h"
 
 namespace stilb::cli {
 namespace {

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "base/error.h"
+#include "base/monitor.h"
 #include "cli/commands.h"
 #include "papers/reproduce.h"
 
@@ -20,6 +21,9 @@ int main(int argument_count, char** arguments) {
         cli::add_verify(line);
         papers::add_reproduce(line);
         return line.run(argument_count, arguments);
+    } catch (const Cancelled& cancelled) {
+        fmt::print(stderr, "stilb: {}\n", cancelled.what());
+        return cli::kExitStoppedEarly;
     } catch (const InputError& error) {
         fmt::print(stderr, "stilb: {}\n", error.what());
         return cli::kExitWrongInput;

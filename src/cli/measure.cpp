@@ -1,4 +1,6 @@
 // stilb measure: all sensors of a scene.
+#include "run/measure.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,14 +89,12 @@ int run_measure(const MeasureRequest& request) {
     if (!request.flags.quiet) {
         for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
     }
-    const std::string json = io::to_json(result, sensors, request.scene);
-    fmt::print("{}", request.json ? json : to_table(result, sensors));
-    if (!request.csv_directory.empty()) io::write_results_csv(result, sensors, request.csv_directory);
+    fmt::print("{}", request.json ? io::to_json(result, request.scene) : to_table(result));
+    if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
     if (!request.picture.empty()) {
         plot::FalseColourOptions picture_options;
         picture_options.isolines = true;
-        draw_false_colour(plot::picture_of(io::read_results(json, request.scene)), picture_options,
-                          request.picture);
+        draw_false_colour(plot::picture_of(result, request.scene), picture_options, request.picture);
     }
     return result.converged ? kExitDone : kExitStoppedEarly;
 }

@@ -50,7 +50,7 @@ void PatchFlags::add_to(Command& command) {
         "NAME");
     add("--resolution", resolution,
         "Pixels along an edge of item buffers (default: by the patches; 64 on patches of radiosity)", "R");
-    add("--visibility", visibility, "Who finds what patches see: rays (default) or opengl", "NAME");
+    add("--visibility", visibility, "Visibility backend: rays (default) or opengl", "NAME");
     add("--directions", directions, "ray-bundle: bundles of a step, single, pair or frame (default)", "NAME");
 }
 
@@ -69,12 +69,14 @@ std::vector<std::string_view> PatchFlags::given() const {
 }
 
 void PatchFlags::require_known_to(const estimators::EstimatorEntry& method) const {
+    const auto goes_by = [](const estimators::EstimatorEntry& entry, std::string_view flag) {
+        return std::ranges::find(entry.patch_options, flag.substr(2)) != entry.patch_options.end();
+    };
     for (const std::string_view flag : given()) {
-        if (std::ranges::find(method.patch_flags, flag) != method.patch_flags.end()) continue;
+        if (goes_by(method, flag)) continue;
         std::vector<std::string_view> methods;
         for (const estimators::EstimatorEntry& entry : estimators::estimator_list()) {
-            if (std::ranges::find(entry.patch_flags, flag) != entry.patch_flags.end())
-                methods.push_back(entry.name);
+            if (goes_by(entry, flag)) methods.push_back(entry.name);
         }
         throw InputError(fmt::format("{} means nothing to method {}. It is for {}.", flag, method.name,
                                      fmt::join(methods, ", ")));

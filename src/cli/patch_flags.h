@@ -7,7 +7,11 @@
 #include <vector>
 
 #include "cli/command_line.h"
-#include "estimators/estimator_list.h"
+#include "estimators/patch_light/patch_options.h"
+
+namespace stilb::estimators {
+struct EstimatorEntry;
+}
 
 namespace stilb::cli {
 

@@ -25,25 +25,24 @@ ProgressLine::~ProgressLine() {
     if (is_terminal_) fmt::print(stderr, "\r\033[K");
 }
 
-void ProgressLine::show(double elapsed_s, const std::string& done, double attained_error,
-                        double remaining_s) {
+void ProgressLine::show(double elapsed_s, const std::string& text) {
     if (!is_terminal_) return;
-    const std::string error =
-        std::isfinite(attained_error) ? fmt::format("  error {:.2g} %", 100 * attained_error) : "";
-    const std::string left =
-        std::isfinite(remaining_s) ? fmt::format(", about {:.0f} s left", remaining_s) : "";
-    fmt::print(stderr, "\r\033[K{:.1f} s  {}{}{}", elapsed_s, done, error, left);
+    fmt::print(stderr, "\r\033[K{:.1f} s  {}", elapsed_s, text);
     std::fflush(stderr);
 }
 
-void TerminalProgress::report(const Progress& progress) {
-    line_.show(progress.elapsed_s, fmt::format("{} {}", progress.paths, paths_), progress.attained_error,
-               progress.remaining_s);
+void TerminalProgress::report_set_up(const SetUp& set_up) {
+    line_.show(set_up.elapsed_s, fmt::format("set-up: {}, {:.0f} %", set_up.stage, 100 * set_up.share));
 }
 
-void TerminalPictureProgress::report(const Progress& progress) {
-    line_.show(progress.elapsed_s, fmt::format("{} passes", progress.passes), progress.attained_error,
-               progress.remaining_s);
+/// What is infinite is left out.
+void TerminalProgress::report(const Progress& progress) {
+    const std::string error = std::isfinite(progress.attained_error)
+                                  ? fmt::format("  error {:.2g} %", 100 * progress.attained_error)
+                                  : "";
+    const std::string left =
+        std::isfinite(progress.remaining_s) ? fmt::format(", about {:.0f} s left", progress.remaining_s) : "";
+    line_.show(progress.elapsed_s, fmt::format("{} {}{}{}", progress.samples, samples_, error, left));
 }
 
 const std::atomic<bool>& watch_for_interrupt() {

@@ -5,8 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "run/render.h"
-#include "run/run.h"
+#include "run/progress.h"
 
 namespace stilb::cli {
 
@@ -17,32 +16,24 @@ class ProgressLine {
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
-    /// `done`: such as "4096 paths". What is infinite is left out.
-    void show(double elapsed_s, const std::string& done, double attained_error, double remaining_s);
+    void show(double elapsed_s, const std::string& text);
 
   private:
     bool is_terminal_;
 };
 
-class TerminalProgress final : public ProgressSink {
+/// Of any run; asks for no unfinished pictures.
+class TerminalProgress : public PictureSink {
   public:
-    /// `paths`: what they are called.
-    explicit TerminalProgress(std::string paths = "paths") : paths_(std::move(paths)) {}
-    void report(const Progress& progress) override;
-
-  private:
-    std::string paths_;
-    ProgressLine line_;
-};
-
-/// The same of a picture, which it does not ask for.
-class TerminalPictureProgress : public PictureSink {
-  public:
+    /// `samples`: what the run's samples are called.
+    explicit TerminalProgress(std::string samples = "paths") : samples_(std::move(samples)) {}
+    void report_set_up(const SetUp& set_up) override;
     void report(const Progress& progress) override;
     bool wants_picture() override { return false; }
-    void show(const Pixels&) override {}
+    void show(const run::Pixels&) override {}
 
   private:
+    std::string samples_;
     ProgressLine line_;
 };
 

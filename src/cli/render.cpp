@@ -62,14 +62,17 @@ Sensor chosen_camera(const io::SceneFile& file, const RenderRequest& request) {
 }
 
 /// Progress on the terminal, and the preview file.
-class RenderProgress final : public TerminalPictureProgress {
+class RenderProgress final : public TerminalProgress {
   public:
     RenderProgress(const RenderRequest& request, const Camera& camera, const io::PictureOrigin& origin)
-        : request_(request), camera_(camera), origin_(origin) {}
+        : TerminalProgress("passes"), request_(request), camera_(camera), origin_(origin) {}
 
+    void report_set_up(const SetUp& set_up) override {
+        if (!request_.flags.quiet) TerminalProgress::report_set_up(set_up);
+    }
     void report(const Progress& progress) override {
         elapsed_s_ = progress.elapsed_s;
-        if (!request_.flags.quiet) TerminalPictureProgress::report(progress);
+        if (!request_.flags.quiet) TerminalProgress::report(progress);
     }
     bool wants_picture() override {
         return !request_.preview.empty() && (shown_s_ == 0 || elapsed_s_ - shown_s_ >= kPreviewEvery_s);
@@ -97,7 +100,7 @@ void print_summary(const RenderResult& result, const Sensor& sensor) {
         fmt::print("95 % of the pixels have a 95 % interval within {:.2g} % of their value\n",
                    100 * result.attained_error);
     }
-    fmt::print("{}, {} passes in {:.1f} s: {}\n", result.method, result.passes, result.elapsed_s,
+    fmt::print("{}, {} passes in {:.1f} s: {}\n", result.method, result.samples, result.elapsed_s,
                ending(result.stop_reason, "passes"));
     fmt::print("{}", detail_text(result.levels_of_detail));
     if (result.patches) fmt::print("{}", patch_text(*result.patches));
@@ -120,10 +123,11 @@ io::StoredSolution read_solution_for(RenderRequest& request) {
     if (!request.scene.empty()) return stored;
     const auto scene = std::filesystem::path(request.solution).parent_path() / stored.scene;
     if (!std::filesystem::exists(scene)) {
-        throw InputError(fmt::format("there is no scene '{}', which was solved. Where it is now, say with "
-                                     "stilb render SCENE --from FILE.",
-                                     scene.string()),
-                         {request.solution});
+        throw InputError(
+            fmt::format("scene '{}' of this solution was not found. If it has moved: stilb render "
+                        "SCENE --from FILE.",
+                        scene.string()),
+            {request.solution});
     }
     request.scene = scene.string();
     return stored;

@@ -14,7 +14,7 @@ io::Picture picture_of(const Pixels& pixels, const Camera& camera, const io::Pic
 }
 
 io::Picture picture_of(const RenderResult& result, const Camera& camera, io::PictureOrigin origin) {
-    origin.paths = result.passes;
+    origin.paths = result.samples;
     origin.replicates = result.replicates;
     origin.elapsed_s = result.elapsed_s;
     if (result.patches) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/image/picture.h"
-#include "run/render.h"
+#include "run/result.h"
 
 namespace stilb::cli {
 

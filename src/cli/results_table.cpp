@@ -96,7 +96,8 @@ std::string summary_text(const statistics::GridSummary& summary, const Sensor& s
     return text + '\n';
 }
 
-std::string sensor_table(const SensorResult& result, const Sensor& sensor) {
+std::string sensor_table(const SensorResult& result) {
+    const Sensor& sensor = result.sensor;
     const std::size_t readings = sensor.measurands.size();
     if (readings == 1) return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0));
     std::string text = fmt::format("{:12}  {}", sensor.name, size_text(sensor));
@@ -113,17 +114,21 @@ std::string sensor_table(const SensorResult& result, const Sensor& sensor) {
     return text;
 }
 
-std::string title_of(std::span<const Sensor> sensors) {
-    const auto luminances = std::count_if(sensors.begin(), sensors.end(),
-                                          [](const Sensor& sensor) { return sensor.measures_luminance(); });
+std::string title_of(const std::vector<SensorResult>& sensors) {
+    const auto luminances = std::ranges::count_if(
+        sensors, [](const SensorResult& result) { return result.sensor.measures_luminance(); });
     if (luminances == 0) return "Illuminance";
     return luminances < std::ssize(sensors) ? "Illuminance and luminance" : "Luminance";
 }
 
+/// Not where chance has no part in the method, whether it came to its end or not.
+bool has_intervals(const RunResult& result) {
+    return result.stop_reason != StopReason::solved && result.replicates != 1;
+}
+
 std::string ending_with_error(const RunResult& result) {
     const std::string ended = ending(result.stop_reason, "paths");
-    if (result.stop_reason == StopReason::solved)
-        return ended + "; the error by the size of the patches is not known";
+    if (!has_intervals(result)) return ended + "; the error by the size of the patches is not known";
     const std::string attained = fmt::format("{:.2g} %", 100 * result.attained_error);
     if (result.stop_reason == StopReason::target_reached) return fmt::format("{} ({})", ended, attained);
     return fmt::format("{}; error {}", ended, attained);
@@ -137,12 +142,11 @@ std::string with_error(const statistics::Estimate& estimate) {
     return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, half_width(estimate), decimals);
 }
 
-std::string to_table(const RunResult& result, std::span<const Sensor> sensors) {
-    const bool has_intervals = result.stop_reason != StopReason::solved;
-    std::string text =
-        title_of(sensors) + (has_intervals ? ", with 95 % intervals\n\n" : ", without intervals\n\n");
-    for (std::size_t s = 0; s < sensors.size(); ++s) text += sensor_table(result.sensors[s], sensors[s]);
-    const std::string paths = has_intervals ? fmt::format(", {} paths", result.paths) : "";
+std::string to_table(const RunResult& result) {
+    std::string text = title_of(result.sensors) +
+                       (has_intervals(result) ? ", with 95 % intervals\n\n" : ", without intervals\n\n");
+    for (const SensorResult& sensor : result.sensors) text += sensor_table(sensor);
+    const std::string paths = has_intervals(result) ? fmt::format(", {} paths", result.samples) : "";
     text += fmt::format("\n{}{} in {:.2f} s: {}\n", result.method, paths, result.elapsed_s,
                         ending_with_error(result));
     text += detail_text(result.levels_of_detail);

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "estimators/estimator_list.h"
-#include "run/relative_error.h"
+#include "run/options.h"
 
 namespace stilb::cli {
 namespace {

@@ -10,6 +10,10 @@
 #include "cli/patch_flags.h"
 #include "run/options.h"
 
+namespace CLI {
+class App;
+}
+
 namespace stilb::cli {
 
 /// What was typed; each flag replaces the same key of the scene's [run].

@@ -34,7 +34,7 @@ io::StoredSolution stored(SolveResult& result, const io::SceneFile& file, const 
     stored.scene = std::filesystem::proximate(request.scene, folder).generic_string();
     stored.light_hash = io::light_hash(file.sources);
     stored.seed = result.seed;
-    stored.steps = result.steps;
+    stored.steps = result.samples;
     stored.attained_error = result.attained_error;
     stored.solution = std::move(result.solution);
     return stored;
@@ -45,9 +45,9 @@ void print_summary(const SolveResult& result, const io::StoredSolution& stored, 
                1e-6 * static_cast<double>(std::filesystem::file_size(output)));
     fmt::print("95 % of the light falls on sides with a 95 % interval within {:.2g} % of their illuminance\n",
                100 * result.attained_error);
-    fmt::print("ray-bundle, {} steps in {:.1f} s: {}\n", result.steps, result.elapsed_s,
+    fmt::print("ray-bundle, {} steps in {:.1f} s: {}\n", result.samples, result.elapsed_s,
                ending(result.stop_reason, "steps"));
-    fmt::print("{}", patch_text(result.patches));
+    fmt::print("{}", patch_text(*result.patches));
 }
 
 int run_solve(const SolveRequest& request) {

@@ -15,7 +15,7 @@
 #include "cli/progress.h"
 #include "estimators/estimator_list.h"
 #include "io/results/place_json.h"
-#include "run/relative_error.h"
+#include "run/options.h"
 #include "verification/verification.h"
 
 namespace stilb::cli {

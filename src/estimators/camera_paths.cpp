@@ -33,13 +33,13 @@ std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pix
 
 }  // namespace
 
-PictureTracing::PictureTracing(const PictureInput& input)
-    : scene(input.scene),
-      caster(input.caster),
-      camera(input.camera),
+PictureTracing::PictureTracing(const Problem& problem, const transport::LightSampler& all_lights)
+    : scene(problem.scene),
+      caster(problem.caster),
+      camera(problem.camera.value()),
       view(camera),
-      max_reflections(input.max_reflections),
-      lights(scene, caster),
+      max_reflections(problem.max_reflections),
+      lights(all_lights),
       tracer(scene, caster, lights) {}
 
 CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pass& pass) const {

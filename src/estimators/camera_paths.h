@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "estimators/picture_estimator.h"
+#include "estimators/estimator.h"
 #include "transport/path_tracer.h"
 
 namespace stilb::estimators {
@@ -26,9 +26,10 @@ struct CameraPaths {
     std::uint64_t write_to(std::span<Rgb> luminances_cd_m2) const;
 };
 
-/// Keeps references to the scene and its ray caster. Immutable.
+/// Keeps references to the scene, its ray caster and the lights. Immutable.
 struct PictureTracing {
-    explicit PictureTracing(const PictureInput& input);
+    /// Of the problem's camera. `lights`: all that shine on what is seen.
+    PictureTracing(const Problem& problem, const transport::LightSampler& lights);
 
     /// One path for each pixel that sees something, along a ray drawn by the camera's filter.
     CameraPaths start_paths(std::span<const Pixel> pixels, const Pass& pass) const;
@@ -38,7 +39,7 @@ struct PictureTracing {
     Camera camera;
     sensors::CameraView view;
     int max_reflections;
-    transport::LightSampler lights;
+    const transport::LightSampler& lights;
     transport::PathTracer tracer;
 };
 

@@ -8,52 +8,61 @@
 #include <vector>
 
 #include "base/error.h"
-#include "estimators/local/local_estimation.h"
-#include "estimators/local/picture_local.h"
-#include "estimators/patch_light/particles/particles.h"
-#include "estimators/patch_light/radiosity/radiosity.h"
-#include "estimators/patch_light/ray_bundle/picture_bundle.h"
-#include "estimators/patch_light/ray_bundle/ray_bundle.h"
-#include "estimators/path/path.h"
-#include "estimators/path/picture_path.h"
+#include "estimators/methods.h"
 
 namespace stilb::estimators {
 namespace {
 
-constexpr std::array<std::string_view, 6> kBundleFlags{"--patch",      "--first-shot", "--window",
-                                                       "--resolution", "--visibility", "--directions"};
-constexpr std::span kFirstShotFlags = std::span(kBundleFlags).first<5>();
-constexpr std::span kParticlesFlags = std::span(kBundleFlags).first<1>();
+constexpr std::array<std::string_view, 6> kBundleOptions{"patch",      "first-shot", "window",
+                                                         "resolution", "visibility", "directions"};
+constexpr std::span kFirstShotOptions = std::span(kBundleOptions).first<5>();
+constexpr std::span kParticlesOptions = std::span(kBundleOptions).first<1>();
 
 }  // namespace
 
 std::span<const EstimatorEntry> estimator_list() {
     static constexpr std::array list{
         EstimatorEntry{
-            "auto", "local estimation and path tracing, balanced at every point: unbiased, finite variance",
-            false, make_auto_estimator, make_auto_picture},
-        EstimatorEntry{"local", "local estimation as published: fast, but of infinite variance in corners",
-                       true, make_local_estimator, nullptr},
-        EstimatorEntry{"double-local",
-                       "the same for luminance, of the surfaces that are seen; no light that leaves a point "
-                       "source, meets mirror or glass first and comes to them by mirror or glass",
-                       true, make_local_estimator, make_local_picture},
-        EstimatorEntry{"path",
-                       "path tracing from every point with next-event estimation: the naive reference; "
-                       "unbiased unless small lights are left to --first-shot",
-                       false, make_path_estimator, make_path_picture, false, kFirstShotFlags},
-        EstimatorEntry{"ray-bundle",
-                       "stochastic iteration with bundles of parallel rays and first shot over patches: the "
-                       "whole scene at once, biased by the size of the patches (--patch)",
-                       false, make_ray_bundle_estimator, make_ray_bundle_picture, true, kBundleFlags},
-        EstimatorEntry{"radiosity",
-                       "progressive shooting between patches until nothing is left, for diffuse scenes: a "
-                       "baseline, without standard errors and biased by the size of the patches",
-                       false, make_radiosity_estimator, make_radiosity_picture, true, kFirstShotFlags, true},
-        EstimatorEntry{"particles",
-                       "particles of light counted in patches, for diffuse scenes: a baseline, biased by the "
-                       "size of the patches",
-                       false, make_particles_estimator, make_particles_picture, true, kParticlesFlags},
+            .name = "auto",
+            .summary =
+                "local estimation and path tracing, balanced at every point: unbiased, finite variance",
+            .make = make_auto},
+        EstimatorEntry{.name = "local",
+                       .summary = "local estimation as published: fast, but of infinite variance in corners",
+                       .make = make_local,
+                       .measures_luminance = false,
+                       .has_heavy_tails = true},
+        EstimatorEntry{.name = "double-local",
+                       .summary = "the same for luminance, of the surfaces that are seen; no light that "
+                                  "leaves a point source, meets mirror or glass first and comes to them by "
+                                  "mirror or glass",
+                       .make = make_local,
+                       .has_heavy_tails = true},
+        EstimatorEntry{.name = "path",
+                       .summary = "path tracing from every point with next-event estimation: the naive "
+                                  "reference; unbiased unless small lights are left to first shot",
+                       .make = make_path,
+                       .patch_options = kFirstShotOptions},
+        EstimatorEntry{.name = "ray-bundle",
+                       .summary = "stochastic iteration with bundles of parallel rays and first shot over "
+                                  "patches: the whole scene at once, biased by the size of the patches",
+                       .make = make_ray_bundle,
+                       .lights_patches = true,
+                       .patch_options = kBundleOptions},
+        EstimatorEntry{.name = "radiosity",
+                       .summary = "progressive shooting between patches until nothing is left, for diffuse "
+                                  "scenes: a baseline, without standard errors and biased by the size of "
+                                  "the patches",
+                       .make = make_radiosity,
+                       .lights_patches = true,
+                       .is_deterministic = true,
+                       .patch_options = kFirstShotOptions},
+        EstimatorEntry{.name = "particles",
+                       .summary = "particles of light counted in patches, for diffuse scenes: a baseline, "
+                                  "biased by the size of the patches",
+                       .make = make_particles,
+                       .lights_patches = true,
+                       .patch_options = kParticlesOptions},
     };
     return list;
 }
@@ -68,7 +77,7 @@ std::vector<EstimatorEntry> unbiased_estimators() {
 std::vector<std::string_view> luminance_methods() {
     std::vector<std::string_view> names;
     for (const EstimatorEntry& entry : estimator_list()) {
-        if (entry.measures_luminance()) names.push_back(entry.name);
+        if (entry.measures_luminance) names.push_back(entry.name);
     }
     return names;
 }

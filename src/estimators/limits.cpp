@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "estimators/estimator.h"
+#include "transport/receiver.h"
 
 namespace stilb::estimators {
 namespace {
@@ -55,7 +55,7 @@ void require_diffuse(const Scene& scene, std::string_view method) {
             }
             throw InputError(fmt::format(
                 "object \"{}\": its material \"{}\" is neither diffuse nor black, and method {} knows one "
-                "luminance for all directions of a surface. Use --method auto or ray-bundle.",
+                "luminance for all directions of a surface. Use method auto or ray-bundle.",
                 object.name, used.name, method));
         }
     }
@@ -66,8 +66,8 @@ void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::
     for (const Light& light : scene.lights) {
         if (std::holds_alternative<AreaLight>(light.source)) continue;
         throw InputError(fmt::format(
-            "method {} cannot do with --first-shot none here: light \"{}\" is no surface, and would "
-            "light nothing. Use incoming.",
+            "method {} needs a first shot here: light \"{}\" is no surface, and would light nothing "
+            "without one. Use first shot \"incoming\".",
             method, light.name));
     }
 }
@@ -75,7 +75,9 @@ void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::
 void require_all_reflections(int max_reflections, std::string_view method) {
     if (max_reflections == transport::kUnlimited) return;
     throw InputError(
-        fmt::format("method {} makes all reflections at once: it cannot limit them (--bounces).", method));
+        fmt::format("method {} does not support a limit on reflections (bounces): it makes all of them at "
+                    "once.",
+                    method));
 }
 
 std::vector<std::string> local_warnings(const Scene& scene) {

@@ -161,7 +161,7 @@ Vec3 Patches::normal_of(std::uint32_t side) const {
     return is_front(side) ? normal : -normal;
 }
 
-Patches make_patches(const Scene& scene, double longest_edge_m) {
+Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor) {
     check_size(scene, longest_edge_m);
     std::vector<Division> divisions;
     Bounds bounds;
@@ -173,7 +173,11 @@ Patches make_patches(const Scene& scene, double longest_edge_m) {
     Patches patches;
     if (!bounds.is_empty()) patches.center = 0.5 * (bounds.min + bounds.max);
     Collector collector(patches);
-    for (std::size_t i = 0; i < divisions.size(); ++i) collector.add(scene.objects[i], divisions[i]);
+    Stage stage(monitor, "patches", divisions.size());
+    for (std::size_t i = 0; i < divisions.size(); ++i) {
+        collector.add(scene.objects[i], divisions[i]);
+        stage.advance();
+    }
     return patches;
 }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "base/monitor.h"
 #include "base/vec.h"
 #include "geometry/shape.h"
 #include "math/sampling.h"
@@ -67,8 +68,9 @@ inline constexpr double kLongestCurvedEdge = 0.4;
 inline constexpr std::size_t kMostPatches = 100'000'000;
 
 /// Patches whose edges are no longer than `longest_edge_m`; triangles without area are left out. Throws
-/// InputError where the size is not above 0, and where there would be more than about kMostPatches.
-Patches make_patches(const Scene& scene, double longest_edge_m);
+/// InputError where the size is not above 0, and where there would be more than about kMostPatches; Cancelled
+/// as the monitor says.
+Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor = Monitor::none());
 /// Of all vertices, relative to Patches::center [m].
 Bounds bounds_of(const Patches& patches);
 /// The longest edge with which the scene has about `count` patches (within a factor of two where its surfaces

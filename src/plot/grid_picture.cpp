@@ -28,7 +28,36 @@ std::string capitalized(std::string text) {
     return text;
 }
 
+io::MeasuredGrid measured_grid(const SensorResult& result) {
+    const Sensor& sensor = result.sensor;
+    const Quantity quantity = sensor.quantity();
+    io::MeasuredGrid grid;
+    grid.name = sensor.name;
+    grid.quantity = quantity.name;
+    grid.unit = quantity.unit;
+    grid.count = sensor.grid.count;
+    // As in files, which have no more than the middles of the cells.
+    const auto [nu, nv] = grid.count;
+    const double cell_u_m = nu > 1 ? length(sensor.grid.edge_u) / nu : 0;
+    const double cell_v_m = nv > 1 ? length(sensor.grid.edge_v) / nv : 0;
+    grid.width_m = nu * (nu > 1 ? cell_u_m : cell_v_m);
+    grid.height_m = nv * (nv > 1 ? cell_v_m : cell_u_m);
+    for (const Reading& reading : result.readings) grid.values.push_back(reading.estimate.value);
+    const statistics::GridSummary& summary = result.summary;
+    grid.summary = {summary.mean.value, summary.minimum.value, summary.maximum.value,
+                    summary.uniformity.value};
+    return grid;
+}
+
 }  // namespace
+
+FalseColour picture_of(const RunResult& result, const std::string& scene) {
+    io::ResultsFile results{scene, {}};
+    for (const SensorResult& sensor : result.sensors) {
+        if (sensor.sensor.type == SensorType::grid) results.grids.push_back(measured_grid(sensor));
+    }
+    return picture_of(results);
+}
 
 FalseColour picture_of(const io::ResultsFile& results) {
     if (results.grids.empty()) {
@@ -40,8 +69,8 @@ FalseColour picture_of(const io::ResultsFile& results) {
     for (const io::MeasuredGrid& grid : results.grids) {
         if (grid.unit != first.unit) {
             throw InputError(
-                fmt::format("'{}' is in {} and '{}' in {} (one scale cannot hold both). Choose with "
-                            "--sensor.",
+                fmt::format("'{}' is in {} and '{}' in {} (one scale cannot hold both). Choose sensors of "
+                            "one quantity.",
                             first.name, first.unit, grid.name, grid.unit));
         }
         picture.panels.push_back({grid.name, subtitle_of(grid), grid.count[0], grid.count[1], grid.width_m,

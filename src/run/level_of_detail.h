@@ -9,21 +9,12 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
+#include "run/result.h"
 #include "scene/scene.h"
-#include "sensors/sensor.h"
 
 namespace stilb::run {
-
-/// What an object was given.
-struct LevelOfDetail {
-    std::string object;
-    int degree = 0, full_degree = 0;
-    double error_m = 0;    ///< bound of the distance between both surfaces, along rays from the centre
-    double allowed_m = 0;  ///< half the footprint
-};
 
 struct DetailedScene {
     Scene scene;

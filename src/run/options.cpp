@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 
 #include "base/error.h"
@@ -20,6 +21,17 @@ void require_valid(const RunOptions& options) {
     if (options.bounces && *options.bounces < 0) throw InputError("bounces: 0 or more is needed");
     if (options.threads < 0) throw InputError("threads: 0 (all) or more is needed");
     if (options.replicates < 2) throw InputError("replicates: at least 2 are needed");
+}
+
+std::optional<double> parse_relative_error(std::string_view text) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stopped, failure] = std::from_chars(text.data(), end, number);
+    const std::string_view unit(stopped, static_cast<std::size_t>(end - stopped));
+    if (failure != std::errc() || (!unit.empty() && unit != "%")) return {};
+    if (unit == "%") number /= 100;
+    if (!(number > 0 && number < 1)) return {};
+    return number;
 }
 
 }  // namespace stilb::run

@@ -15,11 +15,10 @@
 #include "base/error.h"
 #include "checks/placement.h"
 #include "estimators/estimator_list.h"
-#include "estimators/patch_light/solution_picture.h"
+#include "estimators/patch_light/patch_solution.h"
 #include "math/random.h"
-#include "run/clock.h"
-#include "run/remaining_time.h"
-#include "run/threads.h"
+#include "run/level_of_detail.h"
+#include "run/schedule.h"
 #include "statistics/stopping.h"
 
 namespace stilb::run {
@@ -120,33 +119,54 @@ double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
     return statistics::attained_error_of(std::move(half_widths));
 }
 
-/// One pass after another over all blocks.
-class Passes {
+/// The number of passes at the next look at the error: 1, 2, 3, 4, 6, 8, 12 ... of each replicate.
+std::uint64_t next_checkpoint(std::uint64_t passes) {
+    return kReplicates * statistics::next_look(passes / kReplicates, 1);
+}
+
+/// A picture that grows by one pass after another over all blocks.
+class Passes final : public Work {
   public:
-    Passes(const estimators::PictureEstimator& estimator, const Camera& camera, std::uint64_t replicates,
-           std::uint64_t seed, const std::atomic<bool>* interrupt)
+    /// `sink` may be null.
+    Passes(const estimators::Estimator& estimator, const Camera& camera, const std::vector<bool>& blind,
+           std::uint64_t replicates, std::uint64_t seed, PictureSink* sink)
         : estimator_(estimator),
+          blind_(blind),
+          sink_(sink),
           replicates_(replicates),
           resolution_(camera.resolution),
           width_(static_cast<std::size_t>(camera.resolution[0])),
           key_(math::RandomKey{seed}.derived(kSamples)),
           offset_key_(math::RandomKey{seed}.derived(kOffset)),
-          interrupt_(interrupt),
-          pixels_(width_ * static_cast<std::size_t>(camera.resolution[1])) {}
+          pixels_(width_ * static_cast<std::size_t>(camera.resolution[1])),
+          sums_(pixels_.size(), replicates) {}
 
-    /// The next pass; false where it was interrupted: then nothing is added.
-    bool add_to(PictureSums& sums) {
-        const std::uint64_t p = sums.passes();
+    const PictureSums& sums() const { return sums_; }
+    std::uint64_t samples() const override { return sums_.passes(); }
+    std::uint64_t samples_in_all() const override { return sums_.passes(); }
+    std::uint64_t samples_for(std::uint64_t paths) const override { return paths; }
+    std::uint64_t most_samples() const override { return std::numeric_limits<std::uint64_t>::max(); }
+    /// No error without two.
+    std::uint64_t least_samples() const override { return 2; }
+    std::uint64_t next_look() const override { return next_checkpoint(sums_.passes()); }
+    std::uint64_t most_at_once() const override { return 1; }
+    double attained_error() const override { return run::attained_error(sums_, blind_); }
+    void show() override {
+        if (sink_ && sink_->wants_picture()) sink_->show(sums_.pixels());
+    }
+
+    bool advance(std::uint64_t, const std::atomic<bool>* interrupt) override {
+        const std::uint64_t p = sums_.passes();
         const estimators::Pass pass{key_.derived(p % replicates_), p / replicates_, p % replicates_};
         const std::vector<estimators::PixelBlock> blocks = estimators::blocks_of(resolution_, offset_of(p));
         const auto started = estimator_.start(pass);
+        const auto is_interrupted = [&] { return interrupt && *interrupt; };
         tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
-            // The first two are always made: there is no picture without one, and no error without two.
-            if (p < 2 || !interrupt_ || !*interrupt_) sample(blocks[b], *started);
+            if (!is_interrupted()) sample(blocks[b], *started);
         });
-        if (p >= 2 && interrupt_ && *interrupt_) return false;
-        sums.add(pixels_);
-        const double all = static_cast<double>(sums.passes()) * static_cast<double>(pixels_.size());
+        if (is_interrupted()) return false;
+        sums_.add(pixels_);
+        const double all = static_cast<double>(sums_.passes()) * static_cast<double>(pixels_.size());
         if (static_cast<double>(invalid_) > kInvalidRate * all) {
             throw std::runtime_error(fmt::format(
                 "{} of {} samples are not finite numbers: this is a defect of stilb, please report the scene",
@@ -179,65 +199,16 @@ class Passes {
         }
     }
 
-    const estimators::PictureEstimator& estimator_;
+    const estimators::Estimator& estimator_;
+    const std::vector<bool>& blind_;
+    PictureSink* sink_;
     std::uint64_t replicates_;
     std::array<int, 2> resolution_;
     std::size_t width_;
     math::RandomKey key_, offset_key_;
-    const std::atomic<bool>* interrupt_;
-    std::vector<std::array<float, 3>> pixels_;
+    std::vector<std::array<float, 3>> pixels_;  ///< of the last pass
+    PictureSums sums_;
     std::atomic<std::uint64_t> invalid_ = 0;
-};
-
-/// Passes after which to look at the error: 1, 2, 3, 4, 6, 8, 12 ... of each replicate.
-bool is_checkpoint(std::uint64_t passes) {
-    if (passes == 0 || passes % kReplicates != 0) return false;
-    std::uint64_t each = passes / kReplicates;
-    while (each % 2 == 0) each /= 2;
-    return each == 1 || each == 3;
-}
-
-/// Passes until a stop rule says so.
-class PictureSchedule {
-  public:
-    PictureSchedule(const RunOptions& options, const Clock& clock, const std::vector<bool>& blind,
-                    PictureSink* sink)
-        : options_(options), clock_(clock), blind_(blind), sink_(sink) {}
-
-    StopReason proceed(Passes& passes, PictureSums& sums) {
-        for (;;) {
-            if (options_.paths && sums.passes() >= *options_.paths) return StopReason::paths_done;
-            if (is_time_over(sums.passes())) return StopReason::time_over;
-            if (!passes.add_to(sums)) return StopReason::interrupted;
-            if (is_checkpoint(sums.passes())) last_look_ = attained_error(sums, blind_);
-            report(sums);
-            if (options_.error && is_checkpoint(sums.passes()) && last_look_ <= *options_.error) {
-                return StopReason::target_reached;
-            }
-        }
-    }
-
-  private:
-    bool is_time_over(std::uint64_t passes) const {
-        if (!options_.time_s || passes < 2) return false;
-        return clock_.elapsed_s() * (1 + 1 / static_cast<double>(passes)) > *options_.time_s;
-    }
-
-    void report(const PictureSums& sums) {
-        if (!sink_) return;
-        const double elapsed_s = clock_.elapsed_s();
-        const double all = options_.paths ? static_cast<double>(*options_.paths) : 1;
-        const double done = static_cast<double>(sums.passes()) / all;
-        sink_->report(
-            {elapsed_s, remaining_time_s(options_, elapsed_s, last_look_, done), last_look_, sums.passes()});
-        if (sink_->wants_picture()) sink_->show(sums.pixels());
-    }
-
-    const RunOptions& options_;
-    const Clock& clock_;
-    const std::vector<bool>& blind_;
-    PictureSink* sink_;
-    double last_look_ = std::numeric_limits<double>::infinity();
 };
 
 void add_geometry(const Camera& camera, const rays::RayCaster& caster, RenderResult& result) {
@@ -289,40 +260,32 @@ RunOptions with_target(RunOptions options, const estimators::EstimatorEntry& met
     return options;
 }
 
-/// Renders with the estimator that is made; 1 replicate: without errors.
-RenderResult render_by(
-    const std::function<std::unique_ptr<estimators::PictureEstimator>(const estimators::PictureInput&)>& make,
-    std::uint64_t replicates, const Scene& scene, const Sensor& sensor, const RunOptions& options,
-    PictureSink* sink, const std::atomic<bool>* interrupt) {
+using MakeEstimator = std::function<std::unique_ptr<estimators::Estimator>(const estimators::Problem&)>;
+
+/// Renders with the estimator that is made; 1 replicate: without errors. `options`: `asked` with defaults.
+RenderResult render_by(const MakeEstimator& make, std::uint64_t replicates, const Scene& scene,
+                       const Sensor& sensor, const RunOptions& asked, const RunOptions& options,
+                       PictureSink* sink, const std::atomic<bool>* interrupt) {
     const Camera& camera = sensor.camera;
-    const Clock clock;
-    const rays::RayCaster caster(scene);
-    Threads threads(options.threads);
+    Session session(scene, asked, options, sink, interrupt);
     const std::vector<bool> blind = blind_pixels(camera);
-    PictureSums sums(blind.size(), replicates);
     RenderResult result;
-    threads.arena.execute([&] {
-        const auto estimator = make({scene, caster, camera, options.bounces.value_or(transport::kUnlimited),
-                                     math::RandomKey{options.seed}.derived(kPreparation), options.patches});
-        Passes passes(*estimator, camera, replicates, options.seed, interrupt);
-        result.stop_reason = PictureSchedule(options, clock, blind, sink).proceed(passes, sums);
-        result.patches = estimator->patch_report();
-        result.warnings = estimator->warnings();
+    session.on_threads([&] {
+        estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kPreparation));
+        problem.camera = camera;
+        const auto estimator = make(problem);
+        Passes passes(*estimator, camera, blind, replicates, options.seed, sink);
+        session.run(passes, result);
+        session.describe(*estimator, result);
+        result.replicates = static_cast<int>(passes.sums().replicates());
+        result.pixels = passes.sums().pixels();
+        add_means(passes.sums(), blind, result);
     });
-    result.pixels = sums.pixels();
-    add_means(sums, blind, result);
-    add_geometry(camera, caster, result);
-    result.method = options.method;
-    result.seed = options.seed;
-    result.passes = sums.passes();
-    result.replicates = static_cast<int>(sums.replicates());
-    result.attained_error = attained_error(sums, blind);
-    result.converged = result.stop_reason != StopReason::interrupted &&
-                       (!options.error || result.stop_reason == StopReason::target_reached);
-    for (auto& warning : checks::placement_warnings(scene, caster, {&sensor, 1})) {
+    add_geometry(camera, session.caster(), result);
+    for (auto& warning : checks::placement_warnings(scene, session.caster(), {&sensor, 1})) {
         result.warnings.push_back(std::move(warning));
     }
-    result.elapsed_s = clock.elapsed_s();
+    session.finish(result);
     return result;
 }
 
@@ -339,21 +302,21 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
     require_valid(asked_options);
     const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
     const RunOptions options = with_target(asked_options, method);
-    if (!method.measures_luminance()) {
+    if (!method.measures_luminance) {
         throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
                                      fmt::join(estimators::luminance_methods(), ", ")));
     }
-    RenderResult result = render_by(method.make_picture, method.is_deterministic ? 1 : kReplicates, scene,
-                                    camera, options, sink, interrupt);
+    RenderResult result = render_by(method.make, method.is_deterministic ? 1 : kReplicates, scene, camera,
+                                    asked_options, options, sink, interrupt);
     if (method.has_heavy_tails) {
         result.warnings.push_back(fmt::format(
-            "method {} has infinite variance in corners: errors of pixels there do not hold. Use --method "
+            "method {} has infinite variance in corners: errors of pixels there do not hold. Use method "
             "auto.",
             method.name));
     }
     if (method.is_deterministic && asked_options.error) {
-        result.warnings.push_back(fmt::format(
-            "method {} knows no statistical error: the error asked for is not looked at.", method.name));
+        result.warnings.push_back(
+            fmt::format("method {} is deterministic: a target for the error has no effect.", method.name));
     }
     return result;
 }
@@ -366,10 +329,10 @@ RenderResult render_solution(const Scene& scene, const Sensor& camera, estimator
     options.threads = threads;
     options.paths = std::max(kSmoothingPasses / replicates, std::uint64_t{1}) * replicates;
     return render_by(
-        [&](const estimators::PictureInput& input) {
-            return make_solution_picture(input, std::move(solution));
+        [&](const estimators::Problem& problem) {
+            return make_solution_picture(problem, std::move(solution));
         },
-        replicates, scene, camera, options, sink, interrupt);
+        replicates, scene, camera, options, options, sink, interrupt);
 }
 
 }  // namespace stilb::run

@@ -28,7 +28,10 @@ class LineOfSightFollower {
         }
         for (const SpecularRay& way : specular_rays(material, hit, -direction)) {
             const int met = reflections + (way.straight ? 0 : 1);
-            if (met > max_reflections_) continue;
+            if (met > max_reflections_) {
+                if (!sight.end) sight.end = hit.position;
+                continue;
+            }
             const Rgb left = transmission * way.share * way.luminance_factor;
             if (left.max() < kLeastTransmission || met > kMostFollowed) {
                 sight.faint.push_back({way.origin, way.direction, left, met});
@@ -65,14 +68,17 @@ Vec3 looking_direction(const Measurand& luminance) {
 VisibleSurfaces look(const Measurand& luminance, const Scene& scene, const rays::RayCaster& caster,
                      const LightSampler& lights, int max_reflections) {
     LineOfSightFollower follower(scene, caster, lights, max_reflections);
-    if (const auto hit = first_surface(luminance, caster)) {
-        follower.follow(*hit, looking_direction(luminance), Rgb::grey(1), 0);
+    follower.sight.first = first_surface(luminance, caster);
+    if (follower.sight.first) {
+        follower.follow(*follower.sight.first, looking_direction(luminance), Rgb::grey(1), 0);
     }
     std::stable_sort(follower.sight.sub_points.begin(), follower.sight.sub_points.end(),
                      [](const SubPoint& a, const SubPoint& b) {
                          return a.transmission.luminance() > b.transmission.luminance();
                      });
-    return std::move(follower.sight);
+    VisibleSurfaces& sight = follower.sight;
+    if (!sight.sub_points.empty()) sight.end = sight.sub_points.front().surface.position;
+    return std::move(sight);
 }
 
 }  // namespace stilb::transport

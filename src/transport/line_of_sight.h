@@ -27,9 +27,13 @@ struct FaintRay {
 
 /// All that a sensor sees along a line of sight.
 struct VisibleSurfaces {
+    std::optional<rays::Hit> first;    ///< first_surface()
     std::vector<SubPoint> sub_points;  ///< the one that most light comes from first
     std::vector<FaintRay> faint;
     Rgb emission_cd_m2;  ///< of the emitters that are seen, but along the faint ways
+    /// The sub-point that most light comes from, or the mirror at which the limit of reflections ends the
+    /// line of sight; nothing where it leaves the scene.
+    std::optional<Vec3> end;
 };
 
 /// The surface that a line of sight meets first, or that an emergent ray leaves; nothing in the void.

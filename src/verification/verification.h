@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "run/run.h"
+#include "run/measure.h"
 #include "verification/verification_cases.h"
 
 namespace stilb::verification {

@@ -11,7 +11,7 @@ namespace stilb::verification {
 bool VerificationCase::is_for(const estimators::EstimatorEntry& method) const {
     if (!only_method.empty()) return method.name == only_method;
     // At points double-local is local.
-    return measures_luminance() ? method.measures_luminance() : method.name != "double-local";
+    return measures_luminance() ? method.measures_luminance : method.name != "double-local";
 }
 
 std::vector<VerificationCase> verification_cases() {

@@ -10,7 +10,7 @@
 namespace stilb::cli {
 namespace {
 
-std::string table_of(const io::HandMade& made) { return to_table(made.result, made.sensors); }
+std::string table_of(const RunResult& made) { return to_table(made); }
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(ResultsTable, ShowsLinesOfSightAndDirections) {
@@ -30,21 +30,20 @@ TEST(ResultsTable, ShowsLinesOfSightAndDirections) {
 }
 
 TEST(ResultsTable, OneLineOfSightIsOneLine) {
-    io::HandMade made = io::luminance_results();
+    RunResult made = io::luminance_results();
     made.sensors.resize(1);
-    made.sensors[0].measurands.resize(1);
-    made.result.sensors[0].sub_points.clear();
+    made.sensors[0].sensor.measurands.resize(1);
+    made.sensors[0].sub_points.clear();
     EXPECT_TRUE(has(table_of(made), "\nview          100.0 ± 2.0 cd/m²   from (2, 0, 1) along (0, 1, 0)\n"))
         << table_of(made);
 }
 
 /// As of methods without chance.
 TEST(ResultsTable, ShowsNoErrorsWhereNoneAreKnown) {
-    io::HandMade made = io::luminance_results();
+    RunResult made = io::luminance_results();
     made.sensors.resize(1);
-    made.result.sensors.resize(1);
-    made.result.stop_reason = StopReason::solved;
-    SensorResult& view = made.result.sensors[0];
+    made.stop_reason = StopReason::solved;
+    SensorResult& view = made.sensors[0];
     view.attained_error = std::numeric_limits<double>::quiet_NaN();
     for (Reading& reading : view.readings)
         reading.estimate = statistics::without_error(reading.estimate.value);
@@ -60,9 +59,20 @@ TEST(ResultsTable, ShowsNoErrorsWhereNoneAreKnown) {
               "auto in 0.00 s: solved; the error by the size of the patches is not known\n");
 }
 
+TEST(ResultsTable, ShowsNoErrorsWhereTheTimeLimitEndsAMethodWithoutChance) {
+    RunResult made = io::luminance_results();
+    made.stop_reason = StopReason::time_over;
+    made.replicates = 1;
+    const std::string table = table_of(made);
+    EXPECT_TRUE(table.starts_with("Luminance, without intervals\n")) << table;
+    EXPECT_TRUE(
+        has(table, "auto in 0.00 s: time limit reached; the error by the size of the patches is not known"))
+        << table;
+}
+
 TEST(ResultsTable, SaysWhatPatchesStandFor) {
-    io::HandMade made = io::luminance_results();
-    made.result.patches = io::patch_report();
+    RunResult made = io::luminance_results();
+    made.patches = io::patch_report();
     EXPECT_TRUE(table_of(made).ends_with(
         "\nauto, 0 paths in 0.00 s: all paths done; error 0 %\n"
         "1000 patches of 0.25 m; first shot (incoming, resolution 256) for 1 of 2 lights, 0.12 s, "
@@ -72,10 +82,10 @@ TEST(ResultsTable, SaysWhatPatchesStandFor) {
 }
 
 TEST(ResultsTable, NamesFewOfManyLights) {
-    io::HandMade made = io::luminance_results();
-    made.result.patches = io::patch_report();
+    RunResult made = io::luminance_results();
+    made.patches = io::patch_report();
     for (int i = 2; i < 6; ++i) {
-        made.result.patches->lights.push_back({fmt::format("panel {}", i), false, "large", 0, {}});
+        made.patches->lights.push_back({fmt::format("panel {}", i), false, "large", 0, {}});
     }
     EXPECT_TRUE(table_of(made).ends_with(
         "\nlights that stay: panel (large), panel 2 (large), panel 3 (large) and 2 more\n"))
@@ -83,20 +93,19 @@ TEST(ResultsTable, NamesFewOfManyLights) {
 }
 
 TEST(ResultsTable, LightsNeedNoWordsWithoutFirstShot) {
-    io::HandMade made = io::luminance_results();
-    made.result.patches = io::patch_report();
-    made.result.patches->first_shot = estimators::FirstShotVariant::none;
+    RunResult made = io::luminance_results();
+    made.patches = io::patch_report();
+    made.patches->first_shot = estimators::FirstShotVariant::none;
     EXPECT_TRUE(table_of(made).ends_with("\n1000 patches of 0.25 m; no first shot\n")) << table_of(made);
 }
 
 TEST(ResultsTable, NamesTheQuantities) {
-    io::HandMade made = io::luminance_results();
-    made.sensors.push_back({"eye", SensorType::illuminance, {MeasuringPoint{{1, 2, 3}, {0, 0, 1}}}});
-    made.result.sensors.push_back({{io::reading(500)}, {}, {}, 0.01});
+    RunResult made = io::luminance_results();
+    const Sensor eye{"eye", SensorType::illuminance, {MeasuringPoint{{1, 2, 3}, {0, 0, 1}}}};
+    made.sensors.push_back({eye, {io::reading(500)}, {}, {}, 0.01});
     EXPECT_TRUE(table_of(made).starts_with("Illuminance and luminance, with 95 % intervals\n"));
     EXPECT_TRUE(has(table_of(made), "\neye           500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 0, 1)\n"));
     made.sensors.erase(made.sensors.begin(), made.sensors.begin() + 2);
-    made.result.sensors.erase(made.result.sensors.begin(), made.result.sensors.begin() + 2);
     EXPECT_TRUE(table_of(made).starts_with("Illuminance, with 95 % intervals\n"));
 }
 

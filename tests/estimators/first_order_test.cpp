@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "estimators/estimator.h"
 #include "estimators/estimator_list.h"
 #include "statistics/hypothesis.h"
 #include "statistics/interval.h"
@@ -78,7 +79,7 @@ std::vector<statistics::Estimate> measure(const EstimatorEntry& method, const Sc
                                           const std::vector<Measurand>& rays) {
     constexpr int one_reflection = 1;
     const rays::RayCaster caster(scene);
-    const auto estimator = method.make({scene, caster, rays, one_reflection, math::RandomKey{1}});
+    const auto estimator = method.make({scene, caster, one_reflection, math::RandomKey{1}, rays});
     EXPECT_EQ(kSamples % estimator->batch_granularity(), 0u);
     std::vector<double> means;
     for (std::uint64_t replicate = 0; replicate < kReplicates; ++replicate) {
@@ -104,7 +105,7 @@ TEST_P(FirstOrder, IsTheIntegralOverTheLight) {
         exact.push_back(exact_luminance_cd_m2(ray.position, ray.direction, GetParam()));
     }
     for (const EstimatorEntry& method : unbiased_estimators()) {
-        if (!method.measures_luminance()) continue;
+        if (!method.measures_luminance) continue;
         const std::vector<statistics::Estimate> measured = measure(method, scene, rays);
         for (std::size_t j = 0; j < rays.size(); ++j) {
             EXPECT_NEAR(measured[j].value, exact[j], kLargestError * exact[j]) << method.name << ", " << j;

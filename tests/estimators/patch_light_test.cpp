@@ -1,8 +1,8 @@
 // What methods for diffuse scenes light patches with: the balance of its flux.
 #include <gtest/gtest.h>
 
-#include "estimators/patch_light/particles/illumination_map.h"
-#include "estimators/patch_light/radiosity/radiosity_solution.h"
+#include "estimators/patch_light/particles/particles.h"
+#include "estimators/patch_light/radiosity/radiosity.h"
 #include "support/scene_builder.h"
 
 namespace stilb::estimators {

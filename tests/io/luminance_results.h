@@ -1,7 +1,7 @@
 // Results of luminance sensors, made by hand.
 #pragma once
 
-#include "run/run.h"
+#include "run/result.h"
 
 namespace stilb::io {
 
@@ -9,29 +9,24 @@ inline Reading reading(double value) {
     return {{value, 1, value - 2, value + 2}, {{value + 10, value, value - 10}}};
 }
 
-struct HandMade {
-    std::vector<Sensor> sensors;
-    RunResult result;
-};
-
 /// A sensor "view" with two lines of sight of 100 and 200 cd/m2: the first meets (2, 4, 1), the second leaves
 /// the scene. A goniometer "solid" with two directions of 30 and 31 cd/m2.
-inline HandMade luminance_results() {
-    HandMade made;
-    made.sensors = {
-        {"view",
-         SensorType::luminance,
-         {LineOfSight{{2, 0, 1}, {0, 1, 0}}, LineOfSight{{2, 0, 1}, {0, 0, 1}}}},
-        {"solid",
-         SensorType::goniometer,
-         {EmergentRay{{2, 2, 0}, {0, 0, 1}, {0, 0, 1}}, EmergentRay{{2, 2, 0}, {0, 0, 1}, {0.6, 0, 0.8}}}}};
-    made.sensors[1].angles = {{0, 90}, {36.87, 90}};
+inline RunResult luminance_results() {
+    const Sensor view{"view",
+                      SensorType::luminance,
+                      {LineOfSight{{2, 0, 1}, {0, 1, 0}}, LineOfSight{{2, 0, 1}, {0, 0, 1}}}};
+    Sensor solid{
+        "solid",
+        SensorType::goniometer,
+        {EmergentRay{{2, 2, 0}, {0, 0, 1}, {0, 0, 1}}, EmergentRay{{2, 2, 0}, {0, 0, 1}, {0.6, 0, 0.8}}}};
+    solid.angles = {{0, 90}, {36.87, 90}};
     const statistics::Estimate low{100, 1, 98, 102}, high{200, 1, 198, 202}, mean{150, 1, 148, 152};
-    made.result.method = "auto";
-    made.result.sensors = {
-        {{reading(100), reading(200)}, {Vec3{2, 4, 1}, std::nullopt}, {mean, low, high, {}}, 0.02},
-        {{reading(30), reading(31)}, {}, {mean, low, high, {}}, 0.07}};
-    return made;
+    RunResult result;
+    result.method = "auto";
+    result.sensors = {
+        {view, {reading(100), reading(200)}, {Vec3{2, 4, 1}, std::nullopt}, {mean, low, high, {}}, 0.02},
+        {solid, {reading(30), reading(31)}, {}, {mean, low, high, {}}, 0.07}};
+    return result;
 }
 
 /// Of 1000 patches and incoming first shot for a bulb, but not for a large panel.

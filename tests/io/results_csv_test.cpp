@@ -8,10 +8,10 @@
 namespace stilb::io {
 namespace {
 
-std::string csv_of(const HandMade& made, const std::string& sensor) {
+std::string csv_of(const RunResult& made, const std::string& sensor) {
     const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
     const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("stilb_csv_" + test);
-    write_results_csv(made.result, made.sensors, folder);
+    write_results_csv(made, folder);
     const std::string content = read_whole_file(folder / (sensor + ".csv"));
     std::filesystem::remove_all(folder);
     return content;
@@ -36,9 +36,9 @@ TEST(ResultsCsv, HasALineForEachDirectionOfAGoniometer) {
 }
 
 TEST(ResultsCsv, HasALineForEachMeasuringPoint) {
-    HandMade made;
-    made.sensors = {{"eye", SensorType::illuminance, {MeasuringPoint{{1, 2, 3}, {0, 0, 1}}}}};
-    made.result.sensors = {{{reading(100)}, {}, {}, 0.02}};
+    RunResult made;
+    const Sensor eye{"eye", SensorType::illuminance, {MeasuringPoint{{1, 2, 3}, {0, 0, 1}}}};
+    made.sensors = {{eye, {reading(100)}, {}, {}, 0.02}};
     EXPECT_EQ(csv_of(made, "eye"),
               "x_m,y_m,z_m,normal_x,normal_y,normal_z,illuminance_lx,standard_error_lx,interval_low_lx,"
               "interval_high_lx,red_lx,green_lx,blue_lx\r\n"

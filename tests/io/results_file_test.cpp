@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "io/luminance_results.h"
+#include "io/results/results_json.h"
 #include "plot/grid_picture.h"
 
 namespace stilb::io {
@@ -108,6 +110,38 @@ TEST(GridPicture, SumsUpEachGrid) {
     EXPECT_EQ(picture.panels[0].subtitle, "mean 102 lx   minimum 100 lx   uniformity 0.98");
     EXPECT_EQ(picture.panels[0].nu, 3);
     EXPECT_EQ(picture.panels[0].nv, 2);
+}
+
+/// Straight from the results of a run: as read back from the file that they make.
+TEST(GridPicture, IsTheSameOfResultsAndTheirFile) {
+    RunResult result = luminance_results();
+    const auto add = [&](const std::string& name, const std::array<int, 2>& count) {
+        SensorResult& grid = result.sensors.emplace_back();
+        grid.sensor =
+            sensors::make_grid_sensor(name, {{1, 2, 0.75}, {1.7, 0, 0}, {0, 0, 1.1}, count}, {0, 1, 0});
+        std::vector<double> values;
+        for (std::size_t i = 0; i < grid.sensor.measurands.size(); ++i) {
+            values.push_back(300 + 20. / 7 * static_cast<double>(i));
+            grid.readings.push_back(reading(values.back()));
+        }
+        grid.summary = statistics::summarize_without_errors(values);
+    };
+    add("desk", {5, 3}), add("row", {4, 1}), add("column", {1, 4}), add("cell", {1, 1});
+    const plot::FalseColour straight = plot::picture_of(result, "office.toml");
+    const plot::FalseColour read = plot::picture_of(read_results(to_json(result, "office.toml"), "x.json"));
+    EXPECT_EQ(straight.title, read.title);
+    EXPECT_EQ(straight.unit, read.unit);
+    ASSERT_EQ(straight.panels.size(), 4u);
+    ASSERT_EQ(read.panels.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const plot::FalseColourPanel &a = straight.panels[i], &b = read.panels[i];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_EQ(a.subtitle, b.subtitle);
+        EXPECT_EQ(a.values, b.values);
+        EXPECT_EQ(std::make_pair(a.nu, a.nv), std::make_pair(b.nu, b.nv));
+        EXPECT_NEAR(a.width_m, b.width_m, 1e-12) << a.name;
+        EXPECT_NEAR(a.height_m, b.height_m, 1e-12) << a.name;
+    }
 }
 
 TEST(GridPicture, NeedsGridsOfOneUnit) {

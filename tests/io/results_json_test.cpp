@@ -12,9 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json json_of(const HandMade& made) {
-    return Json::parse(to_json(made.result, made.sensors, "room.toml"))["sensors"];
-}
+Json json_of(const RunResult& made) { return Json::parse(to_json(made, "room.toml"))["sensors"]; }
 
 TEST(ResultsJson, LuminancesSayWhereTheLightComesFrom) {
     const Json view = json_of(luminance_results())[0];
@@ -28,8 +26,8 @@ TEST(ResultsJson, LuminancesSayWhereTheLightComesFrom) {
 }
 
 TEST(ResultsJson, UnknownSubPointsAreNull) {
-    HandMade made = luminance_results();
-    made.result.sensors[0].sub_points.clear();
+    RunResult made = luminance_results();
+    made.sensors[0].sub_points.clear();
     const Json values = json_of(made)[0]["values"];
     ASSERT_FALSE(values.empty());
     for (const Json& value : values) EXPECT_TRUE(value.at("hit").is_null());
@@ -54,20 +52,20 @@ TEST(ResultsJson, LuminancesHaveNoUniformity) {
 
 /// As of methods without chance.
 TEST(ResultsJson, UnknownErrorsAreNull) {
-    HandMade made = luminance_results();
-    made.result.stop_reason = StopReason::solved;
-    made.result.sensors[0].readings[0].estimate = statistics::without_error(100);
+    RunResult made = luminance_results();
+    made.stop_reason = StopReason::solved;
+    made.sensors[0].readings[0].estimate = statistics::without_error(100);
     const Json value = json_of(made)[0]["values"][0];
     EXPECT_EQ(value["value"], 100);
     EXPECT_TRUE(value["standard_error"].is_null());
     EXPECT_EQ(value["interval"], Json::parse("[null, null]"));
-    EXPECT_EQ(Json::parse(to_json(made.result, made.sensors, "room.toml"))["stopped"], "solved");
+    EXPECT_EQ(Json::parse(to_json(made, "room.toml"))["stopped"], "solved");
 }
 
 TEST(ResultsJson, PatchesSayWhatBecameOfLights) {
-    HandMade made = luminance_results();
-    made.result.patches = patch_report();
-    const Json json = Json::parse(to_json(made.result, made.sensors, "room.toml"));
+    RunResult made = luminance_results();
+    made.patches = patch_report();
+    const Json json = Json::parse(to_json(made, "room.toml"));
     EXPECT_EQ(json["first_shot_set_up_s"], 0.125);
     EXPECT_EQ(json["patches"], Json::parse(R"({"count": 1000, "size_m": 0.25, "first_shot": {
         "variant": "incoming", "resolution": 256, "missed": 3, "bytes_per_patch": 71.5, "lights": [
@@ -76,26 +74,26 @@ TEST(ResultsJson, PatchesSayWhatBecameOfLights) {
 }
 
 TEST(ResultsJson, WithoutItemBuffersThereIsNoResolution) {
-    HandMade made = luminance_results();
-    made.result.patches = patch_report();
-    made.result.patches->resolution.reset();
-    const Json json = Json::parse(to_json(made.result, made.sensors, "room.toml"));
+    RunResult made = luminance_results();
+    made.patches = patch_report();
+    made.patches->resolution.reset();
+    const Json json = Json::parse(to_json(made, "room.toml"));
     EXPECT_TRUE(json["patches"]["first_shot"].at("resolution").is_null());
 }
 
 TEST(ResultsJson, WithoutPatchesThereIsNoReport) {
-    const HandMade made = luminance_results();
-    const Json json = Json::parse(to_json(made.result, made.sensors, "room.toml"));
+    const RunResult made = luminance_results();
+    const Json json = Json::parse(to_json(made, "room.toml"));
     EXPECT_FALSE(json.contains("patches"));
     EXPECT_FALSE(json.contains("first_shot_set_up_s"));
 }
 
 TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
-    HandMade made = luminance_results();
-    made.sensors.push_back(
-        sensors::make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1}));
-    made.result.sensors.push_back({{reading(500), reading(510)}, {}, {}, 0.01});
-    const ResultsFile read = read_results(to_json(made.result, made.sensors, "room.toml"), "room.json");
+    RunResult made = luminance_results();
+    const Sensor desk =
+        sensors::make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1});
+    made.sensors.push_back({desk, {reading(500), reading(510)}, {}, {}, 0.01});
+    const ResultsFile read = read_results(to_json(made, "room.toml"), "room.json");
     ASSERT_EQ(read.grids.size(), 1u);
     EXPECT_EQ(read.grids[0].name, "desk");
     EXPECT_EQ(read.grids[0].values, (std::vector<double>{500, 510}));

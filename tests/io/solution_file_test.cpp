@@ -23,7 +23,7 @@ StoredSolution sample_solution() {
     options.paths = 8;
     options.patches.patch_m = 2;
     SolveResult result = solve(scene, options, 2);
-    return {"0.1.0", "rooms/room.toml",         "0123456789abcdef", 7, result.steps,
+    return {"0.1.0", "rooms/room.toml",         "0123456789abcdef", 7, result.samples,
             0.02,    std::move(result.solution)};
 }
 

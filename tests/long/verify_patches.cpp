@@ -11,7 +11,7 @@
 
 #include "agreement/scenes.h"
 #include "patches/backends.h"
-#include "run/run.h"
+#include "run/measure.h"
 
 namespace stilb {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "run/measure.h"
 #include "run/render.h"
-#include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 

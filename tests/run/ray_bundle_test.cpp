@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "run/measure.h"
 #include "run/render.h"
-#include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 

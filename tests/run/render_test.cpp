@@ -59,7 +59,7 @@ TEST(Render, MethodsAgree) {
     const Sensor sensor = camera(Projection::perspective, 33, 21);  // blocks of all sizes
     std::vector<statistics::Estimate> estimates;
     for (const estimators::EstimatorEntry& method : estimators::unbiased_estimators()) {
-        if (!method.measures_luminance()) continue;
+        if (!method.measures_luminance) continue;
         estimates.push_back(mean_luminance(scene, sensor, std::string(method.name)));
         EXPECT_LT(estimates.back().standard_error, 0.003 * estimates.back().value) << method.name;
     }
@@ -80,7 +80,7 @@ TEST(Render, ErrorsOfPixelsAreHonest) {
     const RenderResult exact = render_with(scene, sensor, "auto", 1, 2048);
     for (const estimators::EstimatorEntry& method : estimators::unbiased_estimators()) {
         // Where the variance is infinite, in corners, there is no honest error.
-        if (!method.measures_luminance() || method.has_heavy_tails) continue;
+        if (!method.measures_luminance || method.has_heavy_tails) continue;
         const RenderResult picture = render_with(scene, sensor, std::string(method.name), 2, 32);
         double inside = 0;
         for (std::size_t i = 0; i < exact.depth_m.size(); ++i) {
@@ -112,7 +112,7 @@ TEST(Render, DoesNotDependOnThreads) {
         const RenderResult three = render(scene, sensor, options);
         EXPECT_EQ(one.pixels.rgb_cd_m2, three.pixels.rgb_cd_m2) << method;
         EXPECT_EQ(one.pixels.standard_error_cd_m2, three.pixels.standard_error_cd_m2) << method;
-        EXPECT_EQ(one.passes, 18u);
+        EXPECT_EQ(one.samples, 18u);
     }
 }
 

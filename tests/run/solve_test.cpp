@@ -154,7 +154,7 @@ TEST(Solve, ThreadsChangeNothing) {
     const SolveResult three = solve(scene, options);
     EXPECT_EQ(one.solution.replicates, three.solution.replicates);
     EXPECT_EQ(one.solution.lit_sides, three.solution.lit_sides);
-    EXPECT_EQ(one.steps, 128u);
+    EXPECT_EQ(one.samples, 128u);
 }
 
 TEST(Solve, RefusesWhatItCannotStore) {

@@ -1,7 +1,7 @@
 // The number of threads changes no bit of a result.
 #include <gtest/gtest.h>
 
-#include "run/run.h"
+#include "run/measure.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {
@@ -27,7 +27,7 @@ TEST_P(Threads, ChangeNoBit) {
     const RunResult one = measure(1);
     for (const int threads : {1, 2, 3}) {
         const RunResult other = measure(threads);
-        EXPECT_EQ(other.paths, one.paths);
+        EXPECT_EQ(other.samples, one.samples);
         EXPECT_EQ(other.rays, one.rays);
         EXPECT_EQ(other.attained_error, one.attained_error);
         EXPECT_EQ(other.warnings, one.warnings);

@@ -272,6 +272,23 @@ class MeasureTest(CommandLineTest):
             self.assertLess(document["elapsed_s"], 40)
             self.assertGreater(document["sensors"][0]["values"][0]["value"], 0)
 
+    def test_interrupted_during_set_up(self):
+        process = subprocess.Popen([PROGRAM, "measure", self.scene, "--json", "--method", "radiosity", "--patch", "0.02"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=MOST_SECONDS)
+        self.assertEqual((process.returncode, output), (3, ""), errors)
+        self.assertIn("interrupted during set-up", errors)
+        self.assertIn("no result", errors)
+
+    def test_time_holds_for_the_set_up(self):
+        start = time.monotonic()
+        result = run("measure", self.scene, "--method", "radiosity", "--patch", "0.02", "--time", "1")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("time limit reached", result.stderr)
+        self.assertLess(time.monotonic() - start, 40)
+
     def test_threads_and_repetitions_change_nothing(self):
         def document(threads):
             result = self.measure("--paths", "20000", "--threads", threads)
@@ -357,6 +374,13 @@ class MeasureTest(CommandLineTest):
         self.measure("--error", "5%", "--falsecolor", picture)
         self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
+    def test_picture_is_that_of_the_results_file(self):
+        straight, results, read = (self.folder / name for name in ("straight.png", "room.json", "read.png"))
+        document = run("measure", self.scene, "--paths", "4096", "--json", "--falsecolor", straight).stdout
+        results.write_text(document, encoding="utf-8")
+        self.assertEqual(run("falsecolor", results, "-o", read, "--isolines").returncode, 0)
+        self.assertEqual(straight.read_bytes(), read.read_bytes())
+
     def test_table(self):
         result = run("measure", self.scene, "--error", "5%")
         self.assertEqual(result.returncode, 0)
@@ -412,7 +436,7 @@ class SolveTest(CommandLineTest):
         (self.folder / "elsewhere").mkdir()
         self.scene = self.scene.rename(self.folder / "elsewhere/room.toml")
         self.expect_wrong_input(["render", "--from", self.solution, "-o", self.folder / "view.exr"],
-                                "there is no scene", "room.toml", "stilb render SCENE --from FILE")
+                                "was not found", "room.toml", "stilb render SCENE --from FILE")
         self.expect_picture(self.scene, "--from", self.solution)
 
     def test_both_may_move_together(self):

@@ -13,21 +13,63 @@
 //                 of finite variance, but for light that only chains can make (it met a mirror or glass
 //                 first): w = 1.
 //
+// Pictures: double local estimation of sub-points that each pass draws anew. A pass walks chains of its own
+// for the whole picture. Each packet of 4 x 4 pixels selects its own few of their nodes, and packets lie
+// elsewhere in every pass: errors of neighbouring packets are nearly independent, and no structure of the
+// chains shows in the picture.
+//
 // Not made: light that leaves a point-like source, meets a mirror or glass first and comes to the receiver by
 // a mirror or glass last; the run warns of it.
-#include "estimators/local/local_estimation.h"
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <atomic>
 #include <limits>
 
+#include "estimators/camera_paths.h"
 #include "estimators/limits.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/gather.h"
 #include "estimators/local/node_selection.h"
 #include "estimators/local/split_plan.h"
+#include "estimators/methods.h"
 #include "transport/direct_light.h"
 
 namespace stilb::estimators {
 namespace {
+
+/// Chains that are spent on planning; few suffice, because any plan is unbiased.
+constexpr std::uint64_t kPilotChains = 256;
+
+/// Whether light is gathered by rays too.
+enum class Split { none, balanced };
+
+/// What readings and pictures have in common. Stays where it is made.
+struct LocalTransport {
+    LocalTransport(const Problem& problem, Split asked)
+        : scene(problem.scene),
+          caster(problem.caster),
+          max_reflections(problem.max_reflections),
+          split(asked),
+          gathers(split == Split::balanced || has_specular_surfaces(scene)),
+          lights(scene, caster),
+          tracer(scene, caster, lights) {}
+    LocalTransport(const LocalTransport&) = delete;
+    LocalTransport& operator=(const LocalTransport&) = delete;
+
+    std::vector<transport::LightVertex> walk_chains(math::RandomKey key, std::uint64_t first,
+                                                    std::uint64_t end) const {
+        return trace_light_paths(scene, caster, lights, max_reflections, key, first, end);
+    }
+
+    const Scene& scene;
+    const rays::RayCaster& caster;
+    int max_reflections;
+    Split split;
+    bool gathers;
+    transport::LightSampler lights;
+    transport::PathTracer tracer;
+};
 
 /// Nodes are sent to the points after so many chains per selected one (below).
 constexpr std::uint64_t kChainBlock = 512;
@@ -35,11 +77,6 @@ constexpr std::uint64_t kChainBlock = 512;
 constexpr std::uint64_t kChainsPerDirectSample = 2;
 /// Chains for each ray that `local` sends out where there are mirrors or glass.
 constexpr std::uint64_t kChainsPerSpecularRay = 4;
-/// Chains that are spent on planning; few suffice, because any plan is unbiased.
-constexpr std::uint64_t kPilotChains = 256;
-
-enum Purpose : std::uint64_t { kChains, kSelection, kDirect, kGather, kPilot, kPlan, kFaint };
-
 /// Of so many chains' nodes `auto` sends one chain's to the points: a chain costs some 50 rays of a fan, so
 /// the more points there are the more is gained by choosing well; the square root balances the cost and the
 /// variance of both.
@@ -49,53 +86,46 @@ std::uint64_t chains_per_selected(std::size_t points) {
     return chains;
 }
 
-class LocalEstimation final : public Estimator {
+/// Illuminance at points and luminance along lines of sight.
+class LocalReadings {
   public:
-    enum class Split { none, balanced };
+    LocalReadings(const LocalTransport& transport, const Problem& problem)
+        : transport_(transport),
+          seen_(receive(problem.measurands)),
+          chains_per_selected_(
+              transport.split == Split::balanced ? chains_per_selected(seen_.receivers.size()) : 1),
+          plans_(plans(problem)),
+          tiles_(tiles_of(seen_.receivers, constants_per_m2(plans_), transport_.caster,
+                          transport_.max_reflections)),
+          fan_(transport_.caster, tiles_),
+          gather_(transport_.caster, transport_.tracer, tiles_, plans_) {}
 
-    LocalEstimation(const EstimatorInput& input, Split split)
-        : scene_(input.scene),
-          caster_(input.caster),
-          max_reflections_(input.max_reflections),
-          lights_(scene_, caster_),
-          tracer_(scene_, caster_, lights_),
-          seen_(receive(input.measurands)),
-          gathers_(split == Split::balanced || has_specular_surfaces(scene_)),
-          chains_per_selected_(split == Split::balanced ? chains_per_selected(seen_.receivers.size()) : 1),
-          plans_(plans(split, input.weights, input.preparation_key)),
-          tiles_(tiles_of(seen_.receivers, constants_per_m2(plans_), caster_, max_reflections_)),
-          fan_(caster_, tiles_),
-          gather_(caster_, tracer_, tiles_, plans_) {}
-
-    void run_batch(const Batch& batch, ReadingSums& sums) const override {
+    void run_batch(const Batch& batch, ReadingSums& sums) const {
         const std::uint64_t end = batch.first + batch.count;
         const std::uint64_t block = kChainBlock * chains_per_selected_;
         for (std::uint64_t first = batch.first; first < end; first += block) {
             fan_.collect(fan_nodes(batch.key, first, std::min(end, first + block)), sums);
         }
-        if (lights_.has_area_lights()) add_direct_light(batch, sums);
-        if (gathers_) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
+        if (transport_.lights.has_area_lights()) add_direct_light(batch, sums);
+        if (transport_.gathers) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
         add_faint_ways(batch, sums);
     }
 
-    std::span<const Rgb> known_part() const override { return seen_.known_part; }
-    std::uint64_t batch_granularity() const override { return kMostChainsPerRay * chains_per_selected_; }
-    double rays_per_sample() const override {
+    std::span<const Rgb> known_part() const { return seen_.known_part; }
+    std::span<const std::optional<Vec3>> sight_ends() const { return seen_.ends; }
+    std::uint64_t batch_granularity() const { return kMostChainsPerRay * chains_per_selected_; }
+    double rays_per_sample() const {
         constexpr double chain_cost = 50;
         return chain_cost +
                2.0 * static_cast<double>(seen_.receivers.size()) / static_cast<double>(chains_per_selected_);
     }
-    std::vector<std::string> warnings() const override { return local_warnings(scene_); }
 
   private:
-    std::vector<transport::LightVertex> walk_chains(math::RandomKey key, std::uint64_t first,
-                                                    std::uint64_t end) const {
-        return trace_light_paths(scene_, caster_, lights_, max_reflections_, key, first, end);
-    }
+    enum Purpose : std::uint64_t { kChains, kSelection, kDirect, kGather, kPilot, kPlan, kFaint };
 
     std::vector<transport::LightVertex> fan_nodes(math::RandomKey key, std::uint64_t first,
                                                   std::uint64_t end) const {
-        std::vector<transport::LightVertex> nodes = walk_chains(key.derived(kChains), first, end);
+        std::vector<transport::LightVertex> nodes = transport_.walk_chains(key.derived(kChains), first, end);
         if (chains_per_selected_ == 1) return nodes;
         const double u = math::SampleStream(key.derived(kSelection).derived(first), 0).next();
         return NodePool(nodes).select(nodes.size() / chains_per_selected_ + 1, u);
@@ -110,28 +140,33 @@ class LocalEstimation final : public Estimator {
         };
         std::vector<Faint> faint;
         std::vector<Rgb> known_part;
+        std::vector<std::optional<Vec3>> ends;  ///< of lines of sight
     };
     Seen receive(std::span<const Measurand> measurands) const {
         Seen seen;
         seen.known_part.resize(measurands.size());
+        seen.ends.resize(measurands.size());
         for (std::uint32_t reading = 0; reading < measurands.size(); ++reading) {
             const Measurand& measurand = measurands[reading];
             if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
-                seen.receivers.emplace_back(reading, *point, caster_);
+                seen.receivers.emplace_back(reading, *point, transport_.caster);
                 continue;
             }
-            const transport::VisibleSurfaces sight =
-                look(measurand, scene_, caster_, lights_, max_reflections_);
+            const transport::VisibleSurfaces sight = look(measurand, transport_.scene, transport_.caster,
+                                                          transport_.lights, transport_.max_reflections);
+            seen.ends[reading] = sight.end;
             seen.known_part[reading] = sight.emission_cd_m2;
             for (const transport::FaintRay& way : sight.faint) seen.faint.push_back({reading, way});
             for (const transport::SubPoint& sub_point : sight.sub_points) {
-                if (sub_point.reflections == max_reflections_) continue;
-                seen.receivers.emplace_back(reading, sub_point, scene_.material(sub_point.surface.material));
+                if (sub_point.reflections == transport_.max_reflections) continue;
+                seen.receivers.emplace_back(reading, sub_point,
+                                            transport_.scene.material(sub_point.surface.material));
             }
         }
         seen.receivers = sorted_receivers(std::move(seen.receivers));
         for (const transport::Receiver& receiver : seen.receivers) {
-            seen.known_part[receiver.reading()] += direct_from_points(receiver, caster_, lights_);
+            seen.known_part[receiver.reading()] +=
+                direct_from_points(receiver, transport_.caster, transport_.lights);
         }
         return seen;
     }
@@ -145,7 +180,8 @@ class LocalEstimation final : public Estimator {
             const math::RandomKey own_key = key.derived(j);
             for (std::uint64_t i = batch.first / chains; i < end; ++i) {
                 math::SampleStream stream(own_key, i);
-                const Rgb sample = sample_direct_from_areas(receiver, caster_, lights_, stream);
+                const Rgb sample =
+                    sample_direct_from_areas(receiver, transport_.caster, transport_.lights, stream);
                 sums.add(receiver.reading(), static_cast<double>(chains) * sample);
             }
         }
@@ -157,29 +193,38 @@ class LocalEstimation final : public Estimator {
         const std::uint64_t chains = batch_granularity();
         for (std::size_t j = 0; j < seen_.faint.size(); ++j) {
             const auto& [reading, way] = seen_.faint[j];
-            const auto hit = caster_.closest(way.origin, way.direction);
+            const auto hit = transport_.caster.closest(way.origin, way.direction);
             if (!hit) continue;
             for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
                 math::SampleStream stream(key.derived(j), i);
-                const Rgb luminance =
-                    tracer_.luminance(*hit, way.direction, max_reflections_ - way.reflections, stream);
+                const Rgb luminance = transport_.tracer.luminance(
+                    *hit, way.direction, transport_.max_reflections - way.reflections, stream);
                 sums.add(reading, static_cast<double>(chains) * way.transmission * luminance);
             }
         }
     }
 
-    std::vector<SplitPlan> plans(Split split, std::span<const double> weights, math::RandomKey key) const {
-        if (split == Split::none) {
+    std::vector<SplitPlan> plans(const Problem& problem) const {
+        if (seen_.receivers.empty()) return {};
+        if (transport_.split == Split::none) {
             return std::vector<SplitPlan>(seen_.receivers.size(),
                                           {std::numeric_limits<double>::infinity(), kChainsPerSpecularRay});
         }
-        const std::vector<transport::LightVertex> nodes = walk_chains(key.derived(kPilot), 0, kPilotChains);
+        const math::RandomKey key = problem.preparation_key;
+        const std::vector<transport::LightVertex> nodes =
+            transport_.walk_chains(key.derived(kPilot), 0, kPilotChains);
         const std::vector<double> direct = pilot_direct(key.derived(kDirect));
+        const std::span<const double> weights = problem.weights;
         const std::vector<double> alike(weights.empty() ? direct.size() : 0, 1.0);
-        const PilotLight pilot{
-            nodes, kPilotChains, direct, surface_area_m2(scene_), max_reflections_, chains_per_selected_};
-        std::vector<SplitPlan> plans = plan_splits(
-            caster_, tracer_, seen_.receivers, weights.empty() ? alike : weights, pilot, key.derived(kPlan));
+        const PilotLight pilot{nodes,
+                               kPilotChains,
+                               direct,
+                               surface_area_m2(transport_.scene),
+                               transport_.max_reflections,
+                               chains_per_selected_};
+        std::vector<SplitPlan> plans =
+            plan_splits(transport_.caster, transport_.tracer, seen_.receivers,
+                        weights.empty() ? alike : weights, pilot, key.derived(kPlan), problem.monitor);
         for (SplitPlan& plan : plans) plan.chains_per_ray *= chains_per_selected_;
         return plans;
     }
@@ -193,7 +238,9 @@ class LocalEstimation final : public Estimator {
             for (int i = 0; i < samples; ++i) {
                 math::SampleStream stream(key.derived(j), static_cast<std::uint64_t>(i));
                 direct[receiver.reading()] +=
-                    sample_direct_from_areas(receiver, caster_, lights_, stream).luminance() / samples;
+                    sample_direct_from_areas(receiver, transport_.caster, transport_.lights, stream)
+                        .luminance() /
+                    samples;
             }
         }
         return direct;
@@ -205,13 +252,8 @@ class LocalEstimation final : public Estimator {
         return constants;
     }
 
-    const Scene& scene_;
-    const rays::RayCaster& caster_;
-    int max_reflections_;
-    transport::LightSampler lights_;
-    transport::PathTracer tracer_;
+    const LocalTransport& transport_;
     Seen seen_;
-    bool gathers_;
     std::uint64_t chains_per_selected_;
     std::vector<SplitPlan> plans_;
     std::vector<PointTile> tiles_;
@@ -219,14 +261,190 @@ class LocalEstimation final : public Estimator {
     Gather gather_;
 };
 
+/// Chains of a pass, and of so many of them a packet selects one chain's nodes. The more are walked, the more
+/// evenly the selected nodes lie; walking costs less than a hundredth of a large picture's pass.
+constexpr std::uint64_t kChainsPerPass = 4096;
+constexpr std::uint64_t kChainsPerSelected = 256;
+/// For planning, from each sub-point.
+constexpr unsigned kPilotRays = 4;
+
+/// Edge of a packet.
+constexpr int kPacketSide = 4;
+static_assert(kPacketSide * kPacketSide == kPacketWidth);
+
+class LocalPicture {
+  public:
+    LocalPicture(const LocalTransport& transport, const Problem& problem)
+        : transport_(transport),
+          tracing_(problem, transport.lights),
+          cells_per_row_((tracing_.camera.resolution[0] + kBlockSize - 1) / kBlockSize),
+          k_per_m2_(plan(problem)) {}
+
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const {
+        return std::make_unique<Fans>(*this, pass);
+    }
+
+  private:
+    enum Purpose : std::uint64_t { kWalks = kPixels + 1, kPackets, kSelection, kGather, kPilot, kPlan };
+
+    class Fans final : public PicturePass {
+      public:
+        Fans(const LocalPicture& picture, const Pass& pass)
+            : picture_(picture),
+              pass_(pass),
+              pool_(picture.transport_.walk_chains(pass.key.derived(kWalks), pass.index * kChainsPerPass,
+                                                   (pass.index + 1) * kChainsPerPass)) {}
+
+        std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
+            ReadingSums sums(pixels.size());
+            for (int top = 0; top < block.height; top += kPacketSide) {
+                for (int left = 0; left < block.width; left += kPacketSide)
+                    sample_packet(block, left, top, sums);
+            }
+            std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
+            return sums.invalid;
+        }
+
+      private:
+        void sample_packet(const PixelBlock& block, int left, int top, ReadingSums& sums) const {
+            const PixelBlock packet{block.left + left, block.top + top,
+                                    std::min(kPacketSide, block.width - left),
+                                    std::min(kPacketSide, block.height - top)};
+            std::vector<std::uint32_t> readings;
+            for (int y = 0; y < packet.height; ++y) {
+                for (int x = 0; x < packet.width; ++x) {
+                    readings.push_back(static_cast<std::uint32_t>((top + y) * block.width + left + x));
+                }
+            }
+            const std::vector<Pixel> pixels = pixels_of(packet);
+            std::vector<transport::Receiver> receivers;
+            std::vector<double> k_per_m2;
+            receivers.reserve(kPacketWidth);
+            CameraPaths started = picture_.tracing_.start_paths(pixels, pass_);
+            for (std::size_t i = 0; i < started.paths.size(); ++i) {
+                const std::size_t pixel = started.pixels[i];
+                sums.add(readings[pixel], picture_.look(started.paths[i], readings[pixel], receivers));
+                k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(pixels[pixel])]);
+            }
+            if (receivers.empty()) return;
+            // The packet's random numbers: those of its first pixel's place.
+            const math::RandomKey key = pass_.key.derived(kPackets).derived(
+                static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
+            picture_.receive(receivers, k_per_m2, pool_, {key, pass_.index}, sums);
+        }
+
+        const LocalPicture& picture_;
+        Pass pass_;
+        NodePool pool_;
+    };
+
+    std::size_t cell_of(const Pixel& pixel) const {
+        const int cell = pixel.y / kBlockSize * cells_per_row_ + pixel.x / kBlockSize;
+        return static_cast<std::size_t>(cell);
+    }
+
+    /// Appends the sub-point that a path from the camera comes to; returns the emission that it sees and the
+    /// direct light at the sub-point.
+    Rgb look(transport::Path& path, std::uint32_t reading,
+             std::vector<transport::Receiver>& receivers) const {
+        const bool meets_surface = transport_.tracer.look_through(path);
+        const Rgb emission = path.luminance_cd_m2;
+        if (!meets_surface || path.reflections_left == 0) return emission;
+        receivers.emplace_back(reading,
+                               transport::SubPoint{path.hit, path.outgoing, path.throughput,
+                                                   tracing_.max_reflections - path.reflections_left},
+                               tracing_.scene.material(path.hit.material));
+        const transport::Receiver& receiver = receivers.back();
+        return emission + direct_from_points(receiver, tracing_.caster, transport_.lights) +
+               sample_direct_from_areas(receiver, tracing_.caster, transport_.lights, path.stream);
+    }
+
+    /// Adds a sample of a packet's indirect light.
+    void receive(std::span<const transport::Receiver> receivers, std::span<const double> k_per_m2,
+                 const NodePool& pool, const Pass& pass, ReadingSums& sums) const {
+        const std::vector<PointTile> tiles =
+            tiles_of(receivers, k_per_m2, tracing_.caster, tracing_.max_reflections);
+        const double u = math::SampleStream(pass.key.derived(kSelection), pass.index).next();
+        std::vector<transport::LightVertex> nodes = pool.select(pool.size() / kChainsPerSelected + 1, u);
+        for (transport::LightVertex& node : nodes) node.flux_lm *= 1.0 / kChainsPerPass;
+        Fan(tracing_.caster, tiles).collect(nodes, sums);
+        if (!transport_.gathers) return;
+        const std::vector<SplitPlan> plans(receivers.size(), {0, 1});
+        Gather(tracing_.caster, transport_.tracer, tiles, plans)
+            .collect({pass.key.derived(kGather), pass.index, 1}, sums);
+    }
+
+    /// A k for each cell of kBlockSize pixels' edge, from a packet of sub-points spread over it.
+    std::vector<double> plan(const Problem& problem) const {
+        const std::vector<PixelBlock> cells = blocks_of(tracing_.camera.resolution);
+        std::vector<double> k_per_m2(cells.size(), std::numeric_limits<double>::infinity());
+        if (transport_.split == Split::none) return k_per_m2;
+        const math::RandomKey key = problem.preparation_key;
+        const std::vector<transport::LightVertex> nodes =
+            transport_.walk_chains(key.derived(kPilot), 0, kPilotChains);
+        const PilotLight pilot{nodes,
+                               kPilotChains,
+                               {},
+                               surface_area_m2(tracing_.scene),
+                               tracing_.max_reflections,
+                               kChainsPerSelected};
+        const Pass pass{key.derived(kPlan), 0};
+        std::atomic<std::size_t> done = 0;
+        tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) {
+            problem.monitor.report("planning",
+                                   static_cast<double>(done++) / static_cast<double>(cells.size()));
+            std::vector<Pixel> pixels;
+            const PixelBlock& cell = cells[c];
+            for (int i = 0; i < kPacketWidth; ++i) {
+                pixels.push_back({cell.left + (4 * (i % 4) + 2) * cell.width / 16,
+                                  cell.top + (4 * (i / 4) + 2) * cell.height / 16});
+            }
+            std::vector<transport::Receiver> receivers;
+            for (transport::Path& path : tracing_.start_paths(pixels, pass).paths) look(path, 0, receivers);
+            if (receivers.empty()) return;
+            k_per_m2[c] = plan_constant(tracing_.caster, transport_.tracer, receivers, pilot,
+                                        kChainsPerPass / kChainsPerSelected, kPilotRays, pass.key.derived(c));
+        });
+        return k_per_m2;
+    }
+
+    const LocalTransport& transport_;
+    PictureTracing tracing_;
+    int cells_per_row_;
+    std::vector<double> k_per_m2_;  ///< of each cell
+};
+
+class LocalEstimation final : public Estimator {
+  public:
+    LocalEstimation(const Problem& problem, Split split)
+        : transport_(problem, split), readings_(transport_, problem) {
+        if (problem.camera) picture_.emplace(transport_, problem);
+    }
+
+    void run_batch(const Batch& batch, ReadingSums& sums) const override { readings_.run_batch(batch, sums); }
+    std::span<const Rgb> known_part() const override { return readings_.known_part(); }
+    std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
+    std::uint64_t batch_granularity() const override { return readings_.batch_granularity(); }
+    double rays_per_sample() const override { return readings_.rays_per_sample(); }
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return picture_->start(pass);
+    }
+    std::vector<std::string> warnings() const override { return local_warnings(transport_.scene); }
+
+  private:
+    LocalTransport transport_;
+    LocalReadings readings_;
+    std::optional<LocalPicture> picture_;
+};
+
 }  // namespace
 
-std::unique_ptr<Estimator> make_local_estimator(const EstimatorInput& input) {
-    return std::make_unique<LocalEstimation>(input, LocalEstimation::Split::none);
+std::unique_ptr<Estimator> make_local(const Problem& problem) {
+    return std::make_unique<LocalEstimation>(problem, Split::none);
 }
 
-std::unique_ptr<Estimator> make_auto_estimator(const EstimatorInput& input) {
-    return std::make_unique<LocalEstimation>(input, LocalEstimation::Split::balanced);
+std::unique_ptr<Estimator> make_auto(const Problem& problem) {
+    return std::make_unique<LocalEstimation>(problem, Split::balanced);
 }
 
 }  // namespace stilb::estimators

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -266,7 +267,8 @@ struct ReceiverModel {
 
 std::vector<ReceiverModel> model_receivers(const rays::RayCaster& caster, const transport::PathTracer& tracer,
                                            std::span<const transport::Receiver> receivers,
-                                           const PilotLight& pilot, math::RandomKey key) {
+                                           const PilotLight& pilot, math::RandomKey key,
+                                           const Monitor& monitor) {
     // As many for all points together, but for very few or very many points.
     constexpr std::size_t rays = 1u << 14;
     const auto rays_per_point =
@@ -274,7 +276,9 @@ std::vector<ReceiverModel> model_receivers(const rays::RayCaster& caster, const 
     const std::vector<transport::LightVertex> units = unit_nodes(pilot.nodes);
     std::vector<ReceiverModel> models(receivers.size());
     const std::size_t packets = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
+    std::atomic<std::size_t> done = 0;
     tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+        monitor.report("planning", static_cast<double>(done++) / static_cast<double>(packets));
         const std::size_t first = p * kPacketWidth;
         const std::size_t count = std::min<std::size_t>(kPacketWidth, receivers.size() - first);
         const std::vector<Survey> surveys = survey_packet(caster, tracer, receivers.subspan(first, count),
@@ -310,10 +314,10 @@ std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
 std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
                                    std::span<const transport::Receiver> receivers,
                                    std::span<const double> weights, const PilotLight& pilot,
-                                   math::RandomKey key) {
+                                   math::RandomKey key, const Monitor& monitor) {
     if (receivers.empty()) return {};
     const std::vector<PointModel> models = weighted_models(
-        model_receivers(caster, tracer, receivers, pilot, key), receivers, weights, pilot.direct);
+        model_receivers(caster, tracer, receivers, pilot, key, monitor), receivers, weights, pilot.direct);
     // About half of the nodes face a point; the walk is shared by all points.
     const double nodes_per_chain =
         (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);

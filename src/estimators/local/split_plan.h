@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/monitor.h"
 #include "transport/light_path.h"
 #include "transport/path_tracer.h"
 #include "transport/receiver.h"
@@ -44,7 +45,7 @@ struct PilotLight {
 std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
                                    std::span<const transport::Receiver> receivers,
                                    std::span<const double> weights, const PilotLight& pilot,
-                                   math::RandomKey key);
+                                   math::RandomKey key, const Monitor& monitor = Monitor::none());
 
 /// One k for a packet of receivers (one at least, kPacketWidth at most), each of which gathers by one ray for
 /// so many chains of which all nodes are sent to it: by the same model.

@@ -1,4 +1,4 @@
-// How methods that light patches are asked to do it.
+// How methods that light patches are asked to do it: plain values, without the machinery.
 #pragma once
 
 #include <array>
@@ -6,9 +6,34 @@
 #include <optional>
 #include <string_view>
 
-#include "estimators/patch_light/first_shot/first_shot.h"
+#include "patches/visibility/buffer_options.h"
 
 namespace stilb::estimators {
+
+/// What stands for small lights (first_shot.h).
+enum class FirstShotVariant { none, classical, diffuse, incoming, on_the_fly };
+inline constexpr std::array<std::string_view, 5> kFirstShotNames{"none", "classical", "diffuse", "incoming",
+                                                                 "on-the-fly"};
+constexpr std::string_view name_of(FirstShotVariant variant) {
+    return kFirstShotNames[static_cast<std::size_t>(variant)];
+}
+
+/// Where none is asked for, but for path tracing: that takes none.
+inline constexpr FirstShotVariant kUsualFirstShot = FirstShotVariant::incoming;
+
+/// Item buffers.
+struct ShootingOptions {
+    patches::BufferShape window =
+        patches::BufferShape::hemicube;  ///< around samples of area lights; points have cubes
+    patches::BufferBackend backend = patches::BufferBackend::rays;
+    int resolution = 512;
+};
+
+struct FirstShotOptions {
+    std::optional<FirstShotVariant> variant;  ///< absent: as is usual with the method
+    ShootingOptions shooting;
+    int bin_rings = 4;  ///< classical: 4 bin_rings^2 bins where reflection depends on direction
+};
 
 /// Directions of a step of stochastic iteration (theory 8).
 enum class BundleDirections { single, pair, frame };

@@ -6,7 +6,6 @@
 #include "estimators/camera_paths.h"
 #include "estimators/patch_light/patch_light.h"
 #include "estimators/patch_light/patch_location.h"
-#include "estimators/patch_light/patch_transport.h"
 
 namespace stilb::estimators {
 

@@ -17,7 +17,7 @@ constexpr std::uint64_t kViews = ~std::uint64_t{0};
 }  // namespace
 
 PatchReadings::PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands)
-    : transport_(transport), known_part_(measurands.size()) {
+    : transport_(transport), known_part_(measurands.size()), sight_ends_(measurands.size()) {
     for (std::uint32_t reading = 0; reading < measurands.size(); ++reading) {
         add_reading(reading, measurands[reading]);
     }
@@ -35,6 +35,7 @@ void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measuran
     const transport::VisibleSurfaces sight =
         look(measurand, transport_.scene, caster, transport_.lights, transport::kUnlimited);
     known_part_[reading] = sight.emission_cd_m2;
+    sight_ends_[reading] = sight.end;
     std::vector<ViewedHit> points;
     for (const transport::SubPoint& sub_point : sight.sub_points) {
         points.push_back({sub_point.surface, sub_point.outgoing});

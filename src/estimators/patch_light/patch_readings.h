@@ -11,7 +11,6 @@
 #include "estimators/estimator.h"
 #include "estimators/patch_light/patch_light.h"
 #include "estimators/patch_light/patch_location.h"
-#include "estimators/patch_light/patch_transport.h"
 #include "transport/receiver.h"
 
 namespace stilb::estimators {
@@ -23,6 +22,8 @@ class PatchReadings {
 
     /// Emission and stored first shot along lines of sight, direct light of point-like sources at points.
     std::span<const Rgb> known_part() const { return known_part_; }
+    /// As Estimator.
+    std::span<const std::optional<Vec3>> sight_ends() const { return sight_ends_; }
 
     /// Adds sample number `sample` of every reading, beside the known part.
     void add(const PatchLight& light, math::RandomKey key, std::uint64_t sample, ReadingSums& sums) const;
@@ -50,6 +51,7 @@ class PatchReadings {
 
     const PatchTransport& transport_;
     std::vector<Rgb> known_part_;
+    std::vector<std::optional<Vec3>> sight_ends_;
     std::vector<transport::Receiver> points_;
     std::vector<View> views_;
 };

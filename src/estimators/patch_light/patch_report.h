@@ -1,13 +1,24 @@
-// What became of surfaces and lights where patches stand for them, for the results.
+// What became of surfaces and lights where patches stand for them, for the results: plain values.
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "estimators/patch_light/first_shot/first_shot.h"
+#include "base/rgb.h"
+#include "estimators/patch_light/patch_options.h"
 
 namespace stilb::estimators {
+
+/// What first shot made of a light.
+struct FirstShotLight {
+    std::string name;
+    bool is_replaced = false;
+    std::string why;          ///< in words: "a point", "large: it would take more than 32 vertices ..."
+    std::size_t samples = 0;  ///< 0 where it is not replaced
+    Rgb colour{};             ///< of its light: luminance 1; nothing where it is dark
+};
 
 /// All but the time is the same whenever the same is computed.
 struct PatchReport {

@@ -1,9 +1,16 @@
 #include "estimators/patch_light/patch_solution.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include "base/error.h"
+#include "estimators/limits.h"
 #include "estimators/patch_light/first_shot/surface.h"
+#include "estimators/patch_light/incoming_light.h"
+#include "estimators/patch_light/patch_picture.h"
 #include "math/zernike.h"
 
 namespace stilb::estimators {
@@ -78,6 +85,57 @@ void require_light(const PatchSolution& solution, const Scene& scene) {
     }
 }
 
+/// Pictures: what patches reflect towards the eye is known before the first pass.
+class SolutionPicture final : public Estimator {
+  public:
+    SolutionPicture(const Problem& problem, PatchSolution solution)
+        : transport_(problem.scene, problem.caster, std::move(solution.patches), std::move(solution.factors)),
+          tracing_(problem, transport_.lights),
+          replicates_cd_m2_(solution.replicates.size()) {
+        const TermLayout layout(transport_, solution.degree, std::move(solution.lit_sides));
+        reflect(layout, solution.replicates);
+    }
+
+    // There are no readings.
+    void run_batch(const Batch&, ReadingSums&) const override {}
+    std::span<const Rgb> known_part() const override { return {}; }
+    std::span<const std::optional<Vec3>> sight_ends() const override { return {}; }
+    std::uint64_t batch_granularity() const override { return 1; }
+    double rays_per_sample() const override { return 1; }
+
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return std::make_unique<PatchPass>(tracing_, transport_, pass, replicates_cd_m2_[pass.replicate]);
+    }
+    std::vector<std::string> warnings() const override {
+        return patch_warnings(transport_.scene, "ray-bundle");
+    }
+
+  private:
+    void reflect(const TermLayout& layout, const std::vector<std::vector<FloatRgb>>& replicates) {
+        struct Seen {
+            std::uint32_t side = 0;
+            Vec3 out;
+        };
+        const VisibleSides sides(transport_, tracing_.view.position());
+        std::vector<Seen> seen;
+        sides.for_each([&](std::uint32_t side, const Vec3& out) { seen.push_back({side, out}); });
+        std::ranges::fill(replicates_cd_m2_, std::vector<FloatRgb>(sides.count()));
+        tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
+            const auto& [side, out] = seen[i];
+            const std::vector<FloatRgb> factors = reflection_factors(transport_, layout, side, out);
+            for (std::size_t r = 0; r < replicates.size(); ++r) {
+                const auto terms = std::span(replicates[r]).subspan(layout.first_of(side), factors.size());
+                replicates_cd_m2_[r][side] = to_float_rgb(reflected_cd_m2(terms, factors));
+            }
+        });
+        for (auto& sides_cd_m2 : replicates_cd_m2_) sides_cd_m2 = sides.mean_cd_m2(sides_cd_m2, 1);
+    }
+
+    PatchTransport transport_;
+    PictureTracing tracing_;
+    std::vector<std::vector<FloatRgb>> replicates_cd_m2_;  ///< of every side, towards the eye
+};
+
 }  // namespace
 
 void require_consistency(const PatchSolution& solution, const Scene& scene, const rays::RayCaster& caster) {
@@ -87,6 +145,11 @@ void require_consistency(const PatchSolution& solution, const Scene& scene, cons
         require_factors(*solution.factors, 2 * solution.patches.count(), lights.samples.size());
     }
     require_light(solution, scene);
+}
+
+std::unique_ptr<Estimator> make_solution_picture(const Problem& problem, PatchSolution solution) {
+    require_consistency(solution, problem.scene, problem.caster);
+    return std::make_unique<SolutionPicture>(problem, std::move(solution));
 }
 
 }  // namespace stilb::estimators

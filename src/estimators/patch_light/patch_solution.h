@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "estimators/estimator.h"
 #include "estimators/patch_light/first_shot/factors.h"
 #include "estimators/patch_light/patch_transport.h"
 #include "patches/patches.h"
@@ -28,5 +30,9 @@ struct PatchSolution {
 /// Throws InputError where the parts do not fit one another or the scene: what is out of range would be
 /// looked up elsewhere.
 void require_consistency(const PatchSolution& solution, const Scene& scene, const rays::RayCaster& caster);
+
+/// An estimator of pictures alone, of which a pass shows the solution's replicate of the pass's number.
+/// Throws InputError where the solution does not fit the scene.
+std::unique_ptr<Estimator> make_solution_picture(const Problem& problem, PatchSolution solution);
 
 }  // namespace stilb::estimators

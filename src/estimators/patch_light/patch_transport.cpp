@@ -19,8 +19,9 @@ double area_m2(const patches::Patches& patches) {
 
 }  // namespace
 
-PatchTransport::PatchTransport(const Scene& all, const rays::RayCaster& rays, const PatchOptions& asked)
-    : FirstShotPatches(all, rays, asked) {
+PatchTransport::PatchTransport(const Scene& all, const rays::RayCaster& rays, const PatchOptions& asked,
+                               const Monitor& monitor)
+    : FirstShotPatches(all, rays, asked, monitor) {
     describe_patches();
 }
 

@@ -32,7 +32,8 @@ inline void add_to(std::vector<FloatRgb>& sums, const std::vector<FloatRgb>& oth
 /// Keeps references to scene and caster. Immutable once made.
 struct PatchTransport : FirstShotPatches {
     /// Both as FirstShotPatches.
-    PatchTransport(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options);
+    PatchTransport(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
+                   const Monitor& monitor = Monitor::none());
     PatchTransport(const Scene& scene, const rays::RayCaster& caster, patches::Patches patches,
                    std::optional<FirstShotFactors> factors);
 

@@ -15,7 +15,8 @@ namespace stilb::estimators {
 /// Keeps references to scene and caster. Stays where it is made. Immutable.
 struct FlattenedPaths {
     /// There are patches only where the options name a variant of first shot.
-    FlattenedPaths(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options);
+    FlattenedPaths(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
+                   const Monitor& monitor);
     FlattenedPaths(const FlattenedPaths&) = delete;
     FlattenedPaths& operator=(const FlattenedPaths&) = delete;
 

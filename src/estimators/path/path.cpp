@@ -4,13 +4,14 @@
 //   with k = 0)
 //
 // by one cosine-distributed ray and the path that it begins, for each sample and point by itself; luminance
-// by paths that begin along the line of sight. Finite variance for bounded BRDFs. Not made: light that leaves
-// a point-like source and meets a mirror or glass before anything else, but panes straight on. With first
-// shot, which is only taken where it is asked for, it is biased by the patches.
-#include "estimators/path/path.h"
-
+// by paths that begin along the line of sight, and pictures by one path from the camera for each sample of a
+// pixel (path_tracer.h). Finite variance for bounded BRDFs. Not made: light that leaves a point-like source
+// and meets a mirror or glass before anything else, but panes straight on. With first shot, which is only
+// taken where it is asked for, it is biased by the patches.
 #include <algorithm>
 
+#include "estimators/camera_paths.h"
+#include "estimators/methods.h"
 #include "estimators/path/flattened_paths.h"
 #include "transport/direct_light.h"
 #include "transport/receiver.h"
@@ -21,17 +22,36 @@ namespace {
 /// Paths that are traced together: enough to fill packets until most of them have ended.
 constexpr std::uint64_t kSideBySide = 256;
 
+class PathPass final : public PicturePass {
+  public:
+    PathPass(const PictureTracing& tracing, const transport::PathTracer& tracer, const Pass& pass)
+        : tracing_(tracing), tracer_(tracer), pass_(pass) {}
+
+    std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
+        CameraPaths started = tracing_.start_paths(pixels_of(block), pass_);
+        tracer_.trace(started.paths, rays::Coherence::coherent);
+        return started.write_to(pixels);
+    }
+
+  private:
+    const PictureTracing& tracing_;
+    const transport::PathTracer& tracer_;
+    Pass pass_;
+};
+
 class PathEstimator final : public Estimator {
   public:
-    explicit PathEstimator(const EstimatorInput& input)
-        : scene_(input.scene),
-          caster_(input.caster),
-          max_reflections_(input.max_reflections),
-          paths_(scene_, caster_, input.patches),
-          known_part_(input.measurands.size()) {
-        for (std::uint32_t reading = 0; reading < input.measurands.size(); ++reading) {
-            add_reading(reading, input.measurands[reading]);
+    explicit PathEstimator(const Problem& problem)
+        : scene_(problem.scene),
+          caster_(problem.caster),
+          max_reflections_(problem.max_reflections),
+          paths_(scene_, caster_, problem.patches, problem.monitor),
+          known_part_(problem.measurands.size()),
+          sight_ends_(problem.measurands.size()) {
+        for (std::uint32_t reading = 0; reading < problem.measurands.size(); ++reading) {
+            add_reading(reading, problem.measurands[reading]);
         }
+        if (problem.camera) tracing_.emplace(problem, paths_.lights);
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
@@ -44,9 +64,13 @@ class PathEstimator final : public Estimator {
     }
 
     std::span<const Rgb> known_part() const override { return known_part_; }
+    std::span<const std::optional<Vec3>> sight_ends() const override { return sight_ends_; }
     /// Enough for a first look at the error not to miss what few paths find.
     std::uint64_t batch_granularity() const override { return 64; }
     double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return std::make_unique<PathPass>(*tracing_, paths_.tracer, pass);
+    }
     std::vector<std::string> warnings() const override { return paths_.warnings(); }
     std::optional<PatchReport> patch_report() const override { return paths_.report(); }
 
@@ -64,10 +88,14 @@ class PathEstimator final : public Estimator {
         if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
             points_.emplace_back(reading, *point, caster_);
             known_part_[reading] = direct_from_points(points_.back(), caster_, paths_.lights);
-        } else if (const auto hit = transport::first_surface(measurand, caster_)) {
-            sights_.push_back({reading, *hit, transport::looking_direction(measurand)});
-            known_part_[reading] = paths_.lights.emitted_luminance(*hit);
+            return;
         }
+        const transport::VisibleSurfaces seen =
+            look(measurand, scene_, caster_, paths_.lights, max_reflections_);
+        sight_ends_[reading] = seen.end;
+        if (!seen.first) return;
+        sights_.push_back({reading, *seen.first, transport::looking_direction(measurand)});
+        known_part_[reading] = paths_.lights.emitted_luminance(*seen.first);
     }
 
     void sample_illuminance(const transport::Receiver& point, const Batch& batch, ReadingSums& sums) const {
@@ -119,12 +147,14 @@ class PathEstimator final : public Estimator {
     std::vector<transport::Receiver> points_;
     std::vector<FirstHit> sights_;
     std::vector<Rgb> known_part_;
+    std::vector<std::optional<Vec3>> sight_ends_;
+    std::optional<PictureTracing> tracing_;
 };
 
 }  // namespace
 
-std::unique_ptr<Estimator> make_path_estimator(const EstimatorInput& input) {
-    return std::make_unique<PathEstimator>(input);
+std::unique_ptr<Estimator> make_path(const Problem& problem) {
+    return std::make_unique<PathEstimator>(problem);
 }
 
 }  // namespace stilb::estimators

@@ -83,14 +83,13 @@ void write_sensor(const SensorResult& result, const Sensor& sensor, const std::f
 
 }  // namespace
 
-void write_results_csv(const RunResult& result, std::span<const Sensor> sensors,
-                       const std::filesystem::path& directory) {
+void write_results_csv(const RunResult& result, const std::filesystem::path& directory) {
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error)
         throw InputError(fmt::format("the folder cannot be made: {}", error.message()), {directory.string()});
-    for (std::size_t s = 0; s < sensors.size(); ++s) {
-        write_sensor(result.sensors[s], sensors[s], directory / (sensors[s].name + ".csv"));
+    for (const SensorResult& sensor : result.sensors) {
+        write_sensor(sensor, sensor.sensor, directory / (sensor.sensor.name + ".csv"));
     }
 }
 

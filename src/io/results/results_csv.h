@@ -2,15 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 
-#include "run/run.h"
+#include "run/result.h"
 
 namespace stilb::io {
 
 /// Writes DIR/<sensor>.csv, a line per reading; makes the folder where it is missing. Throws InputError where
 /// a file cannot be written.
-void write_results_csv(const RunResult& result, std::span<const Sensor> sensors,
-                       const std::filesystem::path& directory);
+void write_results_csv(const RunResult& result, const std::filesystem::path& directory);
 
 }  // namespace stilb::io

@@ -94,13 +94,13 @@ const char* text_of(StopReason reason) {
 
 }  // namespace
 
-std::string to_json(const RunResult& result, std::span<const Sensor> sensors, const std::string& scene) {
+std::string to_json(const RunResult& result, const std::string& scene) {
     Json json{{"stilb", STILB_VERSION},
               {"scene", scene},
               {"method", result.method},
               {"seed", result.seed},
               {"elapsed_s", result.elapsed_s},
-              {"paths", result.paths},
+              {"paths", result.samples},
               {"replicates", result.replicates},
               {"rays", result.rays},
               {"converged", result.converged},
@@ -119,8 +119,7 @@ std::string to_json(const RunResult& result, std::span<const Sensor> sensors, co
                                             {"allowed_m", level.allowed_m}});
     }
     Json list = Json::array();
-    for (std::size_t s = 0; s < sensors.size(); ++s)
-        list.push_back(sensor_json(result.sensors[s], sensors[s]));
+    for (const SensorResult& sensor : result.sensors) list.push_back(sensor_json(sensor, sensor.sensor));
     json["sensors"] = std::move(list);
     return json.dump(1) + "\n";
 }

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "run/run.h"
+#include "run/result.h"
 
 namespace stilb::io {
 

@@ -10,7 +10,7 @@
 #include "estimators/estimator_list.h"
 #include "io/scene/sections.h"
 #include "io/text/text.h"
-#include "run/relative_error.h"
+#include "run/options.h"
 
 namespace stilb::io {
 namespace {

@@ -7,16 +7,15 @@
 // by 1 / resolution.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "base/vec.h"
 #include "math/sampling.h"
 #include "patches/patches.h"
+#include "patches/visibility/buffer_options.h"
 #include "patches/visibility/patch_caster.h"
 
 namespace stilb::patches {
@@ -34,18 +33,6 @@ struct Viewpoint {
 /// for the reasons): so it does not see its own plane, nor past a wall that begins at an edge of the patch. A
 /// place may be a corner of the patch.
 Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& place);
-
-enum class BufferShape {
-    cube,               ///< six faces: the whole sphere
-    hemicube,           ///< the half of a cube in front of the plane across w: a face and four halves
-    cubic_tetrahedron,  ///< the same half space by three faces, w through the corner of a cube [Beran-Koehn,
-                        ///< Pavicic 1991]
-};
-
-inline constexpr std::array<std::string_view, 3> kBufferShapeNames{"cube", "hemicube", "cubic-tetrahedron"};
-constexpr std::string_view name_of(BufferShape shape) {
-    return kBufferShapeNames[static_cast<std::size_t>(shape)];
-}
 
 /// In the frame of the viewpoint. Pixel (0, 0) is at the lower left, rows follow one another upwards.
 struct BufferFace {

@@ -8,6 +8,8 @@
 #include <memory>
 #include <numeric>
 
+#include "patches/visibility/buffer_backend.h"
+
 namespace stilb::estimators {
 namespace {
 
@@ -65,17 +67,23 @@ class Shooter {
 
 /// Sides that every sample sees. Those of a sample do not depend on who else works.
 std::vector<std::vector<Lit>> shoot_all(const patches::PatchCaster& caster,
-                                        std::span<const LightSample> samples,
-                                        const ShootingOptions& options) {
+                                        std::span<const LightSample> samples, const ShootingOptions& options,
+                                        const Monitor& monitor) {
     std::vector<std::vector<Lit>> lit(samples.size());
+    Stage stage(monitor, "first shot", samples.size());
     if (options.backend == patches::BufferBackend::opengl) {  // one buffer at a time, the driver has threads
         Shooter shooter(caster, options);
-        std::ranges::transform(samples, lit.begin(), [&](const LightSample& s) { return shooter.shoot(s); });
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            lit[i] = shooter.shoot(samples[i]);
+            stage.advance();
+        }
         return lit;
     }
     tbb::enumerable_thread_specific<Shooter> shooters([&] { return Shooter(caster, options); });
-    tbb::parallel_for(std::size_t{0}, samples.size(),
-                      [&](std::size_t i) { lit[i] = shooters.local().shoot(samples[i]); });
+    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+        lit[i] = shooters.local().shoot(samples[i]);
+        stage.advance();
+    });
     return lit;
 }
 
@@ -88,9 +96,9 @@ int first_shot_resolution(std::size_t patches) {
 }
 
 FirstShotFactors::FirstShotFactors(const patches::PatchCaster& caster, std::span<const LightSample> samples,
-                                   const ShootingOptions& options)
+                                   const ShootingOptions& options, const Monitor& monitor)
     : first_(2 * caster.patches().count() + 1) {
-    std::vector<std::vector<Lit>> lit = shoot_all(caster, samples, options);
+    std::vector<std::vector<Lit>> lit = shoot_all(caster, samples, options, monitor);
     for (const auto& sides : lit) {
         for (const Lit& l : sides) ++first_[l.side + 1];
     }

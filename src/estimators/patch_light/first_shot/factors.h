@@ -15,8 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/monitor.h"
 #include "estimators/patch_light/first_shot/lights.h"
-#include "patches/visibility/buffer_backend.h"
+#include "estimators/patch_light/patch_options.h"
 #include "patches/visibility/patch_caster.h"
 
 namespace stilb::estimators {
@@ -24,13 +25,6 @@ namespace stilb::estimators {
 /// An even number of pixels along a face that leaves 100 pixels or more of a cube for each patch in the mean,
 /// 2048 at most: from 250,000 patches on they are fewer.
 int first_shot_resolution(std::size_t patches);
-
-struct ShootingOptions {
-    patches::BufferShape window =
-        patches::BufferShape::hemicube;  ///< around samples of area lights; points have cubes
-    patches::BufferBackend backend = patches::BufferBackend::rays;
-    int resolution = 512;
-};
 
 /// Rows of different lengths, one for each side: only samples that see it are in.
 class FirstShotFactors {
@@ -41,9 +35,9 @@ class FirstShotFactors {
     };
 
     /// Fills a buffer around every sample, by rays with all threads. Throws InputError where the resolution
-    /// is none (ItemBufferLayout) and where OpenGL is missing.
+    /// is none (ItemBufferLayout) and where OpenGL is missing; Cancelled as the monitor says.
     FirstShotFactors(const patches::PatchCaster& caster, std::span<const LightSample> samples,
-                     const ShootingOptions& options);
+                     const ShootingOptions& options, const Monitor& monitor = Monitor::none());
     /// What rows() and all() gave: rows ascend from 0 to the number of factors.
     FirstShotFactors(std::vector<std::uint32_t> rows, std::vector<Factor> factors)
         : first_(std::move(rows)), factors_(std::move(factors)) {}

@@ -9,9 +9,9 @@ namespace stilb::estimators {
 
 FirstShot::FirstShot(const Scene& scene, const rays::RayCaster& caster,
                      const transport::LightSampler& sampler, const patches::PatchCaster& patch_caster,
-                     const FirstShotOptions& options) {
+                     const FirstShotOptions& options, const Monitor& monitor) {
     const auto start = std::chrono::steady_clock::now();
-    set_up(scene, caster, sampler, patch_caster, options);
+    set_up(scene, caster, sampler, patch_caster, options, monitor);
     set_up_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -23,7 +23,7 @@ FirstShot::FirstShot(const Scene& scene, const rays::RayCaster& caster, const pa
 
 void FirstShot::set_up(const Scene& scene, const rays::RayCaster& caster,
                        const transport::LightSampler& sampler, const patches::PatchCaster& patch_caster,
-                       const FirstShotOptions& options) {
+                       const FirstShotOptions& options, const Monitor& monitor) {
     const FirstShotVariant variant = options.variant.value_or(kUsualFirstShot);
     if (variant == FirstShotVariant::none) {
         for (const Light& light : scene.lights)
@@ -38,8 +38,9 @@ void FirstShot::set_up(const Scene& scene, const rays::RayCaster& caster,
         return;
     }
     resolution_ = options.shooting.resolution;
-    FirstShotFactors factors(patch_caster, lights_.samples, options.shooting);
-    missed_ = count_missed(scene, caster, patches, lights_.samples, factors, options.shooting.resolution);
+    FirstShotFactors factors(patch_caster, lights_.samples, options.shooting, monitor);
+    missed_ =
+        count_missed(scene, caster, patches, lights_.samples, factors, options.shooting.resolution, monitor);
     IncomingFirstShot incoming(scene, patches, lights_, std::move(factors));
     if (variant == FirstShotVariant::classical) {
         stored_.emplace<ClassicalFirstShot>(scene, patches, incoming, HemisphereBins(options.bin_rings));

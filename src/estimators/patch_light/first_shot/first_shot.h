@@ -19,12 +19,9 @@
 // pass them. Mirrors, glass and panes reflect nothing in any of them.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <variant>
-#include <vector>
 
 #include "estimators/patch_light/first_shot/classical.h"
 #include "estimators/patch_light/first_shot/diffuse.h"
@@ -34,23 +31,6 @@
 
 namespace stilb::estimators {
 
-enum class FirstShotVariant { none, classical, diffuse, incoming, on_the_fly };
-
-inline constexpr std::array<std::string_view, 5> kFirstShotNames{"none", "classical", "diffuse", "incoming",
-                                                                 "on-the-fly"};
-constexpr std::string_view name_of(FirstShotVariant variant) {
-    return kFirstShotNames[static_cast<std::size_t>(variant)];
-}
-
-/// Where none is asked for, but for path tracing: that takes none.
-inline constexpr FirstShotVariant kUsualFirstShot = FirstShotVariant::incoming;
-
-struct FirstShotOptions {
-    std::optional<FirstShotVariant> variant;  ///< absent: as is usual with the method
-    ShootingOptions shooting;
-    int bin_rings = 4;  ///< classical: 4 bin_rings^2 bins where reflection depends on direction
-};
-
 /// Replaces no light.
 struct NoFirstShot {
     void add_reflected(std::uint32_t, const Vec3&, math::RandomKey, std::span<const Vec3>,
@@ -59,13 +39,15 @@ struct NoFirstShot {
     std::size_t bytes() const { return 0; }
 };
 
-/// Immutable once made; all queries may run in parallel. Keeps references to the arguments but the options.
+/// Immutable once made; all queries may run in parallel. Keeps references to the arguments but the options
+/// and the monitor.
 class FirstShot {
   public:
     /// Throws InputError where the options make no sense (ItemBufferLayout, HemisphereBins) and where OpenGL
-    /// is asked for and missing.
+    /// is asked for and missing; Cancelled as the monitor says.
     FirstShot(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& sampler,
-              const patches::PatchCaster& patch_caster, const FirstShotOptions& options);
+              const patches::PatchCaster& patch_caster, const FirstShotOptions& options,
+              const Monitor& monitor = Monitor::none());
     /// Incoming first shot with factors of another one, of the same scene and patches.
     FirstShot(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
               FirstShotFactors factors);
@@ -110,7 +92,8 @@ class FirstShot {
 
   private:
     void set_up(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& sampler,
-                const patches::PatchCaster& patch_caster, const FirstShotOptions& options);
+                const patches::PatchCaster& patch_caster, const FirstShotOptions& options,
+                const Monitor& monitor);
 
     FirstShotLights lights_;
     std::optional<int> resolution_;

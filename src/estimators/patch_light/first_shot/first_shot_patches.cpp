@@ -34,15 +34,16 @@ double longest_edge_m(const patches::Patches& patches) {
 
 }  // namespace
 
-FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, const PatchOptions& asked)
+FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, const PatchOptions& asked,
+                                   const Monitor& monitor)
     : scene(all),
       caster(rays),
       options(asked),
       lights(scene, caster),
       size_m(options.patch_m.value_or(patches::patch_size_m(scene))),
-      patches(patches::make_patches(scene, size_m)),
+      patches(patches::make_patches(scene, size_m, monitor)),
       patch_caster(patches),
-      first_shot(scene, caster, lights, patch_caster, first_shot_options(options, patches)) {}
+      first_shot(scene, caster, lights, patch_caster, first_shot_options(options, patches), monitor) {}
 
 FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, patches::Patches made,
                                    std::optional<FirstShotFactors> factors)

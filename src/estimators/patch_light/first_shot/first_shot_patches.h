@@ -1,6 +1,8 @@
 // A scene whose surfaces are patches, and whose small lights first shot replaces on them.
 #pragma once
 
+#include "base/monitor.h"
+#include "estimators/patch_light/first_shot/first_shot.h"
 #include "estimators/patch_light/patch_options.h"
 #include "estimators/patch_light/patch_report.h"
 #include "patches/visibility/patch_caster.h"
@@ -11,7 +13,8 @@ namespace stilb::estimators {
 
 /// Keeps references to scene and caster. Immutable once made.
 struct FirstShotPatches : transport::StoredReflection {
-    FirstShotPatches(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options);
+    FirstShotPatches(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
+                     const Monitor& monitor = Monitor::none());
     /// With what others of the same scene made: patches, and factors of incoming first shot; without factors
     /// there is no first shot.
     FirstShotPatches(const Scene& scene, const rays::RayCaster& caster, patches::Patches patches,

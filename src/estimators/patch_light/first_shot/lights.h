@@ -14,9 +14,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
+#include "estimators/patch_light/patch_report.h"
 #include "patches/visibility/item_buffer.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
@@ -36,15 +36,6 @@ struct LightSample {
     /// Its share of the light's luminous intensity [cd] towards a pixel of an item buffer there, the cosine
     /// of area lights included; nothing comes where it is below 0.
     std::function<double(const patches::BufferPixel&)> intensity_cd;
-};
-
-/// What became of a light, for the report.
-struct FirstShotLight {
-    std::string name;
-    bool is_replaced = false;
-    std::string why;          ///< in words: "a point", "large: it would take more than 32 vertices ..."
-    std::size_t samples = 0;  ///< 0 where it is not replaced
-    Rgb colour{};             ///< of its light: luminance 1; nothing where it is dark
 };
 
 struct FirstShotLights {

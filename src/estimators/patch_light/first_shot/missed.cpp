@@ -63,7 +63,7 @@ class LineOfSightFollower {
 
 std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
                          std::span<const LightSample> samples, const FirstShotFactors& factors,
-                         int resolution) {
+                         int resolution, const Monitor& monitor) {
     // Of four pixels in the middle of a cube's face, where they are largest.
     const double small_sr = 16. / (static_cast<double>(resolution) * resolution);
     const LineOfSightFollower follower(scene, caster, patches, samples, factors, small_sr);
@@ -71,6 +71,8 @@ std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, cons
     return tbb::parallel_reduce(
         Range(0, static_cast<std::uint32_t>(2 * patches.count())), std::size_t{0},
         [&](const Range& sides, std::size_t count) {
+            monitor.report("first shot: sides without pixels",
+                           static_cast<double>(sides.begin()) / static_cast<double>(2 * patches.count()));
             for (std::uint32_t side = sides.begin(); side != sides.end(); ++side)
                 count += follower.missed(side);
             return count;

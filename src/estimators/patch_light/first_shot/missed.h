@@ -12,6 +12,6 @@ namespace stilb::estimators {
 /// Only sides of a few pixels' size are looked at.
 std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
                          std::span<const LightSample> samples, const FirstShotFactors& factors,
-                         int resolution);
+                         int resolution, const Monitor& monitor);
 
 }  // namespace stilb::estimators

@@ -1,19 +1,93 @@
-// Direct simulation for readings and pictures: illumination_map.h has how the patches are lit,
-// patch_readings.h what is made of it. A sample is a particle. Each batch makes a map of its own.
+// Direct simulation: particles.h has how the patches are lit, patch_readings.h and patch_picture.h what is
+// made of it. A sample is a particle. Each batch of readings makes a map of its own; a pass over a picture is
+// the map of some particles.
 #include "estimators/patch_light/particles/particles.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <numbers>
 
 #include "estimators/limits.h"
-#include "estimators/patch_light/particles/illumination_map.h"
+#include "estimators/methods.h"
+#include "estimators/patch_light/patch_light.h"
 #include "estimators/patch_light/patch_picture.h"
 #include "estimators/patch_light/patch_readings.h"
-#include "estimators/patch_light/reflected_sides.h"
+#include "patches/visibility/item_buffer.h"
+#include "transport/russian_roulette.h"
 
 namespace stilb::estimators {
+
+IlluminationMap::IlluminationMap(const PatchTransport& transport)
+    : transport_(transport), flux_lm_(2 * transport.patches.count()) {}
+
+void IlluminationMap::add(math::RandomKey key, std::uint64_t first, std::uint64_t count) {
+    particles_ += count;
+    if (transport_.lights.count() == 0) return;
+    std::vector<Particle> together;
+    for (std::uint64_t i = first; i < first + count; ++i) {
+        together.push_back(leave_light(math::SampleStream(key, i)));
+        if (together.size() == kPacketWidth || i + 1 == first + count) walk(together);
+    }
+}
+
+IlluminationMap::Particle IlluminationMap::leave_light(math::SampleStream stream) const {
+    const transport::EmittedParticle emitted = transport_.lights.sample_emission(stream);
+    return {stream, emitted.origin, emitted.direction, emitted.flux_lm};
+}
+
+/// Particles that share a packet of rays, to the end of the last one.
+void IlluminationMap::walk(std::vector<Particle>& particles) {
+    while (!particles.empty()) {
+        RayPacket packet;
+        LaneMask lanes{};
+        for (std::size_t lane = 0; lane < particles.size(); ++lane) {
+            packet.set(lane, particles[lane].origin - transport_.patches.center, particles[lane].direction,
+                       std::numeric_limits<float>::infinity());
+            lanes[lane] = -1;
+        }
+        const patches::PatchHits hits = transport_.patch_caster.closest(packet, lanes);
+        rays_ += particles.size();
+        std::size_t alive = 0;
+        for (std::size_t lane = 0; lane < particles.size(); ++lane) {
+            if (hits.sides[lane] == patches::kNoSide ||
+                !land(particles[lane], hits.sides[lane], hits.place(lane)))
+                continue;
+            particles[alive++] = particles[lane];
+        }
+        particles.erase(particles.begin() + static_cast<std::ptrdiff_t>(alive), particles.end());
+    }
+}
+
+/// Counts the particle; whether it goes on.
+bool IlluminationMap::land(Particle& particle, std::uint32_t side, const math::Barycentric& place) {
+    add_to(flux_lm_[side], particle.flux_lm);
+    const patches::Patches& patches = transport_.patches;
+    const Rgb reflectance = std::numbers::pi * to_rgb(transport_.constant_brdf[patches.patch_of(side)]);
+    const double survival = transport::survival_probability(particle.flux_lm, reflectance);
+    if (particle.stream.next() >= survival) return false;
+    const patches::Viewpoint viewpoint = viewpoint_on(patches, side, place);
+    const auto [u1, u2] = particle.stream.next_two();
+    particle.origin = viewpoint.position;
+    particle.direction = viewpoint.frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
+    particle.flux_lm *= reflectance * (1 / survival);
+    return true;
+}
+
+std::vector<FloatRgb> IlluminationMap::reflected_cd_m2() const {
+    const patches::Patches& patches = transport_.patches;
+    std::vector<FloatRgb> reflected(flux_lm_.size());
+    for (std::uint32_t side = 0; side < reflected.size(); ++side) {
+        const std::uint32_t patch = patches.patch_of(side);
+        const double per_m2 = 1 / (double{patches.areas_m2[patch]} * static_cast<double>(particles_));
+        reflected[side] =
+            to_float_rgb(to_rgb(transport_.constant_brdf[patch]) * to_rgb(flux_lm_[side]) * per_m2);
+    }
+    return reflected;
+}
+
 namespace {
 
 constexpr std::string_view kName = "particles";
@@ -24,19 +98,20 @@ constexpr std::uint64_t kLeastParticles = 4096;
 enum Purpose : std::uint64_t { kWalks = kPixels + 1, kLooks };
 
 /// All lights shine by particles.
-PatchTransport transport_for(const Scene& scene, const rays::RayCaster& caster, PatchOptions options,
-                             int max_reflections) {
-    require_diffuse(scene, kName);
-    require_all_reflections(max_reflections, kName);
+PatchTransport transport_for(const Problem& problem) {
+    require_diffuse(problem.scene, kName);
+    require_all_reflections(problem.max_reflections, kName);
+    PatchOptions options = problem.patches;
     options.first_shot.variant = FirstShotVariant::none;
-    return {scene, caster, options};
+    return {problem.scene, problem.caster, options, problem.monitor};
 }
 
 class Particles final : public Estimator {
   public:
-    explicit Particles(const EstimatorInput& input)
-        : transport_(transport_for(input.scene, input.caster, input.patches, input.max_reflections)),
-          readings_(transport_, input.measurands) {}
+    explicit Particles(const Problem& problem)
+        : transport_(transport_for(problem)), readings_(transport_, problem.measurands) {
+        if (problem.camera) tracing_.emplace(problem, transport_.lights);
+    }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         IlluminationMap map(transport_);
@@ -54,25 +129,12 @@ class Particles final : public Estimator {
     }
 
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }
+    std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::uint64_t batch_granularity() const override { return kLeastParticles; }
     double rays_per_sample() const override {
         constexpr double reflections = 5, looks = 2. / kParticlesPerLook;
         return reflections + looks * static_cast<double>(known_part().size());
     }
-    std::vector<std::string> warnings() const override { return {}; }
-    std::optional<PatchReport> patch_report() const override { return transport_.report(); }
-
-  private:
-    PatchTransport transport_;
-    PatchReadings readings_;
-};
-
-/// A pass is the map of some particles.
-class ParticlesPicture final : public PictureEstimator {
-  public:
-    explicit ParticlesPicture(const PictureInput& input)
-        : tracing_(input),
-          transport_(transport_for(input.scene, input.caster, input.patches, input.max_reflections)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         const math::RandomKey key = pass.key.derived(kWalks);
@@ -87,7 +149,7 @@ class ParticlesPicture final : public PictureEstimator {
             for (std::size_t side = 0; side < mean.size(); ++side)
                 add_to(mean[side], to_rgb(map[side]) * (1. / kMaps));
         }
-        return std::make_unique<PatchPass>(tracing_, transport_, pass, mean);
+        return std::make_unique<PatchPass>(*tracing_, transport_, pass, mean);
     }
     std::vector<std::string> warnings() const override { return {}; }
     std::optional<PatchReport> patch_report() const override { return transport_.report(); }
@@ -96,19 +158,17 @@ class ParticlesPicture final : public PictureEstimator {
     /// Of a pass, each a task of its own.
     static constexpr std::uint64_t kMaps = 4;
 
-    PictureTracing tracing_;
     PatchTransport transport_;
+    PatchReadings readings_;
+    std::optional<PictureTracing> tracing_;
+    /// Of a map for pictures.
     std::uint64_t particles_ = std::max<std::uint64_t>(kLeastParticles, transport_.patches.count());
 };
 
 }  // namespace
 
-std::unique_ptr<Estimator> make_particles_estimator(const EstimatorInput& input) {
-    return std::make_unique<Particles>(input);
-}
-
-std::unique_ptr<PictureEstimator> make_particles_picture(const PictureInput& input) {
-    return std::make_unique<ParticlesPicture>(input);
+std::unique_ptr<Estimator> make_particles(const Problem& problem) {
+    return std::make_unique<Particles>(problem);
 }
 
 }  // namespace stilb::estimators

@@ -8,6 +8,8 @@
 #include <memory>
 #include <numbers>
 
+#include "patches/visibility/buffer_backend.h"
+
 namespace stilb::estimators {
 namespace {
 

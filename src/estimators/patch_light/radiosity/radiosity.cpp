@@ -1,5 +1,5 @@
-// Radiosity for readings and pictures: radiosity_solution.h has how the patches are lit, patch_readings.h
-// what is made of it.
+// Radiosity: radiosity.h has how the patches are lit, patch_readings.h and patch_picture.h what is made of
+// it.
 //
 // Nothing is left to chance, so there are no standard errors. What is wrong is the patches: light that varies
 // over one, form factors from its middle. Nobody knows by how much; smaller patches tell.
@@ -9,53 +9,152 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "estimators/limits.h"
+#include "estimators/methods.h"
 #include "estimators/patch_light/patch_picture.h"
 #include "estimators/patch_light/patch_readings.h"
-#include "estimators/patch_light/radiosity/radiosity_solution.h"
+#include "estimators/patch_light/radiosity/patch_shots.h"
 
 namespace stilb::estimators {
 namespace {
 
-constexpr std::string_view kName = "radiosity";
+constexpr std::size_t kMostAtATime = 256;
+/// Of the sides that have something to send: few, so that those which shoot together hardly light one
+/// another.
+constexpr std::size_t kPartAtATime = 32;
+constexpr std::uint64_t kMostShotsOfASide = 1000;
 
-void require_known_first_shot(const Scene& scene, FirstShotVariant variant) {
-    require_first_shot_of_points(scene, variant != FirstShotVariant::none, kName);
-    if (variant == FirstShotVariant::on_the_fly) {
-        throw InputError(
-            "method radiosity cannot do with --first-shot on-the-fly: it needs the light of small lights as "
-            "means over patches. Use incoming.");
-    }
+double magnitude(const FloatRgb& light) {
+    return Rgb{{std::abs(light[0]), std::abs(light[1]), std::abs(light[2])}}.luminance();
 }
 
-/// The patches and their light.
-struct LitPatches {
-    LitPatches(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
-               int max_reflections)
-        : transport(checked(scene, options, max_reflections), caster, options),
-          solution(solve_radiosity(transport)) {}
+ShootingOptions shooting_options(const PatchOptions& options) {
+    ShootingOptions shooting = options.first_shot.shooting;
+    shooting.resolution = options.shot_resolution;
+    return shooting;
+}
 
-    PatchTransport transport;
-    RadiositySolution solution;
+class Shooting {
+  public:
+    explicit Shooting(const PatchTransport& transport)
+        : transport_(transport),
+          shots_(transport.patch_caster, shooting_options(transport.options)),
+          overshoot_(2 / (1 + std::sqrt(1 - std::pow(std::min(transport.mean_reflectance, 0.999), 2)))),
+          reflected_(transport.first_reflection.size()),
+          unshot_(transport.first_reflection) {
+        for (std::size_t patch = 0; patch < transport.patches.count(); ++patch) {
+            add_to(unshot_[patch], to_rgb(transport.emission[patch]));
+        }
+    }
+
+    RadiositySolution run(const Monitor& monitor) {
+        const double all = look(), enough = kUnshotShare * all;
+        const std::uint64_t most = kMostShotsOfASide * unshot_.size();
+        double left = all;
+        while (left > enough && !monitor.is_time_over()) {
+            if (done_ > most) {
+                throw InputError(fmt::format(
+                    "method radiosity did not converge after {} shots: reflectances close to 1 prevent it. "
+                    "Lower them, or use method auto.",
+                    done_));
+            }
+            // What is left falls about exponentially.
+            monitor.report("shooting",
+                           std::clamp(std::log(all / left) / std::log(1 / kUnshotShare), 0.0, 1.0));
+            shoot();
+            left = look();
+        }
+        return {ReflectedSides(std::move(reflected_)), done_, done_ * shots_.rays_per_shot(),
+                left > enough ? left / all : 0};
+    }
 
   private:
-    static const Scene& checked(const Scene& scene, const PatchOptions& options, int max_reflections) {
-        require_diffuse(scene, kName);
-        require_all_reflections(max_reflections, kName);
-        require_known_first_shot(scene, options.first_shot.variant.value_or(kUsualFirstShot));
-        return scene;
+    struct Candidate {
+        double unshot_lm = 0;
+        std::uint32_t side = 0;
+        auto operator<=>(const Candidate&) const = default;
+    };
+
+    /// Finds who has something to send; returns how much all have [lm].
+    double look() {
+        double sum_lm = 0;
+        candidates_.clear();
+        for (std::uint32_t side = 0; side < unshot_.size(); ++side) {
+            const double unshot_lm = std::numbers::pi * area_m2(side) * magnitude(unshot_[side]);
+            if (!(unshot_lm > 0)) continue;
+            candidates_.push_back({unshot_lm, side});
+            sum_lm += unshot_lm;
+        }
+        return sum_lm;
     }
+
+    void shoot() {
+        const std::size_t count = std::clamp<std::size_t>(candidates_.size() / kPartAtATime, 1, kMostAtATime);
+        const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(count);
+        std::ranges::partial_sort(candidates_, end, std::greater<>());
+        std::vector<std::uint32_t> senders;
+        std::transform(candidates_.begin(), end, std::back_inserter(senders),
+                       [](const Candidate& c) { return c.side; });
+        const auto factors = shots_.from(senders);
+        for (std::size_t i = 0; i < count; ++i) send(senders[i], factors[i]);
+        done_ += count;
+    }
+
+    void send(std::uint32_t from, const std::vector<FormFactor>& factors) {
+        const Rgb sent_cd_m2 = overshoot_ * to_rgb(unshot_[from]);
+        add_to(unshot_[from], -1 * sent_cd_m2);
+        const Rgb sent_lm = std::numbers::pi * area_m2(from) * sent_cd_m2;
+        for (const auto& [to, share] : factors) {
+            const FloatRgb& brdf = transport_.constant_brdf[transport_.patches.patch_of(to)];
+            const Rgb reflected = to_rgb(brdf) * sent_lm * (double{share} / area_m2(to));
+            add_to(reflected_[to], reflected);
+            add_to(unshot_[to], reflected);
+        }
+    }
+
+    double area_m2(std::uint32_t side) const {
+        return double{transport_.patches.areas_m2[transport_.patches.patch_of(side)]};
+    }
+
+    const PatchTransport& transport_;
+    PatchShots shots_;
+    double overshoot_;
+    std::vector<FloatRgb> reflected_;  ///< [cd/m2], of every side, without first shot
+    std::vector<FloatRgb> unshot_;     ///< [cd/m2], of every side
+    std::vector<Candidate> candidates_;
+    std::uint64_t done_ = 0;
 };
+
+constexpr std::string_view kName = "radiosity";
+
+PatchTransport transport_for(const Problem& problem) {
+    require_diffuse(problem.scene, kName);
+    require_all_reflections(problem.max_reflections, kName);
+    const FirstShotVariant variant = problem.patches.first_shot.variant.value_or(kUsualFirstShot);
+    require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kName);
+    if (variant == FirstShotVariant::on_the_fly) {
+        throw InputError(fmt::format(
+            "first shot \"{}\": method radiosity needs the light of small lights as means over patches. Use "
+            "first shot \"incoming\".",
+            name_of(variant)));
+    }
+    return {problem.scene, problem.caster, problem.patches, problem.monitor};
+}
 
 /// Samples of a point's hemisphere: Sobol' points, the same ones in every run.
 constexpr std::uint64_t kBlocks = 32, kSamplesOfABlock = 128;
 
 /// Beside the known part: sums over fixed directions from points, and points on lights.
-ReadingSums sum_readings(const PatchReadings& readings, const PatchLight& light) {
+ReadingSums sum_readings(const PatchReadings& readings, const PatchLight& light, const Monitor& monitor) {
     std::vector<ReadingSums> blocks(kBlocks, ReadingSums(readings.known_part().size()));
+    std::atomic<std::uint64_t> done = 0;
     tbb::parallel_for(std::uint64_t{0}, kBlocks, [&](std::uint64_t block) {
+        monitor.report("readings", static_cast<double>(done++) / kBlocks);
         for (std::uint64_t i = 0; i < kSamplesOfABlock; ++i) {
             readings.add(light, math::RandomKey{}, block * kSamplesOfABlock + i, blocks[block]);
         }
@@ -70,62 +169,65 @@ ReadingSums sum_readings(const PatchReadings& readings, const PatchLight& light)
 
 class Radiosity final : public Estimator {
   public:
-    explicit Radiosity(const EstimatorInput& input) {
-        const LitPatches patches(input.scene, input.caster, input.patches, input.max_reflections);
-        const PatchReadings readings(patches.transport, input.measurands);
-        const ReadingSums sums = sum_readings(readings, patches.solution.light);
-        for (std::size_t j = 0; j < sums.sum.size(); ++j) {
-            values_.push_back(readings.known_part()[j] + sums.sum[j] * (1. / (kBlocks * kSamplesOfABlock)));
-        }
-        invalid_ = sums.invalid;
-        rays_ = patches.solution.rays;
-        report_ = patches.transport.report();
+    explicit Radiosity(const Problem& problem)
+        : transport_(transport_for(problem)),
+          solution_(solve_radiosity(transport_, problem.monitor)),
+          readings_(transport_, problem.measurands) {
+        if (!problem.measurands.empty()) read(problem.monitor);
+        if (!problem.camera) return;
+        tracing_.emplace(problem, transport_.lights);
+        sides_cd_m2_ =
+            VisibleSides(transport_, tracing_->view.position()).mean_cd_m2(solution_.light.cd_m2(), 1);
     }
 
     void run_batch(const Batch&, ReadingSums& sums) const override {
-        sums.rays += rays_;
+        sums.rays += solution_.rays;
         sums.invalid += invalid_;
     }
     std::span<const Rgb> known_part() const override { return values_; }
+    std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::uint64_t batch_granularity() const override { return 1; }
     double rays_per_sample() const override { return 1; }
-    std::vector<std::string> warnings() const override { return {}; }
-    std::optional<PatchReport> patch_report() const override { return report_; }
-
-  private:
-    std::vector<Rgb> values_;
-    std::uint64_t invalid_ = 0, rays_ = 0;
-    PatchReport report_;
-};
-
-class RadiosityPicture final : public PictureEstimator {
-  public:
-    explicit RadiosityPicture(const PictureInput& input)
-        : tracing_(input),
-          patches_(input.scene, input.caster, input.patches, input.max_reflections),
-          sides_cd_m2_(VisibleSides(patches_.transport, tracing_.view.position())
-                           .mean_cd_m2(patches_.solution.light.cd_m2(), 1)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
-        return std::make_unique<PatchPass>(tracing_, patches_.transport, pass, sides_cd_m2_);
+        return std::make_unique<PatchPass>(*tracing_, transport_, pass, sides_cd_m2_);
     }
-    std::vector<std::string> warnings() const override { return {}; }
-    std::optional<PatchReport> patch_report() const override { return patches_.transport.report(); }
+    std::vector<std::string> warnings() const override {
+        if (!ended_early()) return {};
+        return {fmt::format(
+            "method radiosity: time limit reached after {} shots with {:.2g} % of the light still unshot: "
+            "reflected light is missing. Allow more time, or use larger patches.",
+            solution_.shots, 100 * solution_.unshot_share)};
+    }
+    std::optional<PatchReport> patch_report() const override { return transport_.report(); }
+    bool ended_early() const override { return solution_.unshot_share > 0; }
 
   private:
-    PictureTracing tracing_;
-    LitPatches patches_;
-    std::vector<FloatRgb> sides_cd_m2_;
+    void read(const Monitor& monitor) {
+        const ReadingSums sums = sum_readings(readings_, solution_.light, monitor);
+        for (std::size_t j = 0; j < sums.sum.size(); ++j) {
+            values_.push_back(readings_.known_part()[j] + sums.sum[j] * (1. / (kBlocks * kSamplesOfABlock)));
+        }
+        invalid_ = sums.invalid;
+    }
+
+    PatchTransport transport_;
+    RadiositySolution solution_;
+    PatchReadings readings_;
+    std::vector<Rgb> values_;  ///< of the readings
+    std::uint64_t invalid_ = 0;
+    std::optional<PictureTracing> tracing_;
+    std::vector<FloatRgb> sides_cd_m2_;  ///< towards the eye
 };
 
 }  // namespace
 
-std::unique_ptr<Estimator> make_radiosity_estimator(const EstimatorInput& input) {
-    return std::make_unique<Radiosity>(input);
+RadiositySolution solve_radiosity(const PatchTransport& transport, const Monitor& monitor) {
+    return Shooting(transport).run(monitor);
 }
 
-std::unique_ptr<PictureEstimator> make_radiosity_picture(const PictureInput& input) {
-    return std::make_unique<RadiosityPicture>(input);
+std::unique_ptr<Estimator> make_radiosity(const Problem& problem) {
+    return std::make_unique<Radiosity>(problem);
 }
 
 }  // namespace stilb::estimators

@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "estimators/patch_light/patch_light.h"
-#include "estimators/patch_light/patch_transport.h"
 #include "math/random.h"
 
 namespace stilb::estimators {

@@ -1,26 +1,40 @@
-// Stochastic iteration with ray bundles and first shot, for readings: bundle_iteration.h has the iteration,
-// patch_readings.h what is made of it. Each batch is a walk of its own, which leaves out its first steps.
-#include "estimators/patch_light/ray_bundle/ray_bundle.h"
+// Stochastic iteration with ray bundles and first shot: bundle_iteration.h has the iteration,
+// patch_readings.h and patch_picture.h what is made of it. For readings each batch is a walk of its own,
+// which leaves out its first steps; a pass over a picture is the mean over the steps of some walks.
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "estimators/limits.h"
+#include "estimators/methods.h"
+#include "estimators/patch_light/patch_picture.h"
 #include "estimators/patch_light/patch_readings.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 
 namespace stilb::estimators {
 namespace {
 
-enum Purpose : std::uint64_t { kWalk, kReadings };
+constexpr std::string_view kName = "ray-bundle";
+
+enum ReadingPurpose : std::uint64_t { kWalk, kReadings };
+enum PicturePurpose : std::uint64_t { kWalkOfPass = kPixels + 1 };
+
+PatchTransport transport_for(const Problem& problem) {
+    const FirstShotVariant variant = problem.patches.first_shot.variant.value_or(kUsualFirstShot);
+    require_all_reflections(problem.max_reflections, kName);
+    require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kName);
+    return {problem.scene, problem.caster, problem.patches, problem.monitor};
+}
 
 class RayBundle final : public Estimator {
   public:
-    explicit RayBundle(const EstimatorInput& input)
-        : transport_(input.scene, input.caster, input.patches), readings_(transport_, input.measurands) {
-        require_all_reflections(input.max_reflections, "ray-bundle");
-        require_first_shot_of_points(input.scene, transport_.first_shot.variant() != FirstShotVariant::none,
-                                     "ray-bundle");
+    explicit RayBundle(const Problem& problem)
+        : transport_(transport_for(problem)), readings_(transport_, problem.measurands) {
+        if (!problem.camera) return;
+        tracing_.emplace(problem, transport_.lights);
+        seen_.emplace(transport_, tracing_->view.position());
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
@@ -34,6 +48,7 @@ class RayBundle final : public Estimator {
     }
 
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }
+    std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     /// At least twice the first steps that are left out.
     std::uint64_t batch_granularity() const override {
         return std::bit_ceil(std::max<std::uint64_t>(2 * first_steps(transport_), 16));
@@ -42,20 +57,46 @@ class RayBundle final : public Estimator {
         return 2 * static_cast<double>(transport_.patches.count()) +
                4 * static_cast<double>(known_part().size());
     }
-    std::vector<std::string> warnings() const override {
-        return patch_warnings(transport_.scene, "ray-bundle");
+
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return std::make_unique<PatchPass>(*tracing_, transport_, pass, mean_of_walks(pass));
     }
+    std::vector<std::string> warnings() const override { return patch_warnings(transport_.scene, kName); }
     std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
+    /// Of a pass, each a task of its own.
+    static constexpr std::uint64_t kWalks = 4;
+    /// Of a walk, that count.
+    static constexpr std::uint64_t kLeastSteps = 8;
+
+    std::vector<FloatRgb> mean_of_walks(const Pass& pass) const {
+        const std::uint64_t first = first_steps(transport_), steps = std::max(first, kLeastSteps);
+        const math::RandomKey key = pass.key.derived(kWalkOfPass).derived(pass.index);
+        std::array<std::vector<FloatRgb>, kWalks> sums;
+        tbb::parallel_for(std::uint64_t{0}, kWalks, [&](std::uint64_t walk) {
+            sums[walk].resize(seen_->count());
+            BundleIteration iteration(transport_, key.derived(walk));
+            for (std::uint64_t i = 0; i < first; ++i) iteration.step();
+            for (std::uint64_t i = 0; i < steps; ++i) {
+                iteration.step();
+                seen_->add(iteration, sums[walk]);
+            }
+        });
+        for (std::size_t walk = 1; walk < kWalks; ++walk) add_to(sums[0], sums[walk]);
+        return seen_->mean_cd_m2(sums[0], static_cast<double>(kWalks * steps));
+    }
+
     PatchTransport transport_;
     PatchReadings readings_;
+    std::optional<PictureTracing> tracing_;
+    std::optional<VisibleSides> seen_;
 };
 
 }  // namespace
 
-std::unique_ptr<Estimator> make_ray_bundle_estimator(const EstimatorInput& input) {
-    return std::make_unique<RayBundle>(input);
+std::unique_ptr<Estimator> make_ray_bundle(const Problem& problem) {
+    return std::make_unique<RayBundle>(problem);
 }
 
 }  // namespace stilb::estimators

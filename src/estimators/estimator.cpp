@@ -1,4 +1,4 @@
-#include "estimators/picture_estimator.h"
+#include "estimators/estimator.h"
 
 #include <algorithm>
 

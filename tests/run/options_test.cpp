@@ -1,4 +1,4 @@
-#include "run/relative_error.h"
+#include "run/options.h"
 
 #include <gtest/gtest.h>
 

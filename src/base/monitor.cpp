@@ -1,0 +1,56 @@
+#include "base/monitor.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace stilb {
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenReports{100};
+
+}  // namespace
+
+const Monitor& Monitor::none() {
+    static const Monitor monitor;
+    return monitor;
+}
+
+void Monitor::report(std::string_view stage, double share) const {
+    if (interrupt_ && *interrupt_) {
+        throw Cancelled(fmt::format("interrupted during set-up ({}, {:.0f} % done): there is no result yet",
+                                    stage, 100 * share));
+    }
+    if (!report_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return;
+    const Clock::time_point now = Clock::now();
+    if (stage == last_stage_ && now - last_report_ < kBetweenReports) return;
+    last_stage_ = stage;
+    last_report_ = now;
+    report_(stage, share);
+}
+
+void Monitor::require_time(std::string_view stage, double share) const {
+    if (!is_time_over()) return;
+    const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+    throw Cancelled(
+        fmt::format("time limit reached during set-up after {:.2g} s ({}, {:.0f} % done): there is no result "
+                    "yet. Allow more time, or ask for less: larger patches, a lower resolution.",
+                    elapsed_s, stage, 100 * share));
+}
+
+Stage::Stage(const Monitor& monitor, std::string name, std::size_t parts)
+    : monitor_(monitor), name_(std::move(name)), parts_(parts) {
+    check(0);
+}
+
+void Stage::advance() { check(++done_); }
+
+void Stage::check(std::size_t done) const {
+    const double share = parts_ > 0 ? static_cast<double>(done) / static_cast<double>(parts_) : 1;
+    monitor_.report(name_, share);
+    if (done < parts_) monitor_.require_time(name_, share);
+}
+
+}  // namespace stilb

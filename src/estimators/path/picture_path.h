@@ -1,9 +1,0 @@
-#pragma once
-
-#include "estimators/picture_estimator.h"
-
-namespace stilb::estimators {
-
-std::unique_ptr<PictureEstimator> make_path_picture(const PictureInput& input);
-
-}  // namespace stilb::estimators

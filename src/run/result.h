@@ -1,0 +1,97 @@
+// What runs give: plain values, which can be kept, written and combined without the scene.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/rgb.h"
+#include "base/vec.h"
+#include "estimators/patch_light/patch_report.h"
+#include "sensors/sensor.h"
+#include "statistics/grid_summary.h"
+#include "statistics/interval.h"
+
+namespace stilb::run {
+
+/// `solved`: there is nothing more to do, as a method without chance is done.
+enum class StopReason { target_reached, paths_done, time_over, interrupted, solved };
+
+/// How many degrees of its series an object was given (level_of_detail.h).
+struct LevelOfDetail {
+    std::string object;
+    int degree = 0, full_degree = 0;
+    double error_m = 0;    ///< bound of the distance between both surfaces, along rays from the centre
+    double allowed_m = 0;  ///< half the footprint
+};
+
+/// What all kinds of runs tell.
+struct RunSummary {
+    std::string method;
+    std::uint64_t seed = 0;
+    /// In all: light chains; of method `path` paths per reading; of pictures passes (samples of each pixel);
+    /// of solutions steps of all walks, without the first ones of each.
+    std::uint64_t samples = 0;
+    /// Independent repetitions; 1 where there are no errors: after a single pass, and without chance.
+    int replicates = 0;
+    double elapsed_s = 0;
+    StopReason stop_reason = StopReason::paths_done;
+    /// False where an error was asked for and is not met, and where the run ended before it had all light.
+    bool converged = true;
+    /// Relative half-width that 95 % keep: of the readings of the worst sensor, of the pixels, or of the
+    /// light on the sides of patches.
+    double attained_error = 0;
+    std::optional<estimators::PatchReport> patches;  ///< where the method lights patches
+    std::vector<LevelOfDetail> levels_of_detail;
+    std::vector<std::string> warnings;
+};
+
+struct Reading {
+    statistics::Estimate estimate;  ///< [lx] or [cd/m2]; the errors are NaN where they are not known
+    Rgb rgb;
+};
+
+struct SensorResult {
+    Sensor sensor;
+    std::vector<Reading> readings;  ///< in the order of the sensor's measurands
+    /// Luminance sensors: where each line of sight ends; nothing where it leaves the scene. Empty: not known.
+    std::vector<std::optional<Vec3>> sub_points;
+    statistics::GridSummary summary;
+    double attained_error = 0;  ///< relative half-width that 95 % of the readings keep
+    /// Replicates x readings, luminance-weighted [lx or cd/m2]: what the estimates are made from. Means of
+    /// runs with other seeds can be combined with them.
+    std::vector<double> replicate_means{};
+};
+
+struct RunResult : RunSummary {
+    std::uint64_t rays = 0;             ///< of the fans
+    std::vector<SensorResult> sensors;  ///< in the order asked for
+};
+
+/// Pixels row by row from the top, NaN where the camera shows nothing.
+struct Pixels {
+    std::vector<std::array<float, 3>> rgb_cd_m2;  ///< linear Rec. 709
+    std::vector<float> standard_error_cd_m2;      ///< of the luminance; empty with one replicate
+};
+
+struct RenderResult : RunSummary {
+    Pixels pixels;
+    std::vector<std::array<float, 3>> normals;  ///< of the surface in the pixel's middle; NaN where none is
+    std::vector<float> depth_m;                 ///< its distance; NaN likewise
+    double mean_luminance_cd_m2 = 0;
+    double mean_standard_error_cd_m2 = 0;  ///< of single pixels
+};
+
+}  // namespace stilb::run
+
+namespace stilb {
+using run::Pixels;
+using run::Reading;
+using run::RenderResult;
+using run::RunResult;
+using run::RunSummary;
+using run::SensorResult;
+using run::StopReason;
+}  // namespace stilb

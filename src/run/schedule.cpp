@@ -1,0 +1,129 @@
+#include "run/schedule.h"
+
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "transport/receiver.h"
+
+namespace stilb::run {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::optional<Monitor::Clock::time_point> deadline_of(const RunOptions& asked) {
+    if (!asked.time_s) return std::nullopt;
+    // So long that the clock could not hold it is for ever.
+    constexpr double longest_s = 1e9;
+    const std::chrono::duration<double> time(std::min(*asked.time_s, longest_s));
+    return Monitor::Clock::now() + std::chrono::duration_cast<Monitor::Clock::duration>(time);
+}
+
+Monitor::Report report_to(ProgressSink* sink, const Clock& clock) {
+    if (!sink) return {};
+    return [sink, &clock](std::string_view stage, double share) {
+        sink->report_set_up({stage, share, clock.elapsed_s()});
+    };
+}
+
+}  // namespace
+
+Schedule::Ending Schedule::run(Work& work) const {
+    const std::uint64_t last = options_.paths ? work.samples_for(*options_.paths) : work.most_samples();
+    double error = kInfinity;
+    for (;;) {
+        const std::uint64_t look = std::min(last, work.next_look());
+        if (const auto reason = advance_to(look, last, work, error)) return {*reason, work.attained_error()};
+        if (options_.error && error <= *options_.error) return {StopReason::target_reached, error};
+        if (look == last) return {StopReason::paths_done, error};
+    }
+}
+
+std::optional<StopReason> Schedule::advance_to(std::uint64_t look, std::uint64_t last, Work& work,
+                                               double& error) const {
+    while (work.samples() < look) {
+        const bool has_result = work.samples() >= work.least_samples();
+        const std::uint64_t next = std::min(work.most_at_once(), look - work.samples());
+        if (has_result && interrupt_ && *interrupt_) return StopReason::interrupted;
+        if (has_result && is_time_over(work, next)) return StopReason::time_over;
+        if (!work.advance(next, has_result ? interrupt_ : nullptr)) return StopReason::interrupted;
+        if (work.samples() == look) error = work.attained_error();
+        report(work, last, error);
+        work.show();
+    }
+    return std::nullopt;
+}
+
+/// Once the next samples are made, as long as those before took.
+bool Schedule::is_time_over(const Work& work, std::uint64_t next) const {
+    if (!options_.time_s) return false;
+    const double per_sample_s = clock_.elapsed_s() / static_cast<double>(work.samples());
+    return clock_.elapsed_s() + per_sample_s * static_cast<double>(next) > *options_.time_s;
+}
+
+void Schedule::report(const Work& work, std::uint64_t last, double error) const {
+    if (!sink_) return;
+    const double elapsed_s = clock_.elapsed_s();
+    const double done = static_cast<double>(work.samples()) / static_cast<double>(last);
+    sink_->report(
+        {elapsed_s, remaining_time_s(options_, elapsed_s, error, done), error, work.samples_in_all()});
+}
+
+double remaining_time_s(const RunOptions& options, double elapsed_s, double attained_error,
+                        double share_done) {
+    double remaining_s = kInfinity;
+    if (options.error) {
+        const double ratio = attained_error / *options.error;
+        remaining_s = std::min(remaining_s, elapsed_s * std::max(0.0, ratio * ratio - 1));
+    }
+    if (options.time_s) remaining_s = std::min(remaining_s, std::max(0.0, *options.time_s - elapsed_s));
+    if (options.paths) remaining_s = std::min(remaining_s, elapsed_s * (1 / share_done - 1));
+    return remaining_s;
+}
+
+Session::Session(const Scene& scene, const RunOptions& asked, const RunOptions& options, ProgressSink* sink,
+                 const std::atomic<bool>* interrupt)
+    : scene_(scene),
+      options_(options),
+      sink_(sink),
+      interrupt_(interrupt),
+      monitor_(interrupt, deadline_of(asked), report_to(sink, clock_)),
+      caster_(scene),
+      threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
+      parallelism_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
+      arena_(threads_) {}
+
+estimators::Problem Session::problem(math::RandomKey preparation_key) const {
+    return {.scene = scene_,
+            .caster = caster_,
+            .max_reflections = options_.bounces.value_or(transport::kUnlimited),
+            .preparation_key = preparation_key,
+            .patches = options_.patches,
+            .monitor = monitor_};
+}
+
+void Session::run(Work& work, RunSummary& summary) {
+    const Schedule::Ending ending = Schedule(options_, clock_, sink_, interrupt_).run(work);
+    summary.samples = work.samples_in_all();
+    summary.stop_reason = ending.reason;
+    summary.attained_error = ending.attained_error;
+    summary.converged = ending.reason != StopReason::interrupted &&
+                        (!options_.error || ending.attained_error <= *options_.error);
+}
+
+void Session::describe(const estimators::Estimator& estimator, RunSummary& summary) const {
+    summary.patches = estimator.patch_report();
+    summary.warnings = estimator.warnings();
+    if (!estimator.ended_early()) return;
+    summary.stop_reason = StopReason::time_over;
+    summary.converged = false;
+}
+
+void Session::finish(RunSummary& summary) const {
+    summary.method = options_.method;
+    summary.seed = options_.seed;
+    summary.elapsed_s = clock_.elapsed_s();
+}
+
+}  // namespace stilb::run

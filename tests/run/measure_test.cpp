@@ -1,0 +1,96 @@
+// What a run tells of its sensors beside the estimates.
+#include "run/measure.h"
+
+#include <gtest/gtest.h>
+
+#include "estimators/estimator_list.h"
+#include "support/scene_builder.h"
+
+namespace stilb::run {
+namespace {
+
+/// A room of 4 m with a mirror on half of the wall x = 4, and a window, the wall y = 4 being left out.
+Scene mirror_room() {
+    Scene scene;
+    for (const auto& [corner, u, v] : {std::array<Vec3, 3>{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}},
+                                       std::array<Vec3, 3>{Vec3{0, 0, 3}, Vec3{0, 4, 0}, Vec3{4, 0, 0}},
+                                       std::array<Vec3, 3>{Vec3{0, 0, 0}, Vec3{0, 4, 0}, Vec3{0, 0, 3}},
+                                       std::array<Vec3, 3>{Vec3{0, 0, 0}, Vec3{0, 0, 3}, Vec3{4, 0, 0}}}) {
+        add_object(scene, Rectangle{corner, u, v}, diffuse(0.5));
+    }
+    add_object(scene, Rectangle{{4, 0, 0}, {0, 0, 3}, {0, 4, 0}}, Mirror{Rgb::grey(0.9)});
+    add_area_light(scene, Rectangle{{1, 1, 2.9}, {0, 1, 0}, {1, 0, 0}}, Rgb::grey(1000));
+    return scene;
+}
+
+/// At the wall x = 0, at the mirror (and from it back to that wall), and out of the window.
+Sensor sights() {
+    return {"sights",
+            SensorType::luminance,
+            {LineOfSight{{2, 2, 1}, {-1, 0, 0}}, LineOfSight{{2, 2, 1}, normalized({1, -0.25, 0})},
+             LineOfSight{{2, 2, 1}, {0, 1, 0}}}};
+}
+
+RunOptions options_for(std::string_view method) {
+    RunOptions options;
+    options.method = method;
+    options.paths = 4096;
+    options.patches.patch_m = 1;
+    return options;
+}
+
+void expect_near(const std::optional<Vec3>& found, const Vec3& expected) {
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(length(*found - expected), 0, 1e-5);
+}
+
+TEST(Measure, TellsWhereLinesOfSightEnd) {
+    const Sensor sensor = sights();
+    for (const char* method : {"auto", "double-local", "path", "ray-bundle"}) {
+        const RunResult result = measure(mirror_room(), {&sensor, 1}, options_for(method));
+        const auto& ends = result.sensors[0].sub_points;
+        ASSERT_EQ(ends.size(), 3U) << method;
+        expect_near(ends[0], {0, 2, 1});
+        expect_near(ends[1], {0, 0.5, 1});  // 0.5 m to the mirror's 1.5 m, and another 1 m back
+        EXPECT_FALSE(ends[2]) << method;
+    }
+}
+
+TEST(Measure, LinesOfSightEndAtMirrorsThatTheLimitLeavesOut) {
+    const Sensor sensor = sights();
+    for (const char* method : {"auto", "double-local", "path"}) {
+        RunOptions options = options_for(method);
+        options.bounces = 0;
+        const RunResult result = measure(mirror_room(), {&sensor, 1}, options);
+        expect_near(result.sensors[0].sub_points[1], {4, 1.5, 1});
+    }
+}
+
+TEST(Measure, ResultsOwnTheirSensorsAndTheMeansOfTheirReplicates) {
+    RunOptions options = options_for("auto");
+    RunResult result;
+    {
+        const std::vector<Sensor> sensors{
+            sensors::make_grid_sensor("plane", {{0.5, 0.5, 0.8}, {3, 0, 0}, {0, 3, 0}, {3, 2}}, {0, 0, 1}),
+            sights()};
+        result = measure(mirror_room(), sensors, options);
+    }
+    ASSERT_EQ(result.sensors.size(), 2U);
+    EXPECT_EQ(result.sensors[0].sensor.name, "plane");
+    EXPECT_EQ(result.sensors[1].sensor.measurands.size(), 3U);
+    EXPECT_EQ(result.samples, 4096U);
+    for (const SensorResult& sensor : result.sensors) {
+        const std::size_t readings = sensor.readings.size();
+        ASSERT_EQ(sensor.replicate_means.size(), 32 * readings);
+        const auto estimates = statistics::estimate_readings({sensor.replicate_means, readings}, 0.95);
+        for (std::size_t j = 0; j < readings; ++j) {
+            EXPECT_EQ(estimates[j].value, sensor.readings[j].estimate.value);
+            EXPECT_EQ(estimates[j].standard_error, sensor.readings[j].estimate.standard_error);
+            EXPECT_NEAR(estimates[j].value, sensor.readings[j].rgb.luminance(),
+                        1e-9 * estimates[j].value + 1e-12);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stilb::run

@@ -1,0 +1,189 @@
+// What is done before the first sample: it reports progress, and user and time limit can end it.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "base/monitor.h"
+#include "run/measure.h"
+#include "run/render.h"
+#include "run/solve.h"
+#include "support/scene_builder.h"
+
+namespace stilb::run {
+namespace {
+
+Scene room() {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, diffuse(0.7));
+    for (const double x : {1., 2., 3.}) add_point_light(scene, {x, 1.5, 2}, Rgb::grey(100));
+    return scene;
+}
+
+const Sensor& floor_point() {
+    static const Sensor sensor = point_sensor({{{1, 1.3, 0}, {0, 0, 1}}});
+    return sensor;
+}
+
+Sensor view() {
+    Sensor camera{"camera", SensorType::camera, {}};
+    camera.camera = {{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, {0, 0, 1}, 70, {16, 12}, Projection::perspective};
+    return camera;
+}
+
+RunOptions options_for(const std::string& method) {
+    RunOptions options;
+    options.method = method;
+    options.patches.patch_m = 0.5;
+    options.patches.resolution = 64;
+    options.patches.shot_resolution = 32;
+    if (method == "path") options.patches.first_shot.variant = estimators::FirstShotVariant::incoming;
+    if (method != "radiosity") options.paths = 64;
+    return options;
+}
+
+class Watcher final : public PictureSink {
+  public:
+    std::function<void(const SetUp&)> on_set_up = [](const SetUp&) {};
+
+    void report_set_up(const SetUp& set_up) override {
+        stages.insert(std::string(set_up.stage));
+        EXPECT_GE(set_up.share, 0);
+        EXPECT_LE(set_up.share, 1);
+        EXPECT_EQ(samples, 0U);
+        on_set_up(set_up);
+    }
+    void report(const Progress& progress) override { samples = progress.samples; }
+    bool wants_picture() override { return false; }
+    void show(const Pixels&) override {}
+
+    std::set<std::string> stages;
+    std::uint64_t samples = 0;
+};
+
+/// A method, and a stage of its set-up.
+using StageOfMethod = std::pair<const char*, const char*>;
+
+class SetUpStage : public testing::TestWithParam<StageOfMethod> {};
+
+/// The message of Cancelled, which the action must throw.
+std::string cancelled(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Cancelled& what) {
+        return what.what();
+    }
+    return "not cancelled";
+}
+
+TEST_P(SetUpStage, ReadingsReportItAndCanBeCancelledInIt) {
+    const auto& [method, stage] = GetParam();
+    Watcher watcher;
+    std::atomic<bool> interrupt = false;
+    EXPECT_NO_THROW(measure(room(), {&floor_point(), 1}, options_for(method), &watcher, &interrupt));
+    EXPECT_TRUE(watcher.stages.contains(stage)) << method;
+
+    Watcher canceller;
+    canceller.on_set_up = [&](const ProgressSink::SetUp& set_up) {
+        if (set_up.stage == stage) interrupt = true;
+    };
+    const std::string message = cancelled([&] {
+        measure(room(), {&floor_point(), 1}, options_for(method), &canceller, &interrupt);
+    });
+    EXPECT_NE(message.find("interrupted during set-up"), std::string::npos) << message;
+    EXPECT_NE(message.find("no result"), std::string::npos) << message;
+    EXPECT_EQ(canceller.samples, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Stages, SetUpStage,
+    testing::Values(StageOfMethod{"radiosity", "patches"}, StageOfMethod{"radiosity", "first shot"},
+                    StageOfMethod{"radiosity", "shooting"}, StageOfMethod{"radiosity", "readings"},
+                    StageOfMethod{"ray-bundle", "first shot"}, StageOfMethod{"path", "first shot"},
+                    StageOfMethod{"particles", "patches"}));
+
+TEST(SetUpOfPictures, CanBeCancelled) {
+    for (const char* method : {"auto", "radiosity", "ray-bundle"}) {
+        std::atomic<bool> interrupt = false;
+        Watcher watcher;
+        watcher.on_set_up = [&](const ProgressSink::SetUp&) { interrupt = true; };
+        EXPECT_NE(cancelled([&] {
+                      render(room(), view(), options_for(method), &watcher, &interrupt);
+                  }).find("interrupted"),
+                  std::string::npos)
+            << method;
+    }
+}
+
+TEST(SetUpOfSolutions, CanBeCancelled) {
+    std::atomic<bool> interrupt = false;
+    Watcher watcher;
+    watcher.on_set_up = [&](const ProgressSink::SetUp& set_up) {
+        if (set_up.stage == "first steps") interrupt = true;
+    };
+    const std::string message =
+        cancelled([&] { solve(room(), options_for("ray-bundle"), 2, &watcher, &interrupt); });
+    EXPECT_NE(message.find("first steps"), std::string::npos) << message;
+}
+
+/// Lets the time run out at a stage.
+Watcher sleeper(const char* stage, double until_s) {
+    Watcher watcher;
+    watcher.on_set_up = [=](const ProgressSink::SetUp& set_up) {
+        if (set_up.stage != stage || set_up.elapsed_s > until_s) return;
+        std::this_thread::sleep_for(std::chrono::duration<double>(until_s - set_up.elapsed_s + 0.01));
+    };
+    return watcher;
+}
+
+TEST(TimeLimit, EndsFirstShotWithoutAResult) {
+    for (const char* method : {"radiosity", "ray-bundle", "path"}) {
+        RunOptions options = options_for(method);
+        options.time_s = 1;
+        Watcher watcher = sleeper("first shot", 1);
+        const std::string message = cancelled([&] {
+            measure(room(), {&floor_point(), 1}, options, &watcher);
+        });
+        EXPECT_NE(message.find("time limit reached during set-up"), std::string::npos) << message;
+        EXPECT_NE(message.find("Allow more time"), std::string::npos) << message;
+    }
+}
+
+TEST(TimeLimit, EndsShootingWithTheLightThatThereIs) {
+    RunOptions options = options_for("radiosity");
+    const RunResult all = measure(room(), {&floor_point(), 1}, options);
+    options.time_s = 2;
+    Watcher watcher = sleeper("shooting", 2);
+    const RunResult some = measure(room(), {&floor_point(), 1}, options, &watcher);
+    EXPECT_EQ(some.stop_reason, StopReason::time_over);
+    EXPECT_FALSE(some.converged);
+    ASSERT_EQ(some.warnings.size(), 1U);
+    EXPECT_NE(some.warnings[0].find("time limit reached"), std::string::npos) << some.warnings[0];
+    const double value = some.sensors[0].readings[0].estimate.value;
+    const double limit = all.sensors[0].readings[0].estimate.value;
+    EXPECT_GT(value, 0.2 * limit);
+    EXPECT_LT(value, 0.9 * limit);
+
+    Watcher again = sleeper("shooting", 2);
+    const RenderResult picture = render(room(), view(), options, &again);
+    EXPECT_EQ(picture.stop_reason, StopReason::time_over);
+    EXPECT_FALSE(picture.converged);
+}
+
+TEST(TimeLimit, ThatIsLongEnoughChangesNothing) {
+    RunOptions options = options_for("radiosity");
+    const RunResult unlimited = measure(room(), {&floor_point(), 1}, options);
+    options.time_s = 1e6;
+    const RunResult limited = measure(room(), {&floor_point(), 1}, options);
+    EXPECT_EQ(limited.sensors[0].replicate_means, unlimited.sensors[0].replicate_means);
+    EXPECT_EQ(limited.stop_reason, StopReason::solved);
+    EXPECT_TRUE(limited.converged);
+    EXPECT_TRUE(limited.warnings.empty());
+}
+
+}  // namespace
+}  // namespace stilb::run
