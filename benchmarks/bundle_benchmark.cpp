@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "best_time.h"
 #include "patches/visibility/bundle.h"
 #include "patches/visibility/opengl_bundles.h"

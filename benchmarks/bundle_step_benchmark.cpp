@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <ctime>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 #include "rooms.h"
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "best_time.h"
 #include "estimators/patch_light/first_shot/first_shot_patches.h"
 #include "rooms.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "best_time.h"
 #include "patches/vertex_interpolation.h"
 #include "patches/visibility/item_buffer.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/mesh/mesh_file.h"
 
 namespace stilb {

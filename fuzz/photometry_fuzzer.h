@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/photometry/photometry_file.h"
 
 namespace stilb {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/results/solution_file.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "fit/outward.h"
 #include "geometry/harmonics/surface.h"
 #include "math/spherical_harmonics.h"

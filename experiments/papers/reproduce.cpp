@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::papers {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/error.h"
+#include "stilb/error.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "cli/commands.h"
 #include "io/image/picture_file.h"
 #include "plot/canvas.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "cli/commands.h"
 #include "cli/fit_report.h"
 #include "io/mesh/harmonics_file.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "base/monitor.h"
 #include "cli/commands.h"
 #include "papers/reproduce.h"

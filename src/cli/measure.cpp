@@ -9,7 +9,7 @@
 #include <iterator>
 #include <memory>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"

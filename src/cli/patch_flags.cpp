@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/estimator_list.h"
 
 namespace stilb::cli {

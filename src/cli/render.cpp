@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "cli/commands.h"
 #include "cli/detail_text.h"
 #include "cli/ending.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/estimator_list.h"
 #include "run/options.h"
 

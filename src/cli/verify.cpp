@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "cli/commands.h"
 #include "cli/place_text.h"
 #include "cli/progress.h"

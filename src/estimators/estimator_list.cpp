@@ -7,7 +7,7 @@
 #include <iterator>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/methods.h"
 
 namespace stilb::estimators {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "transport/receiver.h"
 
 namespace stilb::estimators {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "fit/outward.h"
 #include "geometry/harmonics/surface.h"
 

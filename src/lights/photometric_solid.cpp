@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::lights {
 namespace {

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "geometry/harmonics/surface.h"
 #include "geometry/mesh_topology.h"
 #include "patches/vertex_interpolation.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::plot {
 

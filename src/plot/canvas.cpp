@@ -9,7 +9,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "plot/axis.h"

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::plot {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "checks/placement.h"
 #include "estimators/estimator_list.h"
 #include "run/level_of_detail.h"

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::run {
 

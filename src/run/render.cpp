@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "checks/placement.h"
 #include "estimators/estimator_list.h"
 #include "estimators/patch_light/patch_solution.h"

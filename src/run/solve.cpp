@@ -7,7 +7,7 @@
 #include <limits>
 #include <memory>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/incoming_light.h"
 #include "run/schedule.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/first_shot_rooms.h"
 #include "estimators/patch_light/first_shot/factors.h"
 #include "exact/configuration_factors.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/first_shot_rooms.h"
 #include "exact/configuration_factors.h"
 

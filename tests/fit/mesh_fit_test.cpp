@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "support/harmonic_shapes.h"
 #include "support/prisms.h"
 #include "support/scene_builder.h"

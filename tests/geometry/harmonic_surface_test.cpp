@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "geometry/harmonics/surface.h"
 #include "support/harmonic_shapes.h"
 

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <functional>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/image/picture_file.h"
 #include "io/sample_picture.h"
 

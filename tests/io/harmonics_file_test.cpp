@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/text/table.h"
 #include "math/spherical_harmonics.h"
 

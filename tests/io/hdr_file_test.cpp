@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/image/picture_file.h"
 #include "io/sample_picture.h"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/mesh/mesh_file.h"
 
 namespace stilb::io {

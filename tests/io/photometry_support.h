@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/photometry/photometry_file.h"
 
 namespace stilb::photometry_test {

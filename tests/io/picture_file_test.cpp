@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/sample_picture.h"
 #include "io/text/table.h"
 #include "support/picture_pixels.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/luminance_results.h"
 #include "io/results/results_json.h"
 #include "plot/grid_picture.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/scene/scene_file.h"
 
 namespace stilb::io {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/text/text.h"
 #include "run/solve.h"
 #include "support/scene_builder.h"

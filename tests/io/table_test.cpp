@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "support/picture_pixels.h"
 
 namespace stilb::io {

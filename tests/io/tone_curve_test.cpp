@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/sample_picture.h"
 
 namespace stilb::io {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::lights {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "patches/visibility/buffer_backend.h"
 #include "patches/visibility/opengl_patches.h"
 

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "math/sampling.h"
 #include "patches/backends.h"
 #include "patches/rooms.h"

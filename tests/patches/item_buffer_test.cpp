@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::patches {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "geometry/harmonics/surface.h"
 #include "geometry/mesh_topology.h"
 #include "support/closed_meshes.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::plot {
 namespace {

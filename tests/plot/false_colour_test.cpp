@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "plot/colour_map.h"
 #include "support/picture_pixels.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "support/picture_pixels.h"
 
 namespace stilb::plot {

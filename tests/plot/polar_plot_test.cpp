@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "plot/plot.h"
 #include "support/picture_pixels.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "run/measure.h"
 #include "run/render.h"
 #include "support/scene_builder.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/estimator_list.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "run/render.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/first_shot/surface.h"
 #include "estimators/patch_light/incoming_light.h"

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "math/first_root.h"
 #include "math/gauss_legendre.h"
 

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
 #include "io/image/primaries.h"

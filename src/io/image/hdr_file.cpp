@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
 #include "io/image/primaries.h"

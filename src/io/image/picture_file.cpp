@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/image/picture.h"
 #include "io/text/table.h"
 #include "io/text/text.h"

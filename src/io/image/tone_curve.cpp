@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "base/rgb.h"
 #include "io/image/primaries.h"
 

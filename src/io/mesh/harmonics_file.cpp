@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "math/spherical_harmonics.h"

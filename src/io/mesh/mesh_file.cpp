@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/text/text.h"
 
 namespace stilb::io {

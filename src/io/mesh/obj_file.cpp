@@ -6,7 +6,7 @@
 #include <array>
 #include <span>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/text.h"
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <span>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/text.h"
 

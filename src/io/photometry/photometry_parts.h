@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/photometry/photometry_file.h"
 #include "io/text/text.h"
 

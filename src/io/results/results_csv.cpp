@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/results/sub_point.h"
 #include "io/text/table.h"
 

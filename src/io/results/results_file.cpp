@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "base/vec.h"
 #include "io/text/text.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/text/content_hash.h"
 #include "io/text/table.h"
 #include "io/text/text.h"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"

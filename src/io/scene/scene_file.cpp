@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/estimator_list.h"
 #include "io/scene/sections.h"
 #include "io/text/text.h"
@@ -119,6 +119,11 @@ SceneFile read_scene(std::string_view toml, const std::string& name, const std::
         throw InputError(
             "the scene file is empty. Needed: the sections materials, objects, lights and sensors.", {name});
     }
+    return read_scene(members, name, directory);
+}
+
+SceneFile read_scene(const TomlMembers& members, const std::string& name,
+                     const std::filesystem::path& directory) {
     TomlTable root(members, "", name, 0);
     root.expect_keys({"scene", "materials", "objects", "lights", "sensors", "run"});
     const TomlMembers nothing;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/scene/toml.h"
 #include "run/options.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
@@ -28,5 +29,8 @@ SceneFile read_scene_file(const std::filesystem::path& path);
 
 /// The reader itself; `directory` is where the scene's file paths start, `name` is used in messages.
 SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory);
+/// The same of a tree that was made in code: its lines are 0, and messages leave an empty name out.
+SceneFile read_scene(const TomlMembers& members, const std::string& name,
+                     const std::filesystem::path& directory);
 
 }  // namespace stilb::io

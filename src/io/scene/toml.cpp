@@ -10,7 +10,7 @@
 #include <system_error>
 #include <tuple>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "io/text/text.h"
 
 namespace stilb::io {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::patches {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::patches {
 

@@ -16,7 +16,7 @@
 #include <array>
 #include <string>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "patches/visibility/opengl_patches.h"
 
 namespace stilb::patches {

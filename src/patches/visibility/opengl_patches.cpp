@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::patches {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/error.h"
+#include "stilb/error.h"
 
 namespace stilb::estimators {
 namespace {

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "stilb/error.h"
 #include "estimators/limits.h"
 #include "estimators/methods.h"
 #include "estimators/patch_light/patch_picture.h"

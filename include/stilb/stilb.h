@@ -1,0 +1,16 @@
+// The library: include this one. docs/library.md has an example.
+#pragma once
+
+#include "stilb/error.h"
+#include "stilb/measure.h"
+#include "stilb/options.h"
+#include "stilb/parameters.h"
+#include "stilb/render.h"
+#include "stilb/result.h"
+#include "stilb/scene.h"
+
+namespace stilb {
+
+using namespace api;
+
+}  // namespace stilb
