@@ -8,7 +8,7 @@
 #include "base/bounds.h"
 #include "math/sampling.h"
 
-namespace stilb::transport {
+namespace stilb::lights {
 namespace {
 
 /// What leaves a luminaire against `direction`, in the frame of its solid.
@@ -32,15 +32,15 @@ LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
         luminous_flux.push_back(flux_lm_.back().luminance());
         Emitter emitter;
         if (const auto* area_light = std::get_if<AreaLight>(&light.source)) {
-            emitter.elements = emitter_elements(scene.object(area_light->object).shape);
+            emitter.elements = lights::emitter_elements(scene.object(area_light->object).shape);
             std::vector<double> areas;
             Bounds bounds;
-            for (const EmitterElement& element : emitter.elements) {
+            for (const lights::EmitterElement& element : emitter.elements) {
                 areas.push_back(element.area_m2);
                 // The points of these four parameters span every kind of element well enough for a rough
                 // size.
                 for (const auto& u : {std::pair{0.01, 0.01}, {0.99, 0.01}, {0.01, 0.99}, {0.99, 0.99}}) {
-                    bounds.include(sample_by_area(element, {u.first, u.second}).position);
+                    bounds.include(lights::sample_by_area(element, {u.first, u.second}).position);
                 }
             }
             emitter.by_area = math::DiscreteDistribution(areas);
@@ -85,8 +85,8 @@ EmittedParticle LightSampler::emit(std::size_t light, math::SampleStream& stream
     }
     const auto choice = emitters_[light].by_area.choose(u[0]);
     const std::array<double, 2> v = stream.next_two();
-    const EmitterElement& element = emitters_[light].elements[choice.index];
-    const EmitterPoint point = sample_by_area(element, {choice.remainder, u[1]});
+    const lights::EmitterElement& element = emitters_[light].elements[choice.index];
+    const lights::EmitterPoint point = lights::sample_by_area(element, {choice.remainder, u[1]});
     const Vec3 direction =
         Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(v[0], v[1]).direction);
     return {point.position + caster_.offset_m(point.position, element.size_m) * point.normal, direction,
@@ -121,8 +121,8 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
 std::optional<IncidentLight> LightSampler::sample_area_light(std::size_t light, const Vec3& from,
                                                              const std::array<double, 2>& u) const {
     const auto choice = emitters_[light].by_area.choose(u[0]);
-    const EmitterElement& element = emitters_[light].elements[choice.index];
-    const auto sample = sample_seen(element, from, {choice.remainder, u[1]});
+    const lights::EmitterElement& element = emitters_[light].elements[choice.index];
+    const auto sample = lights::sample_seen(element, from, {choice.remainder, u[1]});
     if (!sample) return std::nullopt;
     const auto& [position, normal, pdf_per_sr] = *sample;
     const Vec3 direction = normalized(position - from);
@@ -131,7 +131,7 @@ std::optional<IncidentLight> LightSampler::sample_area_light(std::size_t light, 
     const Rgb& luminance = std::get<AreaLight>(lights_[light]->source).luminance_cd_m2;
     return IncidentLight{position + caster_.offset_m(position, element.size_m) * normal, direction,
                          luminance * (1 / (pdf_per_sr * choice.probability)),
-                         choice.probability * rough_pdf_per_sr(element, position, normal, from)};
+                         choice.probability * lights::rough_pdf_per_sr(element, position, normal, from)};
 }
 
 double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const {
@@ -187,7 +187,7 @@ double LightSampler::pdf_of_its_light_per_sr(const rays::Hit& hit, const Vec3& f
     const Emitter& emitter = emitters_[light];
     const std::size_t element = emitter.elements.size() == 1 ? 0 : hit.triangle;
     return emitter.by_area.probability(element) *
-           rough_pdf_per_sr(emitter.elements[element], hit.position, hit.normal, from);
+           lights::rough_pdf_per_sr(emitter.elements[element], hit.position, hit.normal, from);
 }
 
 double LightSampler::pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Vec3& normal) const {
@@ -205,4 +205,4 @@ Rgb LightSampler::emitted_luminance(const rays::Hit& hit) const {
     return hit.on_front ? luminance_of_object_[index_of(hit.object)] : Rgb{};
 }
 
-}  // namespace stilb::transport
+}  // namespace stilb::lights

@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "lights/emitter_elements.h"
 #include "math/discrete.h"
 #include "math/sample_stream.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
-#include "transport/emitter_elements.h"
 
-namespace stilb::transport {
+namespace stilb::lights {
 
 /// A particle that has just left a light source.
 struct EmittedParticle {
@@ -70,7 +70,7 @@ class LightSampler {
 
   private:
     struct Emitter {
-        std::vector<EmitterElement> elements;  ///< of an area light; empty for point-like ones
+        std::vector<lights::EmitterElement> elements;  ///< of an area light; empty for point-like ones
         math::DiscreteDistribution by_area;
         /// Of a point-like light: where its rays start. Luminaires are lifted along their nadir, so that one
         /// may be placed in the very plane of a ceiling.
@@ -100,4 +100,4 @@ class LightSampler {
     bool has_area_lights_ = false;
 };
 
-}  // namespace stilb::transport
+}  // namespace stilb::lights
