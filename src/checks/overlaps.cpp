@@ -80,7 +80,7 @@ Mesh mesh_of(const Shape& shape) {
 std::vector<FlatTriangle> flat_triangles(const Scene& scene) {
     std::vector<bool> shines(scene.objects.size());
     for (const Light& light : scene.lights) {
-        if (const auto* area = std::get_if<AreaLight>(&light.source)) shines[index_of(area->object)] = true;
+        if (const auto surface = lights::surface_emission(light)) shines[index_of(surface->object)] = true;
     }
     std::vector<Mesh> meshes;
     Bounds bounds;

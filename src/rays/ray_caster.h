@@ -18,6 +18,7 @@
 #include <span>
 
 #include "base/ids.h"
+#include "base/lift.h"
 #include "base/ray_packet.h"
 #include "base/vec.h"
 #include "scene/scene.h"
@@ -91,6 +92,8 @@ class RayCaster {
     const Vec3& center() const;
     /// Half of the longest edge of the scene's bounding box [m]; lights and surfaces, not sensors.
     double half_extent_m() const;
+    /// The rule by which points are lifted off surfaces.
+    Lift lift() const;
     /// How far a point near `position` on something of size `size_m` is lifted off its surface.
     double offset_m(const Vec3& position, double size_m) const;
 

@@ -33,7 +33,7 @@ Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, 
 Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights) {
     Rgb sum;
     for (std::size_t i = 0; i < lights.count(); ++i) {
-        if (!lights.is_point_like(i)) continue;
+        if (!lights.is_point(i)) continue;
         if (const auto light = lights.sample_incident(i, receiver.position(), {})) {
             const Rgb received = illuminance_lx(*light, receiver, caster);
             if (received.max() > 0) sum += received * receiver.response(light->direction);
@@ -47,7 +47,7 @@ Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& ca
     const bool directional = !receiver.constant_response();
     Rgb sum;
     for (std::size_t i = 0; i < lights.count(); ++i) {
-        if (lights.is_point_like(i)) continue;
+        if (lights.is_point(i)) continue;
         const auto u = stream.next_two();
         const auto light = lights.sample_incident(i, receiver.position(), u);
         if (!light) continue;
@@ -57,7 +57,8 @@ Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& ca
             directional ? balance(light->pdf_per_sr, receiver.pdf_per_sr(light->direction)) : 1;
         sum += received * receiver.response(light->direction) * weight;
     }
-    if (directional && lights.has_area_lights()) sum += sample_by_response(receiver, caster, lights, stream);
+    if (directional && lights.has_visible_lights())
+        sum += sample_by_response(receiver, caster, lights, stream);
     return sum;
 }
 

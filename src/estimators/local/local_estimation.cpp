@@ -73,7 +73,7 @@ class LocalEstimation final : public Estimator {
         for (std::uint64_t first = batch.first; first < end; first += block) {
             fan_.collect(fan_nodes(batch.key, first, std::min(end, first + block)), sums);
         }
-        if (lights_.has_area_lights()) add_direct_light(batch, sums);
+        if (lights_.has_visible_lights()) add_direct_light(batch, sums);
         if (gathers_) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
         add_faint_ways(batch, sums);
     }

@@ -65,8 +65,8 @@ AreaLight read_area(TomlTable& table, const Context& context) {
     const TomlItem item = table.at("object");
     const ObjectId object{static_cast<std::uint32_t>(item.index_in(names, "object"))};
     for (const Light& other : scene.lights) {
-        const auto* area = std::get_if<AreaLight>(&other.source);
-        if (area && area->object == object) {
+        const auto surface = lights::surface_emission(other);
+        if (surface && surface->object == object) {
             item.fail(fmt::format("{} emits for the light {} already. Allowed: one area light for an object.",
                                   in_quotes(item.text()), in_quotes(other.name)));
         }
