@@ -61,6 +61,7 @@ Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scen
     for (const Object& object : scene.objects) shells_.push_back(find_components(object.shape));
     for (const Light& light : scene.lights) {
         std::vector<Enclosure>& spaces = of_lights_.emplace_back();
+        if (place_of(light) == stilb::LightPlace::infinity) spaces.push_back({});  // outside of all shells
         for (const ProbeRay& probe_ray : probe_rays_of(light)) {
             spaces.push_back(voted_enclosure(probe_ray));
             if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, spaces.back()});

@@ -124,7 +124,7 @@ Json light_json(const Light& light, const Scene& scene) {
     for (const auto& [key, value] : details_of(light, scene::LightSurroundings(scene))) {
         std::visit([&](const auto& is) { json[std::string(key)] = is; }, value);
     }
-    json["flux_lm"] = flux_lm(scene, light).luminance();
+    if (place_of(light) != LightPlace::infinity) json["flux_lm"] = flux_lm(scene, light).luminance();
     return json;
 }
 
@@ -217,7 +217,9 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     const rays::RayCaster caster(scene);
     const checks::Enclosures spaces(scene, caster);
     double total_flux_lm = 0;
-    for (const Light& light : scene.lights) total_flux_lm += flux_lm(scene, light).luminance();
+    for (const Light& light : scene.lights) {
+        if (place_of(light) != LightPlace::infinity) total_flux_lm += flux_lm(scene, light).luminance();
+    }
 
     Json json{{"stilb", STILB_VERSION}, {"file", name}, {"name", scene.name}};
     json["materials"] = list_json(scene.materials, [](const NamedMaterial& material) {

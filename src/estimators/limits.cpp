@@ -72,6 +72,16 @@ void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::
     }
 }
 
+void require_no_light_from_outside(const Scene& scene, std::string_view method) {
+    for (const Light& light : scene.lights) {
+        if (place_of(light) != LightPlace::infinity) continue;
+        throw InputError(fmt::format(
+            "light \"{}\" surrounds the scene, and method {} shoots light between surfaces only. Use "
+            "method auto, local, double-local, path, ray-bundle or particles.",
+            light.name, method));
+    }
+}
+
 void require_all_reflections(int max_reflections, std::string_view method) {
     if (max_reflections == transport::kUnlimited) return;
     throw InputError(

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "lights/area.h"
+#include "lights/environment.h"
 #include "lights/light_kind.h"
 #include "lights/luminaire.h"
 #include "lights/point.h"
@@ -13,7 +14,7 @@
 namespace stilb::lights {
 
 /// All kinds of light: here a new one is added.
-using LightSource = std::variant<PointLight, Luminaire, AreaLight>;
+using LightSource = std::variant<PointLight, Luminaire, AreaLight, EnvironmentLight>;
 
 struct Light {
     std::string name;

@@ -358,15 +358,14 @@ Rgb RayCaster::transmittance_of_panes(const Segment& segment) const {
     return left;
 }
 
-std::optional<RayCaster::Seen> RayCaster::seen(const Ray& ray) const {
+RayCaster::Seen RayCaster::seen(const Ray& ray) const {
     Seen seen;
     Vec3 origin = ray.origin;
     for (;;) {
         const auto hit = closest(origin, ray.direction);
-        if (!hit) return std::nullopt;
-        const ThinDielectric* pane = implementation_->pane_at(*hit);
+        const ThinDielectric* pane = hit ? implementation_->pane_at(*hit) : nullptr;
         if (pane == nullptr) {
-            seen.hit = *hit;
+            seen.hit = hit;
             return seen;
         }
         seen.transmittance *= pane_shares(*pane, -dot(ray.direction, hit->normal)).transmittance;

@@ -78,12 +78,13 @@ class RayCaster {
     void transmittances(std::span<const Segment> segments, Coherence coherence,
                         std::span<Rgb> transmittances) const;
 
-    /// The first surface but panes that light along a ray comes straight from, and what panes leave of it.
+    /// The first surface but panes that light along a ray comes straight from, none where it leaves the
+    /// scene, and what panes leave of it.
     struct Seen {
-        Hit hit;
+        std::optional<Hit> hit;
         Rgb transmittance = Rgb::grey(1);
     };
-    std::optional<Seen> seen(const Ray& ray) const;
+    Seen seen(const Ray& ray) const;
 
     /// For lanes that are set: `end` becomes negative where something is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;

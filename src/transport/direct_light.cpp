@@ -14,6 +14,8 @@ Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const r
            caster.transmittance({receiver.lifted(), light.source_point});
 }
 
+ReceivingPoint receiving_point(const Receiver& receiver) { return {receiver.position(), receiver.normal()}; }
+
 /// The emitters' light along a ray in proportion to the response; beside samples of each light.
 Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
                        math::SampleStream& stream) {
@@ -21,10 +23,12 @@ Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, 
     const auto sample = receiver.sample(u1, u2);
     if (!sample) return {};
     const auto seen = caster.seen({receiver.lifted(), sample->direction});
-    if (!seen) return {};
-    const Rgb emission = seen->transmittance * lights.emitted_luminance(seen->hit);
+    const Rgb emission = seen.transmittance * (seen.hit ? lights.emitted_luminance(*seen.hit)
+                                                        : lights.outside_luminance(sample->direction));
     if (!(emission.max() > 0)) return {};
-    const double light_pdf = lights.pdf_of_its_light_per_sr(seen->hit, receiver.position());
+    const double light_pdf =
+        seen.hit ? lights.pdf_of_its_light_per_sr(*seen.hit, receiver.position())
+                 : lights.pdf_of_outside_light_per_sr(sample->direction, receiving_point(receiver));
     return sample->weight * emission * balance(sample->pdf_per_sr, light_pdf);
 }
 
@@ -34,7 +38,7 @@ Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, 
     Rgb sum;
     for (std::size_t i = 0; i < lights.count(); ++i) {
         if (!lights.is_point(i)) continue;
-        if (const auto light = lights.sample_incident(i, receiver.position(), {})) {
+        if (const auto light = lights.sample_incident(i, receiving_point(receiver), {})) {
             const Rgb received = illuminance_lx(*light, receiver, caster);
             if (received.max() > 0) sum += received * receiver.response(light->direction);
         }
@@ -49,7 +53,7 @@ Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& ca
     for (std::size_t i = 0; i < lights.count(); ++i) {
         if (lights.is_point(i)) continue;
         const auto u = stream.next_two();
-        const auto light = lights.sample_incident(i, receiver.position(), u);
+        const auto light = lights.sample_incident(i, receiving_point(receiver), u);
         if (!light) continue;
         const Rgb received = illuminance_lx(*light, receiver, caster);
         if (!(received.max() > 0)) continue;

@@ -1,23 +1,29 @@
 #include "transport/light_sampler.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <limits>
 #include <utility>
 
-namespace stilb::transport {
+#include "base/error.h"
 
-using lights::LightKind;
+namespace stilb::transport {
 
 LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
                            std::vector<bool> made_elsewhere)
     : luminance_of_object_(scene.objects.size()),
       light_of_object_(scene.objects.size(), kNoLight),
       made_elsewhere_(std::move(made_elsewhere)) {
-    std::vector<double> luminous_flux_lm;
+    std::vector<double> weights;
+    double others_lm = 0;
     for (const Light& light : scene.lights) {
         add(light, scene, caster);
-        luminous_flux_lm.push_back(flux_lm_.back().luminance());
+        weights.push_back(flux_lm_.back().luminance());
+        if (outside_ != weights.size() - 1) others_lm += weights.back();
     }
-    by_flux_ = math::DiscreteDistribution(luminous_flux_lm);
+    if (outside_ != kNoLight && others_lm > 0) weights[outside_] = std::min(weights[outside_], others_lm);
+    by_flux_ = math::DiscreteDistribution(weights);
 }
 
 void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
@@ -28,6 +34,14 @@ void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCa
     if (const auto surface = lights::surface_emission(light)) {
         luminance_of_object_[index_of(surface->object)] = surface->luminance_cd_m2;
         light_of_object_[index_of(surface->object)] = number;
+    }
+    if (places_[number] == LightPlace::infinity) {
+        if (outside_ != kNoLight) {
+            throw InputError(
+                fmt::format("lights \"{}\" and \"{}\" both surround the scene. Allowed: one environment.",
+                            scene.lights[outside_].name, light.name));
+        }
+        outside_ = number;
     }
     has_visible_lights_ = has_visible_lights_ || !is_point(number);
 }
@@ -40,9 +54,8 @@ EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const 
             is_point(choice.index)};
 }
 
-std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const Vec3& from,
+std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const ReceivingPoint& at,
                                                            const std::array<double, 2>& u) const {
-    const lights::ReceivingPoint at{from, std::nullopt};
     return std::visit([&](const auto& emitter) { return emitter.sample_incident(at, u); }, emitters_[light]);
 }
 
@@ -77,7 +90,8 @@ class RunningSums {
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
                                                             math::SampleStream& stream) const {
-    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, from, stream.next_two());
+    const ReceivingPoint at{from, normal};
+    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, at, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
     RunningSums sums(count());
@@ -87,7 +101,7 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
     }
     if (!(total > 0)) return std::nullopt;
     const auto choice = sums.choose(u);
-    auto incident = sample_incident(choice.index, from, point);
+    auto incident = sample_incident(choice.index, at, point);
     if (incident) {
         incident->normal_illuminance_lx *= 1 / choice.probability;
         incident->pdf_per_sr *= choice.probability;
@@ -112,7 +126,10 @@ double LightSampler::pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Ve
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
     if (light == kNoLight) return 0;
     if (is_made_elsewhere(light)) return std::numeric_limits<double>::infinity();
-    const double pdf = pdf_of_its_light_per_sr(hit, from);
+    return times_choice(pdf_of_its_light_per_sr(hit, from), light, from, normal);
+}
+
+double LightSampler::times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const {
     if (count() == 1) return pdf;
     double total = 0, own = 0;
     for (std::size_t i = 0; i < count(); ++i) {
@@ -121,6 +138,32 @@ double LightSampler::pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Ve
         if (i == light) own = rough_lx;
     }
     return total > 0 ? pdf * own / total : 0;
+}
+
+Rgb LightSampler::outside_luminance(const Vec3& direction) const {
+    if (outside_ == kNoLight) return {};
+    return std::visit(
+        [&]<typename Emitter>(const Emitter& emitter) -> Rgb {
+            if constexpr (lights::InfiniteEmitterKind<Emitter>) return emitter.luminance_cd_m2(direction);
+            return {};
+        },
+        emitters_[outside_]);
+}
+
+double LightSampler::pdf_of_outside_light_per_sr(const Vec3& direction, const ReceivingPoint& at) const {
+    if (outside_ == kNoLight) return 0;
+    return std::visit(
+        [&]<typename Emitter>(const Emitter& emitter) -> double {
+            if constexpr (lights::InfiniteEmitterKind<Emitter>) return emitter.pdf_per_sr(direction, at);
+            return 0;
+        },
+        emitters_[outside_]);
+}
+
+double LightSampler::outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const {
+    if (outside_ == kNoLight) return 0;
+    if (is_made_elsewhere(outside_)) return std::numeric_limits<double>::infinity();
+    return times_choice(pdf_of_outside_light_per_sr(direction, {from, normal}), outside_, from, normal);
 }
 
 Rgb LightSampler::emitted_luminance(const rays::Hit& hit) const {

@@ -14,6 +14,7 @@
 namespace stilb::transport {
 
 using lights::IncidentLight;
+using lights::ReceivingPoint;
 
 /// A particle that has just left a light source.
 struct EmittedParticle {
@@ -30,18 +31,24 @@ class LightSampler {
     /// `made_elsewhere`: of Scene::lights, those whose light something else brings to surfaces; none where it
     /// is empty. sample_one_light() never chooses them, and to pdf_per_sr() they are as if it always found
     /// them.
+    /// Throws InputError where several lights are at infinity.
     LightSampler(const Scene& scene, const rays::RayCaster& caster, std::vector<bool> made_elsewhere = {});
 
-    /// A particle drawn in proportion to the emitted luminous flux: light, position, direction.
+    /// A particle drawn about in proportion to the emitted luminous flux: light, position, direction. Light
+    /// from infinity, most of which a scene of rooms never sees, gets at most as many as all others together.
     EmittedParticle sample_emission(math::SampleStream& stream) const;
 
     std::size_t count() const { return emitters_.size(); }
     /// Light from a point is known exactly, without sampling.
     bool is_point(std::size_t light) const { return places_[light] == LightPlace::point; }
 
-    /// Light from one source at `from`; points ignore `u`. Nothing where the sample's front is turned away.
-    std::optional<IncidentLight> sample_incident(std::size_t light, const Vec3& from,
+    /// Light from one source; points ignore `u`. Nothing where the sample's front is turned away.
+    std::optional<IncidentLight> sample_incident(std::size_t light, const ReceivingPoint& at,
                                                  const std::array<double, 2>& u) const;
+    std::optional<IncidentLight> sample_incident(std::size_t light, const Vec3& from,
+                                                 const std::array<double, 2>& u) const {
+        return sample_incident(light, ReceivingPoint{from, std::nullopt}, u);
+    }
     /// As above from one source chosen by its unshadowed contribution at `from`; divided by the choice's
     /// probability.
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
@@ -55,6 +62,12 @@ class LightSampler {
 
     /// Luminance that leaves `hit` towards where the ray came from, of an emitter; zero elsewhere.
     Rgb emitted_luminance(const rays::Hit& hit) const;
+    /// Luminance that comes from outside of the scene, to a ray that leaves it along a unit direction.
+    Rgb outside_luminance(const Vec3& direction) const;
+    /// As pdf_per_sr() and pdf_of_its_light_per_sr(), for such a ray.
+    double outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const;
+    double pdf_of_outside_light_per_sr(const Vec3& direction, const ReceivingPoint& at) const;
+    bool has_light_from_outside() const { return outside_ != kNoLight; }
     /// Whether rays can meet light.
     bool has_visible_lights() const { return has_visible_lights_; }
 
@@ -66,6 +79,8 @@ class LightSampler {
         return !made_elsewhere_.empty() && made_elsewhere_[light];
     }
     double rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const;
+    /// The chance with which sample_one_light() chooses a light there, times `pdf`.
+    double times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const;
 
     std::vector<lights::Emitter> emitters_;
     std::vector<LightPlace> places_;
@@ -74,6 +89,7 @@ class LightSampler {
     std::vector<Rgb> luminance_of_object_;
     std::vector<std::uint32_t> light_of_object_;  ///< kNoLight where it is none
     std::vector<bool> made_elsewhere_;
+    std::uint32_t outside_ = kNoLight;  ///< the light from infinity
     bool has_visible_lights_ = false;
 };
 

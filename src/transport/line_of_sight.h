@@ -29,7 +29,7 @@ struct FaintRay {
 struct VisibleSurfaces {
     std::vector<SubPoint> sub_points;  ///< the one that most light comes from first
     std::vector<FaintRay> faint;
-    Rgb emission_cd_m2;  ///< of the emitters that are seen, but along the faint ways
+    Rgb emission_cd_m2;  ///< that is seen, of surfaces and from outside, but along the faint ways
 };
 
 /// The surface that a line of sight meets first, or that an emergent ray leaves; nothing in the void.

@@ -123,7 +123,11 @@ class LocalEstimation final : public Estimator {
             const transport::VisibleSurfaces sight =
                 look(measurand, scene_, caster_, lights_, max_reflections_);
             seen.known_part[reading] = sight.emission_cd_m2;
-            for (const transport::FaintRay& way : sight.faint) seen.faint.push_back({reading, way});
+            for (const transport::FaintRay& way : sight.faint) {
+                seen.faint.push_back({reading, way});
+                if (lights_.has_light_from_outside() && !caster_.closest(way.origin, way.direction))
+                    seen.known_part[reading] += way.transmission * lights_.outside_luminance(way.direction);
+            }
             for (const transport::SubPoint& sub_point : sight.sub_points) {
                 if (sub_point.reflections == max_reflections_) continue;
                 seen.receivers.emplace_back(reading, sub_point, scene_.material(sub_point.surface.material));
@@ -158,7 +162,7 @@ class LocalEstimation final : public Estimator {
         for (std::size_t j = 0; j < seen_.faint.size(); ++j) {
             const auto& [reading, way] = seen_.faint[j];
             const auto hit = caster_.closest(way.origin, way.direction);
-            if (!hit) continue;
+            if (!hit) continue;  // in the known part
             for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
                 math::SampleStream stream(key.derived(j), i);
                 const Rgb luminance =

@@ -84,6 +84,8 @@ class LocalPicture final : public PictureEstimator {
             std::vector<double> k_per_m2;
             receivers.reserve(kPacketWidth);
             CameraPaths started = picture_.tracing_.start_paths(pixels, pass_);
+            for (const auto& [pixel, luminance_cd_m2] : started.outside)
+                sums.add(readings[pixel], luminance_cd_m2);
             for (std::size_t i = 0; i < started.paths.size(); ++i) {
                 const std::size_t pixel = started.pixels[i];
                 sums.add(readings[pixel], picture_.look(started.paths[i], readings[pixel], receivers));

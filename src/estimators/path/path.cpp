@@ -67,6 +67,8 @@ class PathEstimator final : public Estimator {
         } else if (const auto hit = transport::first_surface(measurand, caster_)) {
             sights_.push_back({reading, *hit, transport::looking_direction(measurand)});
             known_part_[reading] = paths_.lights.emitted_luminance(*hit);
+        } else {
+            known_part_[reading] = paths_.lights.outside_luminance(transport::looking_direction(measurand));
         }
     }
 

@@ -125,9 +125,11 @@ class Chooser {
         if constexpr (Source::kPlace == LightPlace::point) {
             return shoot_from_point(
                 typename Source::Emitter(source, scene::LightSurroundings(scene_), caster_.lift()));
-        } else {
-            static_assert(Source::kPlace == LightPlace::surface);
+        } else if constexpr (Source::kPlace == LightPlace::surface) {
             return shoot_from_surface(*surface_emission(light));
+        } else {
+            static_assert(Source::kPlace == LightPlace::infinity);
+            return "it surrounds the scene";
         }
     }
 

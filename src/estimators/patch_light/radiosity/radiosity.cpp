@@ -43,6 +43,7 @@ struct LitPatches {
   private:
     static const Scene& checked(const Scene& scene, const PatchOptions& options, int max_reflections) {
         require_diffuse(scene, kName);
+        require_no_light_from_outside(scene, kName);
         require_all_reflections(max_reflections, kName);
         require_known_first_shot(scene, options.first_shot.variant.value_or(kUsualFirstShot));
         return scene;
