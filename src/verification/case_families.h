@@ -14,5 +14,7 @@ std::vector<VerificationCase> furnace_cases();
 std::vector<VerificationCase> source_cases();
 /// Single sources that are looked at, straight, in a mirror and through a pane.
 std::vector<VerificationCase> seen_source_cases();
+/// Elements and things in light from infinity.
+std::vector<VerificationCase> environment_cases();
 
 }  // namespace stilb::verification

@@ -22,6 +22,10 @@ void add_area_light(Scene& scene, ObjectId object, double luminance_cd_m2) {
     scene.lights.push_back({"light", AreaLight{object, Rgb::grey(luminance_cd_m2)}});
 }
 
+void add_environment(Scene& scene, double luminance_cd_m2) {
+    scene.lights.push_back({"environment", EnvironmentLight{Rgb::grey(luminance_cd_m2)}});
+}
+
 std::vector<Vec3> spread_directions(int count) {
     std::vector<Vec3> directions;
     for (int i = 0; i < count; ++i) {

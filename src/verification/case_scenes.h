@@ -15,6 +15,9 @@ MaterialId add_material(Scene& scene, const Material& material);
 ObjectId add_object(Scene& scene, const Shape& shape, const Material& material);
 void add_area_light(Scene& scene, ObjectId object, double luminance_cd_m2);
 
+/// Of the same luminance all around.
+void add_environment(Scene& scene, double luminance_cd_m2);
+
 inline Diffuse diffuse(double reflectance) { return {Rgb::grey(reflectance)}; }
 
 /// `count` unit vectors spread evenly over the sphere: a Fibonacci spiral, from +z to -z.

@@ -14,7 +14,8 @@ bool VerificationCase::is_for(const estimators::EstimatorEntry& method) const {
 
 std::vector<VerificationCase> verification_cases() {
     std::vector<VerificationCase> all;
-    for (const auto family : {sobolev_cases, sphere_cases, furnace_cases, source_cases, seen_source_cases}) {
+    for (const auto family :
+         {sobolev_cases, sphere_cases, furnace_cases, source_cases, seen_source_cases, environment_cases}) {
         std::vector<VerificationCase> cases = family();
         all.insert(all.end(), std::make_move_iterator(cases.begin()), std::make_move_iterator(cases.end()));
     }
