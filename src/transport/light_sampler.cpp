@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "math/sampling.h"
 
 namespace stilb::transport {
 
@@ -24,6 +25,7 @@ LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
     }
     if (outside_ != kNoLight && others_lm > 0) weights[outside_] = std::min(weights[outside_], others_lm);
     by_flux_ = math::DiscreteDistribution(weights);
+    if (goes_by_tree()) plant_tree(scene);
 }
 
 void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
@@ -65,28 +67,66 @@ double LightSampler::rough_illuminance_lx(std::size_t light, const Vec3& from, c
                       emitters_[light]);
 }
 
-namespace {
-
-/// Weights of a few things, added up one after the other, without memory from the heap for not too many.
-class RunningSums {
-  public:
-    explicit RunningSums(std::size_t count) : count_(count) {
-        if (count > few_.size()) many_.resize(count);
+std::optional<math::DiscreteChoice> LightSampler::choose(const Vec3& from, const Vec3& normal,
+                                                         double u) const {
+    if (goes_by_tree()) return choose_by_tree(from, normal, u);
+    std::array<double, kFew> sums;
+    double total = 0;
+    for (std::size_t light = 0; light < count(); ++light) {
+        sums[light] = total += rough_illuminance_lx(light, from, normal);
     }
-    double& operator[](std::size_t i) { return sums()[i]; }
+    if (!(total > 0)) return std::nullopt;
+    return math::choose_by_sums({sums.data(), count()}, u);
+}
 
-    /// As math::DiscreteDistribution, of which this has the bits.
-    math::DiscreteChoice choose(double u) { return math::choose_by_sums({sums(), count_}, u); }
+std::optional<double> LightSampler::outside_probability(const Vec3& from, const Vec3& normal) const {
+    const double outside = outside_ == kNoLight ? 0 : rough_illuminance_lx(outside_, from, normal);
+    const double all = outside + tree_.rough_illuminance_lx(from, normal);
+    return all > 0 ? std::optional{outside / all} : std::nullopt;
+}
 
-  private:
-    double* sums() { return many_.empty() ? few_.data() : many_.data(); }
+std::optional<math::DiscreteChoice> LightSampler::choose_by_tree(const Vec3& from, const Vec3& normal,
+                                                                 double u) const {
+    const auto outside = outside_probability(from, normal);
+    if (!outside) return std::nullopt;
+    if (u < *outside) return math::DiscreteChoice{outside_, *outside, u / *outside};
+    const double rest = std::min((u - *outside) / (1 - *outside), math::kBelowOne);
+    const LightTree::Choice group = tree_.choose(from, normal, rest);
+    std::array<double, LightTree::kGroup> sums;
+    double total = 0;
+    for (std::size_t i = 0; i < group.lights.size(); ++i) {
+        sums[i] = total += rough_illuminance_lx(group.lights[i], from, normal);
+    }
+    if (!(total > 0)) return std::nullopt;
+    auto choice = math::choose_by_sums({sums.data(), group.lights.size()}, group.remainder);
+    choice.index = group.lights[choice.index];
+    choice.probability *= group.probability * (1 - *outside);
+    return choice;
+}
 
-    std::size_t count_;
-    std::array<double, 32> few_;
-    std::vector<double> many_;
-};
+double LightSampler::tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const {
+    const auto outside = outside_probability(from, normal);
+    if (!outside) return 0;
+    if (light == outside_) return *outside;
+    const LightTree::Choice group = tree_.group_of(static_cast<std::uint32_t>(light), from, normal);
+    double total = 0;
+    for (const std::uint32_t number : group.lights) total += rough_illuminance_lx(number, from, normal);
+    const double own = rough_illuminance_lx(light, from, normal);
+    return total > 0 ? (1 - *outside) * group.probability * own / total : 0;
+}
 
-}  // namespace
+void LightSampler::plant_tree(const Scene& scene) {
+    std::vector<LightTree::Light> leaves;
+    for (std::uint32_t i = 0; i < count(); ++i) {
+        if (is_made_elsewhere(i)) continue;
+        Bounds bounds;
+        if (const auto origin = lights::point_origin(scene.lights[i])) bounds.include(origin->position);
+        if (const auto surface = lights::surface_emission(scene.lights[i]))
+            bounds = bounds_of(scene.object(surface->object).shape);
+        if (!bounds.is_empty()) leaves.push_back({i, bounds, flux_lm_[i].luminance()});
+    }
+    tree_ = LightTree(std::move(leaves));
+}
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
                                                             math::SampleStream& stream) const {
@@ -94,17 +134,12 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
     if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, at, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
-    RunningSums sums(count());
-    double total = 0;
-    for (std::size_t light = 0; light < count(); ++light) {
-        sums[light] = total += rough_illuminance_lx(light, from, normal);
-    }
-    if (!(total > 0)) return std::nullopt;
-    const auto choice = sums.choose(u);
-    auto incident = sample_incident(choice.index, at, point);
+    const auto choice = choose(from, normal, u);
+    if (!choice) return std::nullopt;
+    auto incident = sample_incident(choice->index, at, point);
     if (incident) {
-        incident->normal_illuminance_lx *= 1 / choice.probability;
-        incident->pdf_per_sr *= choice.probability;
+        incident->normal_illuminance_lx *= 1 / choice->probability;
+        incident->pdf_per_sr *= choice->probability;
     }
     return incident;
 }
@@ -131,6 +166,7 @@ double LightSampler::pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Ve
 
 double LightSampler::times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const {
     if (count() == 1) return pdf;
+    if (goes_by_tree()) return pdf * tree_probability(light, from, normal);
     double total = 0, own = 0;
     for (std::size_t i = 0; i < count(); ++i) {
         const double rough_lx = rough_illuminance_lx(i, from, normal);

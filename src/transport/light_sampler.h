@@ -10,6 +10,7 @@
 #include "math/sample_stream.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
+#include "transport/light_tree.h"
 
 namespace stilb::transport {
 
@@ -49,8 +50,8 @@ class LightSampler {
                                                  const std::array<double, 2>& u) const {
         return sample_incident(light, ReceivingPoint{from, std::nullopt}, u);
     }
-    /// As above from one source chosen by its unshadowed contribution at `from`; divided by the choice's
-    /// probability.
+    /// As above from one source chosen by its unshadowed contribution at `from`, of many lights about by
+    /// that; divided by the choice's probability. Takes no memory.
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
                                                   math::SampleStream& stream) const;
 
@@ -73,6 +74,7 @@ class LightSampler {
 
   private:
     static constexpr std::uint32_t kNoLight = ~0u;
+    static constexpr std::size_t kFew = 32;
 
     void add(const Light& light, const Scene& scene, const rays::RayCaster& caster);
     bool is_made_elsewhere(std::size_t light) const {
@@ -81,6 +83,14 @@ class LightSampler {
     double rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const;
     /// The chance with which sample_one_light() chooses a light there, times `pdf`.
     double times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const;
+    /// More than kFew lights are chosen by the tree, and the light from infinity beside it.
+    bool goes_by_tree() const { return count() > kFew; }
+    void plant_tree(const Scene& scene);
+    std::optional<math::DiscreteChoice> choose(const Vec3& from, const Vec3& normal, double u) const;
+    std::optional<math::DiscreteChoice> choose_by_tree(const Vec3& from, const Vec3& normal, double u) const;
+    double tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const;
+    /// The chance that the light from infinity is chosen and not the tree; nothing where there is neither.
+    std::optional<double> outside_probability(const Vec3& from, const Vec3& normal) const;
 
     std::vector<lights::Emitter> emitters_;
     std::vector<LightPlace> places_;
@@ -89,6 +99,7 @@ class LightSampler {
     std::vector<Rgb> luminance_of_object_;
     std::vector<std::uint32_t> light_of_object_;  ///< kNoLight where it is none
     std::vector<bool> made_elsewhere_;
+    LightTree tree_;                    ///< of the lights that are somewhere and not made elsewhere
     std::uint32_t outside_ = kNoLight;  ///< the light from infinity
     bool has_visible_lights_ = false;
 };
