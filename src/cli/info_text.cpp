@@ -168,7 +168,7 @@ std::string section_text(const Json& report, const char* key, const char* title,
     if (!report.contains(key) || report[key].empty()) return "";
     const Json& list = report[key];
     std::string result = fmt::format("\n{} ({})", title, list.size());
-    if (key == std::string_view("lights"))
+    if (key == std::string_view("lights") && number(report, "total_flux_lm") > 0)
         result += fmt::format(", {:.5g} lm in all", number(report, "total_flux_lm"));
     for (const Json& item : list) result += fmt::format("\n  {}", describe(item));
     return result + "\n";

@@ -14,7 +14,12 @@ Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const r
            caster.transmittance({receiver.lifted(), light.source_point});
 }
 
-ReceivingPoint receiving_point(const Receiver& receiver) { return {receiver.position(), receiver.normal()}; }
+/// What has no normal receives light from all around.
+ReceivingPoint receiving_point(const Receiver& receiver) {
+    ReceivingPoint point{receiver.position(), std::nullopt};
+    if (squared_length(receiver.normal()) > 0) point.normal = receiver.normal();
+    return point;
+}
 
 /// The emitters' light along a ray in proportion to the response; beside samples of each light.
 Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
