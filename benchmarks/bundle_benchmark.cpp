@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "stilb/error.h"
 #include "best_time.h"
 #include "patches/visibility/bundle.h"
 #include "patches/visibility/opengl_bundles.h"
 #include "rooms.h"
+#include "stilb/error.h"
 
 namespace stilb {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <ctime>
 
-#include "stilb/error.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 #include "rooms.h"
+#include "stilb/error.h"
 
 namespace stilb {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "stilb/error.h"
 #include "best_time.h"
 #include "estimators/patch_light/first_shot/first_shot_patches.h"
 #include "rooms.h"
+#include "stilb/error.h"
 
 namespace stilb {
 namespace {

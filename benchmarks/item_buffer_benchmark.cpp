@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "stilb/error.h"
 #include "best_time.h"
 #include "patches/vertex_interpolation.h"
 #include "patches/visibility/item_buffer.h"
 #include "patches/visibility/opengl_item_buffers.h"
 #include "patches/visibility/patch_caster.h"
 #include "rooms.h"
+#include "stilb/error.h"
 
 namespace stilb {
 namespace {

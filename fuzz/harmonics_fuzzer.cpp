@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "stilb/error.h"
 #include "io/mesh/harmonics_file.h"
 #include "math/spherical_harmonics.h"
+#include "stilb/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view content(reinterpret_cast<const char*>(data), size);

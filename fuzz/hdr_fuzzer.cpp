@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "stilb/error.h"
 #include "io/image/picture_file.h"
+#include "stilb/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     stilb::io::Picture picture;

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "stilb/error.h"
 #include "io/mesh/mesh_file.h"
+#include "stilb/error.h"
 
 namespace stilb {
 

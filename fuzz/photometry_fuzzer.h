@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "stilb/error.h"
 #include "io/photometry/photometry_file.h"
+#include "stilb/error.h"
 
 namespace stilb {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "stilb/error.h"
 #include "io/results/solution_file.h"
+#include "stilb/error.h"
 
 namespace {
 

@@ -9,13 +9,13 @@
 #include <span>
 #include <utility>
 
-#include "stilb/error.h"
 #include "fit/outward.h"
 #include "geometry/harmonics/surface.h"
 #include "math/spherical_harmonics.h"
 #include "papers/head_in_room.h"
 #include "rays/ray_caster.h"
 #include "run/schedule.h"
+#include "stilb/error.h"
 
 namespace stilb::papers {
 namespace {

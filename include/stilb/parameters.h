@@ -1,4 +1,5 @@
-// Parameters of materials, objects, lights and sensors: keys and values as in scene files (docs/scene-format.md).
+// Parameters of materials, objects, lights and sensors: keys and values as in scene files
+// (docs/scene-format.md).
 #pragma once
 
 #include <array>

@@ -16,9 +16,9 @@ namespace stilb::api {
 /// A picture of a camera. Pixels run row by row from the top.
 struct Picture : Summary {
     int width = 0, height = 0;
-    std::vector<float> luminance_cd_m2;            ///< NaN where the camera shows nothing
-    std::vector<float> standard_error_cd_m2;       ///< empty where the method knows none
-    std::vector<std::array<float, 3>> rgb_cd_m2;   ///< linear Rec. 709
+    std::vector<float> luminance_cd_m2;           ///< NaN where the camera shows nothing
+    std::vector<float> standard_error_cd_m2;      ///< empty where the method knows none
+    std::vector<std::array<float, 3>> rgb_cd_m2;  ///< linear Rec. 709
 
     /// By extension: .exr, .hdr or .png. Throws InputError where it cannot be written.
     void save(const std::filesystem::path& path) const;

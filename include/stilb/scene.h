@@ -16,7 +16,8 @@ namespace stilb::api {
 /// Rooms, objects, lights and sensors. Immutable; copies share what they hold.
 class Scene {
   public:
-    /// Reads a scene file. Throws InputError, which names file, line, key, what was found and what is allowed.
+    /// Reads a scene file. Throws InputError, which names file, line, key, what was found and what is
+    /// allowed.
     static Scene load(const std::filesystem::path& path);
     /// The same of a text; paths in it start from `directory`.
     static Scene parse(std::string_view toml, const std::filesystem::path& directory = ".");
@@ -24,9 +25,9 @@ class Scene {
     std::string name() const;
     /// In the order of the scene.
     std::vector<std::string> sensor_names() const;
-    /// What is odd but not wrong, as `stilb info` prints it: normals that were not unit vectors, holes, overlaps,
-    /// objects that no light reaches, sensors and lights on the wrong side of a wall. Casts rays, which takes a
-    /// moment in large scenes.
+    /// What is odd but not wrong, as `stilb info` prints it: normals that were not unit vectors, holes,
+    /// overlaps, objects that no light reaches, sensors and lights on the wrong side of a wall. Casts rays,
+    /// which takes a moment in large scenes.
     std::vector<std::string> warnings() const;
 
     struct Implementation;
@@ -49,9 +50,11 @@ class SceneBuilder {
     SceneBuilder& material(const std::string& name, Parameters parameters);
     /// {{"shape", "box"}, {"min", {0, 0, 0}}, {"max", {4, 3, 2.5}}, {"material", "wall"}}
     SceneBuilder& object(const std::string& name, Parameters parameters);
-    /// A triangle mesh; the front of a triangle is where its vertices run counterclockwise. Vertices in metres.
+    /// A triangle mesh; the front of a triangle is where its vertices run counterclockwise. Vertices in
+    /// metres.
     SceneBuilder& mesh(const std::string& name, const std::vector<Triple>& vertices,
-                       const std::vector<std::array<std::uint32_t, 3>>& triangles, const std::string& material);
+                       const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                       const std::string& material);
     /// {{"type", "point"}, {"position", {2, 1.5, 2.3}}, {"flux", 800}}
     SceneBuilder& light(const std::string& name, Parameters parameters);
     /// {{"type", "illuminance"}, {"position", {1, 1, 0.75}}, {"normal", {0, 0, 1}}}
@@ -59,8 +62,8 @@ class SceneBuilder {
     /// Where paths of files start from; the working directory by default.
     SceneBuilder& directory(const std::filesystem::path& path);
 
-    /// Throws InputError with the message of the scene reader, such as "materials.wall.reflectance: 2 is not from
-    /// 0 to 1 (...)".
+    /// Throws InputError with the message of the scene reader, such as "materials.wall.reflectance: 2 is not
+    /// from 0 to 1 (...)".
     Scene build() const;
 
   private:

@@ -61,6 +61,7 @@ Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scen
     for (const Object& object : scene.objects) shells_.push_back(find_components(object.shape));
     for (const Light& light : scene.lights) {
         std::vector<Enclosure>& spaces = of_lights_.emplace_back();
+        if (place_of(light) == stilb::LightPlace::infinity) spaces.push_back({});  // outside of all shells
         for (const ProbeRay& probe_ray : probe_rays_of(light)) {
             spaces.push_back(voted_enclosure(probe_ray));
             if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, spaces.back()});
@@ -69,12 +70,15 @@ Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scen
 }
 
 std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
-    if (const auto* point = std::get_if<PointLight>(&light.source))
-        return {{point->position, kDirections[0]}};
-    if (const auto* luminaire = std::get_if<Luminaire>(&light.source))
-        return {probe_ray_off(luminaire->position, luminaire->nadir, caster_.half_extent_m(), caster_)};
-    const ObjectId object = std::get<AreaLight>(light.source).object;
-    return std::visit(ProbeRaysOfShape{shells_[index_of(object)], caster_}, scene_.object(object).shape);
+    if (const auto origin = lights::point_origin(light)) {
+        if (!origin->axis) return {{origin->position, kDirections[0]}};
+        return {probe_ray_off(origin->position, *origin->axis, caster_.half_extent_m(), caster_)};
+    }
+    if (const auto surface = lights::surface_emission(light)) {
+        return std::visit(ProbeRaysOfShape{shells_[index_of(surface->object)], caster_},
+                          scene_.object(surface->object).shape);
+    }
+    return {};
 }
 
 Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const Vec3& direction) const {

@@ -36,8 +36,8 @@ class Enclosures {
     /// The space of a light that the point sees; or else by the parity of the hits along three rays into the
     /// hemisphere of the outlook's direction, of which two decide.
     Enclosure enclosure_of(const ProbeRay& probe_ray) const;
-    /// Per light, the spaces that its rays start in: one for point-like lights, one for every shell of an
-    /// emitting object.
+    /// Per light, the spaces that its rays start in: one for points, one for every shell of an emitting
+    /// object, what no shell encloses for light from infinity.
     const std::vector<std::vector<Enclosure>>& of_lights() const { return of_lights_; }
     /// Some light starts there.
     bool is_lit(const Enclosure& space) const;

@@ -67,6 +67,13 @@ std::optional<std::string> fault_of(const Light& light, const EnclosureList& of_
     const bool is_measured = std::any_of(of_light.begin(), of_light.end(),
                                          [&](const Enclosure& space) { return contains(of_sensors, space); });
     if (is_measured) return std::nullopt;
+    if (place_of(light) == LightPlace::infinity) {
+        return fmt::format(
+            "light \"{}\" surrounds the scene, and closed surfaces lie around all sensors: its light cannot "
+            "get in. "
+            "Open a window, or remove the light.",
+            light.name);
+    }
     const auto shell = only_around(of_light.front(), of_sensors);
     if (!shell) return std::nullopt;
     return fmt::format(

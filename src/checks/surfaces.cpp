@@ -63,12 +63,12 @@ std::vector<std::string> hole_warnings(const Scene& scene,
                         object.name, which, hole.edges));
     }
     for (const Light& light : scene.lights) {
-        const auto* area = std::get_if<AreaLight>(&light.source);
-        if (area == nullptr || shells[index_of(area->object)].turned_edges == 0) continue;
+        const auto surface = lights::surface_emission(light);
+        if (!surface || shells[index_of(surface->object)].turned_edges == 0) continue;
         warnings.push_back(fmt::format(
             "light \"{}\": at {} edges of object \"{}\" the front changes sides, and only fronts shine. Turn "
             "its triangles to one side.",
-            light.name, shells[index_of(area->object)].turned_edges, scene.object(area->object).name));
+            light.name, shells[index_of(surface->object)].turned_edges, scene.object(surface->object).name));
     }
     return warnings;
 }
@@ -141,7 +141,7 @@ Mesh mesh_of(const Shape& shape) {
 std::vector<FlatTriangle> flat_triangles(const Scene& scene) {
     std::vector<bool> shines(scene.objects.size());
     for (const Light& light : scene.lights) {
-        if (const auto* area = std::get_if<AreaLight>(&light.source)) shines[index_of(area->object)] = true;
+        if (const auto surface = lights::surface_emission(light)) shines[index_of(surface->object)] = true;
     }
     std::vector<Mesh> meshes;
     Bounds bounds;

@@ -104,8 +104,8 @@ std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& c
     if (scene.lights.empty()) return {};  // then all are, and the reader of scene files says so
     Traced traced = trace_particles(scene, caster);
     for (const Light& light : scene.lights) {
-        if (const auto* area = std::get_if<AreaLight>(&light.source))
-            traced.is_object_hit[index_of(area->object)] = true;
+        if (const auto surface = lights::surface_emission(light))
+            traced.is_object_hit[index_of(surface->object)] = true;
     }
     std::vector<ObjectId> unlit;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {

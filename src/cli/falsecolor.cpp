@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "stilb/error.h"
 #include "cli/commands.h"
 #include "io/image/picture_file.h"
 #include "plot/canvas.h"
 #include "plot/false_colour_picture.h"
 #include "plot/grid_picture.h"
+#include "stilb/error.h"
 
 namespace stilb::cli {
 namespace {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "stilb/error.h"
 #include "cli/commands.h"
 #include "cli/fit_report.h"
 #include "io/mesh/harmonics_file.h"
@@ -16,6 +15,7 @@
 #include "plot/canvas.h"
 #include "run/options.h"
 #include "run/schedule.h"
+#include "stilb/error.h"
 
 namespace stilb::cli {
 namespace {

@@ -118,28 +118,12 @@ Json object_json(const Object& object, const geometry::ConnectedComponents& shel
     return json;
 }
 
-struct LightReport {
-    const Scene& scene;
-
-    Json operator()(const PointLight& light) const {
-        return {{"type", "point"}, {"intensity_cd", light.intensity_cd.luminance()}};
-    }
-    Json operator()(const Luminaire& light) const {
-        return {{"type", "photometry"},
-                {"file", scene.solids[index_of(light.solid)].file},
-                {"peak_intensity_cd", scene.solid(light.solid).peak_cd() * light.factor.luminance()}};
-    }
-    Json operator()(const AreaLight& light) const {
-        return {{"type", "area"},
-                {"object", scene.object(light.object).name},
-                {"luminance_cd_m2", light.luminance_cd_m2.luminance()}};
-    }
-};
-
 Json light_json(const Light& light, const Scene& scene) {
-    Json json{{"name", light.name}};
-    json.update(std::visit(LightReport{scene}, light.source));
-    json["flux_lm"] = flux_lm(scene, light).luminance();
+    Json json{{"name", light.name}, {"type", type_of(light)}};
+    for (const auto& [key, value] : details_of(light, scene::LightSurroundings(scene))) {
+        std::visit([&](const auto& is) { json[std::string(key)] = is; }, value);
+    }
+    if (place_of(light) != LightPlace::infinity) json["flux_lm"] = flux_lm(scene, light).luminance();
     return json;
 }
 
@@ -232,7 +216,9 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     const rays::RayCaster caster(scene);
     const checks::Enclosures spaces(scene, caster);
     double total_flux_lm = 0;
-    for (const Light& light : scene.lights) total_flux_lm += flux_lm(scene, light).luminance();
+    for (const Light& light : scene.lights) {
+        if (place_of(light) != LightPlace::infinity) total_flux_lm += flux_lm(scene, light).luminance();
+    }
 
     Json json{{"stilb", STILB_VERSION}, {"file", name}, {"name", scene.name}};
     json["materials"] = list_json(scene.materials, [](const NamedMaterial& material) {

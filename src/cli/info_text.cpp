@@ -1,6 +1,12 @@
 // The report of `stilb info` for people.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "cli/info_report.h"
 
 namespace stilb::cli {
@@ -77,18 +83,29 @@ std::string object_text(const Json& object) {
     return line;
 }
 
+/// "peak_intensity_cd" and a number become "peak intensity 80 cd", "object" and a text "object panel".
+std::string light_detail_text(std::string key, const Json& value) {
+    std::string_view unit;
+    constexpr std::array<std::array<std::string_view, 2>, 4> units{
+        {{"_cd_m2", " cd/m2"}, {"_lm", " lm"}, {"_cd", " cd"}, {"_lx", " lx"}}};
+    for (const auto& [ending, name] : units) {
+        if (!unit.empty() || !key.ends_with(ending)) continue;
+        key.resize(key.size() - ending.size());
+        unit = name;
+    }
+    std::ranges::replace(key, '_', ' ');
+    return value.is_string() ? fmt::format("{} {}", key, value.get<std::string>())
+                             : fmt::format("{} {:.5g}{}", key, value.get<double>(), unit);
+}
+
 std::string light_text(const Json& light) {
-    std::string line = fmt::format("{:16} {:10} {:.5g} lm", text(light, "name"), text(light, "type"),
-                                   number(light, "flux_lm"));
-    if (light.contains("intensity_cd")) line += fmt::format(", {:.5g} cd", number(light, "intensity_cd"));
-    if (light.contains("peak_intensity_cd")) {
-        line += fmt::format(", peak {:.5g} cd, {}", number(light, "peak_intensity_cd"), text(light, "file"));
+    std::vector<std::string> details;
+    if (light.contains("flux_lm")) details.push_back(fmt::format("{:.5g} lm", number(light, "flux_lm")));
+    for (const auto& [key, value] : light.items()) {
+        if (key != "name" && key != "type" && key != "flux_lm")
+            details.push_back(light_detail_text(key, value));
     }
-    if (light.contains("luminance_cd_m2")) {
-        line += fmt::format(", {:.5g} cd/m2, on object {}", number(light, "luminance_cd_m2"),
-                            text(light, "object"));
-    }
-    return line;
+    return fmt::format("{:16} {:11} {}", text(light, "name"), text(light, "type"), fmt::join(details, ", "));
 }
 
 std::string luminaire_text(const Json& luminaire) {
@@ -151,7 +168,7 @@ std::string section_text(const Json& report, const char* key, const char* title,
     if (!report.contains(key) || report[key].empty()) return "";
     const Json& list = report[key];
     std::string result = fmt::format("\n{} ({})", title, list.size());
-    if (key == std::string_view("lights"))
+    if (key == std::string_view("lights") && number(report, "total_flux_lm") > 0)
         result += fmt::format(", {:.5g} lm in all", number(report, "total_flux_lm"));
     for (const Json& item : list) result += fmt::format("\n  {}", describe(item));
     return result + "\n";

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <exception>
 
-#include "stilb/error.h"
 #include "base/monitor.h"
 #include "cli/commands.h"
 #include "papers/reproduce.h"
+#include "stilb/error.h"
 
 int main(int argument_count, char** arguments) {
     using namespace stilb;

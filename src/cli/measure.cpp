@@ -9,7 +9,6 @@
 #include <iterator>
 #include <memory>
 
-#include "stilb/error.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"
@@ -19,6 +18,7 @@
 #include "io/scene/scene_file.h"
 #include "plot/canvas.h"
 #include "plot/grid_picture.h"
+#include "stilb/error.h"
 
 namespace stilb::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "stilb/error.h"
 #include "estimators/estimator_list.h"
+#include "stilb/error.h"
 
 namespace stilb::cli {
 namespace {

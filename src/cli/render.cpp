@@ -11,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "stilb/error.h"
 #include "cli/commands.h"
 #include "cli/detail_text.h"
 #include "cli/ending.h"
@@ -23,6 +22,7 @@
 #include "io/results/solution_file.h"
 #include "io/scene/scene_file.h"
 #include "io/text/content_hash.h"
+#include "stilb/error.h"
 
 namespace stilb::cli {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "stilb/error.h"
 #include "estimators/estimator_list.h"
 #include "run/options.h"
+#include "stilb/error.h"
 
 namespace stilb::cli {
 namespace {

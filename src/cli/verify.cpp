@@ -9,13 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include "stilb/error.h"
 #include "cli/commands.h"
 #include "cli/place_text.h"
 #include "cli/progress.h"
 #include "estimators/estimator_list.h"
 #include "io/results/place_json.h"
 #include "run/options.h"
+#include "stilb/error.h"
 #include "verification/verification.h"
 
 namespace stilb::cli {

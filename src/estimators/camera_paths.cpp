@@ -58,7 +58,11 @@ CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pas
     caster.closest(rays, rays::Coherence::coherent, hits);
     CameraPaths started;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!hits[i]) continue;
+        if (!hits[i]) {
+            if (lights.has_light_from_outside())
+                started.outside.push_back({pixel_of_ray[i], lights.outside_luminance(rays[i].direction)});
+            continue;
+        }
         transport::Path path{*hits[i], -rays[i].direction, streams[i], max_reflections};
         path.luminance_cd_m2 = lights.emitted_luminance(path.hit);
         started.paths.push_back(path);
@@ -69,6 +73,7 @@ CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pas
 
 std::uint64_t CameraPaths::write_to(std::span<Rgb> luminances_cd_m2) const {
     std::ranges::fill(luminances_cd_m2, Rgb{});
+    for (const auto& [pixel, luminance_cd_m2] : outside) luminances_cd_m2[pixel] = luminance_cd_m2;
     std::uint64_t invalid = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const Rgb& luminance = paths[i].luminance_cd_m2;

@@ -20,9 +20,16 @@ struct Pixel {
 struct CameraPaths {
     std::vector<transport::Path> paths;
     std::vector<std::size_t> pixels;  ///< of each path: which of the pixels asked for
+    /// Pixels that look out of the scene, and the light that comes from there.
+    struct Outside {
+        std::size_t pixel = 0;
+        Rgb luminance_cd_m2;
+    };
+    std::vector<Outside> outside;
 
-    /// Writes what the paths have gathered, and 0 for the others of `luminances_cd_m2`, one for each pixel
-    /// asked for. Returns the number that were not finite: these are 0.
+    /// Writes what the paths have gathered and what comes from outside, and 0 for the others of
+    /// `luminances_cd_m2`, one for each pixel asked for. Returns the number that were not finite: these are
+    /// 0.
     std::uint64_t write_to(std::span<Rgb> luminances_cd_m2) const;
 };
 

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <vector>
 
-#include "stilb/error.h"
 #include "estimators/methods.h"
+#include "stilb/error.h"
 
 namespace stilb::estimators {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what) {
     const bool point_like = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-        return !std::holds_alternative<AreaLight>(light.source);
+        return place_of(light) == LightPlace::point;
     });
     if (!point_like || !has_specular_surfaces(scene)) return {};
     return {
@@ -64,11 +64,21 @@ void require_diffuse(const Scene& scene, std::string_view method) {
 void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::string_view method) {
     if (has_first_shot) return;
     for (const Light& light : scene.lights) {
-        if (std::holds_alternative<AreaLight>(light.source)) continue;
+        if (place_of(light) != LightPlace::point) continue;
         throw InputError(fmt::format(
             "method {} needs a first shot here: light \"{}\" is no surface, and would light nothing "
             "without one. Use first shot \"incoming\".",
             method, light.name));
+    }
+}
+
+void require_no_light_from_outside(const Scene& scene, std::string_view method) {
+    for (const Light& light : scene.lights) {
+        if (place_of(light) != LightPlace::infinity) continue;
+        throw InputError(fmt::format(
+            "light \"{}\" surrounds the scene, and method {} shoots light between surfaces only. Use "
+            "method auto, local, double-local, path, ray-bundle or particles.",
+            light.name, method));
     }
 }
 

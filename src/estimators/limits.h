@@ -24,6 +24,8 @@ void require_diffuse(const Scene& scene, std::string_view method);
 /// Throws InputError where there are lights that are no surfaces and no first shot: nothing else brings them
 /// to patches.
 void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::string_view method);
+/// Throws InputError where light comes from infinity.
+void require_no_light_from_outside(const Scene& scene, std::string_view method);
 /// Throws InputError where reflections are limited.
 void require_all_reflections(int max_reflections, std::string_view method);
 

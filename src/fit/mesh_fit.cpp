@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stilb/error.h"
 #include "fit/outward.h"
 #include "geometry/harmonics/surface.h"
+#include "stilb/error.h"
 
 namespace stilb::fit {
 namespace {

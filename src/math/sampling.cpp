@@ -63,16 +63,16 @@ DiscreteDistribution::DiscreteDistribution(std::span<const double> weights) : cu
     std::partial_sum(weights.begin(), weights.end(), cumulative_.begin());
 }
 
-DiscreteDistribution::Choice DiscreteDistribution::choose(double u) const {
-    if (cumulative_.size() == 1) return {0, 1, u};
-    const double target = u * total();
+DiscreteChoice choose_by_sums(std::span<const double> sums, double u) {
+    if (sums.size() == 1) return {0, 1, u};
+    const double total = sums.back(), target = u * total;
     // upper_bound passes over entries of weight zero: it finds the first sum that is greater.
-    auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);
-    if (found == cumulative_.end()) found = std::lower_bound(cumulative_.begin(), cumulative_.end(), total());
-    const double below = found == cumulative_.begin() ? 0 : *(found - 1);
+    auto found = std::upper_bound(sums.begin(), sums.end(), target);
+    if (found == sums.end()) found = std::lower_bound(sums.begin(), sums.end(), total);
+    const double below = found == sums.begin() ? 0 : *(found - 1);
     const double weight = *found - below;
     const double remainder = std::clamp((target - below) / weight, 0.0, std::nextafter(1.0, 0.0));
-    return {static_cast<std::size_t>(found - cumulative_.begin()), weight / total(), remainder};
+    return {static_cast<std::size_t>(found - sums.begin()), weight / total, remainder};
 }
 
 double DiscreteDistribution::probability(std::size_t index) const {

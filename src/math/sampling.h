@@ -48,6 +48,15 @@ Barycentric sample_triangle(double u1, double u2);
 
 // Choosing one of several by weight.
 
+struct DiscreteChoice {
+    std::size_t index = 0;
+    double probability = 1;
+    double remainder = 0;  ///< uniform in [0, 1), independent of the choice
+};
+
+/// Draws an index by running sums of weights, as DiscreteDistribution; the last sum is above 0.
+DiscreteChoice choose_by_sums(std::span<const double> sums, double u);
+
 /// Draws indices in proportion to fixed weights, by inversion: neighbouring numbers give neighbouring
 /// indices, and what is left of the number can be used again.
 class DiscreteDistribution {
@@ -56,12 +65,7 @@ class DiscreteDistribution {
     /// Weights are finite, none is negative, at least one is positive.
     explicit DiscreteDistribution(std::span<const double> weights);
 
-    struct Choice {
-        std::size_t index = 0;
-        double probability = 1;
-        double remainder = 0;  ///< uniform in [0, 1), independent of the choice
-    };
-    Choice choose(double u) const;
+    DiscreteChoice choose(double u) const { return choose_by_sums(cumulative_, u); }
     double probability(std::size_t index) const;
 
     double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }

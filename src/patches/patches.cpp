@@ -10,10 +10,10 @@
 #include <unordered_map>
 #include <utility>
 
-#include "stilb/error.h"
 #include "geometry/harmonics/surface.h"
 #include "geometry/mesh_topology.h"
 #include "patches/vertex_interpolation.h"
+#include "stilb/error.h"
 
 namespace stilb::patches {
 

@@ -9,10 +9,10 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "stilb/error.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "plot/axis.h"
+#include "stilb/error.h"
 
 namespace stilb::plot {
 

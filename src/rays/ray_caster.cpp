@@ -21,7 +21,6 @@ static_assert(offsetof(RayPacket, direction_x) == offsetof(RTCRay16, dir_x));
 static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
 static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
 
-constexpr double kRelativeOffset = 0x1p-19;
 /// Hits are moved so many offsets away from edges: lifting stays on this side of neighbours at up to 7
 /// degrees.
 constexpr double kEdgeMargin = 8;
@@ -29,20 +28,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void throw_error(void*, RTCError, const char* message) {
     throw std::runtime_error(fmt::format("Embree: {}", message));
-}
-
-Bounds bounds_of_scene(const Scene& scene) {
-    Bounds all;
-    for (const Object& object : scene.objects) {
-        const Bounds own = bounds_of(object.shape);
-        if (own.is_empty()) continue;
-        all.include(own.min), all.include(own.max);
-    }
-    for (const Light& light : scene.lights) {
-        if (const auto* point = std::get_if<PointLight>(&light.source)) all.include(point->position);
-        if (const auto* solid = std::get_if<Luminaire>(&light.source)) all.include(solid->position);
-    }
-    return all.is_empty() ? Bounds{{}, {}} : all;
 }
 
 /// The point with barycentric coordinates b, moved away from the triangle's edges by `margin` metres where it
@@ -116,7 +101,7 @@ struct RayCaster::Implementation {
     int packet_width = 4;                                     ///< widest that the processor takes natively
     std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
 
-    explicit Implementation(const Scene& s) : scene(s), bounds(bounds_of_scene(s)) {
+    explicit Implementation(const Scene& s) : scene(s), bounds(scene::bounds_of(s)) {
         center = 0.5 * (bounds.min + bounds.max);
         half_extent = bounds.half_extent();
         has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
@@ -226,8 +211,7 @@ struct RayCaster::Implementation {
 
     /// As RayCaster::offset_m, for a position relative to the centre.
     double offset(const Vec3& relative, double size_m) const {
-        return kRelativeOffset *
-               std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z), size_m});
+        return Lift::relative_offset_m(relative, size_m);
     }
 
     /// Origin relative to the centre.
@@ -286,6 +270,7 @@ RayCaster::RayCaster(const Scene& scene) : implementation_(std::make_unique<Impl
 RayCaster::~RayCaster() = default;
 
 const Vec3& RayCaster::center() const { return implementation_->center; }
+Lift RayCaster::lift() const { return {center(), half_extent_m()}; }
 double RayCaster::half_extent_m() const { return implementation_->half_extent; }
 double RayCaster::offset_m(const Vec3& position, double size_m) const {
     return implementation_->offset(position - center(), size_m);
@@ -373,15 +358,14 @@ Rgb RayCaster::transmittance_of_panes(const Segment& segment) const {
     return left;
 }
 
-std::optional<RayCaster::Seen> RayCaster::seen(const Ray& ray) const {
+RayCaster::Seen RayCaster::seen(const Ray& ray) const {
     Seen seen;
     Vec3 origin = ray.origin;
     for (;;) {
         const auto hit = closest(origin, ray.direction);
-        if (!hit) return std::nullopt;
-        const ThinDielectric* pane = implementation_->pane_at(*hit);
+        const ThinDielectric* pane = hit ? implementation_->pane_at(*hit) : nullptr;
         if (pane == nullptr) {
-            seen.hit = *hit;
+            seen.hit = hit;
             return seen;
         }
         seen.transmittance *= pane_shares(*pane, -dot(ray.direction, hit->normal)).transmittance;

@@ -18,6 +18,7 @@
 #include <span>
 
 #include "base/ids.h"
+#include "base/lift.h"
 #include "base/ray_packet.h"
 #include "base/vec.h"
 #include "scene/scene.h"
@@ -77,12 +78,13 @@ class RayCaster {
     void transmittances(std::span<const Segment> segments, Coherence coherence,
                         std::span<Rgb> transmittances) const;
 
-    /// The first surface but panes that light along a ray comes straight from, and what panes leave of it.
+    /// The first surface but panes that light along a ray comes straight from, none where it leaves the
+    /// scene, and what panes leave of it.
     struct Seen {
-        Hit hit;
+        std::optional<Hit> hit;
         Rgb transmittance = Rgb::grey(1);
     };
-    std::optional<Seen> seen(const Ray& ray) const;
+    Seen seen(const Ray& ray) const;
 
     /// For lanes that are set: `end` becomes negative where something is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;
@@ -91,6 +93,8 @@ class RayCaster {
     const Vec3& center() const;
     /// Half of the longest edge of the scene's bounding box [m]; lights and surfaces, not sensors.
     double half_extent_m() const;
+    /// The rule by which points are lifted off surfaces.
+    Lift lift() const;
     /// How far a point near `position` on something of size `size_m` is lifted off its surface.
     double offset_m(const Vec3& position, double size_m) const;
 

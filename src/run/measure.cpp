@@ -9,13 +9,13 @@
 #include <limits>
 #include <stdexcept>
 
-#include "stilb/error.h"
 #include "checks/placement.h"
 #include "estimators/estimator_list.h"
 #include "run/level_of_detail.h"
 #include "run/schedule.h"
 #include "statistics/interval.h"
 #include "statistics/stopping.h"
+#include "stilb/error.h"
 #include "transport/line_of_sight.h"
 
 namespace stilb::run {

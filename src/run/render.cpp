@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "stilb/error.h"
 #include "checks/placement.h"
 #include "estimators/estimator_list.h"
 #include "estimators/patch_light/patch_solution.h"
@@ -20,6 +19,7 @@
 #include "run/level_of_detail.h"
 #include "run/schedule.h"
 #include "statistics/stopping.h"
+#include "stilb/error.h"
 
 namespace stilb::run {
 namespace {

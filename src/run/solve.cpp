@@ -7,12 +7,12 @@
 #include <limits>
 #include <memory>
 
-#include "stilb/error.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/incoming_light.h"
 #include "run/schedule.h"
 #include "statistics/interval.h"
 #include "statistics/stopping.h"
+#include "stilb/error.h"
 #include "transport/receiver.h"
 
 namespace stilb::run {

@@ -1,20 +1,24 @@
 #include "scene/scene.h"
 
-#include <numbers>
-
 namespace stilb::scene {
 
+Bounds LightSurroundings::bounds() const { return bounds_of(scene_); }
+
+Bounds bounds_of(const Scene& scene) {
+    Bounds all;
+    for (const Object& object : scene.objects) {
+        const Bounds own = geometry::bounds_of(object.shape);
+        if (own.is_empty()) continue;
+        all.include(own.min), all.include(own.max);
+    }
+    for (const Light& light : scene.lights) {
+        if (const auto origin = lights::point_origin(light)) all.include(origin->position);
+    }
+    return all.is_empty() ? Bounds{{}, {}} : all;
+}
+
 Rgb flux_lm(const Scene& scene, const Light& light) {
-    constexpr double pi = std::numbers::pi;
-    struct Flux {
-        const Scene& scene;
-        Rgb operator()(const PointLight& l) const { return 4 * pi * l.intensity_cd; }
-        Rgb operator()(const Luminaire& l) const { return scene.solid(l.solid).flux_lm() * l.factor; }
-        Rgb operator()(const AreaLight& l) const {
-            return pi * area_m2(scene.object(l.object).shape) * l.luminance_cd_m2;
-        }
-    };
-    return std::visit(Flux{scene}, light.source);
+    return lights::flux_lm(light, LightSurroundings(scene));
 }
 
 double surface_area_m2(const Scene& scene) {

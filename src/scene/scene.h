@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "base/vec.h"
 #include "geometry/shape.h"
 #include "lights/light.h"
-#include "lights/photometric_solid.h"
 #include "materials/material.h"
 
 namespace stilb::scene {
@@ -46,6 +46,22 @@ struct Scene {
     const PhotometricSolid& solid(SolidId id) const { return solids[index_of(id)].solid; }
 };
 
+/// The scene as its lights see it. Keeps a reference.
+class LightSurroundings final : public lights::Surroundings {
+  public:
+    explicit LightSurroundings(const Scene& scene) : scene_(scene) {}
+    const Shape& shape(ObjectId object) const override { return scene_.object(object).shape; }
+    std::string_view name(ObjectId object) const override { return scene_.object(object).name; }
+    const PhotometricSolid& solid(SolidId solid) const override { return scene_.solid(solid); }
+    std::string_view file(SolidId solid) const override { return scene_.solids[index_of(solid)].file; }
+    Bounds bounds() const override;
+
+  private:
+    const Scene& scene_;
+};
+
+/// Of all objects and of lights that are points; a point at the origin where there is nothing.
+Bounds bounds_of(const Scene& scene);
 /// Flux of a light per band; luminance() of it is lumen.
 Rgb flux_lm(const Scene& scene, const Light& light);
 /// Of all objects; each surface once, though both its sides reflect.

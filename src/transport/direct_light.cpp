@@ -14,6 +14,13 @@ Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const r
            caster.transmittance({receiver.lifted(), light.source_point});
 }
 
+/// What has no normal receives light from all around.
+ReceivingPoint receiving_point(const Receiver& receiver) {
+    ReceivingPoint point{receiver.position(), std::nullopt};
+    if (squared_length(receiver.normal()) > 0) point.normal = receiver.normal();
+    return point;
+}
+
 /// The emitters' light along a ray in proportion to the response; beside samples of each light.
 Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
                        math::SampleStream& stream) {
@@ -21,10 +28,12 @@ Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, 
     const auto sample = receiver.sample(u1, u2);
     if (!sample) return {};
     const auto seen = caster.seen({receiver.lifted(), sample->direction});
-    if (!seen) return {};
-    const Rgb emission = seen->transmittance * lights.emitted_luminance(seen->hit);
+    const Rgb emission = seen.transmittance * (seen.hit ? lights.emitted_luminance(*seen.hit)
+                                                        : lights.outside_luminance(sample->direction));
     if (!(emission.max() > 0)) return {};
-    const double light_pdf = lights.pdf_of_its_light_per_sr(seen->hit, receiver.position());
+    const double light_pdf =
+        seen.hit ? lights.pdf_of_its_light_per_sr(*seen.hit, receiver.position())
+                 : lights.pdf_of_outside_light_per_sr(sample->direction, receiving_point(receiver));
     return sample->weight * emission * balance(sample->pdf_per_sr, light_pdf);
 }
 
@@ -33,8 +42,8 @@ Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, 
 Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights) {
     Rgb sum;
     for (std::size_t i = 0; i < lights.count(); ++i) {
-        if (!lights.is_point_like(i)) continue;
-        if (const auto light = lights.sample_incident(i, receiver.position(), {})) {
+        if (!lights.is_point(i)) continue;
+        if (const auto light = lights.sample_incident(i, receiving_point(receiver), {})) {
             const Rgb received = illuminance_lx(*light, receiver, caster);
             if (received.max() > 0) sum += received * receiver.response(light->direction);
         }
@@ -47,9 +56,9 @@ Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& ca
     const bool directional = !receiver.constant_response();
     Rgb sum;
     for (std::size_t i = 0; i < lights.count(); ++i) {
-        if (lights.is_point_like(i)) continue;
+        if (lights.is_point(i)) continue;
         const auto u = stream.next_two();
-        const auto light = lights.sample_incident(i, receiver.position(), u);
+        const auto light = lights.sample_incident(i, receiving_point(receiver), u);
         if (!light) continue;
         const Rgb received = illuminance_lx(*light, receiver, caster);
         if (!(received.max() > 0)) continue;
@@ -57,7 +66,8 @@ Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& ca
             directional ? balance(light->pdf_per_sr, receiver.pdf_per_sr(light->direction)) : 1;
         sum += received * receiver.response(light->direction) * weight;
     }
-    if (directional && lights.has_area_lights()) sum += sample_by_response(receiver, caster, lights, stream);
+    if (directional && lights.has_visible_lights())
+        sum += sample_by_response(receiver, caster, lights, stream);
     return sum;
 }
 

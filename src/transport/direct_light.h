@@ -10,10 +10,10 @@
 
 namespace stilb::transport {
 
-/// What a receiver gets from all point and photometry lights: exact, one shadow ray each.
+/// What a receiver gets from all lights that are points: exact, one shadow ray each.
 Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights);
 
-/// One sample of what a receiver gets from all area lights: each by its solid angle and, where the response
+/// One sample of what a receiver gets from all other lights: each by itself and, where the response
 /// depends on direction, all by a ray in proportion to the response as well, weighted by the balance
 /// heuristic.
 Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,

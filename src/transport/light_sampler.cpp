@@ -1,182 +1,146 @@
 #include "transport/light_sampler.h"
 
-#include <cmath>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "base/vec.h"
 #include "math/sampling.h"
+#include "stilb/error.h"
 
 namespace stilb::transport {
-namespace {
-
-/// What leaves a luminaire against `direction`, in the frame of its solid.
-Vec3 in_solid(const Luminaire& luminaire, const Vec3& direction) {
-    return {-dot(direction, luminaire.c0), -dot(direction, luminaire.c90), -dot(direction, luminaire.nadir)};
-}
-
-}  // namespace
 
 LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
                            std::vector<bool> made_elsewhere)
-    : scene_(scene),
-      caster_(caster),
-      luminance_of_object_(scene.objects.size()),
+    : luminance_of_object_(scene.objects.size()),
       light_of_object_(scene.objects.size(), kNoLight),
       made_elsewhere_(std::move(made_elsewhere)) {
-    std::vector<double> luminous_flux;
+    std::vector<double> weights;
+    double others_lm = 0;
     for (const Light& light : scene.lights) {
-        lights_.push_back(&light);
-        flux_lm_.push_back(stilb::scene::flux_lm(scene, light));
-        luminous_flux.push_back(flux_lm_.back().luminance());
-        Emitter emitter;
-        if (const auto* area_light = std::get_if<AreaLight>(&light.source)) {
-            emitter.elements = emitter_elements(scene.object(area_light->object).shape);
-            std::vector<double> areas;
-            Bounds bounds;
-            for (const EmitterElement& element : emitter.elements) {
-                areas.push_back(element.area_m2);
-                // The points of these four parameters span every kind of element well enough for a rough
-                // size.
-                for (const auto& u : {std::pair{0.01, 0.01}, {0.99, 0.01}, {0.01, 0.99}, {0.99, 0.99}}) {
-                    bounds.include(sample_by_area(element, {u.first, u.second}).position);
-                }
-            }
-            emitter.by_area = math::DiscreteDistribution(areas);
-            emitter.middle = 0.5 * (bounds.min + bounds.max);
-            emitter.radius_m = length(bounds.max - bounds.min) / 2;
-            luminance_of_object_[index_of(area_light->object)] = area_light->luminance_cd_m2;
-            light_of_object_[index_of(area_light->object)] = static_cast<std::uint32_t>(emitters_.size());
-            has_area_lights_ = true;
-        } else if (const auto* point = std::get_if<PointLight>(&light.source)) {
-            emitter.middle = point->position;
-        } else {
-            const auto& luminaire = std::get<Luminaire>(light.source);
-            const double offset = caster.offset_m(luminaire.position, caster.half_extent_m());
-            emitter.middle = luminaire.position + offset * luminaire.nadir;
-        }
-        emitters_.push_back(std::move(emitter));
+        add(light, scene, caster);
+        weights.push_back(flux_lm_.back().luminance());
+        if (outside_ != weights.size() - 1) others_lm += weights.back();
     }
-    by_flux_ = math::DiscreteDistribution(luminous_flux);
+    if (outside_ != kNoLight && others_lm > 0) weights[outside_] = std::min(weights[outside_], others_lm);
+    by_flux_ = math::DiscreteDistribution(weights);
+    if (goes_by_tree()) plant_tree(scene);
 }
 
-bool LightSampler::is_point_like(std::size_t light) const { return emitters_[light].elements.empty(); }
+void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
+    const auto number = static_cast<std::uint32_t>(emitters_.size());
+    flux_lm_.push_back(scene::flux_lm(scene, light));
+    places_.push_back(place_of(light));
+    emitters_.push_back(lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift()));
+    if (const auto surface = lights::surface_emission(light)) {
+        luminance_of_object_[index_of(surface->object)] = surface->luminance_cd_m2;
+        light_of_object_[index_of(surface->object)] = number;
+    }
+    if (places_[number] == LightPlace::infinity) {
+        if (outside_ != kNoLight) {
+            throw InputError(
+                fmt::format("lights \"{}\" and \"{}\" both surround the scene. Allowed: one environment.",
+                            scene.lights[outside_].name, light.name));
+        }
+        outside_ = number;
+    }
+    has_visible_lights_ = has_visible_lights_ || !is_point(number);
+}
 
 EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const {
     const auto choice = by_flux_.choose(stream.next());
-    EmittedParticle particle = emit(choice.index, stream);
-    particle.flux_lm *= flux_lm_[choice.index] * (1 / choice.probability);
-    particle.from_point = is_point_like(choice.index);
-    return particle;
+    const auto [origin, direction, share] =
+        std::visit([&](const auto& emitter) { return emitter.emit(stream); }, emitters_[choice.index]);
+    return {origin, direction, share * (flux_lm_[choice.index] * (1 / choice.probability)),
+            is_point(choice.index)};
 }
 
-EmittedParticle LightSampler::emit(std::size_t light, math::SampleStream& stream) const {
-    const std::array<double, 2> u = stream.next_two();
-    const Vec3& middle = emitters_[light].middle;
-    if (std::holds_alternative<PointLight>(lights_[light]->source)) {
-        return {middle, math::sample_sphere(u[0], u[1]).direction, Rgb::grey(1)};
-    }
-    if (const auto* luminaire = std::get_if<Luminaire>(&lights_[light]->source)) {
-        const Vec3 local = scene_.solid(luminaire->solid).sample_direction(u[0], u[1]);
-        return {middle,
-                normalized(local.x * luminaire->c0 + local.y * luminaire->c90 + local.z * luminaire->nadir),
-                Rgb::grey(1)};
-    }
-    const auto choice = emitters_[light].by_area.choose(u[0]);
-    const std::array<double, 2> v = stream.next_two();
-    const EmitterElement& element = emitters_[light].elements[choice.index];
-    const EmitterPoint point = sample_by_area(element, {choice.remainder, u[1]});
-    const Vec3 direction =
-        Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(v[0], v[1]).direction);
-    return {point.position + caster_.offset_m(point.position, element.size_m) * point.normal, direction,
-            Rgb::grey(point.weight)};
-}
-
-std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const Vec3& from,
+std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const ReceivingPoint& at,
                                                            const std::array<double, 2>& u) const {
-    const auto from_point = [&](const Vec3& position,
-                                const auto& intensity_cd) -> std::optional<IncidentLight> {
-        const Vec3 towards = position - from;
-        const double squared_distance = squared_length(towards);
-        if (squared_distance == 0) return std::nullopt;
-        const Vec3 direction = towards / std::sqrt(squared_distance);
-        return IncidentLight{emitters_[light].middle, direction,
-                             intensity_cd(direction) * (1 / squared_distance),
-                             std::numeric_limits<double>::infinity()};
-    };
-    const auto& source = lights_[light]->source;
-    if (const auto* point = std::get_if<PointLight>(&source)) {
-        return from_point(point->position, [&](const Vec3&) { return point->intensity_cd; });
-    }
-    if (const auto* luminaire = std::get_if<Luminaire>(&source)) {
-        return from_point(luminaire->position, [&](const Vec3& direction) {
-            return scene_.solid(luminaire->solid).intensity_cd(in_solid(*luminaire, direction)) *
-                   luminaire->factor;
-        });
-    }
-    return sample_area_light(light, from, u);
+    return std::visit([&](const auto& emitter) { return emitter.sample_incident(at, u); }, emitters_[light]);
 }
 
-std::optional<IncidentLight> LightSampler::sample_area_light(std::size_t light, const Vec3& from,
-                                                             const std::array<double, 2>& u) const {
-    const auto choice = emitters_[light].by_area.choose(u[0]);
-    const EmitterElement& element = emitters_[light].elements[choice.index];
-    const auto sample = sample_seen(element, from, {choice.remainder, u[1]});
-    if (!sample) return std::nullopt;
-    const auto& [position, normal, pdf_per_sr] = *sample;
-    const Vec3 direction = normalized(position - from);
-    // Not >=: where `from` is the sampled point itself, there is no direction to compare.
-    if (!(dot(normal, direction) < 0)) return std::nullopt;
-    const Rgb& luminance = std::get<AreaLight>(lights_[light]->source).luminance_cd_m2;
-    return IncidentLight{position + caster_.offset_m(position, element.size_m) * normal, direction,
-                         luminance * (1 / (pdf_per_sr * choice.probability)),
-                         choice.probability * rough_pdf_per_sr(element, position, normal, from)};
-}
-
-double LightSampler::rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const {
+double LightSampler::rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const {
     if (is_made_elsewhere(light)) return 0;
-    const auto from_point = [&](const Vec3& position, const auto& intensity_cd) {
-        const Vec3 towards = position - from;
-        const double squared_distance = squared_length(towards);
-        const double height = dot(towards, normal);
-        if (!(height > 0)) return 0.0;
-        const double distance = std::sqrt(squared_distance);
-        return intensity_cd(towards / distance) * height / (squared_distance * distance);
-    };
-    const auto& source = lights_[light]->source;
-    if (const auto* point = std::get_if<PointLight>(&source)) {
-        return from_point(point->position, [&](const Vec3&) { return point->intensity_cd.luminance(); });
+    return std::visit([&](const auto& emitter) { return emitter.rough_illuminance_lx(from, normal); },
+                      emitters_[light]);
+}
+
+std::optional<math::DiscreteChoice> LightSampler::choose(const Vec3& from, const Vec3& normal,
+                                                         double u) const {
+    if (goes_by_tree()) return choose_by_tree(from, normal, u);
+    std::array<double, kFew> sums;
+    double total = 0;
+    for (std::size_t light = 0; light < count(); ++light) {
+        sums[light] = total += rough_illuminance_lx(light, from, normal);
     }
-    if (const auto* luminaire = std::get_if<Luminaire>(&source)) {
-        return from_point(luminaire->position, [&](const Vec3& direction) {
-            const double bound_cd =
-                scene_.solid(luminaire->solid).intensity_bound_cd(in_solid(*luminaire, direction));
-            return bound_cd * luminaire->factor.luminance();
-        });
+    if (!(total > 0)) return std::nullopt;
+    return math::choose_by_sums({sums.data(), count()}, u);
+}
+
+std::optional<double> LightSampler::outside_probability(const Vec3& from, const Vec3& normal) const {
+    const double outside = outside_ == kNoLight ? 0 : rough_illuminance_lx(outside_, from, normal);
+    const double all = outside + tree_.rough_illuminance_lx(from, normal);
+    return all > 0 ? std::optional{outside / all} : std::nullopt;
+}
+
+std::optional<math::DiscreteChoice> LightSampler::choose_by_tree(const Vec3& from, const Vec3& normal,
+                                                                 double u) const {
+    const auto outside = outside_probability(from, normal);
+    if (!outside) return std::nullopt;
+    if (u < *outside) return math::DiscreteChoice{outside_, *outside, u / *outside};
+    const double rest = std::min((u - *outside) / (1 - *outside), math::kBelowOne);
+    const LightTree::Choice group = tree_.choose(from, normal, rest);
+    std::array<double, LightTree::kGroup> sums;
+    double total = 0;
+    for (std::size_t i = 0; i < group.lights.size(); ++i) {
+        sums[i] = total += rough_illuminance_lx(group.lights[i], from, normal);
     }
-    // Never zero: part of the emitter may be above the horizon wherever its middle is.
-    const Emitter& emitter = emitters_[light];
-    const double squared_distance = squared_length(emitter.middle - from);
-    return flux_lm_[light].luminance() / (squared_distance + emitter.radius_m * emitter.radius_m);
+    if (!(total > 0)) return std::nullopt;
+    auto choice = math::choose_by_sums({sums.data(), group.lights.size()}, group.remainder);
+    choice.index = group.lights[choice.index];
+    choice.probability *= group.probability * (1 - *outside);
+    return choice;
+}
+
+double LightSampler::tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const {
+    const auto outside = outside_probability(from, normal);
+    if (!outside) return 0;
+    if (light == outside_) return *outside;
+    const LightTree::Choice group = tree_.group_of(static_cast<std::uint32_t>(light), from, normal);
+    double total = 0;
+    for (const std::uint32_t number : group.lights) total += rough_illuminance_lx(number, from, normal);
+    const double own = rough_illuminance_lx(light, from, normal);
+    return total > 0 ? (1 - *outside) * group.probability * own / total : 0;
+}
+
+void LightSampler::plant_tree(const Scene& scene) {
+    std::vector<LightTree::Light> leaves;
+    for (std::uint32_t i = 0; i < count(); ++i) {
+        if (is_made_elsewhere(i)) continue;
+        Bounds bounds;
+        if (const auto origin = lights::point_origin(scene.lights[i])) bounds.include(origin->position);
+        if (const auto surface = lights::surface_emission(scene.lights[i]))
+            bounds = bounds_of(scene.object(surface->object).shape);
+        if (!bounds.is_empty()) leaves.push_back({i, bounds, flux_lm_[i].luminance()});
+    }
+    tree_ = LightTree(std::move(leaves));
 }
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
                                                             math::SampleStream& stream) const {
-    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, from, stream.next_two());
+    const ReceivingPoint at{from, normal};
+    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, at, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
-    std::vector<double> weights(count());
-    double total = 0;
-    for (std::size_t light = 0; light < count(); ++light) {
-        total += weights[light] = rough_illuminance(light, from, normal);
-    }
-    if (!(total > 0)) return std::nullopt;
-    const auto choice = math::DiscreteDistribution(weights).choose(u);
-    auto incident = sample_incident(choice.index, from, point);
+    const auto choice = choose(from, normal, u);
+    if (!choice) return std::nullopt;
+    auto incident = sample_incident(choice->index, at, point);
     if (incident) {
-        incident->normal_illuminance_lx *= 1 / choice.probability;
-        incident->pdf_per_sr *= choice.probability;
+        incident->normal_illuminance_lx *= 1 / choice->probability;
+        incident->pdf_per_sr *= choice->probability;
     }
     return incident;
 }
@@ -184,21 +148,59 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
 double LightSampler::pdf_of_its_light_per_sr(const rays::Hit& hit, const Vec3& from) const {
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
     if (light == kNoLight) return 0;
-    const Emitter& emitter = emitters_[light];
-    const std::size_t element = emitter.elements.size() == 1 ? 0 : hit.triangle;
-    return emitter.by_area.probability(element) *
-           rough_pdf_per_sr(emitter.elements[element], hit.position, hit.normal, from);
+    return std::visit(
+        [&]<typename Emitter>(const Emitter& emitter) -> double {
+            if constexpr (lights::SurfaceEmitterKind<Emitter>) {
+                return emitter.pdf_per_sr(hit.triangle, hit.position, hit.normal, from);
+            }
+            return 0;
+        },
+        emitters_[light]);
 }
 
 double LightSampler::pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Vec3& normal) const {
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
     if (light == kNoLight) return 0;
     if (is_made_elsewhere(light)) return std::numeric_limits<double>::infinity();
-    const double pdf = pdf_of_its_light_per_sr(hit, from);
+    return times_choice(pdf_of_its_light_per_sr(hit, from), light, from, normal);
+}
+
+double LightSampler::times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const {
     if (count() == 1) return pdf;
-    double total = 0;
-    for (std::size_t i = 0; i < count(); ++i) total += rough_illuminance(i, from, normal);
-    return total > 0 ? pdf * rough_illuminance(light, from, normal) / total : 0;
+    if (goes_by_tree()) return pdf * tree_probability(light, from, normal);
+    double total = 0, own = 0;
+    for (std::size_t i = 0; i < count(); ++i) {
+        const double rough_lx = rough_illuminance_lx(i, from, normal);
+        total += rough_lx;
+        if (i == light) own = rough_lx;
+    }
+    return total > 0 ? pdf * own / total : 0;
+}
+
+Rgb LightSampler::outside_luminance(const Vec3& direction) const {
+    if (outside_ == kNoLight) return {};
+    return std::visit(
+        [&]<typename Emitter>(const Emitter& emitter) -> Rgb {
+            if constexpr (lights::InfiniteEmitterKind<Emitter>) return emitter.luminance_cd_m2(direction);
+            return {};
+        },
+        emitters_[outside_]);
+}
+
+double LightSampler::pdf_of_outside_light_per_sr(const Vec3& direction, const ReceivingPoint& at) const {
+    if (outside_ == kNoLight) return 0;
+    return std::visit(
+        [&]<typename Emitter>(const Emitter& emitter) -> double {
+            if constexpr (lights::InfiniteEmitterKind<Emitter>) return emitter.pdf_per_sr(direction, at);
+            return 0;
+        },
+        emitters_[outside_]);
+}
+
+double LightSampler::outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const {
+    if (outside_ == kNoLight) return 0;
+    if (is_made_elsewhere(outside_)) return std::numeric_limits<double>::infinity();
+    return times_choice(pdf_of_outside_light_per_sr(direction, {from, normal}), outside_, from, normal);
 }
 
 Rgb LightSampler::emitted_luminance(const rays::Hit& hit) const {

@@ -3,58 +3,55 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "lights/light.h"
 #include "math/random.h"
 #include "math/sampling.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
-#include "transport/emitter_elements.h"
+#include "transport/light_tree.h"
 
 namespace stilb::transport {
+
+using lights::IncidentLight;
+using lights::ReceivingPoint;
 
 /// A particle that has just left a light source.
 struct EmittedParticle {
     Vec3 origin;  ///< lifted off the source
     Vec3 direction;
     Rgb flux_lm;              ///< total flux of the scene's lights, coloured by the chosen one
-    bool from_point = false;  ///< from a point or photometry light: nothing can hit such a source
+    bool from_point = false;  ///< from a light that no ray can hit
 };
 
-/// Light that arrives at a point from a sampled point of a source, visibility left out.
-struct IncidentLight {
-    Vec3 source_point;  ///< lifted off the source
-    Vec3 direction;     ///< unit, towards the source
-    /// Multiply by the cosine at the receiver (and the BRDF), and by visibility. The division by the density
-    /// is in it; for a point source it is intensity / distance^2 [lx].
-    Rgb normal_illuminance_lx;
-    /// About the density of `direction`, as LightSampler::pdf_per_sr() has it: for weighing samples of lights
-    /// against others. Infinite for point sources.
-    double pdf_per_sr = 0;
-};
-
-/// All lights of a scene. Keeps references to both arguments. Immutable.
+/// All lights of a scene. What a light does is the matter of its kind (lights/); here is how one is chosen.
+/// Keeps references to scene and its solids. Immutable.
 class LightSampler {
   public:
     /// `made_elsewhere`: of Scene::lights, those whose light something else brings to surfaces; none where it
     /// is empty. sample_one_light() never chooses them, and to pdf_per_sr() they are as if it always found
     /// them.
+    /// Throws InputError where several lights are at infinity.
     LightSampler(const Scene& scene, const rays::RayCaster& caster, std::vector<bool> made_elsewhere = {});
 
-    /// A particle drawn in proportion to the emitted luminous flux: light, position, direction.
+    /// A particle drawn about in proportion to the emitted luminous flux: light, position, direction. Light
+    /// from infinity, most of which a scene of rooms never sees, gets at most as many as all others together.
     EmittedParticle sample_emission(math::SampleStream& stream) const;
 
-    std::size_t count() const { return lights_.size(); }
-    /// Point and photometry lights: light from them at a point is known exactly, without sampling.
-    bool is_point_like(std::size_t light) const;
+    std::size_t count() const { return emitters_.size(); }
+    /// Light from a point is known exactly, without sampling.
+    bool is_point(std::size_t light) const { return places_[light] == LightPlace::point; }
 
-    /// Light from one source at `from`; point-like ones ignore `u`. Nothing where the sample's front is
-    /// turned away.
-    std::optional<IncidentLight> sample_incident(std::size_t light, const Vec3& from,
+    /// Light from one source; points ignore `u`. Nothing where the sample's front is turned away.
+    std::optional<IncidentLight> sample_incident(std::size_t light, const ReceivingPoint& at,
                                                  const std::array<double, 2>& u) const;
-    /// As above from one source chosen by its unshadowed contribution at `from`; divided by the choice's
-    /// probability.
+    std::optional<IncidentLight> sample_incident(std::size_t light, const Vec3& from,
+                                                 const std::array<double, 2>& u) const {
+        return sample_incident(light, ReceivingPoint{from, std::nullopt}, u);
+    }
+    /// As above from one source chosen by its unshadowed contribution at `from`, of many lights about by
+    /// that; divided by the choice's probability. Takes no memory.
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
                                                   math::SampleStream& stream) const;
 
@@ -66,38 +63,45 @@ class LightSampler {
 
     /// Luminance that leaves `hit` towards where the ray came from, of an emitter; zero elsewhere.
     Rgb emitted_luminance(const rays::Hit& hit) const;
-    bool has_area_lights() const { return has_area_lights_; }
+    /// Luminance that comes from outside of the scene, to a ray that leaves it along a unit direction.
+    Rgb outside_luminance(const Vec3& direction) const;
+    /// As pdf_per_sr() and pdf_of_its_light_per_sr(), for such a ray.
+    double outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const;
+    double pdf_of_outside_light_per_sr(const Vec3& direction, const ReceivingPoint& at) const;
+    bool has_light_from_outside() const { return outside_ != kNoLight; }
+    /// Whether rays can meet light.
+    bool has_visible_lights() const { return has_visible_lights_; }
 
   private:
-    struct Emitter {
-        std::vector<EmitterElement> elements;  ///< of an area light; empty for point-like ones
-        math::DiscreteDistribution by_area;
-        /// Of a point-like light: where its rays start. Luminaires are lifted along their nadir, so that one
-        /// may be placed in the very plane of a ceiling.
-        Vec3 middle;
-        double radius_m = 0;
-    };
-
     static constexpr std::uint32_t kNoLight = ~0u;
+    static constexpr std::size_t kFew = 32;
 
-    std::optional<IncidentLight> sample_area_light(std::size_t light, const Vec3& from,
-                                                   const std::array<double, 2>& u) const;
+    void add(const Light& light, const Scene& scene, const rays::RayCaster& caster);
     bool is_made_elsewhere(std::size_t light) const {
         return !made_elsewhere_.empty() && made_elsewhere_[light];
     }
-    double rough_illuminance(std::size_t light, const Vec3& from, const Vec3& normal) const;
-    EmittedParticle emit(std::size_t light, math::SampleStream& stream) const;
+    double rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const;
+    /// The chance with which sample_one_light() chooses a light there, times `pdf`.
+    double times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const;
+    /// More than kFew lights are chosen by the tree, and the light from infinity beside it.
+    bool goes_by_tree() const { return count() > kFew; }
+    void plant_tree(const Scene& scene);
+    std::optional<math::DiscreteChoice> choose(const Vec3& from, const Vec3& normal, double u) const;
+    std::optional<math::DiscreteChoice> choose_by_tree(const Vec3& from, const Vec3& normal, double u) const;
+    double tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const;
+    /// The chance that the light from infinity is chosen and not the tree; nothing where there is neither.
+    std::optional<double> outside_probability(const Vec3& from, const Vec3& normal) const;
 
-    const Scene& scene_;
-    const rays::RayCaster& caster_;
-    std::vector<const Light*> lights_;
-    std::vector<Emitter> emitters_;
+    std::vector<lights::Emitter> emitters_;
+    std::vector<LightPlace> places_;
     std::vector<Rgb> flux_lm_;
     math::DiscreteDistribution by_flux_;
     std::vector<Rgb> luminance_of_object_;
     std::vector<std::uint32_t> light_of_object_;  ///< kNoLight where it is none
     std::vector<bool> made_elsewhere_;
-    bool has_area_lights_ = false;
+    LightTree tree_;                    ///< of the lights that are somewhere and not made elsewhere
+    std::uint32_t outside_ = kNoLight;  ///< the light from infinity
+    bool has_visible_lights_ = false;
 };
 
 }  // namespace stilb::transport

@@ -37,6 +37,8 @@ class LineOfSightFollower {
                 sight.faint.push_back({way.origin, way.direction, left, met});
             } else if (const auto next = caster_.closest(way.origin, way.direction)) {
                 follow(*next, way.direction, left, met);
+            } else {
+                sight.emission_cd_m2 += left * lights_.outside_luminance(way.direction);
             }
         }
     }
@@ -71,6 +73,8 @@ VisibleSurfaces look(const Measurand& luminance, const Scene& scene, const rays:
     follower.sight.first = first_surface(luminance, caster);
     if (follower.sight.first) {
         follower.follow(*follower.sight.first, looking_direction(luminance), Rgb::grey(1), 0);
+    } else {
+        follower.sight.emission_cd_m2 = lights.outside_luminance(looking_direction(luminance));
     }
     std::stable_sort(follower.sight.sub_points.begin(), follower.sight.sub_points.end(),
                      [](const SubPoint& a, const SubPoint& b) {

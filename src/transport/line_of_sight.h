@@ -30,7 +30,7 @@ struct VisibleSurfaces {
     std::optional<rays::Hit> first;    ///< first_surface()
     std::vector<SubPoint> sub_points;  ///< the one that most light comes from first
     std::vector<FaintRay> faint;
-    Rgb emission_cd_m2;  ///< of the emitters that are seen, but along the faint ways
+    Rgb emission_cd_m2;  ///< that is seen, of surfaces and from outside, but along the faint ways
     /// The sub-point that most light comes from, or the mirror at which the limit of reflections ends the
     /// line of sight; nothing where it leaves the scene.
     std::optional<Vec3> end;

@@ -42,7 +42,10 @@ void PathTracer::trace(std::span<Path> paths, rays::Coherence first) const {
         caster_.closest(rays, rays::Coherence::scattered, hits);
         count = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            if (!hits[i]) continue;
+            if (!hits[i]) {
+                leave(*going[i], rays[i].direction);
+                continue;
+            }
             arrive(*going[i], rays[i].direction, *hits[i]);
             going[count++] = going[i];
         }
@@ -61,7 +64,7 @@ void PathTracer::follow(Path& path) const {
         }
         if (!step.ray) return;
         const auto next = caster_.closest(step.ray->origin, step.ray->direction);
-        if (!next) return;
+        if (!next) return leave(path, step.ray->direction);
         arrive(path, step.ray->direction, *next);
     }
 }
@@ -71,7 +74,10 @@ bool PathTracer::look_through(Path& path) const {
         const Step step = take_step(path);
         if (!step.ray) return false;
         const auto next = caster_.closest(step.ray->origin, step.ray->direction);
-        if (!next) return false;
+        if (!next) {
+            leave(path, step.ray->direction);
+            return false;
+        }
         arrive(path, step.ray->direction, *next);
     }
     return true;
@@ -137,6 +143,20 @@ double PathTracer::share_of(const PreviousVertex& previous_vertex, const rays::H
                    lights_.pdf_per_sr(emitter, previous_vertex.position, previous_vertex.normal));
 }
 
+double PathTracer::share_of_outside(const PreviousVertex& previous_vertex, const Vec3& direction) const {
+    if (previous_vertex.pdf_per_sr == 0 || std::isinf(previous_vertex.pdf_per_sr))
+        return previous_vertex.pdf_per_sr == 0 ? 0 : 1;
+    return balance(previous_vertex.pdf_per_sr,
+                   lights_.outside_pdf_per_sr(direction, previous_vertex.position, previous_vertex.normal));
+}
+
+void PathTracer::leave(Path& path, const Vec3& direction) const {
+    const Rgb luminance = lights_.outside_luminance(direction);
+    if (luminance.max() > 0)
+        path.luminance_cd_m2 +=
+            path.throughput * luminance * share_of_outside(path.previous_vertex, direction);
+}
+
 void PathTracer::arrive(Path& path, const Vec3& direction, const rays::Hit& next) const {
     const Rgb emission = lights_.emitted_luminance(next);
     if (emission.max() > 0)
@@ -166,7 +186,10 @@ Rgb PathTracer::luminance_behind(const rays::Hit& hit, const Vec3& direction,
 Rgb PathTracer::incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex,
                                    int max_reflections, const math::SampleStream& stream) const {
     const auto hit = caster_.closest(ray.origin, ray.direction);
-    if (!hit) return {};
+    if (!hit) {
+        const Rgb outside = lights_.outside_luminance(ray.direction);
+        return outside.max() > 0 ? outside * share_of_outside(previous_vertex, ray.direction) : Rgb{};
+    }
     Rgb luminance = luminance_behind(*hit, ray.direction, previous_vertex, max_reflections, stream);
     const Rgb emission = lights_.emitted_luminance(*hit);
     if (emission.max() > 0) luminance += emission * share_of(previous_vertex, *hit);

@@ -1,10 +1,10 @@
 // Path tracing from a surface point: the luminance that it reflects.
 //
 // Every reflection adds the light of one source, chosen and sampled by next-event estimation, and that of
-// emitters that the path runs into, weighted against each other by the balance heuristic [Veach and Guibas
-// 1995]. Both see straight through panes. Behind mirrors and glass, which next-event estimation cannot see
-// through, emitters count in full. Not made: light that leaves a point-like source and meets a mirror or
-// glass first.
+// emitters that the path runs into or that it sees where it leaves the scene, weighted against each other by
+// the balance heuristic [Veach and Guibas 1995]. Both see straight through panes. Behind mirrors and glass,
+// which next-event estimation cannot see through, emitters count in full. Not made: light that leaves a
+// point-like source and meets a mirror or glass first.
 //
 // Lights whose first reflection is stored (StoredReflection) are left out of both; every surface adds its
 // stored reflection instead.
@@ -107,8 +107,11 @@ class PathTracer {
     Step reflect(Path& path, const Material& material) const;
     /// Where the step's ray has met something.
     void arrive(Path& path, const Vec3& direction, const rays::Hit& next) const;
-    /// How much emission counts that a path finds.
+    /// Where the step's ray leaves the scene.
+    void leave(Path& path, const Vec3& direction) const;
+    /// How much emission counts that a path finds; light from outside likewise.
     double share_of(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const;
+    double share_of_outside(const PreviousVertex& previous_vertex, const Vec3& direction) const;
     /// One path by itself.
     void follow(Path& path) const;
 

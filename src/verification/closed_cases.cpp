@@ -164,6 +164,24 @@ std::vector<VerificationCase> furnaces_of_walls() {
     return cases;
 }
 
+/// Two walls are open to an environment of the luminance that the furnace has: nothing changes inside.
+std::vector<VerificationCase> open_furnaces() {
+    constexpr double reflectance = 0.6;
+    std::vector<VerificationCase> cases{
+        furnace("open to an environment", reflectance, {diffuse(reflectance)}),
+        furnace("open to an environment, luminance", reflectance, {diffuse(reflectance)})};
+    for (VerificationCase& c : cases) {
+        auto& mesh = std::get<Mesh>(c.scene.objects.front().shape);
+        auto& materials = c.scene.objects.front().materials;
+        mesh.triangles.erase(mesh.triangles.begin() + 4, mesh.triangles.begin() + 8);
+        materials.erase(materials.begin() + 4, materials.begin() + 8);
+        add_environment(c.scene, exact::furnace_luminance_cd_m2(kEmitted, reflectance));
+    }
+    add_illuminances(cases[0], reflectance);
+    add_luminances(cases[1], reflectance);
+    return cases;
+}
+
 // What is invisible in a furnace
 
 constexpr Vec3 kMiddle{1, 1, 1.2};  ///< of the thing
@@ -216,6 +234,7 @@ std::vector<VerificationCase> furnaces_with_things() {
 
 std::vector<VerificationCase> furnace_cases() {
     std::vector<VerificationCase> cases = furnaces_of_walls();
+    for (VerificationCase& c : open_furnaces()) cases.push_back(std::move(c));
     for (VerificationCase& c : furnaces_with_things()) cases.push_back(std::move(c));
     return cases;
 }

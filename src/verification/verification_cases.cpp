@@ -16,7 +16,8 @@ bool VerificationCase::is_for(const estimators::EstimatorEntry& method) const {
 
 std::vector<VerificationCase> verification_cases() {
     std::vector<VerificationCase> all;
-    for (const auto family : {sobolev_cases, sphere_cases, furnace_cases, source_cases, seen_source_cases}) {
+    for (const auto family :
+         {sobolev_cases, sphere_cases, furnace_cases, source_cases, seen_source_cases, environment_cases}) {
         std::vector<VerificationCase> cases = family();
         all.insert(all.end(), std::make_move_iterator(cases.begin()), std::make_move_iterator(cases.end()));
     }
@@ -37,6 +38,10 @@ ObjectId add_object(Scene& scene, const Shape& shape, const Material& material) 
 
 void add_area_light(Scene& scene, ObjectId object, double luminance_cd_m2) {
     scene.lights.push_back({"light", AreaLight{object, Rgb::grey(luminance_cd_m2)}});
+}
+
+void add_environment(Scene& scene, double luminance_cd_m2) {
+    scene.lights.push_back({"environment", EnvironmentLight{Rgb::grey(luminance_cd_m2)}});
 }
 
 std::vector<Vec3> spread_directions(int count) {

@@ -45,6 +45,8 @@ std::vector<VerificationCase> furnace_cases();
 std::vector<VerificationCase> source_cases();
 /// Single sources that are looked at, straight, in a mirror and through a pane.
 std::vector<VerificationCase> seen_source_cases();
+/// Elements and things in light from infinity.
+std::vector<VerificationCase> environment_cases();
 
 // What the verification cases' scenes are made of.
 
@@ -54,6 +56,8 @@ inline constexpr double kGoldenAngle = 2 * std::numbers::pi * (2 - std::numbers:
 MaterialId add_material(Scene& scene, const Material& material);
 ObjectId add_object(Scene& scene, const Shape& shape, const Material& material);
 void add_area_light(Scene& scene, ObjectId object, double luminance_cd_m2);
+/// Of the same luminance all around.
+void add_environment(Scene& scene, double luminance_cd_m2);
 
 inline Diffuse diffuse(double reflectance) { return {Rgb::grey(reflectance)}; }
 

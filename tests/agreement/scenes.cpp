@@ -252,6 +252,55 @@ Scene mixed_room() {
     return scene;
 }
 
+/// The wall towards -y has a window, 2 m wide and 1.4 m high.
+void add_room_with_window(Scene& scene, const Material& matt, const Material& floor) {
+    const auto add_part = [&](double x, double z, double width, double height) {
+        add_object(scene, Rectangle{{x, 0, z}, {0, 0, height}, {width, 0, 0}}, matt);
+    };
+    for (const auto& [axis, side] :
+         {std::pair{0u, Side::low}, {0u, Side::high}, {1u, Side::high}, {2u, Side::high}})
+        add_object(scene, wall(kRoom, axis, side), matt);
+    add_object(scene, wall(kRoom, 2, Side::low), floor);
+    add_part(0, 0, 1, 2.8), add_part(3, 0, 1, 2.8), add_part(1, 0, 2, 0.9), add_part(1, 2.3, 2, 0.5);
+}
+
+Scene room_with_window() {
+    Scene scene;
+    add_room_with_window(scene, diffuse(0.6), diffuse(0.6));
+    add_environment(scene, rgb(80, 100, 140));
+    return scene;
+}
+
+/// The sun shines in, a mirror shows the window, and a lamp is on.
+Scene room_under_sky() {
+    Scene scene;
+    add_room_with_window(scene, diffuse(0.6), phong(0.3, 0.4, 20));
+    add_object(scene, Rectangle{{0.5, 2.98, 1}, {0, 0, 1}, {1.5, 0, 0}}, mirror(0.9));
+    add_area_light(scene, Sphere{{3, 2.2, 2.2}, 0.15}, 300 * kWhite, diffuse(0.5));
+    add_sky(scene);
+    return scene;
+}
+
+Scene room_with_glazing() {
+    Scene scene;
+    add_room_with_window(scene, diffuse(0.6), diffuse(0.4));
+    add_object(scene, Rectangle{{1, 0.05, 0.9}, {0, 0, 1.4}, {2, 0, 0}},
+               ThinDielectric{1.52, {{0.95, 0.96, 0.9}}});
+    add_sky(scene, {0.2, 0.1, 1}, 20);
+    return scene;
+}
+
+/// Glossy, white and mirror things on a ground of 8 m x 6 m, with nothing around.
+Scene outdoors() {
+    Scene scene;
+    add_object(scene, Rectangle{{-2, -1.5, 0}, {8, 0, 0}, {0, 6, 0}}, diffuse(0.3));
+    add_object(scene, Box{{1, 0.8, 0}, {1.6, 1.5, 1.2}}, phong(0.3, 0.4, 20));
+    add_object(scene, Sphere{{2.8, 1.8, 0.5}, 0.4}, mirror(0.9));
+    add_object(scene, Box{{3, 0.4, 0}, {3.6, 1, 0.6}}, RoughConductor(rgb(0.8, 0.7, 0.5), 0.3));
+    add_sky(scene);
+    return scene;
+}
+
 /// From one place to the surroundings of several.
 std::vector<Measurand> fan_of_sights(const Vec3& from, const std::vector<Vec3>& targets) {
     std::vector<Measurand> sights;
@@ -339,6 +388,18 @@ std::span<const AgreementScene> agreement_scenes() {
         LineOfSight{{2, 0.6, 1.2}, normalized(Vec3{-1, 0.4, -0.6})},
         LineOfSight{{2, 0.6, 1.2}, normalized(Vec3{1.2, 0.4, -0.5})},
         LineOfSight{{2, 0.6, 1.2}, normalized(Vec3{0, 1.8, 0})}};
+    // At walls, out of the window, and at the mirror that shows it.
+    static const std::vector<Measurand> about_the_window{
+        LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{1, 0.4, -1})},
+        LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{0.1, -1, 0.2})},
+        LineOfSight{{2.5, 1.2, 1.4}, normalized(Vec3{-0.8, 1.8, 0})},
+        EmergentRay{{2.5, 1.2, 0}, kUp, normalized(Vec3{0.2, 0.9, 0.6})}};
+    static const std::vector<Measurand> outside{
+        LineOfSight{{-1, -1, 1.6}, normalized(Vec3{2.3, 2, -1})},
+        LineOfSight{{-1, -1, 1.6}, normalized(Vec3{3.8, 2.8, -1.1})},
+        LineOfSight{{2, -1, 1.6}, normalized(Vec3{1.3, 1.7, -1.2})},
+        LineOfSight{{2, -1, 1.6}, normalized(Vec3{0, 0.3, 1})},
+        EmergentRay{{2.1, 1.1, 0}, kUp, normalized(Vec3{0.2, 0.9, 0.6})}};
     static const std::vector<AgreementScene> scenes{
         {"ClosedBox", nothing, {}, closed_box, inside, {}},
         {"ColouredBox", nothing, {}, coloured_box, inside, {}},
@@ -395,6 +456,11 @@ std::span<const AgreementScene> agreement_scenes() {
         {"HarmonicBodies", nothing, {}, harmonic_bodies, inside, at_bodies},
         {"HarmonicBodiesOneReflection", nothing, 1, harmonic_bodies, inside, at_bodies},
         {"HarmonicLamp", nothing, {}, harmonic_lamp, inside, around},
+        {"RoomWithWindow", nothing, {}, room_with_window, inside, about_the_window},
+        {"RoomUnderSky", nothing, {}, room_under_sky, inside, about_the_window},
+        {"RoomUnderSkyTwoReflections", nothing, 2, room_under_sky, inside, about_the_window},
+        {"RoomWithGlazing", nothing, {}, room_with_glazing, inside, about_the_window},
+        {"Outdoors", nothing, {}, outdoors, inside, outside},
     };
     return scenes;
 }

@@ -87,6 +87,27 @@ TEST(Placement, ALampInAClosedShade) {
     EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({2.1, 2, 2})}).size(), 0u);
 }
 
+TEST(Placement, AnEnvironmentIsOutsideOfClosedRooms) {
+    Scene scene = furnished_room();
+    scene.lights.push_back({"sky", EnvironmentLight{Rgb::grey(1000)}});
+    const Texts warnings = warnings_of(scene, {at({2, 2, 0.75})});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0],
+              "light \"sky\" surrounds the scene, and closed surfaces lie around all sensors: its light "
+              "cannot get in. Open a window, or remove the light.");
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({6, 2, 1})}).size(), 0u);
+    scene.lights.erase(scene.lights.begin());
+    const Texts without_bulb = warnings_of(scene, {at({2, 2, 0.75})});
+    ASSERT_EQ(without_bulb.size(), 1u);
+    EXPECT_TRUE(has(without_bulb[0], "inside object \"room\", where no light is")) << without_bulb[0];
+    // A room with a hole keeps no light out.
+    Mesh open = triangulated(Box{{0, 0, 0}, {4, 4, 3}});
+    open.triangles.erase(open.triangles.begin());
+    scene.objects[0].shape = open;
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75})}).size(), 0u);
+    EXPECT_EQ(warnings_of(scene, {at({0.5, 0.5, 0.75})}).size(), 1u) << "in the cabinet";
+}
+
 TEST(Placement, LightsOfSurfaces) {
     Scene scene = furnished_room();
     scene.lights.clear();

@@ -36,6 +36,16 @@ TEST(Unlit, WhatTheLightReachesOnlyByReflectionIsLit) {
     EXPECT_TRUE(unlit_in(scene).empty());
 }
 
+TEST(Unlit, AnEnvironmentLightsAllThatIsOutside) {
+    Scene scene = room_with(Sphere{{8, 1, 1}, 1});
+    scene.objects.push_back({"shut in", Sphere{{8, 1, 1}, 0.5}, {MaterialId{0}}});
+    scene.lights.push_back({"sky", EnvironmentLight{Rgb::grey(1e6)}});
+    EXPECT_EQ(unlit_in(scene), std::vector{ObjectId{2}});
+    scene.lights.erase(scene.lights.begin());
+    scene.objects.push_back({"shut in the room", Box{{1, 1, 0}, {2, 2, 1}}, {MaterialId{0}}});
+    EXPECT_EQ(unlit_in(scene), (std::vector{ObjectId{2}, ObjectId{3}}));
+}
+
 TEST(Unlit, WhatIsOutsideOrShutInIsNot) {
     EXPECT_EQ(unlit_in(room_with(Sphere{{8, 1, 1}, 1})), std::vector{kProbe});
     Scene scene = room_with(Sphere{{1, 1, 1}, 0.1});

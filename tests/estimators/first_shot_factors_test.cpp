@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "stilb/error.h"
 #include "estimators/first_shot_rooms.h"
 #include "estimators/patch_light/first_shot/factors.h"
 #include "exact/configuration_factors.h"
+#include "stilb/error.h"
 
 namespace stilb::estimators {
 namespace {

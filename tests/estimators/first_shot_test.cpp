@@ -7,9 +7,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "stilb/error.h"
 #include "estimators/first_shot_rooms.h"
 #include "exact/configuration_factors.h"
+#include "stilb/error.h"
 
 namespace stilb::estimators {
 namespace {

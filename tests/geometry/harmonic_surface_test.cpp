@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "stilb/error.h"
 #include "geometry/harmonics/surface.h"
+#include "stilb/error.h"
 #include "support/harmonic_shapes.h"
 
 namespace stilb::geometry {

@@ -12,9 +12,9 @@
 #include <cstring>
 #include <functional>
 
-#include "stilb/error.h"
 #include "io/image/picture_file.h"
 #include "io/sample_picture.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "stilb/error.h"
 #include "io/text/table.h"
 #include "math/spherical_harmonics.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

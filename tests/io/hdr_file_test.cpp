@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stilb/error.h"
 #include "io/image/picture_file.h"
 #include "io/sample_picture.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

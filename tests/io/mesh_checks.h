@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "stilb/error.h"
 #include "io/mesh/mesh_file.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

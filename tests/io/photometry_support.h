@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "stilb/error.h"
 #include "io/photometry/photometry_file.h"
+#include "stilb/error.h"
 
 namespace stilb::photometry_test {
 

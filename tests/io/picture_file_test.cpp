@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "stilb/error.h"
 #include "io/sample_picture.h"
 #include "io/text/table.h"
+#include "stilb/error.h"
 #include "support/picture_pixels.h"
 
 namespace stilb::io {

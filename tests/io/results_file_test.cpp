@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "stilb/error.h"
 #include "io/luminance_results.h"
 #include "io/results/results_json.h"
 #include "plot/grid_picture.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

@@ -1,7 +1,9 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <optional>
 
+#include "io/image/picture_file.h"
 #include "io/scene_text.h"
 
 namespace stilb::io {
@@ -59,6 +61,79 @@ TEST(SceneLights, SpheresShareTheirMaterial) {
     EXPECT_EQ(scene.objects[1].materials, scene.objects[2].materials);
 }
 
+/// A folder with a panorama of 8 x 4 pixels, whose left half is as bright as said and its right half black.
+class PanoramaFolder {
+  public:
+    explicit PanoramaFolder(const std::optional<Camera>& camera = std::nullopt) {
+        std::filesystem::create_directories(path_);
+        Picture picture{8, 4, {}, {}, {}, {}, camera, {}};
+        for (int i = 0; i < 32; ++i) {
+            const float value = i % 8 < 4 ? 64.0F : 0.0F;
+            picture.rgb_cd_m2.push_back({value, value, value});
+        }
+        write_picture(picture, path_ / "sky.exr");
+    }
+    ~PanoramaFolder() { std::filesystem::remove_all(path_); }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) /
+                                  testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST(SceneLights, EnvironmentOfOneLuminance) {
+    const SceneFile file = read_text(light("type = \"environment\"\nluminance = 500\ncolor = [2, 1, 1]"));
+    const auto& environment = std::get<EnvironmentLight>(file.scene.lights[0].source);
+    EXPECT_NEAR(environment.luminance_cd_m2.luminance(), 500, 1e-9);
+    EXPECT_NEAR(environment.luminance_cd_m2[0] / environment.luminance_cd_m2[1], 2, 1e-12);
+    EXPECT_FALSE(environment.panorama);
+}
+
+TEST(SceneLights, EnvironmentByAPanorama) {
+    const PanoramaFolder folder;
+    const auto read = [&](const std::string& keys) {
+        return read_text(light("type = \"environment\"\nfile = \"sky.exr\"\n" + keys), folder.path());
+    };
+    const SceneFile file = read("dimming = 0.5");
+    EXPECT_EQ(file.sources, std::vector{folder.path() / "sky.exr"});
+    const auto luminance = [](const SceneFile& of, const Vec3& direction) {
+        const auto& environment = std::get<EnvironmentLight>(of.scene.lights[0].source);
+        return environment.panorama->luminance_cd_m2(environment.axes.to_local(direction)).luminance();
+    };
+    // The middle looks along +x, the left half of the picture towards +y.
+    EXPECT_NEAR(luminance(file, {0.1, 0.9, 0.1}), 32, 1e-6);
+    EXPECT_EQ(luminance(file, {0.1, -0.9, 0.1}), 0);
+    const SceneFile turned = read("rotation = 180");
+    EXPECT_EQ(luminance(turned, {0.1, 0.9, 0.1}), 0);
+    EXPECT_NEAR(luminance(turned, {0.1, -0.9, 0.1}), 64, 1e-6);
+    EXPECT_NEAR(luminance(read("up = [0, 0, -2]"), {0.1, -0.9, 0.1}), 64, 1e-6) << "a half turn about x";
+}
+
+TEST(SceneLights, RefusesWrongEnvironments) {
+    const std::string constant = "type = \"environment\"\nluminance = 5\n";
+    EXPECT_REFUSAL(
+        light(constant + "[lights.b]\n" + constant),
+        "s.toml:12: lights.b: surrounds the scene, as light \"a\" does. Allowed: one environment.");
+    EXPECT_REFUSAL(light("type = \"environment\""),
+                   "s.toml:9: lights.a: key \"luminance\" or \"file\" is missing for type \"environment\".");
+    EXPECT_REFUSAL(
+        light(constant + "dimming = 2"),
+        "s.toml:12: lights.a.dimming: contradicts \"luminance\", which is given too. Allowed: one of "
+        "the two.");
+    EXPECT_REFUSAL(
+        light("type = \"environment\"\nfile = \"x.hdr\"\ncct = 5000"),
+        "s.toml:12: lights.a.cct: contradicts \"file\", which is given too. Allowed: one of the two.");
+    Camera perspective;
+    perspective.resolution = {8, 4};
+    const PanoramaFolder view(perspective);
+    EXPECT_EQ(
+        refusal(light("type = \"environment\"\nfile = \"sky.exr\""), view.path()),
+        "s.toml:11: lights.a.file: is a picture of a camera that does not see all around. Needed: projection "
+        "= \"panorama\", fov = 360.");
+    std::ofstream(view.path() / "no.hdr") << "no picture";
+    EXPECT_THROW(read_text(light("type = \"environment\"\nfile = \"no.hdr\""), view.path()), InputError);
+}
+
 TEST(SceneLights, ColourKeepsTheFlux) {
     const std::string point = "type = \"point\"\nposition = [0, 0, 0]\nflux = 100\n";
     for (const std::string colour :
@@ -89,7 +164,7 @@ TEST(SceneLights, RefusesUnknownTypesAndKeys) {
     EXPECT_REFUSAL(
         light("type = \"pont\""),
         "s.toml:10: lights.a.type: unknown type \"pont\". Did you mean \"point\"? Allowed: point, area, "
-        "sphere, photometry.");
+        "sphere, photometry, environment.");
     EXPECT_REFUSAL(
         light("type = \"point\"\nflus = 1"),
         "s.toml:11: lights.a: unknown key \"flus\" for type \"point\". Did you mean \"flux\"? Allowed: "

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "stilb/error.h"
 #include "io/scene/scene_file.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "stilb/error.h"
 #include "io/text/text.h"
 #include "run/solve.h"
+#include "stilb/error.h"
 #include "support/scene_builder.h"
 
 namespace stilb::io {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "stilb/error.h"
 #include "io/sample_picture.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "stilb/error.h"
 #include "patches/visibility/buffer_backend.h"
 #include "patches/visibility/opengl_patches.h"
+#include "stilb/error.h"
 
 namespace stilb::patches {
 

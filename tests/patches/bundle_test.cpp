@@ -13,10 +13,10 @@
 #include <optional>
 #include <vector>
 
-#include "stilb/error.h"
 #include "math/sampling.h"
 #include "patches/backends.h"
 #include "patches/rooms.h"
+#include "stilb/error.h"
 #include "support/random_pairs.h"
 
 namespace stilb::patches {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "stilb/error.h"
 #include "geometry/harmonics/surface.h"
 #include "geometry/mesh_topology.h"
+#include "stilb/error.h"
 #include "support/closed_meshes.h"
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "stilb/error.h"
 #include "io/sample_picture.h"
 #include "plot/colour_map.h"
+#include "stilb/error.h"
 #include "support/picture_pixels.h"
 
 namespace stilb::plot {

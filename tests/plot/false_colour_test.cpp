@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "stilb/error.h"
 #include "plot/colour_map.h"
+#include "stilb/error.h"
 #include "support/picture_pixels.h"
 
 namespace stilb::plot {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "stilb/error.h"
 #include "plot/plot.h"
+#include "stilb/error.h"
 #include "support/picture_pixels.h"
 
 namespace stilb::plot {

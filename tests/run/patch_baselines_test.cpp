@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "stilb/error.h"
 #include "run/measure.h"
 #include "run/render.h"
+#include "stilb/error.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {

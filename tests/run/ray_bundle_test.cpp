@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "stilb/error.h"
 #include "run/measure.h"
 #include "run/render.h"
 #include "statistics/hypothesis.h"
+#include "stilb/error.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "stilb/error.h"
 #include "estimators/estimator_list.h"
 #include "statistics/hypothesis.h"
+#include "stilb/error.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "stilb/error.h"
 #include "run/render.h"
 #include "statistics/hypothesis.h"
+#include "stilb/error.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {

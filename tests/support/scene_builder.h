@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -37,6 +38,27 @@ inline void add_area_light(Scene& scene, const Shape& shape, const Rgb& luminanc
                            const Material& material = Black{}) {
     const ObjectId object = add_object(scene, shape, material);
     scene.lights.push_back({std::to_string(scene.lights.size()), AreaLight{object, luminance_cd_m2}});
+}
+
+inline void add_environment(Scene& scene, const Rgb& luminance_cd_m2) {
+    scene.lights.push_back({std::to_string(scene.lights.size()), EnvironmentLight{luminance_cd_m2}});
+}
+
+/// A blue sky that is brighter towards its top, a dark ground, and a small bright sun towards (2, -1, 2), of
+/// 16 x 8 pixels; `up` is the direction of its top.
+inline void add_sky(Scene& scene, const Vec3& up = {0, 0, 1}, double rotation_deg = 0) {
+    Panorama::Image image{16, 8, {}};
+    for (int row = 0; row < 8; ++row) {
+        for (int column = 0; column < 16; ++column) {
+            const auto level = static_cast<float>(row < 4 ? 100 - 15 * row : 20);
+            image.rgb_cd_m2.push_back({0.7F * level, level, (row < 4 ? 1.5F : 0.5F) * level});
+        }
+    }
+    image.rgb_cd_m2[2 * 16 + 9] = {2000, 1800, 1300};
+    EnvironmentLight light;
+    light.panorama = std::make_shared<const Panorama>(std::move(image));
+    light.axes = lights::panorama_axes(normalized(up), rotation_deg);
+    scene.lights.push_back({std::to_string(scene.lights.size()), light});
 }
 
 inline void add_luminaire(Scene& scene, const Vec3& position, const PhotometricSolid& solid,

@@ -91,7 +91,7 @@ TEST(IncidentLight, OfAPointIsExact) {
     Scene scene;
     add_point_light(scene, {1, 2, 3}, 50 * kWhite);
     const rays::RayCaster caster(scene);
-    const auto incident = LightSampler(scene, caster).sample_incident(0, {0, 0, 0}, {});
+    const auto incident = LightSampler(scene, caster).sample_incident(0, Vec3{0, 0, 0}, {});
     ASSERT_TRUE(incident);
     EXPECT_NEAR(incident->normal_illuminance_lx.luminance(), 50.0 / 14, 1e-12);
 }

@@ -106,7 +106,7 @@ class LocalReadings {
         for (std::uint64_t first = batch.first; first < end; first += block) {
             fan_.collect(fan_nodes(batch.key, first, std::min(end, first + block)), sums);
         }
-        if (transport_.lights.has_area_lights()) add_direct_light(batch, sums);
+        if (transport_.lights.has_visible_lights()) add_direct_light(batch, sums);
         if (transport_.gathers) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
         add_faint_ways(batch, sums);
     }
@@ -156,7 +156,13 @@ class LocalReadings {
                                                           transport_.lights, transport_.max_reflections);
             seen.ends[reading] = sight.end;
             seen.known_part[reading] = sight.emission_cd_m2;
-            for (const transport::FaintRay& way : sight.faint) seen.faint.push_back({reading, way});
+            for (const transport::FaintRay& way : sight.faint) {
+                seen.faint.push_back({reading, way});
+                if (transport_.lights.has_light_from_outside() &&
+                    !transport_.caster.closest(way.origin, way.direction))
+                    seen.known_part[reading] +=
+                        way.transmission * transport_.lights.outside_luminance(way.direction);
+            }
             for (const transport::SubPoint& sub_point : sight.sub_points) {
                 if (sub_point.reflections == transport_.max_reflections) continue;
                 seen.receivers.emplace_back(reading, sub_point,
@@ -194,7 +200,7 @@ class LocalReadings {
         for (std::size_t j = 0; j < seen_.faint.size(); ++j) {
             const auto& [reading, way] = seen_.faint[j];
             const auto hit = transport_.caster.closest(way.origin, way.direction);
-            if (!hit) continue;
+            if (!hit) continue;  // in the known part
             for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
                 math::SampleStream stream(key.derived(j), i);
                 const Rgb luminance = transport_.tracer.luminance(
@@ -321,6 +327,8 @@ class LocalPicture {
             std::vector<double> k_per_m2;
             receivers.reserve(kPacketWidth);
             CameraPaths started = picture_.tracing_.start_paths(pixels, pass_);
+            for (const auto& [pixel, luminance_cd_m2] : started.outside)
+                sums.add(readings[pixel], luminance_cd_m2);
             for (std::size_t i = 0; i < started.paths.size(); ++i) {
                 const std::size_t pixel = started.pixels[i];
                 sums.add(readings[pixel], picture_.look(started.paths[i], readings[pixel], receivers));

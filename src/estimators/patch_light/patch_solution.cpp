@@ -6,12 +6,12 @@
 #include <span>
 #include <utility>
 
-#include "stilb/error.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/first_shot/surface.h"
 #include "estimators/patch_light/incoming_light.h"
 #include "estimators/patch_light/patch_picture.h"
 #include "math/zernike.h"
+#include "stilb/error.h"
 
 namespace stilb::estimators {
 namespace {

@@ -64,11 +64,11 @@ void PatchTransport::add_reflection(std::uint32_t patch) {
 }
 
 void PatchTransport::add_emission(std::size_t light) {
-    const auto* area_light = std::get_if<AreaLight>(&scene.lights[light].source);
-    if (!area_light || first_shot.replaces(light)) return;
-    const std::size_t object = index_of(area_light->object);
+    const auto surface = lights::surface_emission(scene.lights[light]);
+    if (!surface || first_shot.replaces(light)) return;
+    const std::size_t object = index_of(surface->object);
     for (std::uint32_t p = patches.first_of_object[object]; p < patches.first_of_object[object + 1]; ++p) {
-        emission[p] = to_float_rgb(area_light->luminance_cd_m2);
+        emission[p] = to_float_rgb(surface->luminance_cd_m2);
     }
 }
 

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <utility>
 
-#include "stilb/error.h"
 #include "math/first_root.h"
 #include "math/gauss_legendre.h"
+#include "stilb/error.h"
 
 namespace stilb::geometry {
 

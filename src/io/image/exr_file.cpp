@@ -12,10 +12,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "stilb/error.h"
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
 #include "io/image/primaries.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

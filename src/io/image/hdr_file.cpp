@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "stilb/error.h"
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
 #include "io/image/primaries.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

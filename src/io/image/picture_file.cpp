@@ -11,10 +11,10 @@
 #include <string>
 #include <string_view>
 
-#include "stilb/error.h"
 #include "io/image/picture.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stilb/error.h"
 #include "base/rgb.h"
 #include "io/image/primaries.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "stilb/error.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "math/spherical_harmonics.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

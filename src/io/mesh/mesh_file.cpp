@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "stilb/error.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <span>
 
-#include "stilb/error.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

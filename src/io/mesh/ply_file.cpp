@@ -10,9 +10,9 @@
 #include <limits>
 #include <span>
 
-#include "stilb/error.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "stilb/error.h"
 #include "io/photometry/photometry_file.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

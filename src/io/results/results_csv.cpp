@@ -5,9 +5,9 @@
 #include <array>
 #include <limits>
 
-#include "stilb/error.h"
 #include "io/results/sub_point.h"
 #include "io/text/table.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

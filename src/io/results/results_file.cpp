@@ -7,9 +7,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "stilb/error.h"
 #include "base/vec.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

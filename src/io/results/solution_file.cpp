@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "stilb/error.h"
 #include "io/text/content_hash.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
+#include "io/image/picture_file.h"
 #include "io/photometry/photometry_file.h"
 #include "io/scene/sections.h"
 #include "io/text/text.h"
 #include "lights/colour_temperature.h"
 #include "lights/luminaire_frame.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {
@@ -18,6 +21,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr Range kColourTemperature{lights::kMinColourTemperature_k, lights::kMaxColourTemperature_k,
                                    "from 1000 to 25000 K"};
+constexpr double kWholeTurnDeg = 360;
 constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
 
 /// What the reader of one light sees besides its table.
@@ -65,8 +69,8 @@ AreaLight read_area(TomlTable& table, const Context& context) {
     const TomlItem item = table.at("object");
     const ObjectId object{static_cast<std::uint32_t>(item.index_in(names, "object"))};
     for (const Light& other : scene.lights) {
-        const auto* area = std::get_if<AreaLight>(&other.source);
-        if (area && area->object == object) {
+        const auto surface = lights::surface_emission(other);
+        if (surface && surface->object == object) {
             item.fail(fmt::format("{} emits for the light {} already. Allowed: one area light for an object.",
                                   in_quotes(item.text()), in_quotes(other.name)));
         }
@@ -133,14 +137,80 @@ Luminaire read_photometry(TomlTable& table, const Context& context) {
     return {position, solid, c0, c90, nadir, factor};
 }
 
-constexpr std::array<std::string_view, 4> kTypes{"point", "area", "sphere", "photometry"};
+/// Of an OpenEXR or Radiance picture, in cd/m2 as the reader of pictures has them.
+std::shared_ptr<const Panorama> read_panorama(const TomlItem& item, double dimming, const Context& context) {
+    const std::filesystem::path path = item.existing_file(context.directory).lexically_normal();
+    context.file.sources.push_back(path);
+    const Picture picture = read_picture(path);
+    if (picture.camera &&
+        (picture.camera->projection != Projection::panorama || picture.camera->fov_deg < kWholeTurnDeg)) {
+        item.fail(
+            "is a picture of a camera that does not see all around. Needed: projection = \"panorama\", "
+            "fov = 360.");
+    }
+    Panorama::Image image{picture.width, picture.height, picture.rgb_cd_m2};
+    for (auto& rgb : image.rgb_cd_m2) {
+        for (float& value : rgb) value *= static_cast<float>(dimming);
+    }
+    try {
+        return std::make_shared<const Panorama>(std::move(image));
+    } catch (const InputError& error) {
+        item.fail(error.what());
+    }
+}
 
-decltype(Light::source) read_source(TomlTable& table, const Context& context) {
-    const std::string_view type = table.choose("type", kTypes);
-    if (type == "point") return read_point(table);
-    if (type == "area") return read_area(table, context);
-    if (type == "sphere") return read_sphere(table, context);
-    return read_photometry(table, context);
+EnvironmentLight read_environment(TomlTable& table, const Context& context) {
+    table.expect_keys({"type", "luminance", "file", "up", "rotation", "dimming", "cct", "color"},
+                      "type \"environment\"");
+    for (const Light& other : context.file.scene.lights) {
+        if (place_of(other) != LightPlace::infinity) continue;
+        table.fail(fmt::format("surrounds the scene, as light {} does. Allowed: one environment.",
+                               in_quotes(other.name)));
+    }
+    const TomlTable::NamedItem source = table.one_of({"luminance", "file"});
+    for (const std::string_view key : {"cct", "color"}) table.expect_not_both("file", key);
+    table.expect_not_both("luminance", "dimming");
+    const auto up = table.find("up"), rotation = table.find("rotation"), dimming = table.find("dimming");
+    EnvironmentLight light;
+    light.axes =
+        lights::panorama_axes(up ? up->direction() : Vec3{0, 0, 1}, rotation ? rotation->number(kAngle) : 0);
+    if (source.key == "luminance") {
+        light.luminance_cd_m2 = source.item.number(kLightQuantity) * read_colour(table);
+    } else {
+        light.panorama = read_panorama(source.item, dimming ? dimming->number(kLightQuantity) : 1, context);
+    }
+    return light;
+}
+
+/// By `type`.
+struct Reader {
+    std::string_view type;
+    lights::LightSource (*read)(TomlTable& table, const Context& context);
+};
+constexpr std::array kReaders{
+    Reader{"point", [](TomlTable& t, const Context&) -> lights::LightSource { return read_point(t); }},
+    Reader{"area", [](TomlTable& t, const Context& c) -> lights::LightSource { return read_area(t, c); }},
+    Reader{"sphere", [](TomlTable& t, const Context& c) -> lights::LightSource { return read_sphere(t, c); }},
+    Reader{"photometry",
+           [](TomlTable& t, const Context& c) -> lights::LightSource { return read_photometry(t, c); }},
+    Reader{"environment",
+           [](TomlTable& t, const Context& c) -> lights::LightSource { return read_environment(t, c); }},
+};
+
+template <typename... Kinds>
+constexpr bool all_have_readers(const std::variant<Kinds...>*) {
+    const auto has_reader = [](std::string_view type) {
+        return std::ranges::any_of(kReaders, [&](const Reader& reader) { return reader.type == type; });
+    };
+    return (has_reader(Kinds::kType) && ...);
+}
+static_assert(all_have_readers(static_cast<const lights::LightSource*>(nullptr)));
+
+lights::LightSource read_source(TomlTable& table, const Context& context) {
+    std::array<std::string_view, kReaders.size()> types;
+    std::ranges::transform(kReaders, types.begin(), &Reader::type);
+    const std::string_view type = table.choose("type", types);
+    return std::ranges::find(kReaders, type, &Reader::type)->read(table, context);
 }
 
 }  // namespace

@@ -8,12 +8,12 @@
 #include <optional>
 #include <utility>
 
-#include "stilb/error.h"
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/sections.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "stilb/error.h"
 #include "estimators/estimator_list.h"
 #include "io/scene/sections.h"
 #include "io/text/text.h"
 #include "run/options.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {

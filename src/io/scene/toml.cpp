@@ -10,8 +10,8 @@
 #include <system_error>
 #include <tuple>
 
-#include "stilb/error.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 

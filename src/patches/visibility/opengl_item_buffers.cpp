@@ -16,8 +16,8 @@
 #include <array>
 #include <string>
 
-#include "stilb/error.h"
 #include "patches/visibility/opengl_patches.h"
+#include "stilb/error.h"
 
 namespace stilb::patches {
 namespace {

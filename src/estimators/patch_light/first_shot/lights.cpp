@@ -108,56 +108,52 @@ class Chooser {
         }
         decision.colour = flux * (1 / flux.luminance());
         const std::size_t before = chosen_.samples.size();
-        decision.why = std::visit([&](const auto& source) { return shoot_from(source); }, light.source);
+        decision.why =
+            std::visit([&](const auto& source) { return shoot_from(light, source); }, light.source);
         decision.samples = chosen_.samples.size() - before;
         decision.is_replaced = decision.samples > 0;
     }
 
-    void add_sample(bool is_point, const patches::Viewpoint& viewpoint,
-                    std::function<double(const patches::BufferPixel&)> intensity_cd) {
+    void add_sample(bool is_point, const patches::Viewpoint& viewpoint, SampleIntensity intensity) {
         const auto light = static_cast<std::uint32_t>(chosen_.lights.size() - 1);
-        chosen_.samples.push_back({light, is_point, viewpoint, std::move(intensity_cd)});
+        chosen_.samples.push_back({light, is_point, viewpoint, std::move(intensity)});
     }
 
-    // Each adds the samples of a source, or none where it is not small, and says why.
-
-    std::string shoot_from(const PointLight& point) {
-        const double intensity_cd = point.intensity_cd.luminance();
-        add_sample(true, {point.position, turned()},
-                   [=](const patches::BufferPixel&) { return intensity_cd; });
-        return "a point";
+    /// Adds the samples of a light, or none where it is not small, and says why.
+    template <lights::LightKind Source>
+    std::string shoot_from(const Light& light, const Source& source) {
+        if constexpr (Source::kPlace == LightPlace::point) {
+            return shoot_from_point(
+                typename Source::Emitter(source, scene::LightSurroundings(scene_), caster_.lift()));
+        } else if constexpr (Source::kPlace == LightPlace::surface) {
+            return shoot_from_surface(*surface_emission(light));
+        } else {
+            static_assert(Source::kPlace == LightPlace::infinity);
+            return "it surrounds the scene";
+        }
     }
 
-    std::string shoot_from(const Luminaire& luminaire) {
-        const PhotometricSolid& solid = scene_.solid(luminaire.solid);
-        const double factor = luminaire.factor.luminance();
+    template <lights::PointEmitterKind Emitter>
+    std::string shoot_from_point(const Emitter& emitter) {
         const Frame frame = turned();
-        // Its place may be in the very plane of a ceiling (as LightSampler).
-        const double lift_m = caster_.offset_m(luminaire.position, caster_.half_extent_m());
-        const Vec3 c0 = frame.to_local(luminaire.c0), c90 = frame.to_local(luminaire.c90),
-                   nadir = frame.to_local(luminaire.nadir);
-        add_sample(true, {luminaire.position + lift_m * luminaire.nadir, frame},
-                   [=, &solid](const patches::BufferPixel& pixel) {
-                       const Vec3 w = normalized(pixel.direction);
-                       return factor * solid.intensity_cd({dot(w, c0), dot(w, c90), dot(w, nadir)});
-                   });
-        return "a luminaire";
+        add_sample(true, {emitter.lifted(), frame}, PointIntensity{emitter.turned_into(frame)});
+        return std::string(Emitter::kNoun);
     }
 
-    std::string shoot_from(const AreaLight& light) {
+    std::string shoot_from_surface(const lights::SurfaceEmission& light) {
         const Object& object = scene_.object(light.object);
         const Shape& shape = object.shape;
         const double luminance_cd_m2 = light.luminance_cd_m2.luminance();
         const double spacing_m = kVertexSpacing * median_flight_m(object, caster_);
         const auto* sphere = std::get_if<Sphere>(&shape);
-        const bool is_small = sphere != nullptr ? shoot_from(*sphere, luminance_cd_m2, spacing_m)
+        const bool is_small = sphere != nullptr ? shoot_from_sphere(*sphere, luminance_cd_m2, spacing_m)
                                                 : shoot_from_vertices(shape, luminance_cd_m2, spacing_m);
         return is_small ? fmt::format("small: vertices {:.2g} m apart stand for it", spacing_m)
                         : fmt::format("large: it would take more than {} vertices {:.2g} m apart",
                                       kMostLightSamples, spacing_m);
     }
 
-    bool shoot_from(const Sphere& sphere, double luminance_cd_m2, double spacing_m) {
+    bool shoot_from_sphere(const Sphere& sphere, double luminance_cd_m2, double spacing_m) {
         const std::vector<Vec3> vertices = inscribed_icosahedron(sphere).vertices;
         if (length(vertices[0] - vertices[1]) > spacing_m) return false;
         std::vector<Vec3> normals;
@@ -169,12 +165,7 @@ class Chooser {
             for (const Vec3& normal : normals) local.push_back(frame.to_local(normal));
             const double lift_m = caster_.offset_m(vertices[i], sphere.radius);
             add_sample(false, {vertices[i] + lift_m * normals[i], frame},
-                       [intensity_cd, local = std::move(local)](const patches::BufferPixel& pixel) {
-                           double all = 0;
-                           for (const Vec3& normal : local)
-                               all += std::max(dot(normal, pixel.direction), 0.0);
-                           return intensity_cd * std::max(pixel.direction.z, 0.0) / all;
-                       });
+                       SphereVertexIntensity{intensity_cd, std::move(local)});
         }
         return true;
     }
@@ -205,8 +196,7 @@ class Chooser {
                     .position;
         }
         const double normal_intensity_cd = luminance_cd_m2 * around_m2 / 3;
-        add_sample(false, {position, turned_about(normalized(normal))},
-                   [=](const patches::BufferPixel& pixel) { return normal_intensity_cd * pixel.cosine; });
+        add_sample(false, {position, turned_about(normalized(normal))}, VertexIntensity{normal_intensity_cd});
     }
 
     const Scene& scene_;
@@ -216,6 +206,22 @@ class Chooser {
 };
 
 }  // namespace
+
+double PointIntensity::operator()(const patches::BufferPixel& pixel) const {
+    const Vec3 direction = normalized(pixel.direction);
+    return std::visit(
+        [&]<typename Emitter>(const Emitter& of) -> double {
+            if constexpr (lights::PointEmitterKind<Emitter>) return of.luminous_intensity_cd(direction);
+            return 0;
+        },
+        emitter);
+}
+
+double SphereVertexIntensity::operator()(const patches::BufferPixel& pixel) const {
+    double all = 0;
+    for (const Vec3& normal : normals) all += std::max(dot(normal, pixel.direction), 0.0);
+    return sphere_cd * std::max(pixel.direction.z, 0.0) / all;
+}
 
 FirstShotLights choose_first_shot_lights(const Scene& scene, const rays::RayCaster& caster,
                                          const Vec3& center) {

@@ -13,7 +13,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "estimators/patch_light/patch_report.h"
@@ -28,14 +29,35 @@ inline constexpr double kVertexSpacing = 0.25;
 /// An area light that takes more is not small.
 inline constexpr std::size_t kMostLightSamples = 32;
 
+/// The intensities of light samples. Each is called with a pixel of an item buffer around the sample and
+/// gives the sample's share of the light's luminous intensity [cd] towards it, the cosine of area lights
+/// included; nothing comes where it is below 0.
+struct PointIntensity {
+    lights::Emitter emitter;  ///< of a point, in the coordinates of the buffer
+    double operator()(const patches::BufferPixel& pixel) const;
+};
+struct VertexIntensity {
+    double normal_cd = 0;
+    double operator()(const patches::BufferPixel& pixel) const { return normal_cd * pixel.cosine; }
+};
+/// Of one of the vertices that share the light of a sphere.
+struct SphereVertexIntensity {
+    double sphere_cd = 0;       ///< of the sphere
+    std::vector<Vec3> normals;  ///< of all vertices, in the coordinates of the buffer
+    double operator()(const patches::BufferPixel& pixel) const;
+};
+using SampleIntensity = std::variant<PointIntensity, VertexIntensity, SphereVertexIntensity>;
+
 /// A point that light is shot from.
 struct LightSample {
     std::uint32_t light = 0;       ///< of Scene::lights
     bool is_point = false;         ///< shines all around, else to the hemisphere about the viewpoint's w
     patches::Viewpoint viewpoint;  ///< lifted off the light
-    /// Its share of the light's luminous intensity [cd] towards a pixel of an item buffer there, the cosine
-    /// of area lights included; nothing comes where it is below 0.
-    std::function<double(const patches::BufferPixel&)> intensity_cd;
+    SampleIntensity intensity;
+
+    double intensity_cd(const patches::BufferPixel& pixel) const {
+        return std::visit([&](const auto& of) { return of(pixel); }, intensity);
+    }
 };
 
 struct FirstShotLights {

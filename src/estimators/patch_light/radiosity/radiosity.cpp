@@ -13,12 +13,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "stilb/error.h"
 #include "estimators/limits.h"
 #include "estimators/methods.h"
 #include "estimators/patch_light/patch_picture.h"
 #include "estimators/patch_light/patch_readings.h"
 #include "estimators/patch_light/radiosity/patch_shots.h"
+#include "stilb/error.h"
 
 namespace stilb::estimators {
 namespace {
@@ -134,6 +134,7 @@ constexpr std::string_view kName = "radiosity";
 
 PatchTransport transport_for(const Problem& problem) {
     require_diffuse(problem.scene, kName);
+    require_no_light_from_outside(problem.scene, kName);
     require_all_reflections(problem.max_reflections, kName);
     const FirstShotVariant variant = problem.patches.first_shot.variant.value_or(kUsualFirstShot);
     require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kName);

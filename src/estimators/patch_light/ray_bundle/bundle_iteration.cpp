@@ -140,6 +140,9 @@ void BundleIteration::transfer(std::size_t axis, const patches::Bundle& bundle) 
         const Vec3 position = line.origin + double{line.distances_m[i]} * along;
         return to_float_rgb(to_rgb(radiance_[side]) + transport_.first_reflected_at(side, position, {}, out));
     };
+    const bool has_outside = transport_.lights.has_light_from_outside();
+    const FloatRgb from_behind = to_float_rgb(transport_.lights.outside_luminance(-along));
+    const FloatRgb from_ahead = to_float_rgb(transport_.lights.outside_luminance(along));
     transport_.bundles->cast(bundle, [&](const patches::CrossedLines& lines) {
         for (std::size_t n = 0; n < lines.count(); ++n) {
             const patches::CrossedLine line = lines.line(n);
@@ -147,6 +150,11 @@ void BundleIteration::transfer(std::size_t axis, const patches::Bundle& bundle) 
                 const std::uint32_t from = patches.other_side(line.sides[i]), to = line.sides[i + 1];
                 receive(to, axis, luminance(from, line, i, along), ray_area_m2);
                 if (both_ways) receive(from, axis, luminance(to, line, i + 1, -along), ray_area_m2);
+            }
+            if (has_outside) {
+                const std::uint32_t last = patches.other_side(line.sides.back());
+                receive(line.sides.front(), axis, from_behind, ray_area_m2);
+                if (both_ways) receive(last, axis, from_ahead, ray_area_m2);
             }
             rays_ += line.sides.size();
         }

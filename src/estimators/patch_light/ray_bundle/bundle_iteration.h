@@ -10,6 +10,8 @@
 // (T.7). Steps start from darkness: the first ones are left out. Infinite variance with single directions
 // above a reflectance of 0.61, with single axes above 0.87; frames nearly contract.
 //
+// The rays bring light from outside of the scene to the first surface that they meet, in every step.
+//
 // Biased by the patches: everything is a mean over a patch, reflected as from its middle. Mirrors and glass
 // let nothing through and reflect nothing: light by them is missing but on the lines of sight of sensors.
 #pragma once

@@ -8,7 +8,7 @@
 
 #include "geometry/shape.h"
 
-namespace stilb::transport {
+namespace stilb::lights {
 
 /// A part of an area light, with what makes it quick to sample.
 struct EmitterElement {
@@ -46,4 +46,4 @@ std::optional<EmitterSample> sample_seen(const EmitterElement& element, const Ve
 double rough_pdf_per_sr(const EmitterElement& element, const Vec3& position, const Vec3& normal,
                         const Vec3& from);
 
-}  // namespace stilb::transport
+}  // namespace stilb::lights

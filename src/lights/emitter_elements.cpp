@@ -1,4 +1,4 @@
-#include "transport/emitter_elements.h"
+#include "lights/emitter_elements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "lights/solid_angle.h"
 #include "math/sampling.h"
 
-namespace stilb::transport {
+namespace stilb::lights {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -94,10 +94,10 @@ struct SolidAngleSampler {
     const std::array<double, 2>& u;
 
     template <typename Simple>
-    std::optional<lights::SolidAngleSample> operator()(const Simple& shape) const {
-        return lights::sample_by_solid_angle(shape, from, u[0], u[1]);
+    std::optional<SolidAngleSample> operator()(const Simple& shape) const {
+        return sample_by_solid_angle(shape, from, u[0], u[1]);
     }
-    std::optional<lights::SolidAngleSample> operator()(const Harmonics&) const { return std::nullopt; }
+    std::optional<SolidAngleSample> operator()(const Harmonics&) const { return std::nullopt; }
 };
 
 }  // namespace
@@ -140,4 +140,4 @@ double rough_pdf_per_sr(const EmitterElement& element, const Vec3& position, con
     return (squared_distance + projected_m2 / (2 * kPi)) / projected_m2;
 }
 
-}  // namespace stilb::transport
+}  // namespace stilb::lights

@@ -1,0 +1,192 @@
+#include "lights/environment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lights/luminaire_frame.h"
+#include "math/sampling.h"
+
+namespace stilb::lights {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Vec3 with_components(std::size_t first_axis, double first, double second, double third) {
+    std::array<double, 3> v{};
+    v[first_axis] = first, v[(first_axis + 1) % 3] = second, v[(first_axis + 2) % 3] = third;
+    return {v[0], v[1], v[2]};
+}
+
+/// The scene's bounding box with room for rays to start from its faces, which surfaces often lie in.
+Bounds enlarged(const Bounds& bounds) {
+    constexpr double share = 1e-3, least_m = 1e-6;
+    const double margin = std::max(share * bounds.half_extent(), least_m);
+    const Vec3 room{margin, margin, margin};
+    return {bounds.min - room, bounds.max + room};
+}
+
+/// Of the faces across x, y and z.
+std::array<double, 3> face_areas_m2(const Bounds& box) {
+    const Vec3 e = box.max - box.min;
+    return {e.y * e.z, e.z * e.x, e.x * e.y};
+}
+
+/// Of the box as it is seen along a unit direction, face by face: one of each pair.
+std::array<double, 3> projected_areas_m2(const Bounds& box, const Vec3& direction) {
+    std::array<double, 3> areas = face_areas_m2(box);
+    for (std::size_t axis = 0; axis < 3; ++axis) areas[axis] *= std::abs(direction[axis]);
+    return areas;
+}
+
+double projected_area_m2(const Bounds& box, const Vec3& direction) {
+    const auto areas = projected_areas_m2(box, direction);
+    return areas[0] + areas[1] + areas[2];
+}
+
+Rgb flux_into(const Bounds& box, const EnvironmentLight& light) {
+    if (!light.panorama) {
+        const auto areas = face_areas_m2(box);
+        return 2 * kPi * (areas[0] + areas[1] + areas[2]) * light.luminance_cd_m2;
+    }
+    Rgb flux;
+    for (const Panorama::Part& part : light.panorama->parts())
+        flux += projected_area_m2(box, light.axes.to_world(part.direction)) * part.normal_illuminance_lx;
+    return flux;
+}
+
+std::array<double, 6> rough_illuminances_lx(const EnvironmentLight& light) {
+    std::array<double, 6> sums{};
+    if (!light.panorama) {
+        sums.fill(kPi * light.luminance_cd_m2.luminance());
+        return sums;
+    }
+    for (const Panorama::Part& part : light.panorama->parts()) {
+        const Vec3 direction = light.axes.to_world(part.direction);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double cosine = direction[axis];
+            sums[2 * axis + (cosine < 0 ? 1 : 0)] +=
+                std::abs(cosine) * part.normal_illuminance_lx.luminance();
+        }
+    }
+    // Never 0: parts are larger than pixels, and some light may come from above the horizon wherever their
+    // middles are.
+    constexpr double least = 1e-3;
+    const double mean_lx = light.panorama->total_lx().luminance() / 4;
+    for (double& sum : sums) sum = std::max(sum, least * mean_lx);
+    return sums;
+}
+
+}  // namespace
+
+Rgb EnvironmentLight::flux_lm(const Surroundings& surroundings) const {
+    return flux_into(enlarged(surroundings.bounds()), *this);
+}
+
+std::vector<LightDetail> EnvironmentLight::details(const Surroundings&) const {
+    const Vec3 up{0, 0, 1};
+    if (!panorama) {
+        return {{"luminance_cd_m2", luminance_cd_m2.luminance()},
+                {"horizontal_illuminance_lx", kPi * luminance_cd_m2.luminance()}};
+    }
+    return {{"mean_luminance_cd_m2", panorama->total_lx().luminance() / (4 * kPi)},
+            {"horizontal_illuminance_lx", panorama->illuminance_lx(axes.to_local(up)).luminance()},
+            {"panorama", fmt::format("{} x {} pixels", panorama->width(), panorama->height())}};
+}
+
+Frame panorama_axes(const Vec3& unit_up, double rotation_deg) {
+    // The shortest turn from a picture whose top is +z is that of a luminaire which hangs below it.
+    const LuminaireFrame frame = aim_luminaire(-unit_up, rotation_deg);
+    return {frame.c0, frame.c90, unit_up};
+}
+
+EnvironmentEmitter::EnvironmentEmitter(const EnvironmentLight& light, const Surroundings& surroundings,
+                                       const Lift&)
+    : light_(light),
+      box_(enlarged(surroundings.bounds())),
+      flux_lm_(flux_into(box_, light)),
+      illuminance_lx_(rough_illuminances_lx(light)) {}
+
+Emission EnvironmentEmitter::emit(math::SampleStream& stream) const {
+    return light_.panorama ? emit_panorama(stream) : emit_constant(stream);
+}
+
+Vec3 EnvironmentEmitter::on_face(std::size_t axis, bool is_upper, const std::array<double, 2>& u) const {
+    const std::size_t second = (axis + 1) % 3, third = (axis + 2) % 3;
+    const auto between = [&](std::size_t along, double share) {
+        return box_.min[along] + share * (box_.max[along] - box_.min[along]);
+    };
+    return with_components(axis, (is_upper ? box_.max : box_.min)[axis], between(second, u[0]),
+                           between(third, u[1]));
+}
+
+Emission EnvironmentEmitter::emit_constant(math::SampleStream& stream) const {
+    const auto areas = face_areas_m2(box_);
+    const std::array<double, 3> sums{areas[0], areas[0] + areas[1], areas[0] + areas[1] + areas[2]};
+    const auto [u1, u2] = stream.next_two();
+    const auto [v1, v2] = stream.next_two();
+    const auto choice = math::choose_by_sums(sums, u1);
+    const bool is_upper = choice.remainder < 0.5;
+    const double rest = 2 * choice.remainder - (is_upper ? 0 : 1);
+    const Vec3 inwards = with_components(choice.index, is_upper ? -1 : 1, 0, 0);
+    return {on_face(choice.index, is_upper, {rest, u2}),
+            Frame::around(inwards).to_world(math::sample_cosine_hemisphere(v1, v2).direction)};
+}
+
+Emission EnvironmentEmitter::emit_panorama(math::SampleStream& stream) const {
+    const auto [u1, u2] = stream.next_two();
+    const auto [v1, v2] = stream.next_two();
+    const Panorama::Sample sample = light_.panorama->sample(u1, u2);
+    const Vec3 towards = light_.axes.to_world(sample.direction);
+    const auto areas = projected_areas_m2(box_, towards);
+    const std::array<double, 3> sums{areas[0], areas[0] + areas[1], areas[0] + areas[1] + areas[2]};
+    const auto choice = math::choose_by_sums(sums, v1);
+    Rgb share = sample.luminance_cd_m2 * (sums[2] / sample.pdf_per_sr);
+    for (std::size_t b = 0; b < kBands; ++b) share[b] = flux_lm_[b] > 0 ? share[b] / flux_lm_[b] : 0;
+    return {on_face(choice.index, towards[choice.index] > 0, {choice.remainder, v2}), -towards, share};
+}
+
+IncidentLight EnvironmentEmitter::incident(const Vec3& from, const Vec3& direction, const Rgb& luminance,
+                                           double pdf_per_sr) const {
+    // All surfaces are in a sphere around the box; the segment ends beyond it.
+    const Vec3 center = 0.5 * (box_.min + box_.max);
+    const double radius_m = length(box_.max - box_.min) / 2;
+    const double reach_m = std::max(dot(center - from, direction), 0.0) + 2 * radius_m;
+    return {from + reach_m * direction, direction, luminance * (1 / pdf_per_sr), pdf_per_sr};
+}
+
+std::optional<IncidentLight> EnvironmentEmitter::sample_incident(const ReceivingPoint& at,
+                                                                 const std::array<double, 2>& u) const {
+    if (light_.panorama) {
+        const Panorama::Sample sample = light_.panorama->sample(u[0], u[1]);
+        return incident(at.position, light_.axes.to_world(sample.direction), sample.luminance_cd_m2,
+                        sample.pdf_per_sr);
+    }
+    const auto [local, pdf_per_sr] =
+        at.normal ? math::sample_cosine_hemisphere(u[0], u[1]) : math::sample_sphere(u[0], u[1]);
+    if (!(pdf_per_sr > 0)) return std::nullopt;
+    const Vec3 direction = at.normal ? Frame::around(*at.normal).to_world(local) : local;
+    return incident(at.position, direction, light_.luminance_cd_m2, pdf_per_sr);
+}
+
+double EnvironmentEmitter::rough_illuminance_lx(const Vec3&, const Vec3& normal) const {
+    // The squares add up to 1; exact where light comes from all sides alike.
+    double sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        sum += normal[axis] * normal[axis] * illuminance_lx_[2 * axis + (normal[axis] < 0 ? 1 : 0)];
+    return sum;
+}
+
+Rgb EnvironmentEmitter::luminance_cd_m2(const Vec3& direction) const {
+    return light_.panorama ? light_.panorama->luminance_cd_m2(light_.axes.to_local(direction))
+                           : light_.luminance_cd_m2;
+}
+
+double EnvironmentEmitter::pdf_per_sr(const Vec3& direction, const ReceivingPoint& at) const {
+    if (light_.panorama) return light_.panorama->pdf_per_sr(light_.axes.to_local(direction));
+    return at.normal ? math::cosine_hemisphere_pdf_per_sr(dot(direction, *at.normal)) : 1 / (4 * kPi);
+}
+
+}  // namespace stilb::lights

@@ -1,0 +1,65 @@
+// Light from infinity, around the whole scene: the same luminance from all directions, or that of a panorama.
+#pragma once
+
+#include <memory>
+
+#include "lights/light_kind.h"
+#include "lights/panorama.h"
+
+namespace stilb::lights {
+
+class EnvironmentEmitter;
+
+struct EnvironmentLight {
+    Rgb luminance_cd_m2;                          ///< of all directions, where there is no panorama
+    std::shared_ptr<const Panorama> panorama{};   ///< instead
+    Frame axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< of the panorama in the scene
+
+    static constexpr std::string_view kType = "environment";
+    static constexpr LightPlace kPlace = LightPlace::infinity;
+    using Emitter = EnvironmentEmitter;
+    /// What enters the scene's bounding box.
+    Rgb flux_lm(const Surroundings& surroundings) const;
+    std::vector<LightDetail> details(const Surroundings& surroundings) const;
+};
+
+/// The axes of a panorama whose top is `unit_up`. With +z on top the picture's middle looks along +x, turned
+/// by `rotation_deg` counterclockwise seen from above; other directions are reached by the shortest turn from
+/// there.
+Frame panorama_axes(const Vec3& unit_up, double rotation_deg);
+
+/// Particles enter through the faces of the scene's bounding box, a little enlarged, in proportion to the
+/// flux where the luminance is constant; elsewhere in proportion to luminance, uniformly over the box as it
+/// is seen from their direction, and carry flux in proportion to its projected area.
+class EnvironmentEmitter {
+  public:
+    EnvironmentEmitter(const EnvironmentLight& light, const Surroundings& surroundings, const Lift& lift);
+
+    Emission emit(math::SampleStream& stream) const;
+    /// Constant luminance: by the cosine at the receiver.
+    std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
+                                                 const std::array<double, 2>& u) const;
+    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+
+    Rgb luminance_cd_m2(const Vec3& direction) const;
+    double pdf_per_sr(const Vec3& direction, const ReceivingPoint& at) const;
+
+  private:
+    Emission emit_constant(math::SampleStream& stream) const;
+    Emission emit_panorama(math::SampleStream& stream) const;
+    /// On the box's face across an axis, on its upper or lower side.
+    Vec3 on_face(std::size_t axis, bool is_upper, const std::array<double, 2>& u) const;
+    IncidentLight incident(const Vec3& from, const Vec3& direction, const Rgb& luminance,
+                           double pdf_per_sr) const;
+
+    EnvironmentLight light_;
+    Bounds box_;
+    Rgb flux_lm_;
+    std::array<double, 6> illuminance_lx_{};  ///< luminous, about: of surfaces facing +x, -x, +y ...
+};
+
+}  // namespace stilb::lights
+
+namespace stilb {
+using lights::EnvironmentLight;
+}  // namespace stilb

@@ -1,0 +1,49 @@
+#include "lights/light.h"
+
+namespace stilb::lights {
+
+Emitter make_emitter(const Light& light, const Surroundings& surroundings, const Lift& lift) {
+    return std::visit(
+        [&]<LightKind L>(const L& source) -> Emitter {
+            return typename L::Emitter(source, surroundings, lift);
+        },
+        light.source);
+}
+
+LightPlace place_of(const Light& light) {
+    return std::visit([]<LightKind L>(const L&) { return L::kPlace; }, light.source);
+}
+
+std::string_view type_of(const Light& light) {
+    return std::visit([]<LightKind L>(const L&) { return L::kType; }, light.source);
+}
+
+Rgb flux_lm(const Light& light, const Surroundings& surroundings) {
+    return std::visit([&](const auto& source) { return source.flux_lm(surroundings); }, light.source);
+}
+
+std::vector<LightDetail> details_of(const Light& light, const Surroundings& surroundings) {
+    return std::visit([&](const auto& source) { return source.details(surroundings); }, light.source);
+}
+
+std::optional<SurfaceEmission> surface_emission(const Light& light) {
+    return std::visit(
+        []<LightKind L>(const L& source) -> std::optional<SurfaceEmission> {
+            if constexpr (L::kPlace == LightPlace::surface) {
+                return SurfaceEmission{source.object, source.luminance_cd_m2};
+            }
+            return std::nullopt;
+        },
+        light.source);
+}
+
+std::optional<LightOrigin> point_origin(const Light& light) {
+    return std::visit(
+        []<LightKind L>(const L& source) -> std::optional<LightOrigin> {
+            if constexpr (L::kPlace == LightPlace::point) return source.origin();
+            return std::nullopt;
+        },
+        light.source);
+}
+
+}  // namespace stilb::lights

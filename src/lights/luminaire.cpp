@@ -1,0 +1,63 @@
+#include "lights/luminaire.h"
+
+#include "lights/point.h"
+
+namespace stilb::lights {
+namespace {
+
+/// What leaves a luminaire against `direction`, in the frame of its solid.
+Vec3 in_solid(const Luminaire& luminaire, const Vec3& direction) {
+    return {-dot(direction, luminaire.c0), -dot(direction, luminaire.c90), -dot(direction, luminaire.nadir)};
+}
+
+}  // namespace
+
+Rgb Luminaire::flux_lm(const Surroundings& surroundings) const {
+    return surroundings.solid(solid).flux_lm() * factor;
+}
+
+std::vector<LightDetail> Luminaire::details(const Surroundings& surroundings) const {
+    return {{"file", std::string(surroundings.file(solid))},
+            {"peak_intensity_cd", surroundings.solid(solid).peak_cd() * factor.luminance()}};
+}
+
+LuminaireEmitter::LuminaireEmitter(const Luminaire& light, const Surroundings& surroundings, const Lift& lift)
+    : light_(light),
+      solid_(&surroundings.solid(light.solid)),
+      lifted_(light.position + lift.offset_m(light.position, lift.half_extent_m()) * light.nadir) {}
+
+Emission LuminaireEmitter::emit(math::SampleStream& stream) const {
+    const auto [u1, u2] = stream.next_two();
+    const Vec3 local = solid_->sample_direction(u1, u2);
+    return {lifted_, normalized(local.x * light_.c0 + local.y * light_.c90 + local.z * light_.nadir)};
+}
+
+std::optional<IncidentLight> LuminaireEmitter::sample_incident(const ReceivingPoint& at,
+                                                               const std::array<double, 2>&) const {
+    return incident_from_point(light_.position, lifted_, at.position, [&](const Vec3& direction) {
+        return solid_->intensity_cd(in_solid(light_, direction)) * light_.factor;
+    });
+}
+
+double LuminaireEmitter::rough_illuminance_lx(const Vec3& from, const Vec3& normal) const {
+    return illuminance_by_point_lx(light_.position, from, normal, [&](const Vec3& direction) {
+        const double bound_cd = solid_->intensity_bound_cd(in_solid(light_, direction));
+        return bound_cd * light_.factor.luminance();
+    });
+}
+
+LuminaireEmitter LuminaireEmitter::turned_into(const Frame& frame) const {
+    LuminaireEmitter turned = *this;
+    turned.light_.c0 = frame.to_local(light_.c0);
+    turned.light_.c90 = frame.to_local(light_.c90);
+    turned.light_.nadir = frame.to_local(light_.nadir);
+    return turned;
+}
+
+double LuminaireEmitter::luminous_intensity_cd(const Vec3& direction) const {
+    return light_.factor.luminance() *
+           solid_->intensity_cd(
+               {dot(direction, light_.c0), dot(direction, light_.c90), dot(direction, light_.nadir)});
+}
+
+}  // namespace stilb::lights

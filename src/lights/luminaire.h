@@ -1,0 +1,53 @@
+// Luminaires by their luminous intensity distribution (file type "photometry").
+#pragma once
+
+#include "lights/light_kind.h"
+
+namespace stilb::lights {
+
+class LuminaireEmitter;
+
+/// Small against its distance from everything.
+struct Luminaire {
+    Vec3 position;
+    SolidId solid{};
+    /// Columns of the luminaire's frame in world coordinates: towards C0, towards C90, towards the nadir.
+    Vec3 c0, c90, nadir;
+    /// Multiplies the solid's intensity: colour (luminance 1) times dimming or flux override.
+    Rgb factor;
+
+    static constexpr std::string_view kType = "photometry";
+    static constexpr LightPlace kPlace = LightPlace::point;
+    using Emitter = LuminaireEmitter;
+    Rgb flux_lm(const Surroundings& surroundings) const;
+    std::vector<LightDetail> details(const Surroundings& surroundings) const;
+    LightOrigin origin() const { return {position, nadir}; }
+};
+
+/// Keeps a reference to the solid. Its rays start and end lifted along the nadir, so that a luminaire may be
+/// placed in the very plane of a ceiling.
+class LuminaireEmitter {
+  public:
+    LuminaireEmitter(const Luminaire& light, const Surroundings& surroundings, const Lift& lift);
+
+    Emission emit(math::SampleStream& stream) const;
+    std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
+                                                 const std::array<double, 2>& u) const;
+    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+
+    static constexpr std::string_view kNoun = "a luminaire";
+    const Vec3& lifted() const { return lifted_; }
+    LuminaireEmitter turned_into(const Frame& frame) const;
+    double luminous_intensity_cd(const Vec3& direction) const;
+
+  private:
+    Luminaire light_;
+    const PhotometricSolid* solid_;
+    Vec3 lifted_;
+};
+
+}  // namespace stilb::lights
+
+namespace stilb {
+using lights::Luminaire;
+}  // namespace stilb

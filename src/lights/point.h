@@ -1,0 +1,69 @@
+// Isotropic point lights.
+#pragma once
+
+#include "lights/light_kind.h"
+
+namespace stilb::lights {
+
+class PointEmitter;
+
+struct PointLight {
+    Vec3 position;
+    Rgb intensity_cd;
+
+    static constexpr std::string_view kType = "point";
+    static constexpr LightPlace kPlace = LightPlace::point;
+    using Emitter = PointEmitter;
+    Rgb flux_lm(const Surroundings& surroundings) const;
+    std::vector<LightDetail> details(const Surroundings& surroundings) const;
+    LightOrigin origin() const { return {position, std::nullopt}; }
+};
+
+class PointEmitter {
+  public:
+    PointEmitter(const PointLight& light, const Surroundings& surroundings, const Lift& lift);
+
+    Emission emit(math::SampleStream& stream) const;
+    std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
+                                                 const std::array<double, 2>& u) const;
+    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+
+    static constexpr std::string_view kNoun = "a point";
+    const Vec3& lifted() const { return light_.position; }
+    PointEmitter turned_into(const Frame&) const { return *this; }
+    double luminous_intensity_cd(const Vec3&) const { return light_.intensity_cd.luminance(); }
+
+  private:
+    PointLight light_;
+};
+
+/// What arrives at a point from a source at `position` whose rays end at `lifted`. `intensity_cd` is called
+/// with the unit direction towards the source.
+template <typename Intensity>
+std::optional<IncidentLight> incident_from_point(const Vec3& position, const Vec3& lifted, const Vec3& from,
+                                                 const Intensity& intensity_cd) {
+    const Vec3 towards = position - from;
+    const double squared_distance = squared_length(towards);
+    if (squared_distance == 0) return std::nullopt;
+    const Vec3 direction = towards / std::sqrt(squared_distance);
+    return IncidentLight{lifted, direction, intensity_cd(direction) * (1 / squared_distance),
+                         std::numeric_limits<double>::infinity()};
+}
+
+/// The illuminance [lx] by such a source without shadows; its luminous intensity likewise.
+template <typename Intensity>
+double illuminance_by_point_lx(const Vec3& position, const Vec3& from, const Vec3& normal,
+                               const Intensity& luminous_intensity_cd) {
+    const Vec3 towards = position - from;
+    const double squared_distance = squared_length(towards);
+    const double height = dot(towards, normal);
+    if (!(height > 0)) return 0;
+    const double distance = std::sqrt(squared_distance);
+    return luminous_intensity_cd(towards / distance) * height / (squared_distance * distance);
+}
+
+}  // namespace stilb::lights
+
+namespace stilb {
+using lights::PointLight;
+}  // namespace stilb

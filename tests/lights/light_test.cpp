@@ -1,0 +1,87 @@
+#include "lights/light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/scene_builder.h"
+
+namespace stilb::lights {
+namespace {
+
+/// A point light whose emitter cannot be chosen among others.
+struct NotChosenEmitter {
+    NotChosenEmitter(const auto&, const Surroundings&, const Lift&) {}
+    Emission emit(math::SampleStream&) const { return {}; }
+    std::optional<IncidentLight> sample_incident(const ReceivingPoint&, const std::array<double, 2>&) const {
+        return std::nullopt;
+    }
+};
+struct NotChosen : PointLight {
+    using Emitter = NotChosenEmitter;
+};
+/// A point light that says that rays find it.
+struct OnNoSurface : PointLight {
+    static constexpr LightPlace kPlace = LightPlace::surface;
+};
+static_assert(LightKind<PointLight> && LightKind<Luminaire> && LightKind<AreaLight> &&
+              LightKind<EnvironmentLight>);
+static_assert(!LightKind<NotChosen> && !LightKind<OnNoSurface>);
+
+/// One light of each place.
+Scene three_lights() {
+    Scene scene;
+    add_point_light(scene, {1, 2, 3}, {{1, 2, 3}});
+    add_area_light(scene, Rectangle{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, Rgb::grey(5));
+    add_environment(scene, Rgb::grey(7));
+    return scene;
+}
+
+std::vector<std::string> keys_of(const Light& light, const Scene& scene) {
+    std::vector<std::string> keys;
+    for (const LightDetail& detail : details_of(light, scene::LightSurroundings(scene)))
+        keys.emplace_back(detail.key);
+    return keys;
+}
+
+TEST(Light, IsAtOnePlace) {
+    const Scene scene = three_lights();
+    const Light &point = scene.lights[0], &area = scene.lights[1], &environment = scene.lights[2];
+    EXPECT_EQ(place_of(point), LightPlace::point);
+    EXPECT_EQ(place_of(area), LightPlace::surface);
+    EXPECT_EQ(place_of(environment), LightPlace::infinity);
+    ASSERT_TRUE(point_origin(point));
+    EXPECT_EQ(point_origin(point)->position, (Vec3{1, 2, 3}));
+    EXPECT_FALSE(point_origin(area) || point_origin(environment));
+    ASSERT_TRUE(surface_emission(area));
+    EXPECT_EQ(surface_emission(area)->object, ObjectId{0});
+    EXPECT_EQ(surface_emission(area)->luminance_cd_m2, Rgb::grey(5));
+    EXPECT_FALSE(surface_emission(point) || surface_emission(environment));
+}
+
+TEST(Light, SaysWhatItIs) {
+    const Scene scene = three_lights();
+    using Keys = std::vector<std::string>;
+    EXPECT_EQ(type_of(scene.lights[0]), "point");
+    EXPECT_EQ(keys_of(scene.lights[0], scene), Keys{"intensity_cd"});
+    EXPECT_EQ(type_of(scene.lights[1]), "area");
+    EXPECT_EQ(keys_of(scene.lights[1], scene), (Keys{"object", "luminance_cd_m2"}));
+    EXPECT_EQ(type_of(scene.lights[2]), "environment");
+    EXPECT_EQ(keys_of(scene.lights[2], scene), (Keys{"luminance_cd_m2", "horizontal_illuminance_lx"}));
+}
+
+/// Of an environment: what enters the scene's bounding box, pi L for each square metre of it. The box spans
+/// the rectangle and the point light, and is enlarged by a thousandth of its half extent.
+TEST(Light, HasItsFlux) {
+    const Scene scene = three_lights();
+    constexpr double pi = std::numbers::pi;
+    for (std::size_t b = 0; b < kBands; ++b)
+        EXPECT_NEAR(scene::flux_lm(scene, scene.lights[0])[b], 4 * pi * static_cast<double>(b + 1), 1e-12);
+    EXPECT_NEAR(scene::flux_lm(scene, scene.lights[1])[0], pi * 2 * 5, 1e-12);
+    const double box_m2 = 2 * (2 * 2 + 2 * 3 + 2 * 3);
+    EXPECT_NEAR(scene::flux_lm(scene, scene.lights[2])[0], pi * 7 * box_m2, 0.005 * pi * 7 * box_m2);
+}
+
+}  // namespace
+}  // namespace stilb::lights
