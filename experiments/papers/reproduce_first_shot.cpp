@@ -114,7 +114,7 @@ void reproduce_scene(std::string_view lights, const std::filesystem::path& direc
     const io::SceneFile file = furnished_room(lights);
     const rays::RayCaster caster(file.scene);
     const estimators::PictureTracing tracing(
-        {file.scene, caster, file.sensors.front().camera, transport::kUnlimited, math::RandomKey{1}});
+        {file.scene, caster, *file.sensors.front().camera(), transport::kUnlimited, math::RandomKey{1}});
     const auto look = [&](const ConvergenceState& state) {
         if (!state.method.is_shown || std::ranges::find(kShownSteps, state.steps) == kShownSteps.end())
             return;

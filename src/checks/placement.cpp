@@ -36,10 +36,10 @@ std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const S
 }
 
 std::vector<MeasuringPoint> places_of(const Sensor& sensor) {
-    const Camera& camera = sensor.camera;
-    if (sensor.type == SensorType::camera) return {{camera.position, sensors::CameraView(camera).forward()}};
+    if (const Camera* camera = sensor.camera())
+        return {{camera->position, sensors::CameraView(*camera).forward()}};
     std::vector<MeasuringPoint> places;
-    for (const Measurand& measurand : sensor.measurands) places.push_back(place_of(measurand));
+    for (const Measurand& measurand : sensor.measurands()) places.push_back(viewpoint_of(measurand));
     return places;
 }
 

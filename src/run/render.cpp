@@ -294,7 +294,7 @@ RenderResult render_by(
     const std::function<std::unique_ptr<estimators::PictureEstimator>(const estimators::PictureInput&)>& make,
     std::uint64_t replicates, const Scene& scene, const Sensor& sensor, const RunOptions& options,
     PictureSink* sink, const std::atomic<bool>* interrupt) {
-    const Camera& camera = sensor.camera;
+    const Camera& camera = *sensor.camera();
     const Clock clock;
     const rays::RayCaster caster(scene);
     Threads threads(options.threads);

@@ -131,7 +131,7 @@ void require_measurable(std::span<const Sensor> sensors, const estimators::Estim
 /// A goniometer that stands on nothing has nothing to measure.
 void require_surfaces(std::span<const Sensor> sensors, const rays::RayCaster& caster) {
     for (const Sensor& sensor : sensors) {
-        for (const Measurand& measurand : sensor.measurands) {
+        for (const Measurand& measurand : sensor.measurands()) {
             const auto* ray = std::get_if<EmergentRay>(&measurand);
             if (!ray || transport::first_surface(measurand, caster)) continue;
             const Vec3& p = ray->position;
@@ -147,7 +147,7 @@ double attained_error(const Campaign& campaign, std::span<const Sensor> sensors)
     double worst = 0;
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
-        const std::size_t count = sensor.measurands.size();
+        const std::size_t count = sensor.size();
         const std::vector<double> means = campaign.replicate_means(first, count);
         worst = std::max(worst, stilb::statistics::attained_error(statistics::estimate_readings(
                                     {means, count}, statistics::kStoppedConfidence)));
@@ -235,7 +235,7 @@ class Schedule {
 
 SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::size_t first,
                            double confidence) {
-    const std::size_t count = sensor.measurands.size();
+    const std::size_t count = sensor.size();
     const std::vector<double> means = campaign.replicate_means(first, count);
     const statistics::ReplicateTable table{means, count};
     std::vector<statistics::Estimate> estimates;
@@ -257,9 +257,9 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
 std::vector<std::optional<Vec3>> sub_points(const Sensor& sensor, const Scene& scene,
                                             const rays::RayCaster& caster) {
     std::vector<std::optional<Vec3>> points;
-    if (sensor.type != SensorType::luminance) return points;
+    if (!std::holds_alternative<Luminance>(sensor.kind)) return points;
     const transport::LightSampler lights(scene, caster);
-    for (const Measurand& measurand : sensor.measurands) {
+    for (const Measurand& measurand : sensor.measurands()) {
         const transport::VisibleSurfaces sight =
             look(measurand, scene, caster, lights, transport::kUnlimited);
         points.push_back(sight.sub_points.empty() ? std::nullopt
@@ -273,17 +273,15 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
         std::size_t heavy = 0;
-        for (std::size_t j = 0; j < sensor.measurands.size(); ++j)
-            heavy += campaign.is_heavy_tailed(first + j);
+        for (std::size_t j = 0; j < sensor.size(); ++j) heavy += campaign.is_heavy_tailed(first + j);
         if (heavy > 0) {
             warnings.push_back(fmt::format(
                 "sensor \"{}\": in {} of {} readings a single contribution is more than {:.2g} % of the sum; "
                 "the variance "
                 "is probably infinite there (a corner) and the interval may not hold. Use --method auto.",
-                sensor.name, heavy, sensor.measurands.size(),
-                100 * statistics::heavy_tail_share(campaign.paths())));
+                sensor.name, heavy, sensor.size(), 100 * statistics::heavy_tail_share(campaign.paths())));
         }
-        first += sensor.measurands.size();
+        first += sensor.size();
     }
     return warnings;
 }
@@ -301,9 +299,8 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     std::vector<Measurand> measurands;
     std::vector<double> weights;  // a run stops when each sensor as a whole is exact enough
     for (const Sensor& sensor : sensors) {
-        measurands.insert(measurands.end(), sensor.measurands.begin(), sensor.measurands.end());
-        weights.insert(weights.end(), sensor.measurands.size(),
-                       1 / static_cast<double>(sensor.measurands.size()));
+        std::ranges::copy(sensor.measurands(), std::back_inserter(measurands));
+        weights.insert(weights.end(), sensor.size(), 1 / static_cast<double>(sensor.size()));
     }
     if (measurands.empty()) {
         throw InputError("no sensor to measure: the scene needs one under [sensors]");
@@ -348,7 +345,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     for (const Sensor& sensor : sensors) {
         result.sensors.push_back(sensor_result(campaign, sensor, first, confidence));
         result.sensors.back().sub_points = sub_points(sensor, scene, caster);
-        first += sensor.measurands.size();
+        first += sensor.size();
     }
     result.patches = estimator->patch_report();
     result.warnings = estimator->warnings();

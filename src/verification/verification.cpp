@@ -7,6 +7,15 @@
 
 namespace stilb::verification {
 
+namespace {
+
+Sensor sensor_of(const Measurand& measurand) {
+    if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) return {"", IlluminancePoints{{*point}}};
+    return {"", Luminance{{measurand}}};
+}
+
+}  // namespace
+
 const CheckedReading& Verification::worst() const {
     return *std::max_element(readings.begin(), readings.end(),
                              [](const auto& a, const auto& b) { return std::abs(a.z) < std::abs(b.z); });
@@ -32,11 +41,9 @@ CheckedReading check(const ExactReading& exact, const statistics::Estimate& meas
 
 Verification verify(const VerificationCase& verification_case, const RunOptions& options,
                     ProgressSink* progress, const std::atomic<bool>* interrupt) {
-    const SensorType type =
-        verification_case.measures_luminance() ? SensorType::luminance : SensorType::illuminance;
     std::vector<Sensor> sensors;  // one for each reading: a run's target is met by 95 % of each sensor's
     for (const ExactReading& reading : verification_case.readings) {
-        sensors.push_back({"", type, {reading.measurand}});
+        sensors.push_back(sensor_of(reading.measurand));
     }
     const RunResult measured = run::measure(verification_case.scene, sensors, options, progress, interrupt);
     Verification result{verification_case.name,

@@ -79,7 +79,7 @@ Measured measure(const Scene& scene, const AgreementScene& of, const std::string
     options.replicates = kReplicates;
     std::vector<Sensor> sensors;
     if (!of.points.empty()) sensors.push_back(point_sensor(of.points));
-    if (!of.sights.empty()) sensors.push_back({"sights", SensorType::luminance, of.sights});
+    if (!of.sights.empty()) sensors.push_back({"sights", Luminance{of.sights}});
     const RunResult result = run::measure(scene, sensors, options);
     Measured measured{method + " with seed " + std::to_string(seed), {}};
     for (const SensorResult& sensor : result.sensors) {

@@ -15,22 +15,18 @@ struct HandMade {
 };
 
 /// A sensor "view" with two lines of sight of 100 and 200 cd/m2: the first meets (2, 4, 1), the second leaves
-/// the scene. A goniometer "solid" with two directions of 30 and 31 cd/m2.
+/// the scene. A goniometer "solid" with directions at -60, 0 and 60 degrees
+/// in the plane of azimuth 90, of 29, 30 and 31 cd/m2.
 inline HandMade luminance_results() {
     HandMade made;
     made.sensors = {
-        {"view",
-         SensorType::luminance,
-         {LineOfSight{{2, 0, 1}, {0, 1, 0}}, LineOfSight{{2, 0, 1}, {0, 0, 1}}}},
-        {"solid",
-         SensorType::goniometer,
-         {EmergentRay{{2, 2, 0}, {0, 0, 1}, {0, 0, 1}}, EmergentRay{{2, 2, 0}, {0, 0, 1}, {0.6, 0, 0.8}}}}};
-    made.sensors[1].angles = {{0, 90}, {36.87, 90}};
+        {"view", Luminance{{LineOfSight{{2, 0, 1}, {0, 1, 0}}, LineOfSight{{2, 0, 1}, {0, 0, 1}}}}},
+        {"solid", Goniometer{{2, 2, 0}, {0, 0, 1}, 90.0, 60}}};
     const statistics::Estimate low{100, 1, 98, 102}, high{200, 1, 198, 202}, mean{150, 1, 148, 152};
     made.result.method = "auto";
     made.result.sensors = {
         {{reading(100), reading(200)}, {Vec3{2, 4, 1}, std::nullopt}, {mean, low, high, {}}, 0.02},
-        {{reading(30), reading(31)}, {}, {mean, low, high, {}}, 0.07}};
+        {{reading(29), reading(30), reading(31)}, {}, {mean, low, high, {}}, 0.07}};
     return made;
 }
 

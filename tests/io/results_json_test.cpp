@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/luminance_results.h"
@@ -40,8 +41,13 @@ TEST(ResultsJson, GoniometersHaveAngles) {
     EXPECT_EQ(solid["type"], "goniometer");
     EXPECT_EQ(solid["quantity"], "luminance");
     EXPECT_EQ(solid["values"][1], Json::parse(R"({"position": [2.0, 2.0, 0.0], "normal": [0.0, 0.0, 1.0],
-        "direction": [0.6, 0.0, 0.8], "hit": [2.0, 2.0, 0.0], "theta": 36.87, "phi": 90.0, "value": 31.0,
-        "standard_error": 1.0, "interval": [29.0, 33.0], "rgb": [41.0, 31.0, 21.0]})"));
+        "direction": [0.0, 0.0, 1.0], "hit": [2.0, 2.0, 0.0], "theta": 0.0, "phi": 90.0, "value": 30.0,
+        "standard_error": 1.0, "interval": [28.0, 32.0], "rgb": [40.0, 30.0, 20.0]})"));
+    const Json& last = solid["values"][2];
+    EXPECT_EQ(last["theta"], 60);
+    EXPECT_EQ(last["phi"], 90);
+    EXPECT_NEAR(last["direction"][1].get<double>(), std::sqrt(0.75), 1e-15);
+    EXPECT_NEAR(last["direction"][2].get<double>(), 0.5, 1e-15);
 }
 
 TEST(ResultsJson, LuminancesHaveNoUniformity) {
@@ -92,8 +98,7 @@ TEST(ResultsJson, WithoutPatchesThereIsNoReport) {
 
 TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
     HandMade made = luminance_results();
-    made.sensors.push_back(
-        sensors::make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1}));
+    made.sensors.push_back({"desk", Grid{{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}});
     made.result.sensors.push_back({{reading(500), reading(510)}, {}, {}, 0.01});
     const ResultsFile read = read_results(to_json(made.result, made.sensors, "room.toml"), "room.json");
     ASSERT_EQ(read.grids.size(), 1u);

@@ -11,18 +11,18 @@ std::string grid(const std::string& keys) {
 
 TEST(SceneSensors, GridMeasuresAtCellCentresUFastest) {
     const Sensor s = read_text(grid("count = [4, 2]")).sensors.at(0);
-    EXPECT_EQ(s.type, SensorType::grid);
-    EXPECT_EQ(s.grid.count, (std::array{4, 2}));
-    ASSERT_EQ(s.measurands.size(), 8u);
-    EXPECT_EQ(place_of(s.measurands[0]).position, (Vec3{0.5, 0.5, 1}));
-    EXPECT_EQ(place_of(s.measurands[1]).position, (Vec3{1.5, 0.5, 1}));
-    EXPECT_EQ(place_of(s.measurands[4]).position, (Vec3{0.5, 1.5, 1}));
-    EXPECT_EQ(place_of(s.measurands[0]).normal, (Vec3{0, 0, 1})) << "edge_u x edge_v";
+    EXPECT_EQ(s.type(), "grid");
+    EXPECT_EQ(s.count(), (std::array{4, 2}));
+    ASSERT_EQ(s.size(), 8u);
+    EXPECT_EQ(viewpoint_of(s.measurand(0)).position, (Vec3{0.5, 0.5, 1}));
+    EXPECT_EQ(viewpoint_of(s.measurand(1)).position, (Vec3{1.5, 0.5, 1}));
+    EXPECT_EQ(viewpoint_of(s.measurand(4)).position, (Vec3{0.5, 1.5, 1}));
+    EXPECT_EQ(viewpoint_of(s.measurand(0)).normal, (Vec3{0, 0, 1})) << "edge_u x edge_v";
 }
 
 TEST(SceneSensors, GridMayHaveANormalOfItsOwn) {
     const SceneFile file = read_text(grid("count = [1, 1]\nnormal = [0, 2, 0]"));
-    EXPECT_EQ(place_of(file.sensors[0].measurands[0]).normal, (Vec3{0, 1, 0}));
+    EXPECT_EQ(viewpoint_of(file.sensors[0].measurand(0)).normal, (Vec3{0, 1, 0}));
     EXPECT_EQ(file.warnings.back(),
               "s.toml:7: sensors.s.normal: of length 2; its direction is used, with length 1.");
 }
@@ -30,14 +30,14 @@ TEST(SceneSensors, GridMayHaveANormalOfItsOwn) {
 TEST(SceneSensors, IlluminanceAtOnePointOrMany) {
     const Sensor one =
         read_text(sensor("type = \"illuminance\"\nposition = [1, 2, 3]\nnormal = [0, 0, 1]")).sensors[0];
-    ASSERT_EQ(one.measurands.size(), 1u);
-    EXPECT_EQ(place_of(one.measurands[0]).position, (Vec3{1, 2, 3}));
+    ASSERT_EQ(one.size(), 1u);
+    EXPECT_EQ(viewpoint_of(one.measurand(0)).position, (Vec3{1, 2, 3}));
     const Sensor two =
         read_text(sensor("type = \"illuminance\"\npoints = [[1, 2, 3], [4, 5, 6]]\nnormal = [1, 0, 0]"))
             .sensors[0];
-    ASSERT_EQ(two.measurands.size(), 2u);
-    EXPECT_EQ(place_of(two.measurands[1]).position, (Vec3{4, 5, 6}));
-    EXPECT_EQ(place_of(two.measurands[1]).normal, (Vec3{1, 0, 0}));
+    ASSERT_EQ(two.size(), 2u);
+    EXPECT_EQ(viewpoint_of(two.measurand(1)).position, (Vec3{4, 5, 6}));
+    EXPECT_EQ(viewpoint_of(two.measurand(1)).normal, (Vec3{1, 0, 0}));
 }
 
 TEST(SceneSensors, RefusesUnknownTypesAndKeys) {
