@@ -1,4 +1,4 @@
-// What one reading is of: the illuminance of a surface element, or the luminance along a ray.
+// What one reading is of: the illuminance of a surface element or a small body, or the luminance along a ray.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,24 @@ struct EmergentRay {
     Vec3 position, normal, direction;
 };
 
-using Measurand = std::variant<MeasuringPoint, LineOfSight, EmergentRay>;
+/// How much light from each direction counts on a small body that stands free. Directions are unit vectors
+/// towards where light comes from, in Frame::of_surface(axis of the body).
+///
+/// The illuminance is the integral over the sphere of L(w) s(w) dw. It is the mean over the body's surface of
+/// illuminances of surface elements, so that the integral of s is pi, as that of cos+ is.
+struct Sensitivity {
+    double (*of)(const Vec3& direction);   ///< s, at least 0
+    Vec3 (*sample)(double u1, double u2);  ///< a direction with density s / pi
+    std::string_view axis_name;            ///< of the axis in results; empty where it is the vertical
+};
+
+/// The illuminance [lx] on a small body with a unit `axis`, about which, or against which, it is the same.
+struct BodyPoint {
+    Vec3 position, axis;
+    const Sensitivity* sensitivity;
+};
+
+using Measurand = std::variant<MeasuringPoint, BodyPoint, LineOfSight, EmergentRay>;
 
 inline const Vec3& position_of(const Measurand& measurand) {
     return std::visit([](const auto& m) -> const Vec3& { return m.position; }, measurand);
@@ -71,9 +88,18 @@ std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::Ray
 /// Where rays from a measuring point start: lifted along its normal, off the surface that it lies on, if any.
 Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster);
 
+/// The surface that a body lies on, on the side that the body is taken to be on: where its axis points to, or
+/// the front where the axis lies in the surface. Nothing where it stands free.
+std::optional<rays::Hit> surface_at(const BodyPoint& body, const rays::RayCaster& caster);
+
+/// Where rays from a body start: at its position, which stands free; off the surface that it lies on, if any,
+/// which then hides half of the sphere from it.
+Vec3 lifted_position(const BodyPoint& body, const rays::RayCaster& caster);
+
 }  // namespace stilb::sensors
 
 namespace stilb {
+using sensors::BodyPoint;
 using sensors::EmergentRay;
 using sensors::LineOfSight;
 using sensors::Measurand;

@@ -17,6 +17,7 @@
 #include <variant>
 #include <vector>
 
+#include "sensors/bodies.h"
 #include "sensors/camera.h"
 #include "sensors/goniometer.h"
 #include "sensors/illuminance.h"
@@ -24,7 +25,8 @@
 
 namespace stilb::sensors {
 
-using SensorKind = std::variant<IlluminancePoints, Grid, Luminance, Goniometer, Camera>;
+using SensorKind = std::variant<IlluminancePoints, Grid, Cylindrical, Semicylindrical, Hemispherical,
+                                Spherical, Luminance, Goniometer, Camera>;
 
 template <typename... Kinds>
 constexpr std::array<std::string_view, sizeof...(Kinds)> type_names(

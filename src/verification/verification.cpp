@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "statistics/hypothesis.h"
 
@@ -9,10 +10,12 @@ namespace stilb::verification {
 
 namespace {
 
-Sensor sensor_of(const Measurand& measurand) {
-    if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) return {"", IlluminancePoints{{*point}}};
-    return {"", Luminance{{measurand}}};
-}
+struct SensorOf {
+    Sensor operator()(const MeasuringPoint& point) const { return {"", IlluminancePoints{{point}}}; }
+    Sensor operator()(const BodyPoint&) const { throw std::logic_error("no case has bodies"); }
+    Sensor operator()(const LineOfSight& sight) const { return {"", Luminance{{sight}}}; }
+    Sensor operator()(const EmergentRay& ray) const { return {"", Luminance{{ray}}}; }
+};
 
 }  // namespace
 
@@ -43,7 +46,7 @@ Verification verify(const VerificationCase& verification_case, const RunOptions&
                     ProgressSink* progress, const std::atomic<bool>* interrupt) {
     std::vector<Sensor> sensors;  // one for each reading: a run's target is met by 95 % of each sensor's
     for (const ExactReading& reading : verification_case.readings) {
-        sensors.push_back(sensor_of(reading.measurand));
+        sensors.push_back(std::visit(SensorOf{}, reading.measurand));
     }
     const RunResult measured = run::measure(verification_case.scene, sensors, options, progress, interrupt);
     Verification result{verification_case.name,

@@ -283,6 +283,14 @@ Scene closed_box() {
     return scene;
 }
 
+std::vector<Sensor> AgreementScene::sensors() const {
+    std::vector<Sensor> all;
+    if (!points.empty()) all.push_back({"points", IlluminancePoints{points}});
+    if (!sights.empty()) all.push_back({"sights", Luminance{sights}});
+    all.insert(all.end(), bodies.begin(), bodies.end());
+    return all;
+}
+
 std::span<const AgreementScene> agreement_scenes() {
     using enum Demand;
     // Away from walls, so that plain local estimation has finite variance.
@@ -339,6 +347,16 @@ std::span<const AgreementScene> agreement_scenes() {
         LineOfSight{{2, 0.6, 1.2}, normalized(Vec3{-1, 0.4, -0.6})},
         LineOfSight{{2, 0.6, 1.2}, normalized(Vec3{1.2, 0.4, -0.5})},
         LineOfSight{{2, 0.6, 1.2}, normalized(Vec3{0, 1.8, 0})}};
+    static const std::vector<Vec3> free{{1.1, 2.2, 1.2}, {3.1, 0.6, 1.6}};
+    static const std::vector<Sensor> bodies{
+        {"cylinders", Cylindrical{free}},
+        {"semicylinders", Semicylindrical{free, normalized(Vec3{1, -2, 0})}},
+        {"hemispheres", Hemispherical{free, normalized(Vec3{-1, 0.5, 0.2})}},
+        {"spheres", Spherical{free}}};
+    static const std::vector<Sensor> near_corners{
+        {"cylinders", Cylindrical{{{0.005, 0.005, 1.2}, {3.995, 1.5, 0.005}}}},
+        {"semicylinders", Semicylindrical{{{0.005, 0.005, 1.2}}, {1, 0, 0}}},
+        {"spheres", Spherical{{{2, 2.995, 2.795}}}}};
     static const std::vector<AgreementScene> scenes{
         {"ClosedBox", nothing, {}, closed_box, inside, {}},
         {"ColouredBox", nothing, {}, coloured_box, inside, {}},
@@ -395,6 +413,12 @@ std::span<const AgreementScene> agreement_scenes() {
         {"HarmonicBodies", nothing, {}, harmonic_bodies, inside, at_bodies},
         {"HarmonicBodiesOneReflection", nothing, 1, harmonic_bodies, inside, at_bodies},
         {"HarmonicLamp", nothing, {}, harmonic_lamp, inside, around},
+        {"BodiesInColour", nothing, {}, coloured_box, {}, {}, bodies},
+        {"BodiesNearCorners", finite_variance, {}, bright_box, {}, {}, near_corners},
+        {"BodiesBesidePhong", nothing, {}, broad_phong_box, inside, {}, bodies},
+        {"BodiesAndMirrors", nothing, {}, mirror_and_panel, {}, {}, bodies},
+        {"BodiesUnderLuminaires", nothing, {}, photometry_luminaires, {}, {}, bodies},
+        {"BodiesOneReflection", nothing, 1, mixed_room, {}, {}, bodies},
     };
     return scenes;
 }

@@ -90,6 +90,18 @@ TEST(ResultsTable, LightsNeedNoWordsWithoutFirstShot) {
     EXPECT_TRUE(table_of(made).ends_with("\n1000 patches of 0.25 m; no first shot\n")) << table_of(made);
 }
 
+TEST(ResultsTable, ShowsBodies) {
+    io::HandMade made = io::luminance_results();
+    made.sensors = {{"face", Semicylindrical{{{1, 2, 3}}, {0, 1, 0}}},
+                    {"people", Cylindrical{{{1, 2, 3}, {2, 2, 3}}}}};
+    made.result.sensors = {{{io::reading(500)}, {}, {}, 0.01},
+                           {{io::reading(100), io::reading(90)}, {}, {}, 0.01}};
+    EXPECT_TRUE(has(table_of(made), "\nface           500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 1, 0)\n"))
+        << table_of(made);
+    EXPECT_TRUE(has(table_of(made), "\npeople        2 points; 95 % of")) << table_of(made);
+    EXPECT_TRUE(has(table_of(made), "\n    90.0 ± 2.0 lx   at (2, 2, 3)\n")) << table_of(made);
+}
+
 TEST(ResultsTable, NamesTheQuantities) {
     io::HandMade made = io::luminance_results();
     made.sensors.push_back({"eye", IlluminancePoints{{{{1, 2, 3}, {0, 0, 1}}}}});

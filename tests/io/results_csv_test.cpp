@@ -47,5 +47,19 @@ TEST(ResultsCsv, HasALineForEachMeasuringPoint) {
               "1,2,3,0,0,1,100,1,98,102,110,100,90\r\n");
 }
 
+TEST(ResultsCsv, BodiesHaveAnAxisWhereItIsNotTheVertical) {
+    HandMade made;
+    made.sensors = {{"up", Hemispherical{{{1, 2, 3}}, {0, 0, 1}}}, {"around", Cylindrical{{{1, 2, 3}}}}};
+    made.result.sensors = {{{reading(100)}, {}, {}, 0.02}, {{reading(100)}, {}, {}, 0.02}};
+    EXPECT_EQ(csv_of(made, "up"),
+              "x_m,y_m,z_m,normal_x,normal_y,normal_z,hemispherical_illuminance_lx,standard_error_lx,"
+              "interval_low_lx,interval_high_lx,red_lx,green_lx,blue_lx\r\n"
+              "1,2,3,0,0,1,100,1,98,102,110,100,90\r\n");
+    EXPECT_EQ(csv_of(made, "around"),
+              "x_m,y_m,z_m,cylindrical_illuminance_lx,standard_error_lx,interval_low_lx,interval_high_lx,"
+              "red_lx,green_lx,blue_lx\r\n"
+              "1,2,3,100,1,98,102,110,100,90\r\n");
+}
+
 }  // namespace
 }  // namespace stilb::io

@@ -50,6 +50,21 @@ TEST(ResultsJson, GoniometersHaveAngles) {
     EXPECT_NEAR(last["direction"][2].get<double>(), 0.5, 1e-15);
 }
 
+TEST(ResultsJson, BodiesHaveAnAxisWhereItIsNotTheVertical) {
+    HandMade made;
+    made.sensors = {{"face", Semicylindrical{{{1, 2, 3}}, {0, 1, 0}}}, {"middle", Spherical{{{1, 2, 3}}}}};
+    made.result.sensors = {{{reading(100)}, {}, {}, 0.02}, {{reading(200)}, {}, {}, 0.02}};
+    const Json face = json_of(made)[0], middle = json_of(made)[1];
+    EXPECT_EQ(face["type"], "semicylindrical");
+    EXPECT_EQ(face["quantity"], "semicylindrical illuminance");
+    EXPECT_EQ(face["unit"], "lx");
+    EXPECT_EQ(face["values"][0], Json::parse(R"({"position": [1.0, 2.0, 3.0], "direction": [0.0, 1.0, 0.0],
+        "value": 100.0, "standard_error": 1.0, "interval": [98.0, 102.0], "rgb": [110.0, 100.0, 90.0]})"));
+    EXPECT_TRUE(face["summary"].contains("uniformity"));
+    EXPECT_EQ(middle["values"][0], Json::parse(R"({"position": [1.0, 2.0, 3.0], "value": 200.0,
+        "standard_error": 1.0, "interval": [198.0, 202.0], "rgb": [210.0, 200.0, 190.0]})"));
+}
+
 TEST(ResultsJson, LuminancesHaveNoUniformity) {
     for (const Json& sensor : json_of(luminance_results())) {
         EXPECT_EQ(sensor["summary"], Json::parse(R"({"mean": 150.0, "minimum": 100.0, "maximum": 200.0,
