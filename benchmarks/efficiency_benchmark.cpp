@@ -102,7 +102,7 @@ std::vector<Measurand> goniometer() {
     Goniometer place;
     place.point = {1.1, 2.3, 0};
     place.step_deg = 10;
-    return make_goniometer_sensor("goniometer", place).measurands;
+    return Sensor{"goniometer", place}.measurands();
 }
 
 Camera camera() {

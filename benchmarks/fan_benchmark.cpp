@@ -88,7 +88,7 @@ void compare(const Scene& scene) {
     nodes.resize(std::min<std::size_t>(nodes.size(), 256));
     std::vector<transport::Receiver> points;
     for (const Measurand& measurand : make_grid(32)) {
-        points.emplace_back(static_cast<std::uint32_t>(points.size()), place_of(measurand), caster);
+        points.emplace_back(static_cast<std::uint32_t>(points.size()), viewpoint_of(measurand), caster);
     }
     points = sorted_receivers(std::move(points));
     const std::vector<double> k(points.size(), 1.0);

@@ -60,9 +60,8 @@ inline Scene make_glossy_room(unsigned balls) {
 
 /// Points on a horizontal plane at desk height.
 inline std::vector<Measurand> make_grid(int cells) {
-    return sensors::make_grid_sensor("grid", {{0.05, 0.05, 0.8}, {3.9, 0, 0}, {0, 3.9, 0}, {cells, cells}},
-                                     {0, 0, 1})
-        .measurands;
+    const Grid grid{{0.05, 0.05, 0.8}, {3.9, 0, 0}, {0, 3.9, 0}, {cells, cells}};
+    return Sensor{"grid", grid}.measurands();
 }
 
 }  // namespace stilb

@@ -63,16 +63,17 @@ Scene room_with(Shape head) {
 
 Sensor view_of_room(const std::array<int, 2>& resolution) {
     Sensor view = paper_room().sensors.front();
-    view.camera.resolution = resolution;
+    std::get<Camera>(view.kind).resolution = resolution;
     return view;
 }
 
 Sensor view_of_head(const std::array<int, 2>& resolution) {
     Sensor view = view_of_room(resolution);
     view.name = "head";
-    view.camera.position = kEye_m;
-    view.camera.target = kMiddle_m;
-    view.camera.fov_deg = kFov_deg;
+    auto& camera = std::get<Camera>(view.kind);
+    camera.position = kEye_m;
+    camera.target = kMiddle_m;
+    camera.fov_deg = kFov_deg;
     return view;
 }
 

@@ -116,7 +116,7 @@ double normal_error_rad(const std::vector<HeadPoint>& points, const Harmonics& s
 void study_series(const std::vector<Scene>& scenes, const HeadStudyOptions& options, PictureSink* progress,
                   HeadStudy& study) {
     const Sensor view = view_of_head(options.resolution);
-    const std::vector<HeadPoint> points = visible_points(scenes.front(), view.camera);
+    const std::vector<HeadPoint> points = visible_points(scenes.front(), *view.camera());
     study.head_share = static_cast<double>(points.size()) / (options.resolution[0] * options.resolution[1]);
     std::vector<RenderedHead> heads = render_in_turn(scenes, view, options, progress);
     study.mesh = std::move(heads.front());

@@ -28,7 +28,7 @@ std::vector<statistics::Estimate> multiply_reflected_cd_m2(const Scene& scene, c
         const std::vector<statistics::Estimate> once = measure(scene, sensor, first, progress);
         for (std::size_t j = 0; j < total.size(); ++j) differences.push_back(total[j].value - once[j].value);
     }
-    return statistics::estimate_readings({differences, sensor.measurands.size()});
+    return statistics::estimate_readings({differences, sensor.size()});
 }
 
 }  // namespace stilb::papers

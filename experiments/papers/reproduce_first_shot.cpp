@@ -119,7 +119,7 @@ void reproduce_scene(std::string_view lights, const std::filesystem::path& direc
                                               .caster = caster,
                                               .max_reflections = transport::kUnlimited,
                                               .preparation_key = math::RandomKey{1},
-                                              .camera = file.sensors.front().camera},
+                                              .camera = *file.sensors.front().camera()},
                                              lights_of_scene);
     const auto look = [&](const ConvergenceState& state) {
         if (!state.method.is_shown || std::ranges::find(kShownSteps, state.steps) == kShownSteps.end())

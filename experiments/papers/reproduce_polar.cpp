@@ -76,10 +76,10 @@ std::vector<Distribution> distributions(const Sensor& sensor) {
 }  // namespace
 
 void reproduce_polar(const std::filesystem::path& directory) {
-    const Sensor sensor =
-        sensors::make_goniometer_sensor("polar", {{kRadius_m, 0, 0}, {0, 0, 1}, 0.0, kStep_deg});
+    const Goniometer goniometer{{kRadius_m, 0, 0}, {0, 0, 1}, 0.0, kStep_deg};
+    const Sensor sensor{"polar", goniometer};
     std::vector<double> theta_deg;
-    for (const PolarAngles& angles : sensor.angles) theta_deg.push_back(angles.theta_deg);
+    for (std::size_t j = 0; j < goniometer.size(); ++j) theta_deg.push_back(goniometer.angles(j).theta_deg);
     std::vector<io::Column> columns{{"theta_deg", theta_deg}};
     plot::PolarPlot plot{"Sobolev's problem with Phong surfaces: light reflected more than once",
                          "luminance, cd/m²; r = h1 + h2 = 1 m, h1 = h2, source of 1 cd; θ > 0: away from it",

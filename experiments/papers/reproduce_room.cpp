@@ -24,7 +24,7 @@ void reproduce_room(const std::filesystem::path& directory) {
     origin.seed = file.run.seed;
     cli::TerminalProgress progress("passes");
     const io::Picture picture =
-        cli::picture_of(render(file.scene, view, file.run, &progress), view.camera, origin);
+        cli::picture_of(render(file.scene, view, file.run, &progress), *view.camera(), origin);
     for (const char* name : {"room.exr", "room.png"}) write_picture(picture, directory / name);
 }
 

@@ -60,17 +60,18 @@ std::vector<statistics::Estimate> measure(const Sensor& sensor, const std::strin
 }
 
 std::vector<statistics::Estimate> local_lx(const std::vector<double>& radii, std::uint64_t chains) {
-    Sensor sensor{"radius", SensorType::illuminance, {}};
+    IlluminancePoints points;
     for (const double r : radii)
-        sensor.measurands.push_back(verification::sobolev_point(kPlanes, exact::Plane::first, r, 0));
-    return measure(sensor, "local", chains, 1);
+        points.points.push_back(verification::sobolev_point(kPlanes, exact::Plane::first, r, 0));
+    return measure({"radius", points}, "local", chains, 1);
 }
 
 /// By the luminance L of the diffuse plane, which is looked at from above: E = pi L / p1.
 std::vector<statistics::Estimate> double_local_lx(const std::vector<double>& radii, std::uint64_t seed) {
-    Sensor sensor{"radius", SensorType::luminance, {}};
-    for (const double r : radii) sensor.measurands.push_back(LineOfSight{{r, 0, kEyeHeight}, {0, 0, -1}});
-    std::vector<statistics::Estimate> estimates = measure(sensor, "double-local", kFewChains, seed);
+    Luminance lines;
+    for (const double r : radii) lines.sights.emplace_back(LineOfSight{{r, 0, kEyeHeight}, {0, 0, -1}});
+    std::vector<statistics::Estimate> estimates =
+        measure({"radius", lines}, "double-local", kFewChains, seed);
     for (statistics::Estimate& estimate : estimates)
         estimate = scaled(estimate, std::numbers::pi / kPlanes.reflectance_1);
     return estimates;

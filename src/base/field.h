@@ -24,6 +24,8 @@ struct Range {
     constexpr bool contains(double value) const { return value >= min && value <= max; }
 };
 
+inline constexpr Range kAngle{-1e6, 1e6, "an angle from -1e6 to 1e6 degrees"};
+
 /// Whether a key may be missing: then the member keeps the value that it is made with.
 enum class Presence { required, optional };
 
@@ -38,6 +40,8 @@ struct Field {
 };
 template <typename Owner, typename Value>
 Field(std::string_view, Value Owner::*, Range, std::string_view) -> Field<Owner, Value>;
+template <typename Owner, typename Value>
+Field(std::string_view, Value Owner::*, Range, std::string_view, Presence) -> Field<Owner, Value>;
 
 /// Calls `visit(field)` for each parameter of T, in order.
 template <typename T, typename Visit>

@@ -35,12 +35,36 @@ std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const S
     return "in a closed space without a light";
 }
 
-std::vector<MeasuringPoint> places_of(const Sensor& sensor) {
-    const Camera& camera = sensor.camera;
-    if (sensor.type == SensorType::camera) return {{camera.position, sensors::CameraView(camera).forward()}};
-    std::vector<MeasuringPoint> places;
-    for (const Measurand& measurand : sensor.measurands) places.push_back(place_of(measurand));
-    return places;
+/// Rays to where the light of the readings comes from.
+std::vector<ProbeRay> rays_of(const Sensor& sensor, const rays::RayCaster& caster) {
+    if (const Camera* camera = sensor.camera()) {
+        const MeasuringPoint eye{camera->position, sensors::CameraView(*camera).forward()};
+        return {{lifted_position(eye, caster), eye.normal}};
+    }
+    std::vector<ProbeRay> rays;
+    for (const Measurand& measurand : sensor.measurands()) {
+        const MeasuringPoint point = viewpoint_of(measurand);
+        const auto* body = std::get_if<BodyPoint>(&measurand);
+        rays.push_back(
+            {body ? lifted_position(*body, caster) : lifted_position(point, caster), point.normal});
+    }
+    return rays;
+}
+
+/// Bodies stand free; one on a surface is probably meant to.
+std::optional<std::string> body_warning(const Sensor& sensor, const rays::RayCaster& caster) {
+    std::size_t on_surfaces = 0;
+    for (const Measurand& measurand : sensor.measurands()) {
+        const auto* body = std::get_if<BodyPoint>(&measurand);
+        on_surfaces += body && surface_at(*body, caster);
+    }
+    if (on_surfaces == 0) return std::nullopt;
+    const std::string which =
+        sensor.size() == 1 ? "it lies" : fmt::format("{} of {} points lie", on_surfaces, sensor.size());
+    return fmt::format(
+        "sensor \"{}\": {} on a surface, which hides half of the surroundings from a sensor of type {}. Move "
+        "{} off the surface, or measure illuminance with a normal.",
+        sensor.name, which, sensor.type(), on_surfaces == 1 ? "it" : "them");
 }
 
 std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosure, std::size_t>& counts,
@@ -90,13 +114,15 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
     EnclosureList lit, of_sensors;
     for (const EnclosureList& of_light : spaces.of_lights())
         lit.insert(lit.end(), of_light.begin(), of_light.end());
-    if (lit.empty()) return {};
-
     std::vector<std::string> warnings;
     for (const Sensor& sensor : sensors) {
+        if (auto warning = body_warning(sensor, caster)) warnings.push_back(std::move(*warning));
+    }
+    if (lit.empty()) return warnings;
+
+    for (const Sensor& sensor : sensors) {
         std::map<Enclosure, std::size_t> counts;
-        for (const MeasuringPoint& point : places_of(sensor))
-            ++counts[spaces.enclosure_of({lifted_position(point, caster), point.normal})];
+        for (const ProbeRay& ray : rays_of(sensor, caster)) ++counts[spaces.enclosure_of(ray)];
         for (const auto& [space, count] : counts) of_sensors.push_back(space);
         if (auto fault = fault_of(sensor, counts, lit, scene)) warnings.push_back(std::move(*fault));
     }

@@ -146,15 +146,15 @@ Json camera_json(const Camera& camera) {
 }
 
 Json sensor_json(const Sensor& sensor) {
-    Json json{{"name", sensor.name}, {"type", name_of(sensor.type)}};
-    if (sensor.type == SensorType::camera) {
-        json.update(camera_json(sensor.camera));
+    Json json{{"name", sensor.name}, {"type", sensor.type()}};
+    if (const Camera* camera = sensor.camera()) {
+        json.update(camera_json(*camera));
         return json;
     }
     Bounds bounds;
-    for (const Measurand& measurand : sensor.measurands) bounds.include(position_of(measurand));
-    json["points"] = sensor.measurands.size();
-    if (sensor.type == SensorType::grid) json["count"] = sensor.grid.count;
+    for (const Measurand& measurand : sensor.measurands()) bounds.include(position_of(measurand));
+    json["points"] = sensor.size();
+    if (const auto count = sensor.count()) json["count"] = *count;
     json["extent"] = extent_json(bounds);
     return json;
 }

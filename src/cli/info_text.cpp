@@ -134,10 +134,8 @@ std::string camera_text(const Json& camera) {
 std::string readings_text(const Json& sensor) {
     if (sensor.contains("count")) return size_text(sensor["count"], "points");
     const std::size_t readings = count(sensor, "points");
-    const std::string type = text(sensor, "type");
-    const char* thing = type == "luminance" ? "line" : type == "goniometer" ? "direction" : "point";
-    return fmt::format("{} {}{}{}", readings, thing, readings == 1 ? "" : "s",
-                       type == "luminance" ? " of sight" : "");
+    const sensors::Noun noun = sensors::readings_of_type(text(sensor, "type"));
+    return fmt::format("{} {}", readings, readings == 1 ? noun.one : noun.many);
 }
 
 std::string sensor_text(const Json& sensor) {

@@ -43,7 +43,7 @@ const Sensor& sensor_named(const std::string& name, const std::vector<Sensor>& a
                      {file});
 }
 
-bool is_camera(const Sensor& sensor) { return sensor.type == SensorType::camera; }
+bool is_camera(const Sensor& sensor) { return sensor.camera() != nullptr; }
 
 /// All sensors but cameras.
 std::vector<Sensor> measured_sensors(const std::vector<Sensor>& all, const std::string& file) {

@@ -3,25 +3,24 @@
 #include <fmt/format.h>
 
 namespace stilb::cli {
-namespace {
-
-struct PlaceText {
-    std::string operator()(const MeasuringPoint& point) const {
-        return fmt::format("at {} facing {}", place_text(point.position), direction_text(point.normal));
-    }
-    std::string operator()(const LineOfSight& sight) const {
-        return fmt::format("from {} along {}", place_text(sight.position), direction_text(sight.direction));
-    }
-    std::string operator()(const EmergentRay& ray) const {
-        return fmt::format("at {} towards {}", place_text(ray.position), direction_text(ray.direction));
-    }
-};
-
-}  // namespace
 
 std::string place_text(const Vec3& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z); }
 std::string direction_text(const Vec3& d) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x, d.y, d.z); }
 
-std::string place_text(const Measurand& measurand) { return std::visit(PlaceText{}, measurand); }
+std::string place_text(const Place& place) {
+    std::string text = fmt::format("{} {}", place.preposition, place_text(place.position));
+    for (const Place::Direction& direction : place.directions) {
+        if (!direction.preposition.empty())
+            text += fmt::format(" {} {}", direction.preposition, direction_text(direction.value));
+    }
+    return text;
+}
+
+std::string angles_text(const Place& place) {
+    std::string text;
+    for (const Place::Angle& angle : place.angles)
+        text += fmt::format("{}{} {:5.5g}°", text.empty() ? "" : "  ", angle.name, angle.value_deg);
+    return text;
+}
 
 }  // namespace stilb::cli

@@ -39,7 +39,7 @@ Sensor chosen_camera(const io::SceneFile& file, const RenderRequest& request) {
     std::vector<Sensor> cameras;
     std::vector<std::string_view> names;
     for (const Sensor& sensor : file.sensors) {
-        if (sensor.type == SensorType::camera) cameras.push_back(sensor);
+        if (sensor.camera()) cameras.push_back(sensor);
     }
     for (const Sensor& camera : cameras) names.push_back(camera.name);
     if (cameras.empty()) {
@@ -90,7 +90,7 @@ class RenderProgress final : public TerminalProgress {
 };
 
 void print_summary(const RenderResult& result, const Sensor& sensor) {
-    const auto& [width, height] = sensor.camera.resolution;
+    const auto& [width, height] = sensor.camera()->resolution;
     fmt::print("{}: {} x {} pixels, mean luminance {:.4g} cd/m²\n", sensor.name, width, height,
                result.mean_luminance_cd_m2);
     if (result.replicates > 1) {
@@ -149,14 +149,14 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
         origin.method = "solution";
         origin.seed = stored->seed;
         const int threads = request.flags.threads.value_or(file.run.threads);
-        RenderProgress progress(request, sensor.camera, origin);
+        RenderProgress progress(request, *sensor.camera(), origin);
         return render_solution(file.scene, sensor, std::move(stored->solution), threads, &progress,
                                &watch_for_interrupt());
     }
     const RunOptions options = request.flags.over(file.run);
     origin.method = options.method;
     origin.seed = options.seed;
-    RenderProgress progress(request, sensor.camera, origin);
+    RenderProgress progress(request, *sensor.camera(), origin);
     return render(file.scene, sensor, options, &progress, &watch_for_interrupt());
 }
 
@@ -182,7 +182,7 @@ int run_render(RenderRequest request) {
     if (!request.flags.quiet) {
         for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
     }
-    const io::Picture picture = picture_of(result, sensor.camera, origin);
+    const io::Picture picture = picture_of(result, *sensor.camera(), origin);
     const auto curve = write_picture(picture, request.output, request.tone);
     if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
     print_summary(result, sensor);

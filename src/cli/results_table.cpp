@@ -39,18 +39,12 @@ std::string end_text(const SensorResult& result, std::size_t j) {
     return hit ? ", meets " + place_text(*hit) : ", leaves the scene";
 }
 
-/// Where a reading is made and which way it looks.
-std::string reading_place(const SensorResult& result, const Sensor& sensor, std::size_t j) {
-    const std::string place = place_text(sensor.measurands[j]);
-    return sensor.type == SensorType::luminance ? place + end_text(result, j) : place;
-}
-
 std::string reading_text(const SensorResult& result, const Sensor& sensor, std::size_t j) {
     const std::string value = fmt::format("{} {}", with_error(result.readings[j].estimate), unit_of(sensor));
-    if (sensor.type != SensorType::goniometer)
-        return fmt::format("{}   {}\n", value, reading_place(result, sensor, j));
-    const auto [theta_deg, phi_deg] = sensor.angles[j];
-    return fmt::format("theta {:5.5g}°  phi {:5.5g}°   {}\n", theta_deg, phi_deg, value);
+    const Place place = sensor.place(j);
+    if (place.angles.empty())
+        return fmt::format("{}   {}{}\n", value, place_text(place), end_text(result, j));
+    return fmt::format("{}   {}\n", angles_text(place), value);
 }
 
 std::string grid_values(const SensorResult& result, const std::array<int, 2>& count) {
@@ -67,21 +61,11 @@ std::string grid_values(const SensorResult& result, const std::array<int, 2>& co
 }
 
 std::string size_text(const Sensor& sensor) {
-    const std::size_t readings = sensor.measurands.size();
-    const auto& count = sensor.grid.count;
-    switch (sensor.type) {
-        case SensorType::grid:
-            return fmt::format("{} x {} grid", count[0], count[1]);
-        case SensorType::luminance:
-            return fmt::format("{} lines of sight", readings);
-        case SensorType::goniometer: {
-            const auto [point, normal] = place_of(sensor.measurands.front());
-            return fmt::format("{} directions from {} facing {}", readings, place_text(point),
-                               direction_text(normal));
-        }
-        default:
-            return fmt::format("{} points", readings);
-    }
+    if (const auto count = sensor.count()) return fmt::format("{} x {} grid", (*count)[0], (*count)[1]);
+    const std::string readings =
+        fmt::format("{} {}", sensor.size(), sensors::readings_of_type(sensor.type()).many);
+    const auto place = sensor.common_place();
+    return place ? fmt::format("{} {}", readings, place_text(*place)) : readings;
 }
 
 std::string summary_text(const statistics::GridSummary& summary, const Sensor& sensor) {
@@ -98,7 +82,7 @@ std::string summary_text(const statistics::GridSummary& summary, const Sensor& s
 
 std::string sensor_table(const SensorResult& result) {
     const Sensor& sensor = result.sensor;
-    const std::size_t readings = sensor.measurands.size();
+    const std::size_t readings = sensor.size();
     if (readings == 1) return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0));
     std::string text = fmt::format("{:12}  {}", sensor.name, size_text(sensor));
     if (!std::isnan(result.attained_error)) {
@@ -106,9 +90,10 @@ std::string sensor_table(const SensorResult& result) {
     }
     text += '\n';
     text += summary_text(result.summary, sensor);
-    const auto& count = sensor.grid.count;
-    if (sensor.type == SensorType::grid)
-        return count[0] <= kMostColumns && count[1] <= kMostRows ? text + grid_values(result, count) : text;
+    if (const auto count = sensor.count()) {
+        const bool fits = (*count)[0] <= kMostColumns && (*count)[1] <= kMostRows;
+        return fits ? text + grid_values(result, *count) : text;
+    }
     if (readings > kMostReadings) return text;
     for (std::size_t j = 0; j < readings; ++j) text += "    " + reading_text(result, sensor, j);
     return text;

@@ -28,18 +28,18 @@ std::string capitalized(std::string text) {
     return text;
 }
 
-io::MeasuredGrid measured_grid(const SensorResult& result) {
+io::MeasuredGrid measured_grid(const SensorResult& result, const Grid& of) {
     const Sensor& sensor = result.sensor;
     const Quantity quantity = sensor.quantity();
     io::MeasuredGrid grid;
     grid.name = sensor.name;
     grid.quantity = quantity.name;
     grid.unit = quantity.unit;
-    grid.count = sensor.grid.count;
+    grid.count = of.count;
     // As in files, which have no more than the middles of the cells.
     const auto [nu, nv] = grid.count;
-    const double cell_u_m = nu > 1 ? length(sensor.grid.edge_u) / nu : 0;
-    const double cell_v_m = nv > 1 ? length(sensor.grid.edge_v) / nv : 0;
+    const double cell_u_m = nu > 1 ? length(of.edge_u) / nu : 0;
+    const double cell_v_m = nv > 1 ? length(of.edge_v) / nv : 0;
     grid.width_m = nu * (nu > 1 ? cell_u_m : cell_v_m);
     grid.height_m = nv * (nv > 1 ? cell_v_m : cell_u_m);
     for (const Reading& reading : result.readings) grid.values.push_back(reading.estimate.value);
@@ -54,7 +54,8 @@ io::MeasuredGrid measured_grid(const SensorResult& result) {
 FalseColour picture_of(const RunResult& result, const std::string& scene) {
     io::ResultsFile results{scene, {}};
     for (const SensorResult& sensor : result.sensors) {
-        if (sensor.sensor.type == SensorType::grid) results.grids.push_back(measured_grid(sensor));
+        if (const auto* grid = std::get_if<Grid>(&sensor.sensor.kind))
+            results.grids.push_back(measured_grid(sensor, *grid));
     }
     return picture_of(results);
 }

@@ -30,8 +30,9 @@ double allowed_m(const Harmonics& object, std::span<const Sensor> sensors) {
         allowed = std::min(allowed, 0.5 * footprint_rad * distance_m);
     };
     for (const Sensor& sensor : sensors) {
-        if (sensor.type == SensorType::camera) include(sensor.camera.position, pixel_rad(sensor.camera));
-        for (const Measurand& measurand : sensor.measurands) include(position_of(measurand), kFootprint_rad);
+        if (const Camera* camera = sensor.camera()) include(camera->position, pixel_rad(*camera));
+        for (const Measurand& measurand : sensor.measurands())
+            include(position_of(measurand), kFootprint_rad);
     }
     return allowed;
 }

@@ -80,7 +80,7 @@ class Campaign final : public Work {
         double worst = 0;
         std::size_t first = 0;
         for (const Sensor& sensor : sensors_) {
-            const std::size_t count = sensor.measurands.size();
+            const std::size_t count = sensor.size();
             const std::vector<double> means = replicate_means(first, count);
             worst = std::max(worst, statistics::attained_error(statistics::estimate_readings(
                                         {means, count}, statistics::kStoppedConfidence)));
@@ -158,7 +158,7 @@ void require_measurable(std::span<const Sensor> sensors, const estimators::Estim
 /// A goniometer that stands on nothing has nothing to measure.
 void require_surfaces(std::span<const Sensor> sensors, const rays::RayCaster& caster) {
     for (const Sensor& sensor : sensors) {
-        for (const Measurand& measurand : sensor.measurands) {
+        for (const Measurand& measurand : sensor.measurands()) {
             const auto* ray = std::get_if<EmergentRay>(&measurand);
             if (!ray || transport::first_surface(measurand, caster)) continue;
             const Vec3& p = ray->position;
@@ -186,7 +186,7 @@ RunOptions with_target(RunOptions options, const estimators::EstimatorEntry& met
 
 SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::size_t first,
                            std::span<const std::optional<Vec3>> sight_ends, double confidence) {
-    const std::size_t count = sensor.measurands.size();
+    const std::size_t count = sensor.size();
     SensorResult result;
     result.sensor = sensor;
     result.replicate_means = campaign.replicate_means(first, count);
@@ -204,7 +204,7 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
     }
     for (std::size_t j = 0; j < count; ++j)
         result.readings.push_back({estimates[j], campaign.rgb(first + j)});
-    if (sensor.type == SensorType::luminance) {
+    if (std::holds_alternative<Luminance>(sensor.kind)) {
         const auto ends = sight_ends.subspan(first, count);
         result.sub_points.assign(ends.begin(), ends.end());
     }
@@ -216,17 +216,16 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
         std::size_t heavy = 0;
-        for (std::size_t j = 0; j < sensor.measurands.size(); ++j)
-            heavy += campaign.is_heavy_tailed(first + j);
+        for (std::size_t j = 0; j < sensor.size(); ++j) heavy += campaign.is_heavy_tailed(first + j);
         if (heavy > 0) {
             warnings.push_back(fmt::format(
                 "sensor \"{}\": in {} of {} readings a single contribution is more than {:.2g} % of the sum; "
                 "the variance is probably infinite there (a corner) and the interval may not hold. Use "
                 "method auto.",
-                sensor.name, heavy, sensor.measurands.size(),
+                sensor.name, heavy, sensor.size(),
                 100 * statistics::heavy_tail_share(campaign.samples_in_all())));
         }
-        first += sensor.measurands.size();
+        first += sensor.size();
     }
     return warnings;
 }
@@ -235,9 +234,8 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
 struct Wanted {
     explicit Wanted(std::span<const Sensor> sensors) {
         for (const Sensor& sensor : sensors) {
-            measurands.insert(measurands.end(), sensor.measurands.begin(), sensor.measurands.end());
-            weights.insert(weights.end(), sensor.measurands.size(),
-                           1 / static_cast<double>(sensor.measurands.size()));
+            std::ranges::copy(sensor.measurands(), std::back_inserter(measurands));
+            weights.insert(weights.end(), sensor.size(), 1 / static_cast<double>(sensor.size()));
         }
         if (measurands.empty()) {
             throw InputError("no sensor to measure: the scene needs one under [sensors]");
@@ -304,7 +302,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
         result.sensors.push_back(sensor_result(campaign, sensor, first, estimator->sight_ends(), confidence));
-        first += sensor.measurands.size();
+        first += sensor.size();
     }
     add_warnings(campaign, sensors, scene, session.caster(), method, asked_options, result.warnings);
     session.finish(result);

@@ -266,7 +266,7 @@ using MakeEstimator = std::function<std::unique_ptr<estimators::Estimator>(const
 RenderResult render_by(const MakeEstimator& make, std::uint64_t replicates, const Scene& scene,
                        const Sensor& sensor, const RunOptions& asked, const RunOptions& options,
                        PictureSink* sink, const std::atomic<bool>* interrupt) {
-    const Camera& camera = sensor.camera;
+    const Camera& camera = *sensor.camera();
     Session session(scene, asked, options, sink, interrupt);
     const std::vector<bool> blind = blind_pixels(camera);
     RenderResult result;

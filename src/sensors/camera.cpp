@@ -1,5 +1,7 @@
 #include "sensors/camera.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,7 +23,41 @@ double per_pixel(const Camera& camera) {
     return width / camera.resolution[0];
 }
 
+struct FieldOfView {
+    Range range;
+    double default_deg = 0;
+};
+
+FieldOfView field_of_view(Projection projection) {
+    switch (projection) {
+        case Projection::perspective:
+            return {{0.001, 179.9, "an angle above 0 and below 180 degrees (from 0.001 to 179.9)"}, 60};
+        case Projection::fisheye:
+            return {{0.001, 360, "an angle above 0 (from 0.001 to 360 degrees)"}, 180};
+        case Projection::panorama:
+            return {{0.001, 360, "an angle above 0 (from 0.001 to 360 degrees)"}, 360};
+    }
+    return {};
+}
+
 }  // namespace
+
+std::optional<Fault> Camera::settle(const GivenKeys& given) {
+    constexpr double least = 1e-6;  // sine of the angle between up and the view
+    if (length(cross(normalized(target - position), up)) < least) {
+        if (given.has("up"))
+            return Fault{"up",
+                         "is parallel to the way from position to target, so that no side of the picture is "
+                         "up. Allowed: any other direction."};
+        return Fault{"target",
+                     "lies straight above or below the position, so that no side of the picture is up. "
+                     "Allowed: any other point, or another \"up\" than [0, 0, 1]."};
+    }
+    const FieldOfView view = field_of_view(projection);
+    if (!given.has("fov")) fov_deg = view.default_deg;
+    if (view.range.contains(fov_deg)) return std::nullopt;
+    return Fault{"fov", fmt::format("{} is not allowed. Allowed: {}.", fov_deg, view.range.allowed)};
+}
 
 CameraView::CameraView(const Camera& camera)
     : position_(camera.position),

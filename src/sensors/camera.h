@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
-#include "base/vec.h"
+#include "sensors/fields.h"
 
 namespace stilb::sensors {
 
@@ -37,6 +39,31 @@ struct Camera {
     std::array<int, 2> resolution{1, 1};  ///< width and height in pixels
     Projection projection = Projection::perspective;
     PixelFilter filter = PixelFilter::box;
+
+    static constexpr std::string_view kType = "camera";
+    static constexpr Quantity kQuantity = kLuminance;
+    static constexpr Noun kReadings{"pixel", "pixels"};
+    /// Files of larger pictures could not be read back.
+    static constexpr CountLimit kLimit{"[width, height]", 100'000, 64'000'000, "pixels", "in a picture"};
+    static constexpr Range kAnyNumber{std::numeric_limits<double>::lowest(),
+                                      std::numeric_limits<double>::max(), "a number"};
+    static constexpr auto fields() {
+        return std::tuple{
+            PositionField{"position", &Camera::position, "of the eye"},
+            TargetField{"target", &Camera::target, &Camera::position, "in the middle of the picture"},
+            DirectionField{"up", &Camera::up, "upwards in the picture; by default [0, 0, 1]",
+                           Presence::optional, false},
+            Field{"fov", &Camera::fov_deg, kAnyNumber,
+                  "from the left edge to the right one [degrees]; range and default go by the projection",
+                  Presence::optional},
+            CountsField{"resolution", &Camera::resolution, kLimit, "width and height in pixels"},
+            ChoiceField{"projection", &Camera::projection, kProjectionNames,
+                        "how directions are laid out; by default perspective"},
+            ChoiceField{"filter", &Camera::filter, kPixelFilterNames,
+                        "how the luminances around a pixel make its value; by default box"}};
+    }
+    /// Sets the field of view where it is not given.
+    std::optional<Fault> settle(const GivenKeys& given);
 };
 
 /// A camera with its axes. Places are in pixels from the upper left corner of the picture, y downwards:

@@ -1,8 +1,9 @@
 #include "sensors/goniometer.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "lights/luminaire_frame.h"
 
@@ -13,23 +14,6 @@ namespace {
 std::int64_t steps_below(double limit_deg, double step_deg) {
     constexpr double rounding = 1e-9;
     return static_cast<std::int64_t>(std::ceil(limit_deg / step_deg - rounding)) - 1;
-}
-
-std::vector<PolarAngles> angles_of(const Goniometer& goniometer) {
-    const double step = goniometer.step_deg;
-    const std::int64_t thetas = steps_below(90, step), phis = steps_below(360, step);
-    std::vector<PolarAngles> angles;
-    angles.reserve(static_cast<std::size_t>(direction_count(goniometer)));
-    for (std::int64_t t = goniometer.plane_deg ? -thetas : 0; t <= thetas; ++t) {
-        const double theta = static_cast<double>(t) * step;
-        if (goniometer.plane_deg) {
-            angles.push_back({theta, *goniometer.plane_deg});
-            continue;
-        }
-        for (std::int64_t p = 0; p <= (t > 0 ? phis : 0); ++p)
-            angles.push_back({theta, static_cast<double>(p) * step});
-    }
-    return angles;
 }
 
 /// The frame that directions are given in, w along the normal.
@@ -47,21 +31,37 @@ Vec3 local_direction(const PolarAngles& angles) {
 
 }  // namespace
 
-std::int64_t direction_count(const Goniometer& goniometer) {
-    const std::int64_t thetas = steps_below(90, goniometer.step_deg);
-    if (goniometer.plane_deg) return 2 * thetas + 1;
-    return 1 + thetas * (steps_below(360, goniometer.step_deg) + 1);
+std::optional<Fault> Goniometer::settle(const GivenKeys&) const {
+    const std::int64_t count = direction_count();
+    if (count <= kMostReadings) return std::nullopt;
+    return Fault{"step", fmt::format("asks for {} directions. Allowed: {} readings in all sensors together.",
+                                     count, kMostReadings)};
 }
 
-Sensor make_goniometer_sensor(std::string name, const Goniometer& goniometer) {
-    Sensor sensor{std::move(name), SensorType::goniometer, {}};
-    sensor.angles = angles_of(goniometer);
-    const Frame frame = frame_of(goniometer.normal);
-    for (const PolarAngles& angles : sensor.angles) {
-        const Vec3 direction = normalized(frame.to_world(local_direction(angles)));
-        sensor.measurands.push_back(EmergentRay{goniometer.point, goniometer.normal, direction});
-    }
-    return sensor;
+std::int64_t Goniometer::direction_count() const {
+    const std::int64_t thetas = steps_below(90, step_deg);
+    if (plane_deg) return 2 * thetas + 1;
+    return 1 + thetas * (steps_below(360, step_deg) + 1);
+}
+
+PolarAngles Goniometer::angles(std::size_t j) const {
+    const auto i = static_cast<std::int64_t>(j);
+    if (plane_deg) return {static_cast<double>(i - steps_below(90, step_deg)) * step_deg, *plane_deg};
+    if (i == 0) return {0, 0};
+    const std::int64_t azimuths = steps_below(360, step_deg) + 1;
+    return {static_cast<double>(1 + (i - 1) / azimuths) * step_deg,
+            static_cast<double>((i - 1) % azimuths) * step_deg};
+}
+
+Measurand Goniometer::measurand(std::size_t j) const {
+    return EmergentRay{point, normal, normalized(frame_of(normal).to_world(local_direction(angles(j))))};
+}
+
+Place Goniometer::place(std::size_t j) const {
+    Place place = place_of(measurand(j));
+    const auto [theta_deg, phi_deg] = angles(j);
+    place.angles = {{"theta", theta_deg}, {"phi", phi_deg}};
+    return place;
 }
 
 }  // namespace stilb::sensors

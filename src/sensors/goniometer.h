@@ -3,12 +3,19 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
+#include <string_view>
+#include <tuple>
 
-#include "base/vec.h"
-#include "sensors/sensor.h"
+#include "sensors/fields.h"
+#include "sensors/measurand.h"
 
 namespace stilb::sensors {
+
+/// A direction in the frame of a surface: `theta_deg` from its normal, `phi_deg` about it. In a polar plane
+/// theta has a sign and phi is the plane's azimuth; otherwise theta is at least 0.
+struct PolarAngles {
+    double theta_deg = 0, phi_deg = 0;
+};
 
 /// Directions at equal steps that all leave the surface: theta = 0, step, 2 step ... below 90 degrees.
 ///
@@ -20,16 +27,38 @@ struct Goniometer {
     Vec3 point, normal{0, 0, 1};  ///< a unit vector
     std::optional<double> plane_deg;
     double step_deg = 5;  ///< above 0, at most 90
+
+    static constexpr std::string_view kType = "goniometer";
+    static constexpr Quantity kQuantity = kLuminance;
+    static constexpr Noun kReadings{"direction", "directions"};
+    static constexpr auto fields() {
+        return std::tuple{PositionField{"point", &Goniometer::point, "of a surface"},
+                          DirectionField{"normal", &Goniometer::normal, "away from the surface"},
+                          Field{"plane", &Goniometer::plane_deg, kAngle,
+                                "azimuth of one plane [degrees]; else all around", Presence::optional},
+                          Field{"step", &Goniometer::step_deg,
+                                Range{0.001, 90, "an angle above 0 (from 0.001 to 90 degrees)"},
+                                "between directions [degrees]"}};
+    }
+    std::optional<Fault> settle(const GivenKeys& given) const;
+
+    /// theta rises, and for each theta phi.
+    PolarAngles angles(std::size_t j) const;
+    std::size_t size() const { return static_cast<std::size_t>(direction_count()); }
+    Measurand measurand(std::size_t j) const;
+    /// With the angles of the direction.
+    Place place(std::size_t j) const;
+    /// What the places of all readings have in common.
+    Place common_place() const { return {"from", point, {{"normal", "facing", normal}}}; }
+
+  private:
+    /// How many there are; more than memory holds where the step is small.
+    std::int64_t direction_count() const;
 };
-
-/// How many directions it has.
-std::int64_t direction_count(const Goniometer& goniometer);
-
-/// A sensor with an EmergentRay and its angles for each direction; theta rises, and for each theta phi.
-Sensor make_goniometer_sensor(std::string name, const Goniometer& goniometer);
 
 }  // namespace stilb::sensors
 
 namespace stilb {
 using sensors::Goniometer;
+using sensors::PolarAngles;
 }  // namespace stilb

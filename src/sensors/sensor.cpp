@@ -1,38 +1,92 @@
 #include "sensors/sensor.h"
 
-#include <utility>
-
-#include "rays/ray_caster.h"
+#include <algorithm>
+#include <stdexcept>
 
 namespace stilb::sensors {
+namespace {
 
-MeasuringPoint place_of(const Measurand& measurand) {
-    if (const auto* sight = std::get_if<LineOfSight>(&measurand)) return {sight->position, sight->direction};
-    if (const auto* ray = std::get_if<EmergentRay>(&measurand)) return {ray->position, ray->normal};
-    return std::get<MeasuringPoint>(measurand);
+template <typename Kind>
+concept HasReadings = requires(const Kind& kind) {
+    kind.measurand(std::size_t{});
+};
+
+template <typename... Kinds>
+constexpr std::array<Noun, sizeof...(Kinds)> nouns(std::type_identity<std::variant<Kinds...>>) {
+    return {Kinds::kReadings...};
 }
 
-std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster) {
-    const double most = caster.offset_m(point.position, caster.half_extent_m());
-    const auto below = caster.closest(point.position + most * point.normal, -point.normal);
-    return below && below->distance_m < 2 * most ? below : std::nullopt;
+}  // namespace
+
+Noun readings_of_type(std::string_view type) {
+    constexpr auto all = nouns(std::type_identity<SensorKind>{});
+    const auto found = std::find(kSensorTypeNames.begin(), kSensorTypeNames.end(), type);
+    return found != kSensorTypeNames.end() ? all[static_cast<std::size_t>(found - kSensorTypeNames.begin())]
+                                           : kPoints;
 }
 
-Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster) {
-    if (const auto surface = surface_at(point, caster)) return surface->lifted;
-    return point.position + caster.offset_m(point.position, 0) * point.normal;
+std::string_view Sensor::type() const {
+    return std::visit([]<typename Kind>(const Kind&) { return Kind::kType; }, kind);
 }
 
-Sensor make_grid_sensor(std::string name, const Grid& grid, const Vec3& normal) {
-    Sensor sensor{std::move(name), SensorType::grid, {}, grid};
-    const auto [nu, nv] = grid.count;
-    for (int v = 0; v < nv; ++v) {
-        for (int u = 0; u < nu; ++u) {
-            const Vec3 position = grid.corner + (u + 0.5) / nu * grid.edge_u + (v + 0.5) / nv * grid.edge_v;
-            sensor.measurands.push_back(MeasuringPoint{position, normal});
-        }
-    }
-    return sensor;
+Quantity Sensor::quantity() const {
+    return std::visit([]<typename Kind>(const Kind&) { return Kind::kQuantity; }, kind);
+}
+
+std::size_t Sensor::size() const {
+    return std::visit(
+        []<typename Kind>(const Kind& one) -> std::size_t {
+            if constexpr (HasReadings<Kind>) return one.size();
+            return 0;
+        },
+        kind);
+}
+
+Measurand Sensor::measurand(std::size_t j) const {
+    return std::visit(
+        [j]<typename Kind>(const Kind& one) -> Measurand {
+            if constexpr (HasReadings<Kind>) return one.measurand(j);
+            throw std::logic_error("a sensor without readings has no measurand");
+        },
+        kind);
+}
+
+std::vector<Measurand> Sensor::measurands() const {
+    std::vector<Measurand> all;
+    const std::size_t count = size();
+    all.reserve(count);
+    for (std::size_t j = 0; j < count; ++j) all.push_back(measurand(j));
+    return all;
+}
+
+Place Sensor::place(std::size_t j) const {
+    return std::visit(
+        [this, j]<typename Kind>(const Kind& one) {
+            if constexpr (requires { one.place(j); }) {
+                return one.place(j);
+            } else {
+                return place_of(measurand(j));
+            }
+        },
+        kind);
+}
+
+std::optional<Place> Sensor::common_place() const {
+    return std::visit(
+        []<typename Kind>(const Kind& one) -> std::optional<Place> {
+            if constexpr (requires { one.common_place(); }) return one.common_place();
+            return std::nullopt;
+        },
+        kind);
+}
+
+std::optional<std::array<int, 2>> Sensor::count() const {
+    return std::visit(
+        []<typename Kind>(const Kind& one) -> std::optional<std::array<int, 2>> {
+            if constexpr (requires { one.count; }) return one.count;
+            return std::nullopt;
+        },
+        kind);
 }
 
 }  // namespace stilb::sensors

@@ -1,111 +1,68 @@
-// What is measured: illuminance at points, luminance along lines of sight, pictures.
+// Sensors: what is measured. One file a kind; a kind is a struct with
+//
+//     kType, kQuantity, kReadings     how files name it, what its numbers are, what its readings are called
+//     fields()                        its keys in scene files (fields.h, base/field.h)
+//     size(), measurand(j)            its readings, all of one quantity; cameras have none
+//
+// and, where it has them, settle(given) for what its keys say together, place(j) where results show more than
+// place_of(measurand), common_place() and `count` for rows and columns. The scene reader, JSON, CSV, the
+// table and `info` take all that they need from there: a new kind is its files and a line in SensorKind.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
-#include "base/vec.h"
+#include "sensors/bodies.h"
 #include "sensors/camera.h"
-
-namespace stilb::rays {
-class RayCaster;
-struct Hit;
-}  // namespace stilb::rays
+#include "sensors/goniometer.h"
+#include "sensors/illuminance.h"
+#include "sensors/luminance.h"
 
 namespace stilb::sensors {
 
-/// The illuminance [lx] that arrives at `position` on the side that the unit `normal` points to.
-struct MeasuringPoint {
-    Vec3 position, normal;
-};
+using SensorKind = std::variant<IlluminancePoints, Grid, Cylindrical, Semicylindrical, Hemispherical,
+                                Spherical, Luminance, Goniometer, Camera>;
 
-/// The luminance [cd/m2] that arrives at `position` when one looks along the unit `direction`.
-struct LineOfSight {
-    Vec3 position, direction;
-};
-
-/// The luminance [cd/m2] that leaves the surface at `position`, on the side that the unit `normal` points to,
-/// along the unit `direction`, away from the surface.
-struct EmergentRay {
-    Vec3 position, normal, direction;
-};
-
-/// What one reading is of.
-using Measurand = std::variant<MeasuringPoint, LineOfSight, EmergentRay>;
-
-inline const Vec3& position_of(const Measurand& measurand) {
-    return std::visit([](const auto& m) -> const Vec3& { return m.position; }, measurand);
+template <typename... Kinds>
+constexpr std::array<std::string_view, sizeof...(Kinds)> type_names(
+    std::type_identity<std::variant<Kinds...>>) {
+    return {Kinds::kType...};
 }
-/// Where a reading is made, and the side that light comes from.
-MeasuringPoint place_of(const Measurand& measurand);
-inline bool is_luminance(const Measurand& measurand) {
-    return !std::holds_alternative<MeasuringPoint>(measurand);
-}
+/// As scene files have them, in the order of SensorKind.
+inline constexpr auto kSensorTypeNames = type_names(std::type_identity<SensorKind>{});
 
-/// What a number says, as in "illuminance [lx]".
-struct Quantity {
-    std::string_view name, unit;
-};
-inline constexpr Quantity kIlluminance{"illuminance", "lx"}, kLuminance{"luminance", "cd/m2"};
-
-/// A rectangle of cells that are measured at their centres.
-struct Grid {
-    Vec3 corner, edge_u, edge_v;
-    std::array<int, 2> count{1, 1};
-};
-
-/// The surface that a point lies on, on the side of its normal.
-std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster);
-
-/// Where rays from a measuring point start: lifted along its normal, off the surface that it lies on, if any.
-Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster);
-
-enum class SensorType { illuminance, grid, luminance, goniometer, camera };
-inline constexpr std::array<std::string_view, 5> kSensorTypeNames{"illuminance", "grid", "luminance",
-                                                                  "goniometer", "camera"};
-constexpr std::string_view name_of(SensorType type) {
-    return kSensorTypeNames[static_cast<std::size_t>(type)];
-}
-
-/// A direction in the frame of a surface: `theta_deg` from its normal, `phi_deg` about it. In a polar plane
-/// theta has a sign and phi is the plane's azimuth; otherwise theta is at least 0.
-struct PolarAngles {
-    double theta_deg = 0, phi_deg = 0;
-};
+/// What the readings of sensors of a type are called.
+Noun readings_of_type(std::string_view type);
 
 struct Sensor {
     std::string name;
-    SensorType type = SensorType::illuminance;
-    /// One for each reading, all of one quantity; grids: u fastest. Cameras have none.
-    std::vector<Measurand> measurands;
-    /// Meaningful for SensorType::grid.
-    Grid grid{};
-    /// Meaningful for SensorType::camera.
-    Camera camera{};
-    /// SensorType::goniometer: the direction of each measurand.
-    std::vector<PolarAngles> angles{};
+    SensorKind kind;
 
-    bool measures_luminance() const { return type >= SensorType::luminance; }
-    Quantity quantity() const { return measures_luminance() ? kLuminance : kIlluminance; }
+    std::string_view type() const;
+    Quantity quantity() const;
+    bool measures_luminance() const { return quantity().unit == kLuminance.unit; }
+
+    /// Number of readings; a camera, which makes a picture, has none.
+    std::size_t size() const;
+    Measurand measurand(std::size_t j) const;
+    /// All of them, in order.
+    std::vector<Measurand> measurands() const;
+    Place place(std::size_t j) const;
+    /// What the places of all readings have in common, where results say it once.
+    std::optional<Place> common_place() const;
+    /// Columns and rows of readings that cover an area, u fastest.
+    std::optional<std::array<int, 2>> count() const;
+    /// Nothing where the sensor is none.
+    const Camera* camera() const { return std::get_if<Camera>(&kind); }
 };
-
-/// A grid sensor with a point at every cell's centre, all with the unit vector `normal`.
-Sensor make_grid_sensor(std::string name, const Grid& grid, const Vec3& normal);
 
 }  // namespace stilb::sensors
 
 namespace stilb {
-using sensors::EmergentRay;
-using sensors::Grid;
-using sensors::LineOfSight;
-using sensors::Measurand;
-using sensors::MeasuringPoint;
-using sensors::PolarAngles;
-using sensors::Quantity;
 using sensors::Sensor;
-using sensors::SensorType;
 }  // namespace stilb

@@ -8,9 +8,9 @@ namespace {
 /// Without the response. Direction and distance are those of the point itself; only the shadow ray starts
 /// lifted.
 Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster) {
-    const double cosine = dot(light.direction, receiver.normal());
-    if (cosine <= 0) return {};
-    return cosine * light.normal_illuminance_lx *
+    const double sensitivity = receiver.sensitivity(light.direction);
+    if (sensitivity <= 0) return {};
+    return sensitivity * light.normal_illuminance_lx *
            caster.transmittance({receiver.lifted(), light.source_point});
 }
 

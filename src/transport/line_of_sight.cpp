@@ -55,7 +55,7 @@ class LineOfSightFollower {
 }  // namespace
 
 std::optional<rays::Hit> first_surface(const Measurand& luminance, const rays::RayCaster& caster) {
-    const MeasuringPoint place = place_of(luminance);
+    const MeasuringPoint place = viewpoint_of(luminance);
     if (std::holds_alternative<LineOfSight>(luminance)) {
         return caster.closest(lifted_position(place, caster), place.normal);
     }

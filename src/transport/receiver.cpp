@@ -31,6 +31,17 @@ Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const ray
       constant_response_(Rgb::grey(1)),
       reading_(reading) {}
 
+Receiver::Receiver(std::uint32_t reading, const BodyPoint& body, const rays::RayCaster& caster)
+    : position_(body.position),
+      lifted_(lifted_position(body, caster)),
+      frame_(Frame::of_surface(body.axis)),
+      body_(body.sensitivity),
+      material_(&white()),
+      outgoing_{0, 0, 1},
+      factor_(Rgb::grey(kPi)),
+      constant_response_(Rgb::grey(1)),
+      reading_(reading) {}
+
 Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material)
     : position_(sub_point.surface.position),
       lifted_(sub_point.surface.lifted),
@@ -46,6 +57,10 @@ Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Mater
     }
 }
 
+double Receiver::sensitivity(const Vec3& direction) const {
+    return body_ ? body_->of(frame_.to_local(direction)) : std::max(0.0, dot(direction, normal_));
+}
+
 Rgb Receiver::response(const Vec3& direction) const {
     if (constant_response_) return *constant_response_;
     return factor_ * evaluate_brdf_per_sr(*material_, frame_.to_local(direction), outgoing_);
@@ -57,12 +72,17 @@ double Receiver::relative_response(const Vec3& direction) const {
 }
 
 std::optional<Receiver::Sample> Receiver::sample(double u1, double u2) const {
+    if (body_) {
+        const Vec3 local = body_->sample(u1, u2);
+        return Sample{frame_.to_world(local), factor_, body_->of(local) / kPi};
+    }
     const auto scattered = sample_brdf(*material_, outgoing_, u1, u2);
     if (!scattered) return std::nullopt;
     return Sample{frame_.to_world(scattered->direction), factor_ * scattered->weight, scattered->pdf_per_sr};
 }
 
 double Receiver::pdf_per_sr(const Vec3& direction) const {
+    if (body_) return sensitivity(direction) / kPi;
     return stilb::materials::pdf_per_sr(*material_, outgoing_, frame_.to_local(direction));
 }
 
@@ -75,6 +95,23 @@ Receiver Receiver::without_response() const {
     return result;
 }
 
+std::optional<Receiver> receiver_of_illuminance(std::uint32_t reading, const Measurand& measurand,
+                                                const rays::RayCaster& caster) {
+    struct Make {
+        std::uint32_t reading;
+        const rays::RayCaster& caster;
+        std::optional<Receiver> operator()(const MeasuringPoint& point) const {
+            return Receiver(reading, point, caster);
+        }
+        std::optional<Receiver> operator()(const BodyPoint& body) const {
+            return Receiver(reading, body, caster);
+        }
+        std::optional<Receiver> operator()(const LineOfSight&) const { return std::nullopt; }
+        std::optional<Receiver> operator()(const EmergentRay&) const { return std::nullopt; }
+    };
+    return std::visit(Make{reading, caster}, measurand);
+}
+
 std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
     std::vector<Vec3> positions;
     for (const Receiver& receiver : receivers) positions.push_back(receiver.position());
@@ -82,6 +119,8 @@ std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
     std::vector<std::uint32_t> order(receivers.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return codes[a] < codes[b]; });
+    // So that at most one packet has bodies beside other receivers.
+    std::stable_partition(order.begin(), order.end(), [&](auto i) { return !receivers[i].is_body(); });
     std::vector<Receiver> sorted;
     sorted.reserve(receivers.size());
     for (const std::uint32_t i : order) sorted.push_back(receivers[i]);

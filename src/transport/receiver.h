@@ -16,9 +16,12 @@ namespace stilb::transport {
 /// Reflections without limit.
 inline constexpr int kUnlimited = std::numeric_limits<int>::max();
 
-/// A point with a normal where light arrives: to its reading it adds
+/// A point where light arrives: to its reading it adds
 ///
-///     integral over the hemisphere of L(direction) response(direction) cos(theta) d direction.
+///     integral over the sphere of L(direction) response(direction) sensitivity(direction) d direction.
+///
+/// On a surface the sensitivity is cos+ to the normal; on a small body that stands free it is the mean of
+/// that over the body's surface. The integral of either is pi.
 ///
 /// For illuminance the response is 1. For luminance the point is a sub-point z of the line of sight, and the
 /// response is the BRDF there times what mirrors and glass leave of the light on its way to the sensor
@@ -27,6 +30,7 @@ class Receiver {
   public:
     /// Of illuminance.
     Receiver(std::uint32_t reading, const MeasuringPoint& point, const rays::RayCaster& caster);
+    Receiver(std::uint32_t reading, const BodyPoint& body, const rays::RayCaster& caster);
     /// Of luminance. `material`: of the sub-point, not specular.
     Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material);
 
@@ -34,7 +38,11 @@ class Receiver {
     void set_reading(std::uint32_t reading) { reading_ = reading; }
     const Vec3& position() const { return position_; }
     const Vec3& lifted() const { return lifted_; }  ///< where rays start
+    /// 0 where the point is on no surface but a body.
     const Vec3& normal() const { return normal_; }
+    bool is_body() const { return body_ != nullptr; }
+    /// For unit directions towards where light comes from.
+    double sensitivity(const Vec3& direction) const;
     /// What is left of a limit to all reflections for light before it arrives here.
     int reflections_left(int max_reflections) const {
         return max_reflections == kUnlimited ? kUnlimited : max_reflections - reflections_;
@@ -49,10 +57,10 @@ class Receiver {
 
     struct Sample {
         Vec3 direction;
-        Rgb weight;  ///< response cos(theta) / pdf
+        Rgb weight;  ///< response x sensitivity / pdf
         double pdf_per_sr = 0;
     };
-    /// A direction that light may come from, about in proportion to response x cosine; nothing where the
+    /// A direction that light may come from, about in proportion to response x sensitivity; nothing where the
     /// surface absorbs the light.
     std::optional<Sample> sample(double u1, double u2) const;
     double pdf_per_sr(const Vec3& direction) const;
@@ -63,17 +71,22 @@ class Receiver {
   private:
     Vec3 position_, lifted_, normal_;
     Frame frame_;
-    const Material* material_;  ///< owned by the scene; white for illuminance
-    Vec3 outgoing_;             ///< in the frame of the surface
+    const sensors::Sensitivity* body_ = nullptr;  ///< nothing on a surface
+    const Material* material_;                    ///< owned by the scene; white for illuminance
+    Vec3 outgoing_;                               ///< in the frame of the surface
     Rgb factor_;
     std::optional<Rgb> constant_response_;
     int reflections_ = 0;  ///< from here to the sensor
     std::uint32_t reading_ = 0;
 };
 
-/// The receivers of all readings, sorted along a space-filling (Morton) curve: neighbours in space share
-/// packets of rays. A packet is kPacketWidth of them from a multiple of kPacketWidth on. A reading may have
-/// several (several sub-points) or none.
+/// Of an illuminance; nothing of a luminance.
+std::optional<Receiver> receiver_of_illuminance(std::uint32_t reading, const Measurand& measurand,
+                                                const rays::RayCaster& caster);
+
+/// The receivers of all readings, sorted along a space-filling (Morton) curve, bodies after all others:
+/// neighbours in space share packets of rays. A packet is kPacketWidth of them from a multiple of
+/// kPacketWidth on. A reading may have several (several sub-points) or none.
 std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers);
 
 }  // namespace stilb::transport

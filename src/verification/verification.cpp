@@ -2,10 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "statistics/hypothesis.h"
 
 namespace stilb::verification {
+
+namespace {
+
+struct SensorOf {
+    Sensor operator()(const MeasuringPoint& point) const { return {"", IlluminancePoints{{point}}}; }
+    Sensor operator()(const BodyPoint&) const { throw std::logic_error("no case has bodies"); }
+    Sensor operator()(const LineOfSight& sight) const { return {"", Luminance{{sight}}}; }
+    Sensor operator()(const EmergentRay& ray) const { return {"", Luminance{{ray}}}; }
+};
+
+}  // namespace
 
 const CheckedReading& Verification::worst() const {
     return *std::max_element(readings.begin(), readings.end(),
@@ -32,11 +44,9 @@ CheckedReading check(const ExactReading& exact, const statistics::Estimate& meas
 
 Verification verify(const VerificationCase& verification_case, const RunOptions& options,
                     ProgressSink* progress, const std::atomic<bool>* interrupt) {
-    const SensorType type =
-        verification_case.measures_luminance() ? SensorType::luminance : SensorType::illuminance;
     std::vector<Sensor> sensors;  // one for each reading: a run's target is met by 95 % of each sensor's
     for (const ExactReading& reading : verification_case.readings) {
-        sensors.push_back({"", type, {reading.measurand}});
+        sensors.push_back(std::visit(SensorOf{}, reading.measurand));
     }
     const RunResult measured = run::measure(verification_case.scene, sensors, options, progress, interrupt);
     Verification result{verification_case.name,

@@ -45,8 +45,10 @@ std::vector<std::string> methods_for(const AgreementScene& scene) {
 /// Of all methods in a scene: each pair, and each against itself, in every reading and for the means.
 std::size_t comparisons_in(const AgreementScene& scene) {
     const std::size_t methods = methods_for(scene).size();
-    const std::size_t means = (scene.points.empty() ? 0 : 1) + (scene.sights.empty() ? 0 : 1);
-    return methods * (methods + 1) / 2 * (scene.points.size() + scene.sights.size() + means);
+    const std::vector<Sensor> sensors = scene.sensors();
+    std::size_t compared = sensors.size();  // their means
+    for (const Sensor& sensor : sensors) compared += sensor.size();
+    return methods * (methods + 1) / 2 * compared;
 }
 
 double threshold_z() {
@@ -77,10 +79,7 @@ Measured measure(const Scene& scene, const AgreementScene& of, const std::string
     options.paths = paths;
     options.bounces = of.bounces;
     options.replicates = kReplicates;
-    std::vector<Sensor> sensors;
-    if (!of.points.empty()) sensors.push_back(point_sensor(of.points));
-    if (!of.sights.empty()) sensors.push_back({"sights", SensorType::luminance, of.sights});
-    const RunResult result = run::measure(scene, sensors, options);
+    const RunResult result = run::measure(scene, of.sensors(), options);
     Measured measured{method + " with seed " + std::to_string(seed), {}};
     for (const SensorResult& sensor : result.sensors) {
         for (const Reading& reading : sensor.readings) measured.estimates.push_back(reading.estimate);

@@ -23,16 +23,16 @@ struct Coverage {
 };
 
 /// Short runs, with few chains each, as intervals are the least sure there.
-Coverage coverage_of(const Scene& scene, const MeasuringPoint& point, double exact_lx,
-                     const std::string& method, std::uint64_t paths) {
-    const std::vector<Sensor> sensors{point_sensor({point})};
+Coverage coverage_of(const Scene& scene, const Sensor& sensor, double exact_lx, const std::string& method,
+                     std::uint64_t paths) {
     Coverage coverage;
     for (int i = 0; i < kRuns; ++i) {
         RunOptions options;
         options.method = method;
         options.seed = 1'000'000 + static_cast<std::uint64_t>(i);
         options.paths = paths;
-        const statistics::Estimate e = run::measure(scene, sensors, options).sensors[0].readings[0].estimate;
+        const statistics::Estimate e =
+            run::measure(scene, {&sensor, 1}, options).sensors[0].readings[0].estimate;
         coverage.share += e.lower <= exact_lx && exact_lx <= e.upper ? 1.0 / kRuns : 0;
         coverage.mean_half_width += relative_half_width(e) / kRuns;
     }
@@ -54,7 +54,8 @@ TEST_P(CoverageOf, ThePhotometricSphere) {
     const Vec3 source{0.5, 0.3, -0.4}, to_wall = normalized(Vec3{1, 2, -1});
     add_point_light(scene, source, 100 * kWhite);
     const double exact_lx = exact::illuminance_lx({2, 0.7}, 4 * std::numbers::pi * 100, source, to_wall);
-    expect_to_hold(coverage_of(scene, {2 * to_wall, -to_wall}, exact_lx, GetParam(), 32 * 64));
+    expect_to_hold(
+        coverage_of(scene, point_sensor({{2 * to_wall, -to_wall}}), exact_lx, GetParam(), 32 * 64));
 }
 
 TEST_P(CoverageOf, SobolevsProblem) {
@@ -68,7 +69,8 @@ TEST_P(CoverageOf, SobolevsProblem) {
     add_point_light(scene, {0, 0, planes.distance_1_m}, planes.intensity_cd * kWhite);
     const exact::SobolevProblem problem(planes);
     const double exact_lx = problem.illuminance_lx(exact::Plane::first, kRadius);
-    const Coverage coverage = coverage_of(scene, {{kRadius, 0, 0}, {0, 0, 1}}, exact_lx, GetParam(), 32 * 64);
+    const Coverage coverage =
+        coverage_of(scene, point_sensor({{{kRadius, 0, 0}, {0, 0, 1}}}), exact_lx, GetParam(), 32 * 64);
     expect_to_hold(coverage);
     // What the finite planes lose is nothing beside the intervals.
     EXPECT_LT(problem.truncation_bound_lx(exact::Plane::first, kRadius, kHalfSize) / exact_lx,
@@ -83,8 +85,25 @@ TEST(CoverageInACorner, OfAFurnace) {
     Scene scene;
     add_area_light(scene, inward({{0, 0, 0}, {4, 3, 2.8}}), kLuminance * kWhite, diffuse(kReflectance));
     const double exact_lx = exact::furnace_illuminance_lx(kLuminance, kReflectance);
-    const MeasuringPoint corner{{0.005, 0.005, 0.005}, {0, 0, 1}};
+    const Sensor corner = point_sensor({{{0.005, 0.005, 0.005}, {0, 0, 1}}});
     expect_to_hold(coverage_of(scene, corner, exact_lx, "auto", 32 * 64));
+}
+
+/// By the mean illuminance on a sphere about the middle of the photometric sphere: all walls have the same
+/// illuminance of reflected light, so that their luminance is uniform beside the direct light.
+TEST(CoverageOfABody, AtTheMiddleOfThePhotometricSphere) {
+    constexpr double kReflectance = 0.7, kIntensity_cd = 100, kRadius_m = 2;
+    const Vec3 source{0.5, 0.3, -0.4};
+    Scene scene;
+    add_object(scene, Sphere{{0, 0, 0}, kRadius_m}, diffuse(kReflectance));
+    add_point_light(scene, source, kIntensity_cd * kWhite);
+    // What the walls reflect of the direct light comes to the middle as the mean over them, F / A; with what
+    // they go on to reflect the mean luminance is rho / (1 - rho) F / (A pi).
+    const double flux_lm = 4 * std::numbers::pi * kIntensity_cd;
+    const double area_m2 = 4 * std::numbers::pi * kRadius_m * kRadius_m;
+    const double exact_lx =
+        kIntensity_cd / (4 * squared_length(source)) + kReflectance / (1 - kReflectance) * flux_lm / area_m2;
+    expect_to_hold(coverage_of(scene, {"middle", Spherical{{{0, 0, 0}}}}, exact_lx, "auto", 32 * 64));
 }
 
 }  // namespace

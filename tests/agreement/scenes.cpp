@@ -332,6 +332,14 @@ Scene closed_box() {
     return scene;
 }
 
+std::vector<Sensor> AgreementScene::sensors() const {
+    std::vector<Sensor> all;
+    if (!points.empty()) all.push_back({"points", IlluminancePoints{points}});
+    if (!sights.empty()) all.push_back({"sights", Luminance{sights}});
+    all.insert(all.end(), bodies.begin(), bodies.end());
+    return all;
+}
+
 std::span<const AgreementScene> agreement_scenes() {
     using enum Demand;
     // Away from walls, so that plain local estimation has finite variance.
@@ -400,6 +408,16 @@ std::span<const AgreementScene> agreement_scenes() {
         LineOfSight{{2, -1, 1.6}, normalized(Vec3{1.3, 1.7, -1.2})},
         LineOfSight{{2, -1, 1.6}, normalized(Vec3{0, 0.3, 1})},
         EmergentRay{{2.1, 1.1, 0}, kUp, normalized(Vec3{0.2, 0.9, 0.6})}};
+    static const std::vector<Vec3> free{{1.1, 2.2, 1.2}, {3.1, 0.6, 1.6}};
+    static const std::vector<Sensor> bodies{
+        {"cylinders", Cylindrical{free}},
+        {"semicylinders", Semicylindrical{free, normalized(Vec3{1, -2, 0})}},
+        {"hemispheres", Hemispherical{free, normalized(Vec3{-1, 0.5, 0.2})}},
+        {"spheres", Spherical{free}}};
+    static const std::vector<Sensor> near_corners{
+        {"cylinders", Cylindrical{{{0.005, 0.005, 1.2}, {3.995, 1.5, 0.005}}}},
+        {"semicylinders", Semicylindrical{{{0.005, 0.005, 1.2}}, {1, 0, 0}}},
+        {"spheres", Spherical{{{2, 2.995, 2.795}}}}};
     static const std::vector<AgreementScene> scenes{
         {"ClosedBox", nothing, {}, closed_box, inside, {}},
         {"ColouredBox", nothing, {}, coloured_box, inside, {}},
@@ -461,6 +479,12 @@ std::span<const AgreementScene> agreement_scenes() {
         {"RoomUnderSkyTwoReflections", nothing, 2, room_under_sky, inside, about_the_window},
         {"RoomWithGlazing", nothing, {}, room_with_glazing, inside, about_the_window},
         {"Outdoors", nothing, {}, outdoors, inside, outside},
+        {"BodiesInColour", nothing, {}, coloured_box, {}, {}, bodies},
+        {"BodiesNearCorners", finite_variance, {}, bright_box, {}, {}, near_corners},
+        {"BodiesBesidePhong", nothing, {}, broad_phong_box, inside, {}, bodies},
+        {"BodiesAndMirrors", nothing, {}, mirror_and_panel, {}, {}, bodies},
+        {"BodiesUnderLuminaires", nothing, {}, photometry_luminaires, {}, {}, bodies},
+        {"BodiesOneReflection", nothing, 1, mixed_room, {}, {}, bodies},
     };
     return scenes;
 }

@@ -25,6 +25,10 @@ struct AgreementScene {
     Scene (*make)();
     std::vector<MeasuringPoint> points;
     std::vector<Measurand> sights;  ///< of luminance
+    std::vector<Sensor> bodies{};   ///< cylindrical illuminance and the like
+
+    /// Points, sights and bodies.
+    std::vector<Sensor> sensors() const;
 };
 
 std::span<const AgreementScene> agreement_scenes();

@@ -20,7 +20,7 @@ Scene furnished_room() {
 }
 
 Sensor at(const Vec3& position, const Vec3& normal = {0, 0, 1}) {
-    return {"probe", SensorType::illuminance, {MeasuringPoint{position, normal}}};
+    return {"probe", IlluminancePoints{{{position, normal}}}};
 }
 
 Texts warnings_of(const Scene& scene, const std::vector<Sensor>& sensors) {
@@ -38,8 +38,7 @@ TEST(Placement, SensorsInTheRoomAreFine) {
 }
 
 TEST(Placement, PointsInsideACabinetAreCounted) {
-    const Sensor grid =
-        sensors::make_grid_sensor("desk", {{0, 0, 0.75}, {4, 0, 0}, {0, 4, 0}, {8, 8}}, {0, 0, 1});
+    const Sensor grid{"desk", Grid{{0, 0, 0.75}, {4, 0, 0}, {0, 4, 0}, {8, 8}}};
     const Texts warnings = warnings_of(furnished_room(), {grid});
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_EQ(
@@ -143,21 +142,20 @@ TEST(Placement, AMeshOfSeveralClosedParts) {
 }
 
 TEST(Placement, LinesOfSightAndCamerasInTheDark) {
-    const Sensor sight{"sight", SensorType::luminance, {LineOfSight{{0.5, 0.5, 1}, {1, 0, 0}}}};
-    Sensor camera{"view", SensorType::camera, {}};
-    camera.camera = {.position = {0.5, 0.5, 1}, .target = {3, 3, 1}};
+    const Sensor sight{"sight", Luminance{{LineOfSight{{0.5, 0.5, 1}, {1, 0, 0}}}}};
+    Sensor camera{"view", Camera{.position = {0.5, 0.5, 1}, .target = {3, 3, 1}}};
     const Texts warnings = warnings_of(furnished_room(), {sight, camera});
     ASSERT_EQ(warnings.size(), 2u);
     EXPECT_TRUE(has(warnings[0], "sensor \"sight\": it lies inside object \"cabinet\"")) << warnings[0];
     EXPECT_TRUE(has(warnings[0], "it reads 0 cd/m2")) << warnings[0];
     EXPECT_TRUE(has(warnings[1], "sensor \"view\": it lies inside object \"cabinet\"")) << warnings[1];
-    camera.camera.position = {2, 2, 1};
+    std::get<Camera>(camera.kind).position = {2, 2, 1};
     EXPECT_EQ(warnings_of(furnished_room(), {camera}), Texts{});
 }
 
 TEST(Placement, GoniometersMeasureOnTheSideOfTheirNormal) {
     const auto goniometer = [](const Vec3& normal) {
-        return Sensor{"probe", SensorType::goniometer, {EmergentRay{{4, 2, 1}, normal, normal}}};
+        return Sensor{"probe", Goniometer{{4, 2, 1}, normal, 0.0, 90}};
     };
     EXPECT_EQ(warnings_of(furnished_room(), {goniometer({-1, 0, 0})}).size(), 0u);
     EXPECT_EQ(warnings_of(furnished_room(), {goniometer({1, 0, 0})}).size(), 1u);

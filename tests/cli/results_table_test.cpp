@@ -21,10 +21,11 @@ TEST(ResultsTable, ShowsLinesOfSightAndDirections) {
               "    mean 150.0 ± 2.0 cd/m²   minimum 100.0 ± 2.0 cd/m²   maximum 200.0 ± 2.0 cd/m²\n"
               "    100.0 ± 2.0 cd/m²   from (2, 0, 1) along (0, 1, 0), meets (2, 4, 1)\n"
               "    200.0 ± 2.0 cd/m²   from (2, 0, 1) along (0, 0, 1), leaves the scene\n"
-              "solid         2 directions from (2, 2, 0) facing (0, 0, 1); 95 % of the readings within 7 %\n"
+              "solid         3 directions from (2, 2, 0) facing (0, 0, 1); 95 % of the readings within 7 %\n"
               "    mean 150.0 ± 2.0 cd/m²   minimum 100.0 ± 2.0 cd/m²   maximum 200.0 ± 2.0 cd/m²\n"
+              "    theta   -60°  phi    90°   29.0 ± 2.0 cd/m²\n"
               "    theta     0°  phi    90°   30.0 ± 2.0 cd/m²\n"
-              "    theta 36.87°  phi    90°   31.0 ± 2.0 cd/m²\n"
+              "    theta    60°  phi    90°   31.0 ± 2.0 cd/m²\n"
               "\n"
               "auto, 0 paths in 0.00 s: all paths done; error 0 %\n");
 }
@@ -32,7 +33,7 @@ TEST(ResultsTable, ShowsLinesOfSightAndDirections) {
 TEST(ResultsTable, OneLineOfSightIsOneLine) {
     RunResult made = io::luminance_results();
     made.sensors.resize(1);
-    made.sensors[0].sensor.measurands.resize(1);
+    std::get<Luminance>(made.sensors[0].sensor.kind).sights.resize(1);
     made.sensors[0].sub_points.clear();
     EXPECT_TRUE(has(table_of(made), "\nview          100.0 ± 2.0 cd/m²   from (2, 0, 1) along (0, 1, 0)\n"))
         << table_of(made);
@@ -99,9 +100,21 @@ TEST(ResultsTable, LightsNeedNoWordsWithoutFirstShot) {
     EXPECT_TRUE(table_of(made).ends_with("\n1000 patches of 0.25 m; no first shot\n")) << table_of(made);
 }
 
+TEST(ResultsTable, ShowsBodies) {
+    RunResult made = io::luminance_results();
+    const Sensor face{"face", Semicylindrical{{{1, 2, 3}}, {0, 1, 0}}};
+    const Sensor people{"people", Cylindrical{{{1, 2, 3}, {2, 2, 3}}}};
+    made.sensors = {{face, {io::reading(500)}, {}, {}, 0.01},
+                    {people, {io::reading(100), io::reading(90)}, {}, {}, 0.01}};
+    EXPECT_TRUE(has(table_of(made), "\nface           500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 1, 0)\n"))
+        << table_of(made);
+    EXPECT_TRUE(has(table_of(made), "\npeople        2 points; 95 % of")) << table_of(made);
+    EXPECT_TRUE(has(table_of(made), "\n    90.0 ± 2.0 lx   at (2, 2, 3)\n")) << table_of(made);
+}
+
 TEST(ResultsTable, NamesTheQuantities) {
     RunResult made = io::luminance_results();
-    const Sensor eye{"eye", SensorType::illuminance, {MeasuringPoint{{1, 2, 3}, {0, 0, 1}}}};
+    const Sensor eye{"eye", IlluminancePoints{{{{1, 2, 3}, {0, 0, 1}}}}};
     made.sensors.push_back({eye, {io::reading(500)}, {}, {}, 0.01});
     EXPECT_TRUE(table_of(made).starts_with("Illuminance and luminance, with 95 % intervals\n"));
     EXPECT_TRUE(has(table_of(made), "\neye           500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 0, 1)\n"));

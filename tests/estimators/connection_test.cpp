@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "estimators/receivers.h"
@@ -75,6 +76,72 @@ Rgb contribution_lx(const transport::LightVertex& node, const MeasuringPoint& po
     const double weight =
         node.only_by_light ? 1 : 1 / (1 + transport::relative_brdf(*node.material, brdf) * g / k_per_m2);
     return node.flux_lm * brdf * (weight * g);
+}
+
+/// W f_r w G of a body with s in place of the cosine, likewise.
+double body_contribution(const transport::LightVertex& node, const BodyPoint& body, double k_per_m2,
+                         const rays::RayCaster& caster) {
+    const Vec3 way = body.position - node.position, w = normalized(way);
+    const double cos_node = dot(w, node.normal);
+    if (cos_node <= 0 || caster.occluded(node.lifted, lifted_position(body, caster))) return 0;
+    const double s = body.sensitivity->of(Frame::of_surface(body.axis).to_local(-w));
+    const double g = cos_node * s / squared_length(way);
+    const double reflectance = std::get<Diffuse>(*node.material).reflectance.luminance();
+    return node.flux_lm.luminance() * reflectance / std::numbers::pi * g / (1 + g / k_per_m2);
+}
+
+TEST(Fan, ConnectsBodiesBesideSurfaceElements) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, diffuse(0.5));
+    add_object(scene, Box{{1, 1, 0.5}, {1.7, 1.6, 1.2}}, diffuse(0.5));
+    const rays::RayCaster caster(scene);
+    const Material matt = diffuse(0.7);
+    RandomPairs random(31);
+    const std::vector<MeasuringPoint> points = random_points(21, random);
+    const std::vector<Vec3> at{{2.5, 1.2, 1.4}, {0.4, 2.3, 2.2}, {2.1, 0.4, 0.6}};
+    std::vector<Measurand> measurands(points.begin(), points.end());
+    for (const Sensor& sensor : {Sensor{"", Cylindrical{at}}, Sensor{"", Spherical{at}},
+                                 Sensor{"", Semicylindrical{at, {0.6, -0.8, 0}}},
+                                 Sensor{"", Hemispherical{at, normalized(Vec3{1, 2, -3})}}}) {
+        for (const Measurand& measurand : sensor.measurands()) measurands.push_back(measurand);
+    }
+    std::vector<transport::Receiver> receivers;
+    for (std::size_t j = 0; j < measurands.size(); ++j) {
+        receivers.push_back(
+            *transport::receiver_of_illuminance(static_cast<std::uint32_t>(j), measurands[j], caster));
+    }
+    const std::vector<transport::Receiver> sorted = sorted_receivers(receivers);
+    for (std::size_t j = 0; j < sorted.size(); ++j) EXPECT_EQ(sorted[j].is_body(), j >= points.size());
+    std::vector<transport::LightVertex> nodes;
+    for (int n = 0; n < 300; ++n) {
+        transport::LightVertex node;
+        node.position = random_point(random);
+        node.normal = random_direction(random);
+        node.lifted = node.position + 1e-5 * node.normal;
+        node.incoming = node.normal;
+        node.material = &matt;
+        node.flux_lm = {{random.next(), random.next(), random.next()}};
+        nodes.push_back(node);
+    }
+    constexpr double k = 0.2;
+    const std::vector<PointTile> tiles =
+        tiles_of(sorted, std::vector<double>(sorted.size(), k), caster, transport::kUnlimited);
+    ReadingSums sums(measurands.size());
+    Fan(caster, tiles).collect(nodes, sums);
+    int lit = 0;
+    for (std::size_t j = 0; j < measurands.size(); ++j) {
+        double expected = 0;
+        for (const transport::LightVertex& node : nodes) {
+            if (const auto* body = std::get_if<BodyPoint>(&measurands[j])) {
+                expected += body_contribution(node, *body, k, caster);
+            } else {
+                expected += contribution_lx(node, points[j], k, caster).luminance();
+            }
+        }
+        lit += expected > 0;
+        EXPECT_NEAR(sums.sum[j].luminance(), expected, 1e-4 * expected) << j;
+    }
+    EXPECT_EQ(lit, static_cast<int>(measurands.size()));
 }
 
 TEST(Fan, CollectsWhatAScalarEvaluationDoes) {

@@ -118,9 +118,9 @@ TEST(GridPicture, IsTheSameOfResultsAndTheirFile) {
     const auto add = [&](const std::string& name, const std::array<int, 2>& count) {
         SensorResult& grid = result.sensors.emplace_back();
         grid.sensor =
-            sensors::make_grid_sensor(name, {{1, 2, 0.75}, {1.7, 0, 0}, {0, 0, 1.1}, count}, {0, 1, 0});
+            {name, Grid{{1, 2, 0.75}, {1.7, 0, 0}, {0, 0, 1.1}, count, Vec3{0, 1, 0}}};
         std::vector<double> values;
-        for (std::size_t i = 0; i < grid.sensor.measurands.size(); ++i) {
+        for (std::size_t i = 0; i < grid.sensor.size(); ++i) {
             values.push_back(300 + 20. / 7 * static_cast<double>(i));
             grid.readings.push_back(reading(values.back()));
         }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/luminance_results.h"
@@ -38,8 +39,29 @@ TEST(ResultsJson, GoniometersHaveAngles) {
     EXPECT_EQ(solid["type"], "goniometer");
     EXPECT_EQ(solid["quantity"], "luminance");
     EXPECT_EQ(solid["values"][1], Json::parse(R"({"position": [2.0, 2.0, 0.0], "normal": [0.0, 0.0, 1.0],
-        "direction": [0.6, 0.0, 0.8], "hit": [2.0, 2.0, 0.0], "theta": 36.87, "phi": 90.0, "value": 31.0,
-        "standard_error": 1.0, "interval": [29.0, 33.0], "rgb": [41.0, 31.0, 21.0]})"));
+        "direction": [0.0, 0.0, 1.0], "hit": [2.0, 2.0, 0.0], "theta": 0.0, "phi": 90.0, "value": 30.0,
+        "standard_error": 1.0, "interval": [28.0, 32.0], "rgb": [40.0, 30.0, 20.0]})"));
+    const Json& last = solid["values"][2];
+    EXPECT_EQ(last["theta"], 60);
+    EXPECT_EQ(last["phi"], 90);
+    EXPECT_NEAR(last["direction"][1].get<double>(), std::sqrt(0.75), 1e-15);
+    EXPECT_NEAR(last["direction"][2].get<double>(), 0.5, 1e-15);
+}
+
+TEST(ResultsJson, BodiesHaveAnAxisWhereItIsNotTheVertical) {
+    RunResult made;
+    const Sensor semicylinder{"face", Semicylindrical{{{1, 2, 3}}, {0, 1, 0}}};
+    const Sensor sphere{"middle", Spherical{{{1, 2, 3}}}};
+    made.sensors = {{semicylinder, {reading(100)}, {}, {}, 0.02}, {sphere, {reading(200)}, {}, {}, 0.02}};
+    const Json face = json_of(made)[0], middle = json_of(made)[1];
+    EXPECT_EQ(face["type"], "semicylindrical");
+    EXPECT_EQ(face["quantity"], "semicylindrical illuminance");
+    EXPECT_EQ(face["unit"], "lx");
+    EXPECT_EQ(face["values"][0], Json::parse(R"({"position": [1.0, 2.0, 3.0], "direction": [0.0, 1.0, 0.0],
+        "value": 100.0, "standard_error": 1.0, "interval": [98.0, 102.0], "rgb": [110.0, 100.0, 90.0]})"));
+    EXPECT_TRUE(face["summary"].contains("uniformity"));
+    EXPECT_EQ(middle["values"][0], Json::parse(R"({"position": [1.0, 2.0, 3.0], "value": 200.0,
+        "standard_error": 1.0, "interval": [198.0, 202.0], "rgb": [210.0, 200.0, 190.0]})"));
 }
 
 TEST(ResultsJson, LuminancesHaveNoUniformity) {
@@ -90,8 +112,7 @@ TEST(ResultsJson, WithoutPatchesThereIsNoReport) {
 
 TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
     RunResult made = luminance_results();
-    const Sensor desk =
-        sensors::make_grid_sensor("desk", {{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}, {0, 0, 1});
+    const Sensor desk{"desk", Grid{{0, 0, 0.75}, {2, 0, 0}, {0, 1, 0}, {2, 1}}};
     made.sensors.push_back({desk, {reading(500), reading(510)}, {}, {}, 0.01});
     const ResultsFile read = read_results(to_json(made, "room.toml"), "room.json");
     ASSERT_EQ(read.grids.size(), 1u);

@@ -28,12 +28,11 @@ constexpr std::uint64_t kNoisyFactor = 4;
 constexpr Vec3 kMiddle{2, 1.5, 1.3};
 
 Sensor floor_grid() {
-    Sensor sensor{"illuminance", SensorType::illuminance, {}};
+    IlluminancePoints floor;
     for (int x = 0; x < 4; ++x) {
-        for (int y = 0; y < 3; ++y)
-            sensor.measurands.emplace_back(MeasuringPoint{{0.5 + x, 0.5 + y, 0.3}, {0, 0, 1}});
+        for (int y = 0; y < 3; ++y) floor.points.push_back({{0.5 + x, 0.5 + y, 0.3}, {0, 0, 1}});
     }
-    return sensor;
+    return {"illuminance", floor};
 }
 
 RunOptions options_of(std::string_view method, double error) {
@@ -46,22 +45,22 @@ RunOptions options_of(std::string_view method, double error) {
 /// All around, but not into lights: what is emitted is the same by all methods.
 Sensor sights(const Scene& scene) {
     constexpr int count = 96;
-    Sensor all{"luminance", SensorType::luminance, {}};
+    Luminance all;
     for (int i = 0; i < count; ++i) {  // a spiral over the sphere
         const double z = 1 - (2 * i + 1.0) / count, radius = std::sqrt(1 - z * z);
         const double angle = 2 * std::numbers::pi * i / std::numbers::phi;
-        all.measurands.emplace_back(
+        all.sights.emplace_back(
             LineOfSight{kMiddle, {radius * std::cos(angle), radius * std::sin(angle), z}});
     }
+    const Sensor sensor{"luminance", all};
     RunOptions emission = options_of("path", 0.1);
     emission.bounces = 0;
-    const RunResult emitted = run::measure(scene, {&all, 1}, emission);
-    Sensor sensor{all.name, all.type, {}};
-    for (std::size_t i = 0; i < all.measurands.size(); ++i) {
-        if (emitted.sensors[0].readings[i].estimate.value == 0)
-            sensor.measurands.push_back(all.measurands[i]);
+    const RunResult emitted = run::measure(scene, {&sensor, 1}, emission);
+    Luminance unlit;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (emitted.sensors[0].readings[i].estimate.value == 0) unlit.sights.push_back(all.sights[i]);
     }
-    return sensor;
+    return {"luminance", unlit};
 }
 
 /// Of all readings of each sensor.

@@ -23,11 +23,9 @@ Scene planes_with_sphere(double radius_m) {
 }
 
 TEST(MultiplyReflected, IsSobolevsSolutionLessTheFirstReflection) {
-    Sensor sensor{"along", SensorType::goniometer, {}};
-    for (const double r : {0.25, 1.0}) {
-        sensor.measurands.push_back(EmergentRay{{r, 0, 0}, {0, 0, 1}, {0, 0, 1}});
-        sensor.angles.push_back({});
-    }
+    Luminance rays;
+    for (const double r : {0.25, 1.0}) rays.sights.emplace_back(EmergentRay{{r, 0, 0}, {0, 0, 1}, {0, 0, 1}});
+    const Sensor sensor{"along", rays};
     RunOptions options;
     options.method = "double-local";
     options.paths = 16384;
@@ -36,7 +34,7 @@ TEST(MultiplyReflected, IsSobolevsSolutionLessTheFirstReflection) {
         multiply_reflected_cd_m2(planes_with_sphere(0.01), sensor, options, 8);
     const exact::SobolevProblem problem(kPlanes);
     for (std::size_t j = 0; j < measured.size(); ++j) {
-        const double r = position_of(sensor.measurands[j]).x;
+        const double r = position_of(rays.sights[j]).x;
         const double direct_lx = 0.5 / std::pow(0.25 + r * r, 1.5);
         const double reflected_lx = problem.illuminance_lx(exact::Plane::first, r) - direct_lx;
         const double exact_cd_m2 = kPlanes.reflectance_1 * reflected_lx / std::numbers::pi;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "run/measure.h"
 #include "run/render.h"
-#include "run/run.h"
 #include "run/solve.h"
 #include "statistics/hypothesis.h"
 #include "stilb/error.h"
@@ -70,10 +70,8 @@ void expect_all(const Scene& scene, const std::vector<Sensor>& sensors, const st
 TEST(Environment, LeavesAnOpenFurnaceAsItIs) {
     const Sensor points =
         point_sensor({{{2, 1, 0}, kUp}, {{2, 2.5, 1.5}, {0, 1, 0}}, {{1, 1, 1}, {1, 0, 0}}});
-    const Sensor sights{"sights",
-                        SensorType::luminance,
-                        {LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{1, 0.4, -1})},
-                         LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{0.1, 1, 0.1})}}};
+    const Sensor sights{"sights", Luminance{{LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{1, 0.4, -1})},
+                                             LineOfSight{{2, 1.5, 1.2}, normalized(Vec3{0.1, 1, 0.1})}}}};
     const double illuminance = std::numbers::pi * kEverywhere;
     const std::vector<double> exact{illuminance, illuminance, illuminance, kEverywhere, kEverywhere};
     for (const auto& [method, paths] : {std::pair{"ray-bundle", 1u << 13}, {"particles", 1u << 19}})
@@ -100,14 +98,15 @@ TEST(Environment, LightsTheFacesOfABox) {
         }
         return Panorama(image).illuminance_lx(normal).luminance();
     };
-    Sensor sights{"sights", SensorType::luminance, {}};
+    Luminance reflected;
     std::vector<double> exact;
     for (const auto& [place, normal] : {std::pair{Vec3{0.5, 0.4, 0.6}, kUp},
                                         {Vec3{1, 0.4, 0.3}, Vec3{1, 0, 0}},
                                         {Vec3{0.5, 0, 0.3}, Vec3{0, -1, 0}}}) {
-        sights.measurands.emplace_back(EmergentRay{place, normal, normal});
+        reflected.sights.emplace_back(EmergentRay{place, normal, normal});
         exact.push_back(kReflectance / std::numbers::pi * exact_lx(normal));
     }
+    const Sensor sights{"sights", reflected};
     // 16 x 8 pixels on 512 x 256 are within 1e-4 of the integral.
     const RunResult result = measure(scene, {&sights, 1}, options_of("ray-bundle", 1 << 16));
     for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -125,9 +124,7 @@ TEST(Environment, IsRefusedByRadiosityAndLimitedPanoramas) {
 }
 
 Sensor panorama_camera(const Vec3& towards) {
-    Sensor sensor{"camera", SensorType::camera, {}};
-    sensor.camera = {{0, 0, 0}, towards, {0, 0, 1}, 360, {32, 16}, Projection::panorama};
-    return sensor;
+    return {"camera", Camera{{0, 0, 0}, towards, {0, 0, 1}, 360, {32, 16}, Projection::panorama}};
 }
 
 /// A picture of a scene, taken for the environment of nothing, makes the same picture.
@@ -165,8 +162,8 @@ TEST(Environment, APanoramaOfItselfIsItself) {
 /// What is seen beside surfaces is what surrounds them, whatever the method.
 TEST(Environment, IsTheBackgroundOfPictures) {
     Scene scene = box_under_sky();
-    Sensor camera{"camera", SensorType::camera, {}};
-    camera.camera = {{4, 4, 2}, {0.5, 0.4, 0.3}, {0, 0, 1}, 50, {9, 9}, Projection::perspective};
+    const Sensor camera{
+        "camera", Camera{{4, 4, 2}, {0.5, 0.4, 0.3}, {0, 0, 1}, 50, {9, 9}, Projection::perspective}};
     for (const std::string method : {"path", "auto", "double-local", "ray-bundle", "particles"}) {
         const auto pixels = render(scene, camera, options_of(method, 4)).pixels.rgb_cd_m2;
         // All of the upper left pixel looks to one pixel of the sky, of grade 20 below the horizon.

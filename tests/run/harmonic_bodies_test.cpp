@@ -39,16 +39,17 @@ void expect_exact_illuminances(const Ellipsoid& body, int degree) {
     add_point_light(scene, kLight, Rgb::grey(kIntensity_cd));
 
     Numbers numbers(9);
-    Sensor sensor{"luminance", SensorType::luminance, {}};
+    Luminance lines;
     std::vector<Vec3> points;
     for (int i = 0; i < count; ++i) {
         points.push_back(body.point_towards(numbers.direction()));
         const Vec3 normal = body.normal_at(points.back());
-        sensor.measurands.emplace_back(LineOfSight{kCenter + points.back() + normal, -normal});
+        lines.sights.emplace_back(LineOfSight{kCenter + points.back() + normal, -normal});
     }
     RunOptions options;
     options.method = "path";
     options.paths = 64;
+    const Sensor sensor{"luminance", lines};
     const RunResult result = measure(scene, {&sensor, 1}, options);
 
     int lit = 0;

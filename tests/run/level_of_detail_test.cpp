@@ -23,9 +23,7 @@ Scene scene_with_head(bool with_levels) {
 }
 
 Sensor camera_at(double distance_m) {
-    Sensor sensor{"view", SensorType::camera, {}};
-    sensor.camera = {{0, -distance_m, 1}, {0, 0, 1}, {0, 0, 1}, 20, {200, 200}, {}, {}};
-    return sensor;
+    return {"view", Camera{{0, -distance_m, 1}, {0, 0, 1}, {0, 0, 1}, 20, {200, 200}, {}, {}}};
 }
 
 /// The largest difference of both surfaces along rays from their centre.

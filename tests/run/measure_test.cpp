@@ -26,9 +26,8 @@ Scene mirror_room() {
 /// At the wall x = 0, at the mirror (and from it back to that wall), and out of the window.
 Sensor sights() {
     return {"sights",
-            SensorType::luminance,
-            {LineOfSight{{2, 2, 1}, {-1, 0, 0}}, LineOfSight{{2, 2, 1}, normalized({1, -0.25, 0})},
-             LineOfSight{{2, 2, 1}, {0, 1, 0}}}};
+            Luminance{{LineOfSight{{2, 2, 1}, {-1, 0, 0}}, LineOfSight{{2, 2, 1}, normalized({1, -0.25, 0})},
+                       LineOfSight{{2, 2, 1}, {0, 1, 0}}}}};
 }
 
 RunOptions options_for(std::string_view method) {
@@ -77,7 +76,7 @@ TEST(Measure, ResultsOwnTheirSensorsAndTheMeansOfTheirReplicates) {
     }
     ASSERT_EQ(result.sensors.size(), 2U);
     EXPECT_EQ(result.sensors[0].sensor.name, "plane");
-    EXPECT_EQ(result.sensors[1].sensor.measurands.size(), 3U);
+    EXPECT_EQ(result.sensors[1].sensor.size(), 3U);
     EXPECT_EQ(result.samples, 4096U);
     for (const SensorResult& sensor : result.sensors) {
         const std::size_t readings = sensor.readings.size();

@@ -57,14 +57,13 @@ class PatchBaseline : public testing::TestWithParam<const char*> {};
 
 TEST_P(PatchBaseline, LightsACubeAsComputed) {
     const Vec3 middle{2, 2, 0}, corner{0.5, 0.5, 0};
-    const std::vector<Sensor> sensors{
-        point_sensor({{middle, kUp}, {corner, kUp}}),
-        sensors::make_grid_sensor("floor", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {8, 8}}, kUp)};
+    const std::vector<Sensor> sensors{point_sensor({{middle, kUp}, {corner, kUp}}),
+                                      Sensor{"floor", Grid{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {8, 8}, kUp}}};
     const RunResult result = measure(lamp_in_cube(0.8), sensors, options_for(GetParam(), 0.5));
     EXPECT_NEAR(value_of(result, 0) - direct_lx(middle), 430.95, 0.01 * 430.95);
     EXPECT_NEAR(value_of(result, 1) - direct_lx(corner), 403.10, 0.01 * 403.10);
     double direct = 0;
-    for (const Measurand& cell : sensors[1].measurands) direct += direct_lx(position_of(cell)) / 64;
+    for (const Measurand& cell : sensors[1].measurands()) direct += direct_lx(position_of(cell)) / 64;
     EXPECT_NEAR(result.sensors[1].summary.mean.value - direct, 416.67, 0.01 * 416.67);
 }
 
@@ -76,25 +75,25 @@ TEST_P(PatchBaseline, FillsAFurnace) {
         add_area_light(scene, wall({{0, 0, 0}, {4, 3, 2}}, i / 2, i % 2 == 0 ? Side::low : Side::high),
                        Rgb::grey(10), diffuse(kReflectance));
     }
-    Sensor sights{"sights", SensorType::luminance, {}};
+    Luminance lines;
     for (const Vec3& way : {Vec3{0.2, 0.3, -1}, Vec3{1, 0.2, 0.3}, Vec3{-1, -1, 1}}) {
-        sights.measurands.emplace_back(LineOfSight{{2, 1.5, 1}, normalized(way)});
+        lines.sights.emplace_back(LineOfSight{{2, 1.5, 1}, normalized(way)});
     }
+    const Sensor sights{"sights", lines};
     const RunResult result = measure(scene, {&sights, 1}, options_for(GetParam(), 0.4));
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(value_of(result, j), 10 / (1 - kReflectance), 0.3) << j;
 }
 
 TEST_P(PatchBaseline, ApproachesPathTracingAsPatchesShrink) {
     const Scene scene = furnished_room();
-    Sensor sights{"sights", SensorType::luminance, {}};
+    Luminance lines;
     for (int i = 0; i < 64; ++i) {  // all around, by the golden section
         const double z = (i + 0.5) / 32 - 1, turn = 2 * std::numbers::pi * i / std::numbers::phi;
         const double r = std::sqrt(1 - z * z);
-        sights.measurands.emplace_back(
-            LineOfSight{{2.1, 1.7, 1.3}, {r * std::cos(turn), r * std::sin(turn), z}});
+        lines.sights.emplace_back(LineOfSight{{2.1, 1.7, 1.3}, {r * std::cos(turn), r * std::sin(turn), z}});
     }
     const std::vector<Sensor> sensors{
-        sensors::make_grid_sensor("desk", {{0.1, 0.1, 0.75}, {3.8, 0, 0}, {0, 1.9, 0}, {8, 4}}, kUp), sights};
+        Sensor{"desk", Grid{{0.1, 0.1, 0.75}, {3.8, 0, 0}, {0, 1.9, 0}, {8, 4}, kUp}}, {"sights", lines}};
     RunOptions path;
     path.method = "path";
     path.paths = 1 << 13;
@@ -116,8 +115,8 @@ TEST_P(PatchBaseline, ApproachesPathTracingAsPatchesShrink) {
 
 TEST_P(PatchBaseline, PicturesShowWhatMetersMeasure) {
     const Scene scene = furnished_room();
-    Sensor camera{"camera", SensorType::camera, {}};
-    camera.camera = {{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {24, 16}, Projection::perspective};
+    const Sensor camera{"camera",
+                        Camera{{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {24, 16}, Projection::perspective}};
     RunOptions options = options_for(GetParam(), 0.3);
     options.paths = 64;
     const RenderResult baseline = render(scene, camera, options);
@@ -177,8 +176,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, PatchBaseline, testing::Values("radiosity", "p
                          [](const auto& method) { return std::string(method.param); });
 
 TEST(Radiosity, KnowsNoErrors) {
-    const std::vector<Sensor> sensors{
-        sensors::make_grid_sensor("floor", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 1}}, kUp)};
+    const std::vector<Sensor> sensors{Sensor{"floor", Grid{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 1}, kUp}}};
     RunOptions options = options_for("radiosity", 1);
     options.error = 0.01;
     const RunResult result = measure(lamp_in_cube(0.5), sensors, options);
@@ -217,8 +215,8 @@ TEST(Radiosity, CubesSeeWhatHemicubesSee) {
 }
 
 TEST(Radiosity, PicturesHaveNoErrors) {
-    Sensor camera{"camera", SensorType::camera, {}};
-    camera.camera = {{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {4, 3}, Projection::perspective};
+    const Sensor camera{"camera",
+                        Camera{{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {4, 3}, Projection::perspective}};
     const RenderResult result = render(lamp_in_cube(0.5), camera, options_for("radiosity", 1));
     EXPECT_TRUE(result.pixels.standard_error_cd_m2.empty());
     EXPECT_GT(result.pixels.rgb_cd_m2[0][0], 0);

@@ -34,12 +34,10 @@ Scene mirror_room() {
 }
 
 std::vector<Sensor> sensors() {
-    return {sensors::make_grid_sensor("desk", {{0.3, 0.3, 0.8}, {3.4, 0, 0}, {0, 2.4, 0}, {3, 2}}, kUp),
-            {"sights",
-             SensorType::luminance,
-             {LineOfSight{{0.3, 0.3, 1.5}, normalized(Vec3{2, 1, -0.8})},
-              LineOfSight{{2, 1.5, 1.5}, normalized(Vec3{1, 0.3, 0.7})},
-              EmergentRay{{3, 2, 0}, kUp, normalized(Vec3{0.3, -0.5, 1})}}}};
+    return {Sensor{"desk", Grid{{0.3, 0.3, 0.8}, {3.4, 0, 0}, {0, 2.4, 0}, {3, 2}, kUp}},
+            {"sights", Luminance{{LineOfSight{{0.3, 0.3, 1.5}, normalized(Vec3{2, 1, -0.8})},
+                                  LineOfSight{{2, 1.5, 1.5}, normalized(Vec3{1, 0.3, 0.7})},
+                                  EmergentRay{{3, 2, 0}, kUp, normalized(Vec3{0.3, -0.5, 1})}}}}};
 }
 
 RunOptions path_options(std::uint64_t paths, std::optional<estimators::FirstShotVariant> variant = {},
@@ -59,10 +57,10 @@ void expect_agreement(const Scene& scene, const std::vector<Sensor>& measured, c
     options.seed = seed;
     const RunResult flat = measure(scene, measured, options);
     std::size_t readings = 0;
-    for (const Sensor& sensor : measured) readings += sensor.measurands.size();
+    for (const Sensor& sensor : measured) readings += sensor.size();
     const double threshold = statistics::sidak_threshold_z(0.001, readings);
     for (std::size_t s = 0; s < measured.size(); ++s) {
-        for (std::size_t j = 0; j < measured[s].measurands.size(); ++j) {
+        for (std::size_t j = 0; j < measured[s].size(); ++j) {
             const statistics::Estimate &a = plain.sensors[s].readings[j].estimate,
                                        &b = flat.sensors[s].readings[j].estimate;
             EXPECT_LT(std::abs(statistics::equivalent_z(z_score(a, b), 31)), threshold)
@@ -94,16 +92,15 @@ TEST(PathFirstShot, LosesNoOtherLight) {
 
 TEST(PathFirstShot, ApproachesPathTracingAsPatchesShrink) {
     const Scene scene = phong_room();
-    Sensor all_around{"around", SensorType::luminance, {}};
+    Luminance all_around;
     for (int i = 0; i < 64; ++i) {  // by the golden section
         const double z = (i + 0.5) / 32 - 1, turn = 2 * std::numbers::pi * i / std::numbers::phi;
         const double r = std::sqrt(1 - z * z);
-        all_around.measurands.emplace_back(
+        all_around.sights.emplace_back(
             LineOfSight{{2.1, 1.9, 1.3}, {r * std::cos(turn), r * std::sin(turn), z}});
     }
     const std::vector<Sensor> measured{
-        sensors::make_grid_sensor("desk", {{0.3, 0.3, 0.8}, {3.4, 0, 0}, {0, 2.4, 0}, {6, 4}}, kUp),
-        all_around};
+        Sensor{"desk", Grid{{0.3, 0.3, 0.8}, {3.4, 0, 0}, {0, 2.4, 0}, {6, 4}, kUp}}, {"around", all_around}};
     const RunResult exact = measure(scene, measured, path_options(1 << 13));
     for (const estimators::FirstShotVariant variant :
          {estimators::FirstShotVariant::classical, estimators::FirstShotVariant::diffuse,
@@ -160,8 +157,8 @@ TEST(PathFirstShot, ThreadsChangeNothing) {
 
 /// Emission that is seen stays what it is.
 TEST(PathFirstShot, PicturesShowTheLights) {
-    Sensor camera{"camera", SensorType::camera, {}};
-    camera.camera = {{0.3, 0.3, 1.5}, {2.8, 1, 1.6}, kUp, 70, {24, 16}, Projection::perspective};
+    const Sensor camera{"camera",
+                        Camera{{0.3, 0.3, 1.5}, {2.8, 1, 1.6}, kUp, 70, {24, 16}, Projection::perspective}};
     RunOptions options = path_options(256);
     const Scene scene = mirror_room();
     const RenderResult plain = render(scene, camera, options);

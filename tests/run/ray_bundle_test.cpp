@@ -33,13 +33,9 @@ Scene glossy_room() {
     return scene;
 }
 
-Sensor points(std::vector<MeasuringPoint> places) {
-    Sensor sensor{"points", SensorType::illuminance, {}};
-    for (const MeasuringPoint& place : places) sensor.measurands.emplace_back(place);
-    return sensor;
-}
+Sensor points(std::vector<MeasuringPoint> places) { return {"points", IlluminancePoints{std::move(places)}}; }
 
-Sensor sights(std::vector<Measurand> lines) { return {"sights", SensorType::luminance, std::move(lines)}; }
+Sensor sights(std::vector<Measurand> lines) { return {"sights", Luminance{std::move(lines)}}; }
 
 RunOptions bundle_options(double patch_m, std::uint64_t steps) {
     RunOptions options;
@@ -154,8 +150,8 @@ TEST(RayBundle, ThreadsAndRepetitionsChangeNothing) {
 /// Patches of this size make the room 1.4 % darker, those of 0.15 m 0.7 %.
 TEST(RayBundle, PicturesShowWhatMetersMeasure) {
     const Scene scene = glossy_room();
-    Sensor camera{"camera", SensorType::camera, {}};
-    camera.camera = {{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {24, 16}, Projection::perspective};
+    const Sensor camera{"camera",
+                        Camera{{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {24, 16}, Projection::perspective}};
     RunOptions options = bundle_options(0.35, 16);
     const RenderResult bundle = render(scene, camera, options);
     options.method = "path";

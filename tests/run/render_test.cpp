@@ -30,10 +30,9 @@ Scene furnished_room() {
 }
 
 Sensor camera(Projection projection, int width, int height) {
-    Sensor sensor{"camera", SensorType::camera, {}};
-    sensor.camera = {{0.3, 0.3, 1.5}, {2.5, 2, 0.8}, {0, 0, 1}, 85, {width, height}, projection};
-    if (projection != Projection::perspective) sensor.camera.fov_deg = 180;
-    return sensor;
+    const double fov_deg = projection == Projection::perspective ? 85 : 180;
+    return {"camera",
+            Camera{{0.3, 0.3, 1.5}, {2.5, 2, 0.8}, {0, 0, 1}, fov_deg, {width, height}, projection}};
 }
 
 RenderResult render_with(const Scene& scene, const Sensor& sensor, const std::string& method,

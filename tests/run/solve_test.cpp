@@ -30,9 +30,8 @@ Scene diffuse_room() { return room(Diffuse{Rgb::grey(0.3)}); }
 Scene glossy_room() { return room(Phong{Rgb::grey(0.2), Rgb::grey(0.4), 20}); }
 
 Sensor camera() {
-    Sensor sensor{"camera", SensorType::camera, {}};
-    sensor.camera = {{0.3, 0.3, 1.5}, {2.5, 1.6, 0.7}, {0, 0, 1}, 70, {12, 8}, Projection::perspective};
-    return sensor;
+    return {"camera",
+            Camera{{0.3, 0.3, 1.5}, {2.5, 1.6, 0.7}, {0, 0, 1}, 70, {12, 8}, Projection::perspective}};
 }
 
 RunOptions options_of(std::uint64_t steps, std::uint64_t seed = 1) {

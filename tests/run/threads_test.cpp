@@ -15,7 +15,7 @@ TEST_P(Threads, ChangeNoBit) {
     add_area_light(scene, Sphere{{2, 1, 2}, 0.2}, {{100, 200, 300}});
     add_point_light(scene, {1, 1, 1}, {{10, 20, 30}});
     const std::vector<Sensor> sensors{
-        sensors::make_grid_sensor("plane", {{0.1, 0.1, 0.8}, {3.8, 0, 0}, {0, 2.8, 0}, {7, 5}}, {0, 0, 1}),
+        Sensor{"plane", Grid{{0.1, 0.1, 0.8}, {3.8, 0, 0}, {0, 2.8, 0}, {7, 5}, Vec3{0, 0, 1}}},
         point_sensor({{{0.01, 0.02, 0.03}, {1, 0, 0}}})};
     const auto measure = [&](int threads) {
         RunOptions options;
@@ -33,7 +33,7 @@ TEST_P(Threads, ChangeNoBit) {
         EXPECT_EQ(other.warnings, one.warnings);
         for (std::size_t s = 0; s < sensors.size(); ++s) {
             EXPECT_EQ(other.sensors[s].summary.uniformity, one.sensors[s].summary.uniformity);
-            for (std::size_t j = 0; j < sensors[s].measurands.size(); ++j) {
+            for (std::size_t j = 0; j < sensors[s].size(); ++j) {
                 const Reading &a = other.sensors[s].readings[j], &b = one.sensors[s].readings[j];
                 EXPECT_EQ(a.estimate, b.estimate) << threads << " threads, reading " << j;
                 EXPECT_EQ(a.rgb, b.rgb) << threads << " threads, reading " << j;

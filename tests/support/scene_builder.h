@@ -119,12 +119,8 @@ inline Mesh icosphere(const Sphere& sphere, int subdivisions) {
     return mesh;
 }
 
-inline std::vector<Measurand> measurands(const std::vector<MeasuringPoint>& points) {
-    return {points.begin(), points.end()};
-}
-
 inline Sensor point_sensor(const std::vector<MeasuringPoint>& points) {
-    return {"points", SensorType::illuminance, measurands(points)};
+    return {"points", IlluminancePoints{points}};
 }
 
 }  // namespace stilb

@@ -1,6 +1,6 @@
 // Local estimation: illuminance at all points from one set of light chains, by the kernel split (theory T.1b)
 //
-//   E(x) = E_direct + sum over nodes of W f_r w G + integral of L_r (1 - w) cos(theta_x) dw
+//   E(x) = E_direct + sum over nodes of W f_r w G + integral of L_r (1 - w) s_x dw
 //
 // with w = k / (k + s G) of kernel_split.h. Double local estimation: luminance, by the same sums with the
 // response of the sub-points that are seen (receiver.h, theory T.2).
@@ -148,8 +148,8 @@ class LocalReadings {
         seen.ends.resize(measurands.size());
         for (std::uint32_t reading = 0; reading < measurands.size(); ++reading) {
             const Measurand& measurand = measurands[reading];
-            if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
-                seen.receivers.emplace_back(reading, *point, transport_.caster);
+            if (auto receiver = transport::receiver_of_illuminance(reading, measurand, transport_.caster)) {
+                seen.receivers.push_back(std::move(*receiver));
                 continue;
             }
             const transport::VisibleSurfaces sight = look(measurand, transport_.scene, transport_.caster,

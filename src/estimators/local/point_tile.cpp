@@ -31,6 +31,27 @@ STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std:
     return any != 0;
 }
 
+/// The same for lanes of bodies, which connect_lanes() leaves unset: their normals are 0.
+bool connect_bodies(const SegmentOrigin& origin, std::int32_t reflections, const PointTile& tile,
+                    LaneMask& lanes, PointTile::Floats& g_per_m2) {
+    const Vec3 normal{origin.normal_x, origin.normal_y, origin.normal_z};
+    bool any = false;
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        const transport::Receiver& receiver = tile.receivers[i];
+        if (!receiver.is_body() || reflections > tile.reflections_left[i]) continue;
+        const Vec3 way{tile.x[i] - origin.x, tile.y[i] - origin.y, tile.z[i] - origin.z};
+        const double along = dot(normal, way);
+        if (!(along > 0)) continue;
+        const double distance = length(way);
+        const double g = along * receiver.sensitivity(-way / distance) / (distance * distance * distance);
+        g_per_m2[i] = static_cast<float>(g);
+        if (!(g_per_m2[i] > 0)) continue;
+        lanes[i] = -1;
+        any = true;
+    }
+    return any;
+}
+
 }  // namespace
 
 std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
@@ -56,6 +77,7 @@ std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
         tile.reflections_left[i] = receiver.reflections_left(max_reflections);
         tile.receivers = receivers.subspan(first, i + 1);
         tile.directional = tile.directional || !receiver.constant_response();
+        tile.has_bodies = tile.has_bodies || receiver.is_body();
     }
     return tiles;
 }
@@ -72,7 +94,8 @@ SegmentOrigin::SegmentOrigin(const Vec3& position, const Vec3& lifted_position, 
 
 bool connect(const SegmentOrigin& origin, int reflections, const PointTile& tile, RayPacket& segments,
              LaneMask& lanes, PointTile::Floats& g_per_m2) {
-    return connect_lanes(origin, reflections, tile, segments, lanes, g_per_m2);
+    const bool any = connect_lanes(origin, reflections, tile, segments, lanes, g_per_m2);
+    return tile.has_bodies ? connect_bodies(origin, reflections, tile, lanes, g_per_m2) || any : any;
 }
 
 }  // namespace stilb::estimators

@@ -22,6 +22,7 @@ struct alignas(64) PointTile {
     std::array<std::int32_t, kPacketWidth> reflections_left{};
     std::span<const transport::Receiver> receivers;  ///< of the first lanes
     bool directional = false;                        ///< the response of one of them depends on direction
+    bool has_bodies = false;                         ///< one of them is on no surface; its normal is 0
 };
 
 /// Receivers in packets, in their order; keeps references to them. `k_per_m2`: of each; may be infinite.
@@ -39,8 +40,8 @@ struct SegmentOrigin {
 };
 
 /// Makes the segments from `origin`, for light that has met so many reflections, to a tile's points, and G =
-/// cos+ cos+ / d^2 [1/m2] without visibility; lanes are set where G is not 0 and so many reflections are
-/// allowed. False: no lane is.
+/// cos+ s / d^2 [1/m2] without visibility, with s the sensitivity of the receiver (cos+ on a surface); lanes
+/// are set where G is not 0 and so many reflections are allowed. False: no lane is.
 bool connect(const SegmentOrigin& origin, int reflections, const PointTile& tile, RayPacket& segments,
              LaneMask& lanes, PointTile::Floats& g_per_m2);
 

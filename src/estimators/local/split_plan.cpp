@@ -167,7 +167,7 @@ RaySamples sample_rays(const rays::RayCaster& caster, const transport::PathTrace
         if (is_specular(tracer.material(*hit))) {
             rays[i].g_per_m2 = std::numeric_limits<double>::infinity();
         } else {
-            const double cosines = dot(receiver.normal(), direction) * -dot(hit->normal, direction);
+            const double cosines = receiver.sensitivity(direction) * -dot(hit->normal, direction);
             rays[i].g_per_m2 = cosines / (hit->distance_m * hit->distance_m) *
                                mean_concentration(tracer.material(*hit)) *
                                receiver.relative_response(direction);

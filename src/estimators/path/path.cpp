@@ -85,8 +85,8 @@ class PathEstimator final : public Estimator {
     /// What is known of a reading without sampling: direct light of point-like sources at a point, emission
     /// along a line of sight.
     void add_reading(std::uint32_t reading, const Measurand& measurand) {
-        if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) {
-            points_.emplace_back(reading, *point, caster_);
+        if (auto receiver = transport::receiver_of_illuminance(reading, measurand, caster_)) {
+            points_.push_back(std::move(*receiver));
             known_part_[reading] = direct_from_points(points_.back(), caster_, paths_.lights);
             return;
         }

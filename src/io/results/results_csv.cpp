@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include "io/results/sub_point.h"
+#include "io/results/places.h"
 #include "io/text/table.h"
 #include "stilb/error.h"
 
@@ -22,7 +22,7 @@ class ReadingColumns {
         for (std::size_t j = 0; j < readings_; ++j) cells.push_back(number_of(j));
         columns_.push_back({std::move(name), std::move(cells)});
     }
-    void add_vector(const std::array<const char*, 3>& names, const auto& vector_of) {
+    void add_vector(const std::array<std::string, 3>& names, const auto& vector_of) {
         for (std::size_t axis = 0; axis < 3; ++axis)
             add(names[axis], [&](std::size_t j) { return vector_of(j)[axis]; });
     }
@@ -33,33 +33,36 @@ class ReadingColumns {
     std::vector<Column> columns_;
 };
 
-constexpr std::array kNormal{"normal_x", "normal_y", "normal_z"};
-constexpr std::array kDirection{"direction_x", "direction_y", "direction_z"};
-
-template <typename Kind, typename Part>
-auto part_of(const Sensor& sensor, Part Kind::*part) {
-    return [&sensor, part](std::size_t j) { return std::get<Kind>(sensor.measurands[j]).*part; };
-}
-
+/// All readings of a sensor have the same directions and angles.
 void add_places(ReadingColumns& columns, const Sensor& sensor) {
-    columns.add_vector({"x_m", "y_m", "z_m"},
-                       [&](std::size_t j) { return position_of(sensor.measurands[j]); });
-    if (sensor.type == SensorType::luminance) {
-        columns.add_vector(kDirection, part_of(sensor, &LineOfSight::direction));
-    } else if (sensor.type == SensorType::goniometer) {
-        columns.add_vector(kNormal, part_of(sensor, &EmergentRay::normal));
-        columns.add_vector(kDirection, part_of(sensor, &EmergentRay::direction));
-        columns.add("theta_deg", [&](std::size_t j) { return sensor.angles[j].theta_deg; });
-        columns.add("phi_deg", [&](std::size_t j) { return sensor.angles[j].phi_deg; });
-    } else {
-        columns.add_vector(kNormal, part_of(sensor, &MeasuringPoint::normal));
+    std::vector<Place> places;
+    for (std::size_t j = 0; j < sensor.size(); ++j) places.push_back(sensor.place(j));
+    columns.add_vector({"x_m", "y_m", "z_m"}, [&](std::size_t j) { return places[j].position; });
+    if (places.empty()) return;
+    for (std::size_t d = 0; d < places.front().directions.size(); ++d) {
+        const std::string name(places.front().directions[d].name);
+        columns.add_vector({name + "_x", name + "_y", name + "_z"},
+                           [&](std::size_t j) { return places[j].directions[d].value; });
+    }
+    for (std::size_t a = 0; a < places.front().angles.size(); ++a) {
+        columns.add(std::string(places.front().angles[a].name) + "_deg",
+                    [&](std::size_t j) { return places[j].angles[a].value_deg; });
     }
 }
 
+/// "cd/m2" and names of several words as parts of a column's name.
+std::string in_column(std::string_view text) {
+    std::string name(text);
+    for (char& c : name) {
+        if (c == '/' || c == ' ') c = '_';
+    }
+    return name;
+}
+
 void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings, const Quantity& quantity) {
-    const std::string unit = quantity.unit == "lx" ? "_lx" : "_cd_m2";
+    const std::string unit = fmt::format("_{}", in_column(quantity.unit));
     const auto estimate = [&](std::size_t j) -> const statistics::Estimate& { return readings[j].estimate; };
-    columns.add(std::string(quantity.name) + unit, [&](std::size_t j) { return estimate(j).value; });
+    columns.add(in_column(quantity.name) + unit, [&](std::size_t j) { return estimate(j).value; });
     columns.add("standard_error" + unit, [&](std::size_t j) { return estimate(j).standard_error; });
     columns.add("interval_low" + unit, [&](std::size_t j) { return estimate(j).lower; });
     columns.add("interval_high" + unit, [&](std::size_t j) { return estimate(j).upper; });

@@ -1,7 +1,6 @@
 #include "io/results/results_json.h"
 
-#include "io/results/place_json.h"
-#include "io/results/sub_point.h"
+#include "io/results/places.h"
 
 namespace stilb::io {
 namespace {
@@ -11,15 +10,13 @@ using Json = nlohmann::ordered_json;
 Json interval_json(const statistics::Estimate& e) { return {e.lower, e.upper}; }
 
 Json reading_json(const SensorResult& result, const Sensor& sensor, std::size_t j) {
-    Json json = place_json(sensor.measurands[j]);
+    const Place place = sensor.place(j);
+    Json json = place_json(place);
     if (sensor.measures_luminance()) {
         const auto hit = sub_point(result, sensor, j);
         json["hit"] = hit ? vector_json(*hit) : Json();
     }
-    if (sensor.type == SensorType::goniometer) {
-        json["theta"] = sensor.angles[j].theta_deg;
-        json["phi"] = sensor.angles[j].phi_deg;
-    }
+    for (const Place::Angle& angle : place.angles) json[std::string(angle.name)] = angle.value_deg;
     const Reading& reading = result.readings[j];
     json["value"] = reading.estimate.value;
     json["standard_error"] = reading.estimate.standard_error;
@@ -42,11 +39,9 @@ Json summary_json(const statistics::GridSummary& summary, bool has_uniformity) {
 
 Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     const Quantity quantity = sensor.quantity();
-    Json json{{"name", sensor.name},
-              {"type", name_of(sensor.type)},
-              {"quantity", quantity.name},
-              {"unit", quantity.unit}};
-    if (sensor.type == SensorType::grid) json["count"] = sensor.grid.count;
+    Json json{
+        {"name", sensor.name}, {"type", sensor.type()}, {"quantity", quantity.name}, {"unit", quantity.unit}};
+    if (const auto count = sensor.count()) json["count"] = *count;
     json["attained_error"] = result.attained_error;
     Json values = Json::array();
     for (std::size_t j = 0; j < result.readings.size(); ++j)

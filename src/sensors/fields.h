@@ -1,0 +1,142 @@
+// The kinds of keys that sensors have in scene files, beside the numbers of base/field.h. Each type of sensor
+// lists its own in fields(); the scene reader has one function for each kind of key.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/field.h"
+#include "base/vec.h"
+#include "sensors/measurand.h"
+
+namespace stilb::sensors {
+
+/// Of all sensors together: 10 million measurands take 0.8 gigabytes.
+inline constexpr std::int64_t kMostReadings = 10'000'000;
+
+/// [x, y, z] in m.
+template <typename Owner>
+struct PositionField {
+    std::string_view key;
+    Vec3 Owner::*member;
+    std::string_view meaning;
+};
+
+/// [x, y, z] in m, elsewhere than another position.
+template <typename Owner>
+struct TargetField {
+    std::string_view key;
+    Vec3 Owner::*member;
+    Vec3 Owner::*position;
+    std::string_view meaning;
+};
+
+/// A unit vector, of any length but 0 in files. Value: Vec3, or std::optional<Vec3>.
+template <typename Owner, typename Value>
+struct DirectionField {
+    std::string_view key;
+    Value Owner::*member;
+    std::string_view meaning;
+    Presence presence = Presence::required;
+    bool warns_of_length = true;  ///< where it is far from 1
+};
+template <typename Owner, typename Value>
+DirectionField(std::string_view, Value Owner::*, std::string_view) -> DirectionField<Owner, Value>;
+template <typename Owner, typename Value>
+DirectionField(std::string_view, Value Owner::*, std::string_view, Presence) -> DirectionField<Owner, Value>;
+template <typename Owner, typename Value>
+DirectionField(std::string_view, Value Owner::*, std::string_view, Presence, bool)
+    -> DirectionField<Owner, Value>;
+
+/// One position under "position", or many under "points".
+template <typename Owner>
+struct PositionsField {
+    std::vector<Vec3> Owner::*member;
+    std::string_view meaning;
+};
+
+/// Positions as in PositionsField, and one "normal" for all of them.
+template <typename Owner>
+struct MeasuringPointsField {
+    std::vector<MeasuringPoint> Owner::*member;
+    std::string_view meaning;
+};
+
+/// A "position", and from there one or many directions or targets.
+template <typename Owner>
+struct SightsField {
+    std::vector<Measurand> Owner::*member;
+    std::string_view meaning;
+};
+
+/// A parallelogram by "corner", "edge_u" and "edge_v".
+template <typename Owner>
+struct ParallelogramField {
+    Vec3 Owner::*corner;
+    Vec3 Owner::*edge_u;
+    Vec3 Owner::*edge_v;
+    std::string_view meaning;
+};
+
+/// How many there may be of what a pair of counts makes.
+struct CountLimit {
+    std::string_view form;  ///< "[nu, nv]"
+    std::int64_t most_each, most;
+    std::string_view things, where;
+};
+
+template <typename Owner>
+struct CountsField {
+    std::string_view key;
+    std::array<int, 2> Owner::*member;
+    CountLimit limit;
+    std::string_view meaning;
+};
+
+/// One of the names, in the order of the enumeration.
+template <typename Owner, typename Enumeration>
+struct ChoiceField {
+    std::string_view key;
+    Enumeration Owner::*member;
+    std::span<const std::string_view> names;
+    std::string_view meaning;
+    Presence presence = Presence::optional;
+};
+template <typename Owner, typename Enumeration>
+ChoiceField(std::string_view, Enumeration Owner::*, std::span<const std::string_view>, std::string_view)
+    -> ChoiceField<Owner, Enumeration>;
+
+/// What is wrong with the keys of a sensor together: the one to change, and the message for it.
+struct Fault {
+    std::string_view key;
+    std::string message;
+};
+
+/// Which keys a scene file gives.
+class GivenKeys {
+  public:
+    explicit GivenKeys(std::vector<std::string> keys) : keys_(std::move(keys)) {}
+    bool has(std::string_view key) const {
+        for (const std::string& given : keys_) {
+            if (given == key) return true;
+        }
+        return false;
+    }
+
+  private:
+    std::vector<std::string> keys_;
+};
+
+/// What the readings of a sensor are called: "3 lines of sight".
+struct Noun {
+    std::string_view one, many;
+};
+inline constexpr Noun kPoints{"point", "points"};
+
+}  // namespace stilb::sensors

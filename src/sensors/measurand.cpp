@@ -1,0 +1,76 @@
+#include "sensors/measurand.h"
+
+#include "rays/ray_caster.h"
+
+namespace stilb::sensors {
+namespace {
+
+struct IsLuminance {
+    bool operator()(const MeasuringPoint&) const { return false; }
+    bool operator()(const BodyPoint&) const { return false; }
+    bool operator()(const LineOfSight&) const { return true; }
+    bool operator()(const EmergentRay&) const { return true; }
+};
+
+struct ViewpointOf {
+    MeasuringPoint operator()(const MeasuringPoint& point) const { return point; }
+    MeasuringPoint operator()(const BodyPoint& body) const { return {body.position, body.axis}; }
+    MeasuringPoint operator()(const LineOfSight& sight) const { return {sight.position, sight.direction}; }
+    MeasuringPoint operator()(const EmergentRay& ray) const { return {ray.position, ray.normal}; }
+};
+
+struct PlaceOf {
+    Place operator()(const MeasuringPoint& point) const {
+        return {"at", point.position, {{"normal", "facing", point.normal}}};
+    }
+    Place operator()(const BodyPoint& body) const {
+        const std::string_view name = body.sensitivity->axis_name;
+        if (name.empty()) return {"at", body.position};
+        return {"at", body.position, {{name, "facing", body.axis}}};
+    }
+    Place operator()(const LineOfSight& sight) const {
+        return {"from", sight.position, {{"direction", "along", sight.direction}}};
+    }
+    Place operator()(const EmergentRay& ray) const {
+        return {"at", ray.position, {{"normal", "", ray.normal}, {"direction", "towards", ray.direction}}};
+    }
+};
+
+}  // namespace
+
+bool is_luminance(const Measurand& measurand) { return std::visit(IsLuminance{}, measurand); }
+MeasuringPoint viewpoint_of(const Measurand& measurand) { return std::visit(ViewpointOf{}, measurand); }
+Place place_of(const Measurand& measurand) { return std::visit(PlaceOf{}, measurand); }
+
+std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster) {
+    const double most = caster.offset_m(point.position, caster.half_extent_m());
+    const auto below = caster.closest(point.position + most * point.normal, -point.normal);
+    return below && below->distance_m < 2 * most ? below : std::nullopt;
+}
+
+Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster) {
+    if (const auto surface = surface_at(point, caster)) return surface->lifted;
+    return point.position + caster.offset_m(point.position, 0) * point.normal;
+}
+
+std::optional<rays::Hit> surface_at(const BodyPoint& body, const rays::RayCaster& caster) {
+    if (auto surface = surface_at(MeasuringPoint{body.position, body.axis}, caster)) return surface;
+    for (const Vec3& across : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+        auto surface = surface_at(MeasuringPoint{body.position, across}, caster);
+        if (!surface) continue;
+        if (!surface->on_front) {
+            surface->lifted = surface->lifted_behind();
+            surface->normal = -surface->normal;
+            surface->on_front = true;
+        }
+        return surface;
+    }
+    return std::nullopt;
+}
+
+Vec3 lifted_position(const BodyPoint& body, const rays::RayCaster& caster) {
+    const auto surface = surface_at(body, caster);
+    return surface ? surface->lifted : body.position;
+}
+
+}  // namespace stilb::sensors

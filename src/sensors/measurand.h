@@ -1,0 +1,109 @@
+// What one reading is of: the illuminance of a surface element or a small body, or the luminance along a ray.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace stilb::rays {
+class RayCaster;
+struct Hit;
+}  // namespace stilb::rays
+
+namespace stilb::sensors {
+
+/// The illuminance [lx] that arrives at `position` on the side that the unit `normal` points to.
+struct MeasuringPoint {
+    Vec3 position, normal;
+};
+
+/// The luminance [cd/m2] that arrives at `position` when one looks along the unit `direction`.
+struct LineOfSight {
+    Vec3 position, direction;
+};
+
+/// The luminance [cd/m2] that leaves the surface at `position`, on the side that the unit `normal` points to,
+/// along the unit `direction`, away from the surface.
+struct EmergentRay {
+    Vec3 position, normal, direction;
+};
+
+/// How much light from each direction counts on a small body that stands free. Directions are unit vectors
+/// towards where light comes from, in Frame::of_surface(axis of the body).
+///
+/// The illuminance is the integral over the sphere of L(w) s(w) dw. It is the mean over the body's surface of
+/// illuminances of surface elements, so that the integral of s is pi, as that of cos+ is.
+struct Sensitivity {
+    double (*of)(const Vec3& direction);   ///< s, at least 0
+    Vec3 (*sample)(double u1, double u2);  ///< a direction with density s / pi
+    std::string_view axis_name;            ///< of the axis in results; empty where it is the vertical
+};
+
+/// The illuminance [lx] on a small body with a unit `axis`, about which, or against which, it is the same.
+struct BodyPoint {
+    Vec3 position, axis;
+    const Sensitivity* sensitivity;
+};
+
+using Measurand = std::variant<MeasuringPoint, BodyPoint, LineOfSight, EmergentRay>;
+
+inline const Vec3& position_of(const Measurand& measurand) {
+    return std::visit([](const auto& m) -> const Vec3& { return m.position; }, measurand);
+}
+bool is_luminance(const Measurand& measurand);
+/// Where a reading is made, and the side that light comes from.
+MeasuringPoint viewpoint_of(const Measurand& measurand);
+
+/// A reading's place as results show it: JSON, CSV and text are all made of this.
+struct Place {
+    struct Direction {
+        std::string_view name;         ///< as a key of JSON and in columns: "normal"
+        std::string_view preposition;  ///< in texts: "facing"; empty where texts leave it out
+        Vec3 value;
+    };
+    struct Angle {
+        std::string_view name;
+        double value_deg = 0;
+    };
+
+    std::string_view preposition;  ///< of the position in texts: "at"
+    Vec3 position;
+    std::vector<Direction> directions{};
+    std::vector<Angle> angles{};
+};
+Place place_of(const Measurand& measurand);
+
+/// What a number says, as in "illuminance [lx]".
+struct Quantity {
+    std::string_view name, unit;
+};
+inline constexpr Quantity kIlluminance{"illuminance", "lx"}, kLuminance{"luminance", "cd/m2"};
+
+/// The surface that a point lies on, on the side of its normal.
+std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster);
+
+/// Where rays from a measuring point start: lifted along its normal, off the surface that it lies on, if any.
+Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster);
+
+/// The surface that a body lies on, on the side that the body is taken to be on: where its axis points to, or
+/// the front where the axis lies in the surface. Nothing where it stands free.
+std::optional<rays::Hit> surface_at(const BodyPoint& body, const rays::RayCaster& caster);
+
+/// Where rays from a body start: at its position, which stands free; off the surface that it lies on, if any,
+/// which then hides half of the sphere from it.
+Vec3 lifted_position(const BodyPoint& body, const rays::RayCaster& caster);
+
+}  // namespace stilb::sensors
+
+namespace stilb {
+using sensors::BodyPoint;
+using sensors::EmergentRay;
+using sensors::LineOfSight;
+using sensors::Measurand;
+using sensors::MeasuringPoint;
+using sensors::Place;
+using sensors::Quantity;
+}  // namespace stilb
