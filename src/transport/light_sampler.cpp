@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/error.h"
@@ -109,11 +110,14 @@ void LightSampler::plant_tree(const Scene& scene) {
     std::vector<LightTree::Light> leaves;
     for (std::uint32_t i = 0; i < count(); ++i) {
         if (is_made_elsewhere(i)) continue;
-        Bounds bounds;
-        if (const auto origin = lights::point_origin(scene.lights[i])) bounds.include(origin->position);
+        LightTree::Light leaf{i, {}, flux_lm_[i].luminance()};
+        if (const auto origin = lights::point_origin(scene.lights[i])) {
+            leaf.bounds.include(origin->position);
+            leaf.intensity_cd /= 4 * std::numbers::pi;
+        }
         if (const auto surface = lights::surface_emission(scene.lights[i]))
-            bounds = bounds_of(scene.object(surface->object).shape);
-        if (!bounds.is_empty()) leaves.push_back({i, bounds, flux_lm_[i].luminance()});
+            leaf.bounds = bounds_of(scene.object(surface->object).shape);
+        if (!leaf.bounds.is_empty()) leaves.push_back(leaf);
     }
     tree_ = LightTree(std::move(leaves));
 }

@@ -25,7 +25,8 @@ class LightTree {
     struct Light {
         std::uint32_t number = 0;  ///< the caller's
         Bounds bounds;
-        double flux_lm = 0;
+        double intensity_cd =
+            0;  ///< luminous, about: the rough illuminance at a distance is this over its square
     };
 
     LightTree() = default;
@@ -60,7 +61,7 @@ class LightTree {
         Vec3 center;
         Vec3 half;  ///< of the box's edges
         double squared_radius_m2 = 0;
-        double flux_lm = 0;
+        double intensity_cd = 0;
         std::uint32_t parent = 0;
         std::uint32_t first = 0;  ///< child, the other follows; of single lights: the number
         bool is_light = false;
