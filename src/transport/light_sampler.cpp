@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/vec.h"
@@ -80,51 +81,44 @@ std::optional<math::DiscreteChoice> LightSampler::choose(const Vec3& from, const
     return math::choose_by_sums({sums.data(), count()}, u);
 }
 
-std::optional<double> LightSampler::outside_probability(const Vec3& from, const Vec3& normal) const {
-    const double outside = outside_ == kNoLight ? 0 : rough_illuminance_lx(outside_, from, normal);
-    const double all = outside + tree_.rough_illuminance_lx(from, normal);
-    return all > 0 ? std::optional{outside / all} : std::nullopt;
-}
-
 std::optional<math::DiscreteChoice> LightSampler::choose_by_tree(const Vec3& from, const Vec3& normal,
                                                                  double u) const {
-    const auto outside = outside_probability(from, normal);
-    if (!outside) return std::nullopt;
-    if (u < *outside) return math::DiscreteChoice{outside_, *outside, u / *outside};
-    const double rest = std::min((u - *outside) / (1 - *outside), math::kBelowOne);
-    const LightTree::Choice group = tree_.choose(from, normal, rest);
-    std::array<double, LightTree::kGroup> sums;
-    double total = 0;
-    for (std::size_t i = 0; i < group.lights.size(); ++i) {
-        sums[i] = total += rough_illuminance_lx(group.lights[i], from, normal);
-    }
-    if (!(total > 0)) return std::nullopt;
-    auto choice = math::choose_by_sums({sums.data(), group.lights.size()}, group.remainder);
-    choice.index = group.lights[choice.index];
-    choice.probability *= group.probability * (1 - *outside);
+    const auto rough_lx = [&](std::uint32_t light) { return rough_illuminance_lx(light, from, normal); };
+    const LightTree::Cut cut = tree_.cut(from, normal, rough_lx);
+    const double outside_lx = outside_ == kNoLight ? 0 : rough_lx(outside_),
+                 all_lx = outside_lx + cut.total_lx();
+    if (!(all_lx > 0)) return std::nullopt;
+    const double outside = outside_lx / all_lx;
+    if (u < outside) return math::DiscreteChoice{outside_, outside, u / outside};
+    const double rest = std::min((u - outside) / (1 - outside), math::kBelowOne);
+    math::DiscreteChoice choice = tree_.choose(cut, from, normal, rest, rough_lx);
+    choice.probability *= 1 - outside;
     return choice;
 }
 
 double LightSampler::tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const {
-    const auto outside = outside_probability(from, normal);
-    if (!outside) return 0;
-    if (light == outside_) return *outside;
-    const LightTree::Choice group = tree_.group_of(static_cast<std::uint32_t>(light), from, normal);
-    double total = 0;
-    for (const std::uint32_t number : group.lights) total += rough_illuminance_lx(number, from, normal);
-    const double own = rough_illuminance_lx(light, from, normal);
-    return total > 0 ? (1 - *outside) * group.probability * own / total : 0;
+    const auto rough_lx = [&](std::uint32_t other) { return rough_illuminance_lx(other, from, normal); };
+    const LightTree::Cut cut = tree_.cut(from, normal, rough_lx);
+    const double outside_lx = outside_ == kNoLight ? 0 : rough_lx(outside_),
+                 all_lx = outside_lx + cut.total_lx();
+    if (light == outside_) return all_lx > 0 ? outside_lx / all_lx : 0;
+    if (!(cut.total_lx() > 0)) return 0;
+    return cut.total_lx() / all_lx *
+           tree_.probability(cut, static_cast<std::uint32_t>(light), from, normal, rough_lx);
 }
 
 void LightSampler::plant_tree(const Scene& scene) {
     std::vector<LightTree::Light> leaves;
     for (std::uint32_t i = 0; i < count(); ++i) {
         if (is_made_elsewhere(i)) continue;
-        Bounds bounds;
-        if (const auto origin = lights::point_origin(scene.lights[i])) bounds.include(origin->position);
+        LightTree::Light leaf{i, {}, flux_lm_[i].luminance()};
+        if (const auto origin = lights::point_origin(scene.lights[i])) {
+            leaf.bounds.include(origin->position);
+            leaf.intensity_cd /= 4 * std::numbers::pi;
+        }
         if (const auto surface = lights::surface_emission(scene.lights[i]))
-            bounds = bounds_of(scene.object(surface->object).shape);
-        if (!bounds.is_empty()) leaves.push_back({i, bounds, flux_lm_[i].luminance()});
+            leaf.bounds = bounds_of(scene.object(surface->object).shape);
+        if (!leaf.bounds.is_empty()) leaves.push_back(leaf);
     }
     tree_ = LightTree(std::move(leaves));
 }

@@ -89,8 +89,6 @@ class LightSampler {
     std::optional<math::DiscreteChoice> choose(const Vec3& from, const Vec3& normal, double u) const;
     std::optional<math::DiscreteChoice> choose_by_tree(const Vec3& from, const Vec3& normal, double u) const;
     double tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const;
-    /// The chance that the light from infinity is chosen and not the tree; nothing where there is neither.
-    std::optional<double> outside_probability(const Vec3& from, const Vec3& normal) const;
 
     std::vector<lights::Emitter> emitters_;
     std::vector<LightPlace> places_;

@@ -1,66 +1,148 @@
-// Choosing one of many lights at a point, without asking each of them [Conty Estevez and Kulla 2018].
+// Choosing one of many lights at a point without asking each of them, after [Conty Estevez and Kulla 2018].
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/vec.h"
+#include "math/discrete.h"
+#include "math/sampling.h"
 
 namespace stilb::transport {
 
-/// A binary tree of bounding boxes. At each node the branch is chosen by what its lights would give a surface
-/// there at most, about: their flux over the squared distance, times the largest cosine above the surface. A
-/// group of up to kGroup lights is chosen; among them the caller chooses by what each gives. Groups wholly
-/// behind the surface are never chosen. Immutable.
+/// A binary tree of bounding boxes over lights. At a point, all boxes that are near for their size are
+/// opened, down to single lights or until there are kMostOpen of them; one is chosen by what it gives, and a
+/// branch at a time below it. A single light gives what the caller's `rough_lx(number)` says, a box about its
+/// flux over the squared distance times the largest cosine above the surface: never 0 where one of its lights
+/// gives something. Immutable; queries take no memory.
 class LightTree {
   public:
     struct Light {
         std::uint32_t number = 0;  ///< the caller's
         Bounds bounds;
-        double flux_lm = 0;
+        double intensity_cd =
+            0;  ///< luminous, about: the rough illuminance at a distance is this over its square
     };
-    static constexpr std::size_t kGroup = 8;
 
     LightTree() = default;
     explicit LightTree(std::vector<Light> lights);
 
-    /// About the illuminance [lx] by all lights, on the scale of Emitter::rough_illuminance_lx(); 0 only
-    /// where it is 0.
-    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+    /// The opened boxes at a point, with running sums of what they give [lx].
+    class Cut {
+      public:
+        double total_lx() const { return count_ == 0 ? 0 : sums_lx_[count_ - 1]; }
 
-    struct Choice {
-        std::span<const std::uint32_t> lights;
-        double probability = 0;
-        double remainder = 0;  ///< uniform in [0, 1), independent of the choice
+      private:
+        friend class LightTree;
+        static constexpr std::size_t kMostOpen = 64;
+        std::array<std::uint32_t, kMostOpen> nodes_;
+        std::array<double, kMostOpen> sums_lx_;
+        std::size_t count_ = 0;
     };
-    /// rough_illuminance_lx() is not 0 there.
-    Choice choose(const Vec3& from, const Vec3& normal, double u) const;
-    /// The group that a light (of those of the tree) is in, with its probability.
-    Choice group_of(std::uint32_t number, const Vec3& from, const Vec3& normal) const;
+    template <typename Rough>
+    Cut cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const;
+
+    /// A light's number with its probability; the cut of the same point gives something.
+    template <typename Rough>
+    math::DiscreteChoice choose(const Cut& cut, const Vec3& from, const Vec3& normal, double u,
+                                const Rough& rough_lx) const;
+    /// The probability with which choose() takes a light of the tree.
+    template <typename Rough>
+    double probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
+                       const Rough& rough_lx) const;
 
   private:
     struct Node {
         Vec3 center;
         Vec3 half;  ///< of the box's edges
         double squared_radius_m2 = 0;
-        double flux_lm = 0;
+        double intensity_cd = 0;
         std::uint32_t parent = 0;
-        std::uint32_t first = 0;  ///< child, the other follows; of groups: place in `numbers_`
-        std::uint32_t count = 0;  ///< of lights in a group; 0 of inner nodes
+        std::uint32_t first = 0;  ///< child, the other follows; of single lights: the number
+        bool is_light = false;
     };
 
     void divide(std::uint32_t node, std::span<Light> lights);
-    double importance(const Node& node, const Vec3& from, const Vec3& normal) const;
-    /// Of the first child beside the other.
-    double first_probability(const Node& parent, const Vec3& from, const Vec3& normal) const;
-    std::span<const std::uint32_t> group(const Node& node) const {
-        return std::span(numbers_).subspan(node.first, node.count);
+    bool is_near(const Node& node, const Vec3& from) const;
+    double box_lx(const Node& node, const Vec3& from, const Vec3& normal) const;
+    template <typename Rough>
+    double node_lx(std::uint32_t node, const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
+        return nodes_[node].is_light ? rough_lx(nodes_[node].first) : box_lx(nodes_[node], from, normal);
+    }
+    /// Of the first child beside the other. A box may have a corner above the horizon where neither child has
+    /// one.
+    template <typename Rough>
+    double first_probability(const Node& parent, const Vec3& from, const Vec3& normal,
+                             const Rough& rough_lx) const {
+        const double first = node_lx(parent.first, from, normal, rough_lx);
+        const double second = node_lx(parent.first + 1, from, normal, rough_lx);
+        return first + second > 0 ? first / (first + second) : 0.5;
     }
 
-    std::vector<Node> nodes_;  ///< the root first
-    std::vector<std::uint32_t> numbers_;
-    std::vector<std::uint32_t> group_of_;  ///< by number: the node
+    std::vector<Node> nodes_;             ///< the root first
+    std::vector<std::uint32_t> node_of_;  ///< of lights, by number
 };
+
+template <typename Rough>
+LightTree::Cut LightTree::cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
+    Cut cut;
+    if (nodes_.empty()) return cut;
+    std::array<std::uint32_t, Cut::kMostOpen> waiting;
+    std::size_t count = 1;
+    waiting[0] = 0;
+    double total_lx = 0;
+    while (count > 0) {
+        const std::uint32_t at = waiting[--count];
+        const Node& node = nodes_[at];
+        if (!node.is_light && is_near(node, from) && cut.count_ + count + 2 <= Cut::kMostOpen) {
+            waiting[count++] = node.first + 1;
+            waiting[count++] = node.first;
+            continue;
+        }
+        cut.nodes_[cut.count_] = at;
+        cut.sums_lx_[cut.count_++] = total_lx += node_lx(at, from, normal, rough_lx);
+    }
+    return cut;
+}
+
+template <typename Rough>
+math::DiscreteChoice LightTree::choose(const Cut& cut, const Vec3& from, const Vec3& normal, double u,
+                                       const Rough& rough_lx) const {
+    math::DiscreteChoice choice = math::choose_by_sums({cut.sums_lx_.data(), cut.count_}, u);
+    std::uint32_t at = cut.nodes_[choice.index];
+    while (!nodes_[at].is_light) {
+        const double first = first_probability(nodes_[at], from, normal, rough_lx);
+        const bool is_first = choice.remainder < first;
+        const double share = is_first ? first : 1 - first;
+        choice.remainder = std::clamp((is_first ? choice.remainder : choice.remainder - first) / share, 0.0,
+                                      math::kBelowOne);
+        choice.probability *= share;
+        at = nodes_[at].first + (is_first ? 0 : 1);
+    }
+    choice.index = nodes_[at].first;
+    return choice;
+}
+
+template <typename Rough>
+double LightTree::probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
+                              const Rough& rough_lx) const {
+    double below = 1;
+    const auto end = cut.nodes_.begin() + static_cast<std::ptrdiff_t>(cut.count_);
+    for (std::uint32_t at = node_of_[number];; at = nodes_[at].parent) {
+        const auto found = std::find(cut.nodes_.begin(), end, at);
+        if (found != end) {
+            const auto place = static_cast<std::size_t>(found - cut.nodes_.begin());
+            const double own_lx = cut.sums_lx_[place] - (place == 0 ? 0 : cut.sums_lx_[place - 1]);
+            return below * own_lx / cut.total_lx();
+        }
+        const Node& parent = nodes_[nodes_[at].parent];
+        const double first = first_probability(parent, from, normal, rough_lx);
+        below *= at == parent.first ? first : 1 - first;
+    }
+}
 
 }  // namespace stilb::transport

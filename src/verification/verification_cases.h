@@ -15,7 +15,8 @@ namespace stilb::verification {
 struct ExactReading {
     Measurand measurand;
     double value = 0;  ///< [lx] or [cd/m2]
-    /// The share of it by which the tables of the scene's materials may be off, as docs/materials.md has it.
+    /// The share of it by which the tables of the scene's materials may be off, as docs/materials.md has it,
+    /// or which too few samples bring for their errors to be known.
     double tolerance = 0;
 };
 

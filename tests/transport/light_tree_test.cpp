@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
 #include "statistics/hypothesis.h"
 #include "statistics/interval.h"
@@ -47,51 +46,62 @@ std::vector<LightTree::Light> leaves(int count) {
     return lights;
 }
 
-TEST(LightTree, GroupsAreChosenWithTheProbabilityThatIsSaid) {
-    constexpr int kLights = 100;
-    const LightTree tree(leaves(kLights));
-    const Vec3 from{3, 2, 1}, normal = normalized(Vec3{0.5, 0.2, 1});
-    std::map<std::uint32_t, double> probability;  // of groups, by their first light
-    for (std::uint32_t light = 0; light < kLights; ++light) {
-        const LightTree::Choice group = tree.group_of(light, from, normal);
-        EXPECT_NE(std::ranges::find(group.lights, light), group.lights.end());
-        EXPECT_LE(group.lights.size(), LightTree::kGroup);
-        probability[group.lights.front()] = group.probability;
-    }
-    double sum = 0;
-    for (const auto& [first, p] : probability) sum += p;
-    EXPECT_NEAR(sum, 1, 1e-12);
-    std::map<std::uint32_t, double> observed;
-    std::vector<double> remainders;
-    for (std::uint64_t i = 0; i < kSamples; ++i) {
-        const double u = math::SampleStream(math::RandomKey{2}.derived(i), 0).next();
-        const LightTree::Choice choice = tree.choose(from, normal, u);
-        ASSERT_NEAR(choice.probability, probability.at(choice.lights.front()), 1e-12);
-        ++observed[choice.lights.front()];
-        remainders.push_back(choice.remainder);
-    }
-    std::vector<double> counts, expected;
-    for (const auto& [first, p] : probability) {
-        if (p == 0) continue;
-        expected.push_back(p * kSamples);
-        counts.push_back(observed[first]);
-    }
-    EXPECT_GT(statistics::chi2_test(counts, expected).p_value, 1e-4);
-    EXPECT_GT(statistics::uniformity_p(remainders), 1e-4);
+/// What a point gives; one light in five shines elsewhere.
+double rough_lx(const LightTree::Light& light, const Vec3& from, const Vec3& normal) {
+    const Vec3 towards = light.bounds.min - from;
+    if (light.number % 5 == 0) return 0;
+    return light.intensity_cd * std::max(dot(towards, normal), 0.0) / std::pow(length(towards), 3);
 }
 
-TEST(LightTree, LeavesOutWhatLiesBehindTheSurfaceOnly) {
-    const LightTree tree(leaves(100));
-    const Vec3 from{3, 2, 1}, normal{0, 0, 1};
-    for (std::uint32_t light = 0; light < 100; ++light) {
-        const auto i = std::uint64_t{light};
-        if (3 * unit(i, 2) > from.z) {
-            EXPECT_GT(tree.group_of(light, from, normal).probability, 0) << light;
+TEST(LightTree, LightsAreChosenWithTheProbabilityThatIsSaid) {
+    constexpr int kLights = 300;
+    const std::vector<LightTree::Light> lights = leaves(kLights);
+    const LightTree tree(lights);
+    for (const Vec3& from : {Vec3{3, 2, 1}, Vec3{-30, 2, 1}}) {  // among them, and far away
+        const Vec3 normal = normalized(Vec3{0.5, 0.2, 1});
+        const auto rough = [&](std::uint32_t number) { return rough_lx(lights[number], from, normal); };
+        const LightTree::Cut cut = tree.cut(from, normal, rough);
+        std::vector<double> probability, observed(kLights), remainders;
+        double sum = 0;
+        for (std::uint32_t light = 0; light < kLights; ++light) {
+            probability.push_back(tree.probability(cut, light, from, normal, rough));
+            sum += probability.back();
+            EXPECT_TRUE(probability.back() > 0 || rough(light) == 0) << light;
         }
+        EXPECT_NEAR(sum, 1, 1e-12);
+        for (std::uint64_t i = 0; i < kSamples; ++i) {
+            const double u = math::SampleStream(math::RandomKey{2}.derived(i), 0).next();
+            const math::DiscreteChoice choice = tree.choose(cut, from, normal, u, rough);
+            ASSERT_NEAR(choice.probability, probability[choice.index], 1e-9);
+            ++observed[choice.index];
+            remainders.push_back(choice.remainder);
+        }
+        std::vector<double> counts, expected;
+        for (std::size_t light = 0; light < kLights; ++light) {
+            if (probability[light] * kSamples < 5) continue;
+            expected.push_back(probability[light] * kSamples);
+            counts.push_back(observed[light]);
+        }
+        double rest = kSamples, rest_observed = kSamples;
+        for (std::size_t i = 0; i < counts.size(); ++i) rest -= expected[i], rest_observed -= counts[i];
+        if (rest > 5) expected.push_back(rest), counts.push_back(rest_observed);
+        EXPECT_GT(counts.size(), 20u);
+        EXPECT_GT(statistics::chi2_test(counts, expected).p_value, 1e-4);
+        EXPECT_GT(statistics::uniformity_p(remainders), 1e-4);
     }
-    EXPECT_EQ(tree.rough_illuminance_lx({0, 0, 4}, normal), 0);
-    EXPECT_GT(tree.rough_illuminance_lx({0, 0, 4}, -normal), 0);
-    EXPECT_EQ(LightTree().rough_illuminance_lx(from, normal), 0);
+}
+
+TEST(LightTree, GivesNothingBehindTheSurface) {
+    const std::vector<LightTree::Light> lights = leaves(100);
+    const LightTree tree(lights);
+    const Vec3 from{0, 0, 4}, up{0, 0, 1};
+    const auto total_lx = [&](const Vec3& normal) {
+        return tree.cut(from, normal, [&](std::uint32_t i) { return rough_lx(lights[i], from, normal); })
+            .total_lx();
+    };
+    EXPECT_EQ(total_lx(up), 0);
+    EXPECT_GT(total_lx(-up), 0);
+    EXPECT_EQ(LightTree().cut(from, up, [](std::uint32_t) { return 1.0; }).total_lx(), 0);
 }
 
 /// One light of many, divided by its probability, against all of them.
