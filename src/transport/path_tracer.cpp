@@ -114,10 +114,10 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
     const auto light = lights_.sample_one_light(hit.position, hit.normal, path.stream);
     if (light && dot(light->direction, hit.normal) > 0) {
         const Vec3 in = frame.to_local(light->direction);
-        const double weight = balance(light->pdf_per_sr, pdf_per_sr(material, out, in));
+        const auto [brdf_per_sr, pdf_per_sr] = evaluate_and_pdf(material, in, out);
+        const double weight = balance(light->pdf_per_sr, pdf_per_sr);
         step.connection = {{hit.lifted, light->source_point},
-                           path.throughput * evaluate_brdf_per_sr(material, in, out) * (in.z * weight) *
-                               light->normal_illuminance_lx};
+                           path.throughput * brdf_per_sr * (in.z * weight) * light->normal_illuminance_lx};
     }
     const double survival = patient_survival_probability(path.throughput, reflectance_bound(material));
     if (path.stream.next() >= survival) return step;

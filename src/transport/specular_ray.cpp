@@ -12,7 +12,7 @@ struct Meeting {
 
     Meeting(const Material& material, const rays::Hit& met, const Vec3& from)
         : hit(met),
-          is_pane(std::holds_alternative<ThinDielectric>(material)),
+          is_pane(passes_straight(material)),
           frame(Frame::of_surface(met.normal)),
           branches(specular_branches(
               material, met.on_front ? materials::LightSide::outside : materials::LightSide::inside,

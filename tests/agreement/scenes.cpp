@@ -68,10 +68,10 @@ Scene glossy_box(const Material& gloss) {
 }
 Scene broad_phong_box() { return glossy_box(phong(0.4, 0.3, 5)); }
 Scene narrow_phong_box() { return glossy_box(phong(0.4, 0.3, 200)); }
-Scene rough_box() { return glossy_box(RoughConductor(rgb(0.8, 0.7, 0.5), 0.3)); }
+Scene rough_box() { return glossy_box(RoughConductor({rgb(0.8, 0.7, 0.5), 0.3})); }
 
-Scene ward_box() { return glossy_box(Ward(rgb(0.5, 0.4, 0.3), rgb(0.3, 0.4, 0.2), {0.1, 0.4}, 30)); }
-Scene plastic_box() { return glossy_box(Plastic(rgb(0.7, 0.6, 0.4), 1.5, 0.2)); }
+Scene ward_box() { return glossy_box(Ward({rgb(0.5, 0.4, 0.3), rgb(0.3, 0.4, 0.2), {0.1, 0.4}, 30})); }
+Scene plastic_box() { return glossy_box(Plastic({rgb(0.7, 0.6, 0.4), 1.5, 0.2})); }
 
 Scene mirror_and_panel() {
     Scene scene;
@@ -168,8 +168,8 @@ Scene sphere_over_gloss(const Material& gloss) {
     return scene;
 }
 Scene sphere_over_phong() { return sphere_over_gloss(phong(0.3, 0.4, 100)); }
-Scene sphere_over_smooth_metal() { return sphere_over_gloss(RoughConductor(rgb(0.9, 0.7, 0.5), 0.1)); }
-Scene sphere_over_plastic() { return sphere_over_gloss(Plastic(rgb(0.5, 0.3, 0.2), 1.5, 0.15)); }
+Scene sphere_over_smooth_metal() { return sphere_over_gloss(RoughConductor({rgb(0.9, 0.7, 0.5), 0.1})); }
+Scene sphere_over_plastic() { return sphere_over_gloss(Plastic({rgb(0.5, 0.3, 0.2), 1.5, 0.15})); }
 
 /// A pane divides the room, a glass ball lies on a table.
 Scene room_with_glass() {

@@ -21,7 +21,6 @@ inline constexpr Range kCoordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
 inline constexpr Range kRadius{1e-9, 1e9, "a length above 0 (from 1e-9 to 1e9 m)"};
 /// Flux, intensity, luminance and factors on them.
 inline constexpr Range kLightQuantity{1e-15, 1e15, "a number above 0 (from 1e-15 to 1e15)"};
-inline constexpr Range kAngle{-1e6, 1e6, "an angle from -1e6 to 1e6 degrees"};
 
 class TomlTable;
 
