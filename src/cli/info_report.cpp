@@ -170,7 +170,8 @@ std::size_t mesh_bytes(const Scene& scene) {
     for (const Object& object : scene.objects) {
         bytes += object.materials.size() * sizeof(MaterialId);
         if (const auto* mesh = std::get_if<Mesh>(&object.shape))
-            bytes += mesh->vertices.size() * sizeof(Vec3) + mesh->triangles.size() * sizeof(Triangle);
+            bytes += (mesh->vertices.size() + mesh->normals.size()) * sizeof(Vec3) +
+                     (mesh->triangles.size() + mesh->corner_normals.size()) * sizeof(Triangle);
     }
     return bytes;
 }

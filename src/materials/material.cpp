@@ -93,8 +93,8 @@ Rgb reflectance_bound(const Material& material) {
 Rgb stated_reflectance(const Material& material) {
     if (!is_specular(material)) return reflectance_bound(material);
     Rgb sum;
-    const Vec3 normal{0, 0, 1};
-    for (const SpecularBranch& branch : specular_branches(material, LightSide::outside, normal).list()) {
+    const SpecularBranches branches = specular_branches(material, LightSide::outside, {0, 0, 1});
+    for (const SpecularBranch& branch : branches.list()) {
         if (branch.direction.z > 0) sum += branch.share;
     }
     return sum;

@@ -53,7 +53,7 @@ struct SpecularBranch {
     double luminance_factor = 1;
 };
 
-/// At most two, none of them dark.
+/// At most three, none of them dark.
 class SpecularBranches {
   public:
     void add(const SpecularBranch& branch) {
@@ -62,7 +62,7 @@ class SpecularBranches {
     std::span<const SpecularBranch> list() const { return {branches_.data(), count_}; }
 
   private:
-    std::array<SpecularBranch, 2> branches_;
+    std::array<SpecularBranch, 3> branches_;
     std::size_t count_ = 0;
 };
 

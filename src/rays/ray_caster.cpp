@@ -205,6 +205,9 @@ struct RayCaster::Implementation {
                 hit.lifted = origin + std::max(ray.tfar - back, 0.0) * direction;
             }
         }
+        hit.shading_normal = geometry.smooth != nullptr
+                                 ? shading_normal(*geometry.smooth, met.primID, {1 - u - v, u, v}, hit.normal)
+                                 : hit.normal;
         hit.lifted += center;
         hit.position += center;
         hit.distance_m = ray.tfar;

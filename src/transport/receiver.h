@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "materials/shaded_surface.h"
 #include "rays/ray_caster.h"
 #include "sensors/sensor.h"
 #include "transport/line_of_sight.h"
@@ -62,9 +63,8 @@ class Receiver {
 
   private:
     Vec3 position_, lifted_, normal_;
-    Frame frame_;
-    const Material* material_;  ///< owned by the scene; white for illuminance
-    Vec3 outgoing_;             ///< in the frame of the surface
+    materials::ShadedSurface surface_;  ///< its material is owned by the scene; white for illuminance
+    Vec3 outgoing_;                     ///< in the frame of the surface
     Rgb factor_;
     std::optional<Rgb> constant_response_;
     int reflections_ = 0;  ///< from here to the sensor

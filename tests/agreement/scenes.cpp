@@ -243,6 +243,25 @@ Scene room_with_lamp(const Shape& shape) {
 Scene harmonic_lamp() { return room_with_lamp(lamp()); }
 Scene harmonic_lamp_as_mesh() { return room_with_lamp(fine_mesh(lamp())); }
 
+/// Coarse meshes that are to look round: of 80 triangles, whose vertex normals lean by up to 20 degrees.
+Scene room_with_smooth_meshes(const std::array<Material, 3>& materials) {
+    constexpr std::array<Sphere, 3> balls{Sphere{{1, 1, 0.5}, 0.35}, Sphere{{3.2, 1, 0.6}, 0.4},
+                                          Sphere{{2, 2.4, 1.1}, 0.4}};
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        add_object(scene, smooth_icosphere(balls[i], 1), materials[i]);
+    add_area_light(scene, large_panel(), 500 * kWhite, diffuse(0.5));
+    return scene;
+}
+Scene smooth_meshes() {
+    return room_with_smooth_meshes(
+        {Diffuse{rgb(0.8, 0.5, 0.3)}, phong(0.3, 0.4, 20), RoughConductor({rgb(0.9, 0.7, 0.5), 0.4})});
+}
+Scene smooth_specular_meshes() {
+    return room_with_smooth_meshes({Dielectric{1.5}, mirror(0.9), Diffuse{rgb(0.8, 0.5, 0.3)}});
+}
+
 /// Everything at once, for paths of few reflections.
 Scene mixed_room() {
     Scene scene;
@@ -395,6 +414,9 @@ std::span<const AgreementScene> agreement_scenes() {
         {"HarmonicBodies", nothing, {}, harmonic_bodies, inside, at_bodies},
         {"HarmonicBodiesOneReflection", nothing, 1, harmonic_bodies, inside, at_bodies},
         {"HarmonicLamp", nothing, {}, harmonic_lamp, inside, around},
+        {"SmoothMeshes", nothing, {}, smooth_meshes, inside, at_bodies},
+        {"SmoothMeshesOneReflection", nothing, 1, smooth_meshes, inside, at_bodies},
+        {"SmoothSpecularMeshes", nothing, {}, smooth_specular_meshes, inside, at_bodies},
     };
     return scenes;
 }

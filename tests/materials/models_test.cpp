@@ -22,9 +22,7 @@ double between(const Range& range, double u) {
     return is_wide ? range.min * std::pow(range.max / range.min, u) : range.min + u * (range.max - range.min);
 }
 
-void draw(double& value, const Range& range, RandomPairs& random) {
-    value = between(range, random.next());
-}
+void draw(double& value, const Range& range, RandomPairs& random) { value = between(range, random.next()); }
 void draw(Rgb& value, const Range& range, RandomPairs& random) {
     for (double& band : value.band) draw(band, range, random);
 }
@@ -111,8 +109,8 @@ TEST(EveryModel, ReflectsNoMoreThanArrives) {
         for (int i = 0; i < 20; ++i) {
             const Vec3 in = direction_above(random);
             Rgb reflected;
-            for (const SpecularBranch& branch : specular_branches(material, LightSide::outside, in).list())
-                reflected += branch.share;
+            const SpecularBranches branches = specular_branches(material, LightSide::outside, in);
+            for (const SpecularBranch& branch : branches.list()) reflected += branch.share;
             constexpr int kSteps = 64;
             for (int j = 0; j < kSteps * kSteps; ++j) {
                 const double u1 = (j % kSteps + 0.5) / kSteps;

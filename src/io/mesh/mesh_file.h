@@ -11,8 +11,8 @@
 
 namespace stilb::io {
 
-/// A mesh as its file gives it: coordinates untransformed, polygons triangulated, vertex normals and texture
-/// coordinates ignored (light is computed on the true geometry).
+/// A mesh as its file gives it: coordinates untransformed, polygons triangulated, texture coordinates
+/// ignored.
 struct MeshFile {
     Mesh mesh;
     /// Names of the file's parts and, for each triangle, indices into them. Unnamed parts have the name "".
