@@ -111,7 +111,7 @@ Errors errors_of(const Material& material, bool has_large_light) {
 }
 
 Material phong(double exponent) { return Phong{Rgb::grey(0.2), Rgb::grey(0.4), exponent}; }
-Material rough(double roughness) { return RoughConductor(Rgb::grey(0.7), roughness); }
+Material rough(double roughness) { return RoughConductor({Rgb::grey(0.7), roughness}); }
 
 void print_table() {
     const std::vector<std::pair<std::string, Material>> materials{

@@ -9,10 +9,18 @@
 //             ..."}};
 //         }
 //     };
+//
+// A type whose parameters can contradict each other says how: contradiction() const returns the message, or
+// nothing.
 #pragma once
 
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <tuple>
+
+#include "base/rgb.h"
 
 namespace stilb {
 
@@ -47,6 +55,38 @@ Field(std::string_view, Value Owner::*, Range, std::string_view, Presence) -> Fi
 template <typename T, typename Visit>
 constexpr void for_each_field(const Visit& visit) {
     std::apply([&](const auto&... field) { (visit(field), ...); }, T::fields());
+}
+
+/// Why a number outside of the range is refused.
+std::string refusal(double value, const Range& range);
+
+/// Throw an InputError that begins with `path`, the full name of the parameter, where the value is outside of
+/// the range (NaN is); of colours and arrays they name the component, unless a colour is grey.
+void expect_inside(double value, const Range& range, const std::string& path);
+void expect_inside(const Rgb& value, const Range& range, const std::string& path);
+void expect_inside(std::span<const double> values, const Range& range, const std::string& path);
+
+/// Throws an InputError: "path: message".
+[[noreturn]] void fail_at(std::string_view path, std::string_view message);
+
+/// How the parameters contradict each other, though each is inside of its range.
+template <typename T>
+std::optional<std::string> contradiction_in(const T& parameters) {
+    if constexpr (requires { parameters.contradiction(); }) {
+        return parameters.contradiction();
+    } else {
+        return std::nullopt;
+    }
+}
+
+/// Throws an InputError with the words of the scene reader where a parameter is out of its range, or several
+/// contradict each other. `path`: full name of what has the parameters, such as materials.wall.
+template <typename T>
+void validate_fields(const T& parameters, std::string_view path) {
+    for_each_field<T>([&](const auto& field) {
+        expect_inside(parameters.*field.member, field.range, std::string(path).append(".").append(field.key));
+    });
+    if (const auto message = contradiction_in(parameters)) fail_at(path, *message);
 }
 
 }  // namespace stilb

@@ -21,62 +21,40 @@ Json extent_json(const Bounds& bounds) {
     return Json::array({vector_json(bounds.min), vector_json(bounds.max)});
 }
 
-struct MaterialReport {
-    Json operator()(const Diffuse& m) const {
-        return {{"type", "diffuse"}, {"reflectance", m.reflectance.luminance()}, {"rgb", m.reflectance.band}};
-    }
-    Json operator()(const Phong& m) const {
-        return {{"type", "phong"},
-                {"reflectance", (m.diffuse + m.specular).luminance()},
-                {"diffuse", m.diffuse.luminance()},
-                {"specular", m.specular.luminance()},
-                {"exponent", m.exponent}};
-    }
-    Json operator()(const RoughConductor& m) const {
-        return {{"type", "rough"},
-                {"reflectance", m.reflectance().luminance()},
-                {"rgb", m.reflectance().band},
-                {"roughness", m.roughness()}};
-    }
-    Json operator()(const Ward& m) const {
-        return {{"type", "ward"},
-                {"reflectance", (m.diffuse() + m.specular()).luminance()},
-                {"diffuse", m.diffuse().luminance()},
-                {"specular", m.specular().luminance()},
-                {"roughness", Json::array({m.roughness().u, m.roughness().v})},
-                {"rotation", m.rotation_deg()}};
-    }
-    Json operator()(const Plastic& m) const {
-        return {{"type", "plastic"},
-                {"reflectance", m.mean_reflectance().luminance()},
-                {"diffuse", m.diffuse().luminance()},
-                {"ior", m.ior()},
-                {"roughness", m.roughness()}};
-    }
-    Json operator()(const Mirror& m) const {
-        return {{"type", "mirror"}, {"reflectance", m.reflectance.luminance()}, {"rgb", m.reflectance.band}};
-    }
-    Json operator()(const Dielectric& m) const {
-        return {{"type", "glass"}, {"reflectance", normal_reflectance(m)}, {"ior", m.ior}};
-    }
-    Json operator()(const ThinDielectric& m) const {
-        const materials::PaneShares shares = pane_shares(m, 1);
-        return {{"type", "pane"},
-                {"reflectance", shares.reflectance.luminance()},
-                {"transmittance", shares.transmittance.luminance()},
-                {"ior", m.ior},
-                {"internal_transmittance", m.internal_transmittance.luminance()}};
-    }
-    Json operator()(const Black&) const { return {{"type", "black"}, {"reflectance", 0.0}}; }
+Json parameter_json(double value) { return value; }
+Json parameter_json(const Rgb& value) { return value.luminance(); }
+template <std::size_t count>
+Json parameter_json(const std::array<double, count>& values) {
+    return values;
+}
 
-  private:
-    static double normal_reflectance(const Dielectric& glass) {
-        return specular_branches(glass, materials::LightSide::outside, {0, 0, 1})
-            .list()
-            .front()
-            .share.luminance();
-    }
-};
+/// The parameters that a type lists. Of a colour the luminance; of "reflectance", which is stated before, the
+/// bands.
+template <typename Parameters>
+void add_parameters(Json& json, const Parameters& parameters) {
+    for_each_field<Parameters>([&](const auto& field) {
+        const auto& value = parameters.*field.member;
+        if constexpr (std::same_as<decltype(value), const Rgb&>) {
+            if (field.key == "reflectance") return void(json["rgb"] = value.band);
+        }
+        json[std::string(field.key)] = parameter_json(value);
+    });
+}
+
+Json material_json(const NamedMaterial& named) {
+    const Material& material = named.material;
+    return std::visit(
+        [&]<typename Model>(const Model& model) {
+            Json json{{"name", named.name},
+                      {"type", Model::kType},
+                      {"reflectance", stated_reflectance(material).luminance()}};
+            if (passes_straight(material))
+                json["transmittance"] = straight_transmittance(material, 1).luminance();
+            add_parameters(json, materials::parameters_of(model));
+            return json;
+        },
+        material);
+}
 
 struct ShapeReport {
     Json operator()(const Mesh& mesh) const { return of_triangles("mesh", mesh); }
@@ -175,7 +153,8 @@ std::size_t mesh_bytes(const Scene& scene) {
     for (const Object& object : scene.objects) {
         bytes += object.materials.size() * sizeof(MaterialId);
         if (const auto* mesh = std::get_if<Mesh>(&object.shape))
-            bytes += mesh->vertices.size() * sizeof(Vec3) + mesh->triangles.size() * sizeof(Triangle);
+            bytes += (mesh->vertices.size() + mesh->normals.size()) * sizeof(Vec3) +
+                     (mesh->triangles.size() + mesh->corner_normals.size()) * sizeof(Triangle);
     }
     return bytes;
 }
@@ -221,11 +200,7 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     }
 
     Json json{{"stilb", STILB_VERSION}, {"file", name}, {"name", scene.name}};
-    json["materials"] = list_json(scene.materials, [](const NamedMaterial& material) {
-        Json one{{"name", material.name}};
-        one.update(std::visit(MaterialReport{}, material.material));
-        return one;
-    });
+    json["materials"] = list_json(scene.materials, material_json);
     json["objects"] = Json::array();
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
         json["objects"].push_back(object_json(scene.objects[i], spaces.shells()[i], scene));

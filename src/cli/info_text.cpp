@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,30 +39,29 @@ std::string extent_text(const Json& extent) {
     return fmt::format("from {} to {}", point_text(extent[0]), point_text(extent[1]));
 }
 
-std::string material_text(const Json& material) {
-    std::string line = fmt::format("{:16} {:9} reflectance {:.3g}", text(material, "name"),
-                                   text(material, "type"), number(material, "reflectance"));
-    if (material.contains("exponent")) {
-        line +=
-            fmt::format(" (diffuse {:.3g}, specular {:.3g}, exponent {:.4g})", number(material, "diffuse"),
-                        number(material, "specular"), number(material, "exponent"));
-    } else if (material.contains("rotation")) {
-        line += fmt::format(" (diffuse {:.3g}, specular {:.3g}, roughness {:.3g} x {:.3g}, rotation {:.4g})",
-                            number(material, "diffuse"), number(material, "specular"),
-                            material["roughness"][0].get<double>(), material["roughness"][1].get<double>(),
-                            number(material, "rotation"));
-    } else if (material.contains("transmittance")) {
-        line += fmt::format(" (transmittance {:.3g}, ior {:.4g})", number(material, "transmittance"),
-                            number(material, "ior"));
-    } else if (material.contains("ior") && !material.contains("roughness")) {
-        line += fmt::format(" (ior {:.4g})", number(material, "ior"));
-    } else if (material.contains("ior")) {
-        line += fmt::format(" (diffuse {:.3g}, ior {:.4g}, roughness {:.3g})", number(material, "diffuse"),
-                            number(material, "ior"), number(material, "roughness"));
-    } else if (material.contains("roughness")) {
-        line += fmt::format(" (roughness {:.3g})", number(material, "roughness"));
+/// A share to three digits, other numbers to four; of an array "0.1 x 0.2".
+std::string parameter_text(const Json& value) {
+    if (value.is_array()) {
+        std::string text;
+        for (const Json& element : value) text += (text.empty() ? "" : " x ") + parameter_text(element);
+        return text;
     }
-    return line;
+    const double number = value.get<double>();
+    return std::abs(number) <= 1 ? fmt::format("{:.3g}", number) : fmt::format("{:.4g}", number);
+}
+
+std::string material_text(const Json& material) {
+    // The internal transmittance is part of the transmittance.
+    static const std::set<std::string> left_out{"name", "type", "reflectance", "rgb",
+                                                "internal_transmittance"};
+    std::string parameters;
+    for (const auto& [key, value] : material.items()) {
+        if (!left_out.contains(key))
+            parameters +=
+                fmt::format("{}{} {}", parameters.empty() ? " (" : ", ", key, parameter_text(value));
+    }
+    return fmt::format("{:16} {:9} reflectance {:.3g}{}{}", text(material, "name"), text(material, "type"),
+                       number(material, "reflectance"), parameters, parameters.empty() ? "" : ")");
 }
 
 std::string object_text(const Json& object) {

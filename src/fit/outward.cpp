@@ -97,7 +97,7 @@ OutwardMesh outward(const Mesh& mesh) {
     }
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!turner.is_turned(t)) continue;
-        std::swap(result.mesh.triangles[t][1], result.mesh.triangles[t][2]);
+        geometry::turn_over(result.mesh, t);
         ++result.turned;
     }
     return result;

@@ -74,6 +74,27 @@ double area_m2(const Shape& shape) {
     return std::visit([](const auto& s) { return area(s); }, shape);
 }
 
+Vec3 shading_normal(const Mesh& mesh, std::uint32_t triangle, const Vec3& barycentric,
+                    const Vec3& geometric) {
+    constexpr double kLeastCosine = 0.1;
+    const Triangle& corners =
+        mesh.corner_normals.empty() ? mesh.triangles[triangle] : mesh.corner_normals[triangle];
+    Vec3 sum;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (corners[i] == kNoNormal) return geometric;
+        sum += barycentric[i] * mesh.normals[corners[i]];
+    }
+    const double along = dot(sum, geometric), size = length(sum);
+    if (!(std::abs(along) > kLeastCosine * size)) return geometric;
+    return sum / std::copysign(size, along);
+}
+
+void turn_over(Mesh& mesh, std::uint32_t triangle) {
+    std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+    if (!mesh.corner_normals.empty())
+        std::swap(mesh.corner_normals[triangle][1], mesh.corner_normals[triangle][2]);
+}
+
 Mesh triangulated(const Rectangle& r) {
     return {{r.corner, r.corner + r.edge_u, r.corner + r.edge_u + r.edge_v, r.corner + r.edge_v},
             {{0, 1, 2}, {0, 2, 3}}};

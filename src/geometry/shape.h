@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -25,7 +26,14 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Mesh {
     std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
+    /// Unit vectors on the front's side, of the surface that the triangles stand for; empty where they stand
+    /// for themselves. Zero: of no use.
+    std::vector<Vec3> normals{};
+    /// Indices into `normals` of the corners of each triangle, or kNoNormal; empty where they are the indices
+    /// of the vertices.
+    std::vector<Triangle> corner_normals{};
 };
+inline constexpr std::uint32_t kNoNormal = ~0u;
 
 /// The parallelogram corner + s edge_u + t edge_v, 0 <= s, t <= 1; its front is edge_u x edge_v.
 struct Rectangle {
@@ -79,6 +87,13 @@ struct Harmonics {
     Vec3 normal_towards(const Vec3& direction) const;
 };
 
+/// The normal of the surface that a mesh stands for, interpolated between a triangle's corners by barycentric
+/// coordinates: unit, on the side of the unit vector `geometric`, the triangle's own. That one where there is
+/// no other, or one that leans away from it by more than 84 degrees.
+Vec3 shading_normal(const Mesh& mesh, std::uint32_t triangle, const Vec3& barycentric, const Vec3& geometric);
+/// Makes the other side of a triangle its front.
+void turn_over(Mesh& mesh, std::uint32_t triangle);
+
 using Shape = std::variant<Mesh, Rectangle, Box, Sphere, Disk, Harmonics>;
 
 /// Axis-parallel.
@@ -101,6 +116,7 @@ using geometry::Box;
 using geometry::Disk;
 using geometry::HarmonicMethod;
 using geometry::Harmonics;
+using geometry::kNoNormal;
 using geometry::Mesh;
 using geometry::Rectangle;
 using geometry::Shape;

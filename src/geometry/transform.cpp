@@ -19,8 +19,9 @@ bool keeps_axes(const Transform& t) {
 Shape moved(const Mesh& mesh, const Transform& t) {
     Mesh result = mesh;
     for (Vec3& vertex : result.vertices) vertex = t.point(vertex);
+    for (Vec3& normal : result.normals) normal = t.normal(normal);
     if (t.determinant() < 0) {
-        for (Triangle& triangle : result.triangles) std::swap(triangle[1], triangle[2]);
+        for (std::uint32_t i = 0; i < result.triangles.size(); ++i) turn_over(result, i);
     }
     return result;
 }
@@ -67,6 +68,14 @@ Transform Transform::rotation(const Vec3& unit_axis, double angle_deg) {
         return c * v + s * cross(unit_axis, v) + (1 - c) * dot(unit_axis, v) * unit_axis;
     };
     return {turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1}), {}};
+}
+
+Vec3 Transform::normal(const Vec3& n) const {
+    // By the inverse transpose but for a positive factor: the cofactors, whose sign is the determinant's.
+    const Vec3 moved =
+        n.x * cross(y_axis, z_axis) + n.y * cross(z_axis, x_axis) + n.z * cross(x_axis, y_axis);
+    const double size = length(moved);
+    return size > 0 ? moved / std::copysign(size, determinant()) : Vec3{};
 }
 
 double Transform::regularity() const {

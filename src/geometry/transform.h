@@ -17,6 +17,8 @@ struct Transform {
     static Transform rotation(const Vec3& unit_axis, double angle_deg);
 
     Vec3 direction(const Vec3& d) const { return d.x * x_axis + d.y * y_axis + d.z * z_axis; }
+    /// A unit normal of what is transformed, on the same side of it; zero stays zero.
+    Vec3 normal(const Vec3& n) const;
     Vec3 point(const Vec3& p) const { return direction(p) + translation; }
     /// Volumes are multiplied by this; negative for mirrored transforms.
     double determinant() const { return dot(x_axis, cross(y_axis, z_axis)); }

@@ -17,4 +17,17 @@ FresnelReflectance fresnel_reflectance(double cosine, double ior) {
     return {across * across, along * along};
 }
 
+SpecularBranches Dielectric::branches(LightSide side, const Vec3& in) const {
+    const double far_over_near = side == LightSide::outside ? ior : 1 / ior;
+    const double reflectance = fresnel_reflectance(in.z, far_over_near).unpolarised();
+    SpecularBranches branches;
+    branches.add({mirrored(in), Rgb::grey(reflectance)});
+    if (reflectance < 1) {
+        const Vec3 refracted = normalized(
+            Vec3{-in.x / far_over_near, -in.y / far_over_near, -refracted_cosine(in.z, far_over_near)});
+        branches.add({refracted, Rgb::grey(1 - reflectance), 1 / (far_over_near * far_over_near)});
+    }
+    return branches;
+}
+
 }  // namespace stilb::materials

@@ -1,5 +1,7 @@
-// What a smooth surface between two transparent media does to light.
+// What a smooth surface between two transparent media does to light, and glass, the solid that has it.
 #pragma once
+
+#include "materials/model.h"
 
 namespace stilb::materials {
 
@@ -19,4 +21,22 @@ double refracted_cosine(double cosine, double ior);
 /// reflection.
 FresnelReflectance fresnel_reflectance(double cosine, double ior);
 
+/// The surface of a clear solid that stands in air: light is divided by Fresnel's equations for unpolarised
+/// light and refracted by Snell's law. What a solid absorbs on the way is not handled.
+struct Dielectric {
+    double ior = 1.5;  ///< of the solid
+
+    static constexpr std::string_view kType = "glass";
+    static constexpr auto fields() {
+        return std::tuple{Field{"ior", &Dielectric::ior, kIor, "refractive index of the solid"}};
+    }
+
+    SpecularBranches branches(LightSide side, const Vec3& in) const;
+    Rgb reflectance_bound() const { return Rgb::grey(1); }
+};
+
 }  // namespace stilb::materials
+
+namespace stilb {
+using materials::Dielectric;
+}  // namespace stilb

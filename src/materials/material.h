@@ -1,95 +1,98 @@
 // Materials: how a surface reflects. Every material is two-sided: both sides reflect alike.
 //
-// Directions are unit vectors in the local frame of the surface (Frame::of_surface), z along the normal on
-// the side that light arrives on, both pointing away from the surface. Formulas and limits:
-// docs/materials.md.
+// One more model is two new files, with what the concept Model of model.h asks for, and its name in the list
+// here. Directions are as model.h has them. Formulas and limits: docs/materials.md.
 #pragma once
 
-#include <cmath>
-#include <numbers>
-#include <optional>
+#include <string_view>
 #include <variant>
+#include <vector>
 
-#include "base/rgb.h"
-#include "base/vec.h"
+#include "materials/black.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/model.h"
+#include "materials/phong.h"
 #include "materials/plastic.h"
 #include "materials/rough_conductor.h"
-#include "materials/scatter_sample.h"
-#include "materials/specular.h"
+#include "materials/thin_dielectric.h"
 #include "materials/ward.h"
 
 namespace stilb::materials {
 
-/// f = reflectance / pi.
-struct Diffuse {
-    Rgb reflectance;
-};
+template <Model... Models>
+using OneOf = std::variant<Models...>;
 
-/// Energy-normalised modified Phong: f = diffuse/pi + specular (n+2)/(2 pi) cos+^n(alpha), where alpha is the
-/// angle to the mirrored direction and n the exponent; diffuse + specular <= 1 in every band.
-struct Phong {
-    Rgb diffuse;
-    Rgb specular;
-    double exponent = 1;
-};
-
-/// Reflects nothing.
-struct Black {};
-
+/// In the order of lists for users.
 using Material =
-    std::variant<Diffuse, Phong, RoughConductor, Ward, Plastic, Mirror, Dielectric, ThinDielectric, Black>;
+    OneOf<Diffuse, Phong, RoughConductor, Ward, Plastic, Mirror, Dielectric, ThinDielectric, Black>;
 
-/// cos+^n(alpha): the unnormalised lobe.
-inline double phong_lobe(const Phong& material, const Vec3& in, const Vec3& out) {
-    const double cos_alpha = in.z * out.z - in.x * out.x - in.y * out.y;
-    return cos_alpha > 0 ? std::pow(cos_alpha, material.exponent) : 0;
+/// Calls `visit.template operator()<M>()` for every model M, in order.
+template <typename Visit>
+void for_each_model(const Visit& visit) {
+    [&]<typename... Models>(std::type_identity<std::variant<Models...>>) {
+        (visit.template operator()<Models>(), ...);
+    }(std::type_identity<Material>{});
 }
 
-/// BRDF [1/sr]; 0 for directions below the surface and for delta functions. Reciprocal. One overload per
-/// material too, so that a loop over many directions can pick the material outside.
-inline Rgb evaluate_brdf_per_sr(const Diffuse& material, const Vec3& in, const Vec3& out) {
-    return in.z > 0 && out.z > 0 ? material.reflectance * std::numbers::inv_pi : Rgb{};
+/// Names of the models in scene files.
+std::vector<std::string_view> type_names();
+
+/// BRDF [1/sr]; 0 for directions below the surface and for specular materials. Reciprocal. For one model too,
+/// so that a loop over many directions can pick the model outside.
+template <Model M>
+Rgb evaluate_brdf_per_sr([[maybe_unused]] const M& model, [[maybe_unused]] const Vec3& in,
+                         [[maybe_unused]] const Vec3& out) {
+    if constexpr (Scattering<M>) {
+        return in.z > 0 && out.z > 0 ? model.brdf_per_sr(in, out) : Rgb{};
+    } else {
+        return {};
+    }
 }
-inline Rgb evaluate_brdf_per_sr(const Phong& material, const Vec3& in, const Vec3& out) {
-    if (in.z <= 0 || out.z <= 0) return {};
-    const double lobe_per_sr =
-        (material.exponent + 2) / (2 * std::numbers::pi) * phong_lobe(material, in, out);
-    return material.diffuse * std::numbers::inv_pi + material.specular * lobe_per_sr;
-}
-/// Rough, Ward, Plastic.
-template <typename Own>
-Rgb evaluate_brdf_per_sr(const Own& material, const Vec3& in, const Vec3& out) {
-    return in.z > 0 && out.z > 0 ? material.brdf_per_sr(in, out) : Rgb{};
-}
-inline Rgb evaluate_brdf_per_sr(const Mirror&, const Vec3&, const Vec3&) { return {}; }
-inline Rgb evaluate_brdf_per_sr(const Dielectric&, const Vec3&, const Vec3&) { return {}; }
-inline Rgb evaluate_brdf_per_sr(const ThinDielectric&, const Vec3&, const Vec3&) { return {}; }
-inline Rgb evaluate_brdf_per_sr(const Black&, const Vec3&, const Vec3&) { return {}; }
 inline Rgb evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
-    return std::visit([&](const auto& m) { return evaluate_brdf_per_sr(m, in, out); }, material);
+    return std::visit([&](const auto& model) { return evaluate_brdf_per_sr(model, in, out); }, material);
 }
 
 /// Direction drawn from the material's own density, by two numbers in [0, 1); nothing where light is
-/// absorbed and for delta functions, which specular_branches() has the directions of.
+/// absorbed and for specular materials, which specular_branches() has the directions of.
 std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& in, double u1, double u2);
 /// The density that sample_brdf() draws from. Its integral falls short of 1 by the probability of absorption.
 double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out);
+/// evaluate_brdf_per_sr(material, in, out) and pdf_per_sr(material, out, in), to the last bit, at the price
+/// of one.
+ScatterValue evaluate_and_pdf(const Material& material, const Vec3& in, const Vec3& out);
+
 /// Mirror, glass, pane: no connection to such a surface is possible.
 bool is_specular(const Material& material);
-/// Where light goes on from a specular surface; nowhere from others.
+/// Where light that comes to the surface from `in` goes on from a specular surface; nowhere from others.
 SpecularBranches specular_branches(const Material& material, LightSide side, const Vec3& in);
+/// Whether light goes straight on through the surface, which shadow rays then do as well: panes.
+bool passes_straight(const Material& material);
+/// Its share of the flux, at an angle of this cosine to the normal; 0 where nothing does.
+Rgb straight_transmittance(const Material& material, double cosine);
+
 /// pi f / albedo, averaged over the reflected light, roughly: 1 on diffuse surfaces, large where a lobe
-/// dominates; 0 for delta functions and where nothing is reflected.
+/// dominates; 0 for specular materials and where nothing is reflected.
 double mean_concentration(const Material& material);
-/// Largest share of arriving light that is reflected, per band (a bound over directions); but for plastic,
-/// whose share rises to 1 along the surface, that of light from everywhere.
+/// Largest share of arriving light that is reflected or goes on, per band (a bound over directions); but for
+/// plastic, whose share rises to 1 along the surface, that of light from everywhere.
 Rgb reflectance_bound(const Material& material);
+/// What reports state: the bound, but of specular materials what they reflect at normal incidence.
+Rgb stated_reflectance(const Material& material);
+
+/// Throws an InputError with the words of the scene reader where a parameter is out of its range, or several
+/// contradict each other. `path`: such as materials.wall.
+void validate(const Material& material, std::string_view path);
+/// The model of these parameters, which are checked first: a table made of wrong ones would be nonsense.
+template <Model M>
+M make(const ParametersOf<M>& parameters, std::string_view path) {
+    validate_fields(parameters, path);
+    return M(parameters);
+}
 
 }  // namespace stilb::materials
 
 namespace stilb {
-using materials::Black;
-using materials::Diffuse;
 using materials::Material;
-using materials::Phong;
 }  // namespace stilb

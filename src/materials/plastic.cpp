@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "materials/concentration.h"
 #include "materials/dielectric.h"
 #include "math/sampling.h"
 
@@ -31,12 +30,13 @@ Rgb reflectance_from_within(const Rgb& diffuse, double coat_from_within) {
 
 }  // namespace
 
-Plastic::Plastic(const Rgb& diffuse, double ior, double roughness)
-    : diffuse_(diffuse),
-      ior_(ior),
-      facets_(roughness),
-      transmission_(roughness, [this](double cosine) { return transmission_at(facets_, ior_, cosine); }),
-      base_(reflectance_from_within(diffuse, 1 - transmission_.average() / (ior * ior))) {
+Plastic::Plastic(const Parameters& parameters)
+    : parameters_(parameters),
+      facets_(parameters.roughness),
+      transmission_(parameters.roughness,
+                    [this](double cosine) { return transmission_at(facets_, parameters_.ior, cosine); }),
+      base_(reflectance_from_within(parameters.diffuse,
+                                    1 - transmission_.average() / (parameters.ior * parameters.ior))) {
     concentration_ = concentration_at_normal_incidence(*this);
 }
 
@@ -44,28 +44,42 @@ Rgb Plastic::mean_reflectance() const {
     return Rgb::grey(1 - transmission_.average()) + transmission_.average() * base_;
 }
 
-double Plastic::coat_probability(const Vec3& in) const {
-    const double through = transmission_.at(in.z);
+inline double Plastic::coat_probability(double through) const {
     const double total = 1 - through + through * base_.luminance();
     return total > 0 ? (1 - through) / total : 0;
 }
 
-Rgb Plastic::brdf_per_sr(const Vec3& in, const Vec3& out) const {
-    const Vec3 half = half_vector(in, out);
-    const double coat =
-        fresnel_reflectance(dot(in, half), ior_).unpolarised() * facets_.brdf_per_sr(in, out, half);
-    const double through = transmission_.at(in.z) * transmission_.at(out.z) / (kPi * transmission_.average());
+inline Rgb Plastic::brdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half, double through_in,
+                                         double through_out) const {
+    const double coat = fresnel_reflectance(dot(in, half), parameters_.ior).unpolarised() *
+                        facets_.brdf_per_sr(in, out, half);
+    const double through = through_in * through_out / (kPi * transmission_.average());
     return Rgb::grey(coat) + base_ * through;
 }
 
+inline double Plastic::pdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half,
+                                           double coat) const {
+    return coat * facets_.pdf_per_sr(in, half) + (1 - coat) * math::cosine_hemisphere_pdf_per_sr(out.z);
+}
+
+Rgb Plastic::brdf_per_sr(const Vec3& in, const Vec3& out) const {
+    return brdf_by_facet_per_sr(in, out, half_vector(in, out), transmission_.at(in.z),
+                                transmission_.at(out.z));
+}
+
 double Plastic::pdf_per_sr(const Vec3& in, const Vec3& out) const {
-    const double coat = coat_probability(in);
-    return coat * facets_.pdf_per_sr(in, half_vector(in, out)) +
-           (1 - coat) * math::cosine_hemisphere_pdf_per_sr(out.z);
+    return pdf_by_facet_per_sr(in, out, half_vector(in, out), coat_probability(transmission_.at(in.z)));
+}
+
+ScatterValue Plastic::evaluate(const Vec3& in, const Vec3& out) const {
+    const Vec3 half = half_vector(in, out);
+    const double through_in = transmission_.at(in.z), through_out = transmission_.at(out.z);
+    return {brdf_by_facet_per_sr(in, out, half, through_in, through_out),
+            pdf_by_facet_per_sr(out, in, half, coat_probability(through_out))};
 }
 
 std::optional<ScatterSample> Plastic::sample(const Vec3& in, double u1, double u2) const {
-    const double coat = coat_probability(in);
+    const double through = transmission_.at(in.z), coat = coat_probability(through);
     Vec3 out;
     if (u1 < coat) {
         out = normalized(reflected(in, facets_.visible_normal(in, math::sample_unit_disk(u1 / coat, u2))));
@@ -74,8 +88,10 @@ std::optional<ScatterSample> Plastic::sample(const Vec3& in, double u1, double u
             math::sample_cosine_hemisphere(std::min((u1 - coat) / (1 - coat), math::kBelowOne), u2).direction;
     }
     if (out.z <= 0) return std::nullopt;
-    const double density = pdf_per_sr(in, out);
-    return ScatterSample{out, brdf_per_sr(in, out) * (out.z / density), density};
+    const Vec3 half = half_vector(in, out);
+    const double density = pdf_by_facet_per_sr(in, out, half, coat);
+    const Rgb brdf = brdf_by_facet_per_sr(in, out, half, through, transmission_.at(out.z));
+    return ScatterSample{out, brdf * (out.z / density), density};
 }
 
 }  // namespace stilb::materials

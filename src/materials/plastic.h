@@ -1,11 +1,9 @@
 // Plastic, paint, varnished wood: a clear rough coat over a diffuse base.
 #pragma once
 
-#include <optional>
-
 #include "materials/albedo_table.h"
 #include "materials/ggx.h"
-#include "materials/scatter_sample.h"
+#include "materials/model.h"
 
 namespace stilb::materials {
 
@@ -15,28 +13,44 @@ namespace stilb::materials {
 /// the coat's facets keep among themselves counts as let through. A white base loses nothing.
 class Plastic {
   public:
-    /// Reflectance of the base in [0, 1] as it would be without the coat; ior >= 1 of the coat; roughness =
-    /// alpha of GGX, from 0.001 to 1.
-    Plastic(const Rgb& diffuse, double ior, double roughness);
+    struct Parameters {
+        Rgb diffuse;
+        double ior = 1.5;
+        double roughness = 0.1;
 
-    const Rgb& diffuse() const { return diffuse_; }
-    double ior() const { return ior_; }
-    double roughness() const { return facets_.alpha(); }
+        static constexpr auto fields() {
+            return std::tuple{
+                Field{"diffuse", &Parameters::diffuse, kReflectance,
+                      "reflectance of the base, as it would be without the coat"},
+                Field{"ior", &Parameters::ior, kIor, "refractive index of the coat"},
+                Field{"roughness", &Parameters::roughness, kRoughness, "alpha of GGX, of the coat"}};
+        }
+    };
+    static constexpr std::string_view kType = "plastic";
+
+    explicit Plastic(const Parameters& parameters);
+
+    const Parameters& parameters() const { return parameters_; }
     double concentration() const { return concentration_; }
     /// The albedo under light from everywhere.
     Rgb mean_reflectance() const;
+    Rgb reflectance_bound() const { return mean_reflectance(); }
 
-    /// As the functions of material.h, for directions above the surface.
     Rgb brdf_per_sr(const Vec3& in, const Vec3& out) const;
     double pdf_per_sr(const Vec3& in, const Vec3& out) const;
+    ScatterValue evaluate(const Vec3& in, const Vec3& out) const;
     std::optional<ScatterSample> sample(const Vec3& in, double u1, double u2) const;
 
   private:
+    /// `through_in` and `through_out`: T under both directions.
+    Rgb brdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half, double through_in,
+                             double through_out) const;
     /// Of drawing from the coat's lobe: its share of the luminance.
-    double coat_probability(const Vec3& in) const;
+    double coat_probability(double through) const;
+    double pdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half,
+                               double coat_probability) const;
 
-    Rgb diffuse_;
-    double ior_;
+    Parameters parameters_;
     Ggx facets_;
     AlbedoTable transmission_;  ///< T
     /// What comes out again, of light that the coat has let through.

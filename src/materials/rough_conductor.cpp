@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "materials/concentration.h"
-
 namespace stilb::materials {
 namespace {
 
@@ -27,31 +25,44 @@ Rgb multiple_reflectance(const Rgb& reflectance, double lost) {
 
 }  // namespace
 
-RoughConductor::RoughConductor(const Rgb& reflectance, double roughness)
-    : reflectance_(reflectance),
-      facets_(roughness),
-      loss_(roughness, [this](double cosine) { return loss_at(facets_, cosine); }),
-      multiple_(multiple_reflectance(reflectance, loss_.average())) {
+RoughConductor::RoughConductor(const Parameters& parameters)
+    : parameters_(parameters),
+      facets_(parameters.roughness),
+      loss_(parameters.roughness, [this](double cosine) { return loss_at(facets_, cosine); }),
+      multiple_(multiple_reflectance(parameters.reflectance, loss_.average())) {
     concentration_ = concentration_at_normal_incidence(*this);
 }
 
-double RoughConductor::multiple_probability(const Vec3& in) const { return loss_.at(in.z); }
+inline Rgb RoughConductor::brdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half,
+                                                double loss_in, double loss_out) const {
+    const double once = facets_.brdf_per_sr(in, out, half);
+    const double more = loss_in * loss_out / (kPi * loss_.average());
+    return parameters_.reflectance * once + multiple_ * more;
+}
+
+inline double RoughConductor::pdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half,
+                                                  double loss_in) const {
+    return (1 - loss_in) * facets_.pdf_per_sr(in, half) + loss_in * loss_.pdf_of_cosine(out.z) / (2 * kPi);
+}
 
 Rgb RoughConductor::brdf_per_sr(const Vec3& in, const Vec3& out) const {
-    const double once = facets_.brdf_per_sr(in, out, half_vector(in, out));
-    const double more = loss_.at(in.z) * loss_.at(out.z) / (kPi * loss_.average());
-    return reflectance_ * once + multiple_ * more;
+    return brdf_by_facet_per_sr(in, out, half_vector(in, out), loss_.at(in.z), loss_.at(out.z));
 }
 
 double RoughConductor::pdf_per_sr(const Vec3& in, const Vec3& out) const {
-    const double multiple = multiple_probability(in);
-    return (1 - multiple) * facets_.pdf_per_sr(in, half_vector(in, out)) +
-           multiple * loss_.pdf_of_cosine(out.z) / (2 * kPi);
+    return pdf_by_facet_per_sr(in, out, half_vector(in, out), loss_.at(in.z));
+}
+
+ScatterValue RoughConductor::evaluate(const Vec3& in, const Vec3& out) const {
+    const Vec3 half = half_vector(in, out);
+    const double loss_in = loss_.at(in.z), loss_out = loss_.at(out.z);
+    return {brdf_by_facet_per_sr(in, out, half, loss_in, loss_out),
+            pdf_by_facet_per_sr(out, in, half, loss_out)};
 }
 
 std::optional<ScatterSample> RoughConductor::sample(const Vec3& in, double u1, double u2) const {
-    if (reflectance_.max() <= 0) return std::nullopt;
-    const double multiple = multiple_probability(in);
+    if (parameters_.reflectance.max() <= 0) return std::nullopt;
+    const double multiple = loss_.at(in.z);
     Vec3 out;
     if (u1 < multiple) {
         const double cosine = loss_.sample_cosine(u1 / multiple);
@@ -62,8 +73,10 @@ std::optional<ScatterSample> RoughConductor::sample(const Vec3& in, double u1, d
         out = normalized(reflected(in, facets_.visible_normal(in, math::sample_unit_disk(u_facet, u2))));
     }
     if (out.z <= 0) return std::nullopt;
-    const double density = pdf_per_sr(in, out);
-    return ScatterSample{out, brdf_per_sr(in, out) * (out.z / density), density};
+    const Vec3 half = half_vector(in, out);
+    const double density = pdf_by_facet_per_sr(in, out, half, multiple);
+    const Rgb brdf = brdf_by_facet_per_sr(in, out, half, multiple, loss_.at(out.z));
+    return ScatterSample{out, brdf * (out.z / density), density};
 }
 
 }  // namespace stilb::materials

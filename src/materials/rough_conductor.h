@@ -2,11 +2,9 @@
 // more than once.
 #pragma once
 
-#include <optional>
-
 #include "materials/albedo_table.h"
 #include "materials/ggx.h"
-#include "materials/scatter_sample.h"
+#include "materials/model.h"
 
 namespace stilb::materials {
 
@@ -17,24 +15,39 @@ namespace stilb::materials {
 /// of E.
 class RoughConductor {
   public:
-    /// Reflectance R of the facets in [0, 1], the same at all angles; roughness = alpha of GGX, about the
-    /// slope of the facets, from 0.001 to 1.
-    RoughConductor(const Rgb& reflectance, double roughness);
+    struct Parameters {
+        Rgb reflectance;  ///< R
+        double roughness = 0.1;
 
-    const Rgb& reflectance() const { return reflectance_; }
-    double roughness() const { return facets_.alpha(); }
+        static constexpr auto fields() {
+            return std::tuple{Field{"reflectance", &Parameters::reflectance, kReflectance,
+                                    "of the facets, the same at all angles"},
+                              Field{"roughness", &Parameters::roughness, kRoughness,
+                                    "alpha of GGX, about the slope of the facets"}};
+        }
+    };
+    static constexpr std::string_view kType = "rough";
+
+    explicit RoughConductor(const Parameters& parameters);
+
+    const Parameters& parameters() const { return parameters_; }
     double concentration() const { return concentration_; }
+    Rgb reflectance_bound() const { return parameters_.reflectance; }
 
-    /// As the functions of material.h, for directions above the surface.
     Rgb brdf_per_sr(const Vec3& in, const Vec3& out) const;
     double pdf_per_sr(const Vec3& in, const Vec3& out) const;
+    ScatterValue evaluate(const Vec3& in, const Vec3& out) const;
     std::optional<ScatterSample> sample(const Vec3& in, double u1, double u2) const;
 
   private:
-    /// Of drawing from the light that is reflected more than once, whose share of a white one's albedo it is.
-    double multiple_probability(const Vec3& in) const;
+    /// `loss_in` and `loss_out`: of the table, under both directions. That of the direction that light comes
+    /// from is the probability of drawing from the light that is reflected more than once, whose share of a
+    /// white one's albedo it is.
+    Rgb brdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half, double loss_in,
+                             double loss_out) const;
+    double pdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half, double loss_in) const;
 
-    Rgb reflectance_;
+    Parameters parameters_;
     Ggx facets_;
     AlbedoTable loss_;  ///< 1 - E
     Rgb multiple_;      ///< M

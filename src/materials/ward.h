@@ -1,11 +1,7 @@
 // Ward's anisotropic gloss, in the form whose albedo is bounded.
 #pragma once
 
-#include <optional>
-
-#include "base/rgb.h"
-#include "base/vec.h"
-#include "materials/scatter_sample.h"
+#include "materials/model.h"
 
 namespace stilb::materials {
 
@@ -14,23 +10,43 @@ namespace stilb::materials {
 /// albedo, (17)]. Reciprocal.
 class Ward {
   public:
-    /// Slopes of the surface along two axes at right angles, each from 0.001 to 1.
-    struct Roughness {
-        double u = 0, v = 0;
+    struct Parameters {
+        Rgb diffuse, specular;
+        std::array<double, 2> roughness{0.1, 0.1};
+        double rotation_deg = 0;
+
+        static constexpr auto fields() {
+            return std::tuple{
+                Field{"diffuse", &Parameters::diffuse, kReflectance, "share that is reflected diffusely"},
+                Field{"specular", &Parameters::specular, kReflectance,
+                      "share in the lobe, at normal incidence"},
+                Field{"roughness", &Parameters::roughness, kRoughness,
+                      "slopes [u, v] of the surface along its two axes"},
+                Field{"rotation", &Parameters::rotation_deg, kAngle,
+                      "of the axes, in degrees, counterclockwise as seen from the side that light "
+                      "arrives on",
+                      Presence::optional}};
+        }
+        std::optional<std::string> contradiction() const {
+            return contradiction_of_shares(diffuse, specular);
+        }
     };
-    /// diffuse + specular <= 1 in every band. The rotation turns the axes counterclockwise from those of the
-    /// surface's frame, as seen from the side that light arrives on.
-    Ward(const Rgb& diffuse, const Rgb& specular, const Roughness& roughness, double rotation_deg);
+    static constexpr std::string_view kType = "ward";
 
-    const Rgb& diffuse() const { return diffuse_; }
-    const Rgb& specular() const { return specular_; }
-    const Roughness& roughness() const { return roughness_; }
-    double rotation_deg() const { return rotation_deg_; }
+    explicit Ward(const Parameters& parameters);
+
+    const Parameters& parameters() const { return parameters_; }
     double concentration() const { return concentration_; }
+    Rgb reflectance_bound() const { return parameters_.diffuse + parameters_.specular; }
 
-    /// As the functions of material.h, for directions above the surface.
-    Rgb brdf_per_sr(const Vec3& in, const Vec3& out) const;
-    double pdf_per_sr(const Vec3& in, const Vec3& out) const;
+    Rgb brdf_per_sr(const Vec3& in, const Vec3& out) const { return brdf_of_lobe_per_sr(lobe(in, out)); }
+    double pdf_per_sr(const Vec3& in, const Vec3& out) const {
+        return pdf_of_lobe_per_sr(lobe(in, out), out);
+    }
+    ScatterValue evaluate(const Vec3& in, const Vec3& out) const {
+        const Lobe both = lobe(in, out);
+        return {brdf_of_lobe_per_sr(both), pdf_of_lobe_per_sr(both, in)};
+    }
     std::optional<ScatterSample> sample(const Vec3& in, double u1, double u2) const;
 
   private:
@@ -39,11 +55,11 @@ class Ward {
         double brdf_per_sr = 0, pdf_per_sr = 0;
     };
     Lobe lobe(const Vec3& in, const Vec3& out) const;
+    Rgb brdf_of_lobe_per_sr(const Lobe& lobe) const;
+    double pdf_of_lobe_per_sr(const Lobe& lobe, const Vec3& out) const;
     Vec3 mirrored_at_drawn_facet(const Vec3& in, double u1, double u2) const;
 
-    Rgb diffuse_, specular_;
-    Roughness roughness_;
-    double rotation_deg_;
+    Parameters parameters_;
     double cos_rotation_, sin_rotation_;
     double diffuse_probability_;
     double concentration_ = 0;

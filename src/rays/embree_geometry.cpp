@@ -122,7 +122,9 @@ RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origi
     if (const auto* rectangle = std::get_if<Rectangle>(&shape))
         return new_mesh(device, triangulated(*rectangle), origin, kept);
     if (const auto* box = std::get_if<Box>(&shape)) return new_mesh(device, triangulated(*box), origin, kept);
-    return new_mesh(device, std::get<Mesh>(shape), origin, kept);
+    const Mesh& mesh = std::get<Mesh>(shape);
+    if (!mesh.normals.empty()) kept.smooth = &mesh;
+    return new_mesh(device, mesh, origin, kept);
 }
 
 }  // namespace stilb::rays

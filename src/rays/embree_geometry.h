@@ -15,6 +15,7 @@ namespace stilb::rays {
 struct EmbreeGeometry {
     const std::array<float, 3>* vertices = nullptr;  ///< owned by Embree, as are the triangles; or null
     const Triangle* triangles = nullptr;
+    const Mesh* smooth = nullptr;  ///< owned by the scene, where it has vertex normals; or null
     std::unique_ptr<CurvedSurface> curved;
 };
 

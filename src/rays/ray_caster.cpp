@@ -106,7 +106,7 @@ struct RayCaster::Implementation {
         half_extent = bounds.half_extent();
         has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
             return std::ranges::any_of(object.materials,
-                                       [&](MaterialId id) { return pane_of(id) != nullptr; });
+                                       [&](MaterialId id) { return passes_straight(scene.material(id)); });
         });
         device = rtcNewDevice(nullptr);
         if (device == nullptr) throw std::runtime_error("Embree: no device could be made");
@@ -190,6 +190,9 @@ struct RayCaster::Implementation {
                 hit.lifted = origin + std::max(ray.tfar - back, 0.0) * direction;
             }
         }
+        hit.shading_normal = geometry.smooth != nullptr
+                                 ? shading_normal(*geometry.smooth, met.primID, {1 - u - v, u, v}, hit.normal)
+                                 : hit.normal;
         hit.lifted += center;
         hit.position += center;
         hit.distance_m = ray.tfar;
@@ -204,10 +207,11 @@ struct RayCaster::Implementation {
         return materials.size() == 1 ? materials[0] : materials[primitive];
     }
 
-    const ThinDielectric* pane_of(MaterialId id) const {
-        return std::get_if<ThinDielectric>(&scene.material(id));
+    bool is_pane(const Hit& hit) const { return passes_straight(scene.material(hit.material)); }
+    /// Of light that comes along `direction`.
+    Rgb transmittance_of_pane(const Hit& hit, const Vec3& direction) const {
+        return straight_transmittance(scene.material(hit.material), -dot(direction, hit.normal));
     }
-    const ThinDielectric* pane_at(const Hit& hit) const { return pane_of(hit.material); }
 
     /// As RayCaster::offset_m, for a position relative to the centre.
     double offset(const Vec3& relative, double size_m) const {
@@ -350,9 +354,8 @@ Rgb RayCaster::transmittance_of_panes(const Segment& segment) const {
     Vec3 from = segment.from;
     while (occluded(from, segment.to)) {
         const auto hit = closest(from, direction);
-        const ThinDielectric* pane = hit ? implementation_->pane_at(*hit) : nullptr;
-        if (pane == nullptr) return {};
-        left *= pane_shares(*pane, -dot(direction, hit->normal)).transmittance;
+        if (!hit || !implementation_->is_pane(*hit)) return {};
+        left *= implementation_->transmittance_of_pane(*hit, direction);
         from = hit->lifted_behind();
     }
     return left;
@@ -363,12 +366,11 @@ RayCaster::Seen RayCaster::seen(const Ray& ray) const {
     Vec3 origin = ray.origin;
     for (;;) {
         const auto hit = closest(origin, ray.direction);
-        const ThinDielectric* pane = hit ? implementation_->pane_at(*hit) : nullptr;
-        if (pane == nullptr) {
+        if (!hit || !implementation_->is_pane(*hit)) {
             seen.hit = hit;
             return seen;
         }
-        seen.transmittance *= pane_shares(*pane, -dot(ray.direction, hit->normal)).transmittance;
+        seen.transmittance *= implementation_->transmittance_of_pane(*hit, ray.direction);
         origin = hit->lifted_behind();
     }
 }

@@ -28,7 +28,10 @@ namespace stilb::rays {
 /// Where a ray met a surface.
 struct Hit {
     Vec3 position;
-    Vec3 normal;        ///< geometric, unit, on the side that the ray came from
+    Vec3 normal;  ///< geometric, unit, on the side that the ray came from
+    /// Of the surface that a mesh with vertex normals stands for, unit, less than a right angle from
+    /// `normal`; else `normal`. Materials are seen by it, and nothing else (materials/shaded_surface.h).
+    Vec3 shading_normal;
     Vec3 lifted;        ///< the position, lifted off the surface on that side: rays start and end here
     double lift_m = 0;  ///< how far
     double distance_m = 0;

@@ -1,5 +1,6 @@
 #include "transport/light_path.h"
 
+#include "materials/shaded_surface.h"
 #include "transport/russian_roulette.h"
 #include "transport/specular_ray.h"
 
@@ -19,7 +20,7 @@ void trace_light_path(const Scene& scene, const rays::RayCaster& caster, const L
         if (!hit) return;
         const Material& material = scene.material(hit->material);
         if (is_specular(material)) {
-            const auto way = choose_specular_ray(material, *hit, -direction, stream.next());
+            const auto way = choose_specular_ray(material, *hit, -direction, Carried::flux, stream.next());
             if (way && !way->straight) {
                 if (reflections == 0) only_by_light = particle.from_point;
                 ++reflections;
@@ -34,14 +35,14 @@ void trace_light_path(const Scene& scene, const rays::RayCaster& caster, const L
         const double survival = survival_probability(flux, reflectance_bound(material));
         if (stream.next() >= survival) return;
         flux *= 1 / survival;
-        nodes.push_back({hit->position, hit->lifted, hit->normal, -direction, &material, flux, ++reflections,
-                         only_by_light});
-        const Frame frame = Frame::of_surface(hit->normal);
+        nodes.push_back({hit->position, hit->lifted, hit->normal, hit->shading_normal, -direction, &material,
+                         flux, ++reflections, only_by_light});
+        const materials::ShadedSurface surface(material, hit->normal, hit->shading_normal);
         const auto [u1, u2] = stream.next_two();
-        const auto scattered = sample_brdf(material, frame.to_local(-direction), u1, u2);
+        const auto scattered = surface.sample_outgoing(surface.frame().to_local(-direction), u1, u2);
         if (!scattered) return;
         flux *= scattered->weight;
-        direction = frame.to_world(scattered->direction);
+        direction = surface.frame().to_world(scattered->direction);
         origin = hit->lifted;
     }
 }

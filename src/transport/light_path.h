@@ -12,6 +12,7 @@ struct LightVertex {
     Vec3 position;
     Vec3 lifted;                         ///< off the surface, where rays start
     Vec3 normal;                         ///< on the side that the particle came from
+    Vec3 shading_normal;                 ///< as rays::Hit has it
     Vec3 incoming;                       ///< unit, towards where the particle came from
     const Material* material = nullptr;  ///< owned by the scene
     /// W_n of theory (T.1), divided by the probability that the particle was not absorbed here: what a

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "materials/shaded_surface.h"
 #include "transport/balance.h"
 #include "transport/russian_roulette.h"
 #include "transport/specular_ray.h"
@@ -100,7 +101,8 @@ void PathTracer::add_stored_reflection(std::span<Path* const> paths, rays::Coher
 }
 
 std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Material& material) const {
-    const auto way = choose_specular_ray(material, path.hit, path.outgoing, path.stream.next());
+    const auto way =
+        choose_specular_ray(material, path.hit, path.outgoing, Carried::luminance, path.stream.next());
     const double survival = way ? survival_probability(path.throughput, way->share) : 0;
     if (path.stream.next() >= survival) return std::nullopt;
     path.throughput *= way->share * (way->luminance_factor / survival);
@@ -115,20 +117,21 @@ std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Material& m
 PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const {
     Step step;
     const rays::Hit& hit = path.hit;
-    const Frame frame = Frame::of_surface(hit.normal);
+    const materials::ShadedSurface surface(material, hit.normal, hit.shading_normal);
+    const Frame& frame = surface.frame();
     const Vec3 out = frame.to_local(path.outgoing);
     const auto light = lights_.sample_one_light(hit.position, hit.normal, path.stream);
     if (light && dot(light->direction, hit.normal) > 0) {
         const Vec3 in = frame.to_local(light->direction);
-        const double weight = balance(light->pdf_per_sr, pdf_per_sr(material, out, in));
+        const auto [brdf_per_sr, pdf_per_sr] = surface.evaluate(in, out);
+        const double weight = balance(light->pdf_per_sr, pdf_per_sr);
         step.connection = {{hit.lifted, light->source_point},
-                           path.throughput * evaluate_brdf_per_sr(material, in, out) * (in.z * weight) *
-                               light->normal_illuminance_lx};
+                           path.throughput * brdf_per_sr * (in.z * weight) * light->normal_illuminance_lx};
     }
     const double survival = patient_survival_probability(path.throughput, reflectance_bound(material));
     if (path.stream.next() >= survival) return step;
     const auto [u1, u2] = path.stream.next_two();
-    const auto scattered = sample_brdf(material, out, u1, u2);
+    const auto scattered = surface.sample_incoming(out, u1, u2);
     if (!scattered) return step;
     path.throughput *= scattered->weight * (1 / survival);
     path.previous_vertex = {scattered->pdf_per_sr, hit.position, hit.normal};

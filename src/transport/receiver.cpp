@@ -24,8 +24,7 @@ Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const ray
     : position_(point.position),
       lifted_(lifted_position(point, caster)),
       normal_(point.normal),
-      frame_(Frame::of_surface(normal_)),
-      material_(&white()),
+      surface_(white(), normal_, normal_),
       outgoing_{0, 0, 1},
       factor_(Rgb::grey(kPi)),
       constant_response_(Rgb::grey(1)),
@@ -34,9 +33,8 @@ Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const ray
 Receiver::Receiver(std::uint32_t reading, const BodyPoint& body, const rays::RayCaster& caster)
     : position_(body.position),
       lifted_(lifted_position(body, caster)),
-      frame_(Frame::of_surface(body.axis)),
+      surface_(white(), body.axis, body.axis),
       body_(body.sensitivity),
-      material_(&white()),
       outgoing_{0, 0, 1},
       factor_(Rgb::grey(kPi)),
       constant_response_(Rgb::grey(1)),
@@ -46,49 +44,51 @@ Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Mater
     : position_(sub_point.surface.position),
       lifted_(sub_point.surface.lifted),
       normal_(sub_point.surface.normal),
-      frame_(Frame::of_surface(normal_)),
-      material_(&material),
-      outgoing_(frame_.to_local(sub_point.outgoing)),
+      surface_(material, normal_, sub_point.surface.shading_normal),
+      outgoing_(surface_.frame().to_local(sub_point.outgoing)),
       factor_(sub_point.transmission),
       reflections_(sub_point.reflections + 1),
       reading_(reading) {
-    if (const auto* diffuse = std::get_if<Diffuse>(&material)) {
+    const auto* diffuse = std::get_if<Diffuse>(&material);
+    if (diffuse && !surface_.is_bent()) {
         constant_response_ = factor_ * diffuse->reflectance * std::numbers::inv_pi;
     }
 }
 
 double Receiver::sensitivity(const Vec3& direction) const {
-    return body_ ? body_->of(frame_.to_local(direction)) : std::max(0.0, dot(direction, normal_));
+    return body_ ? body_->of(surface_.frame().to_local(direction)) : std::max(0.0, dot(direction, normal_));
 }
 
 Rgb Receiver::response(const Vec3& direction) const {
     if (constant_response_) return *constant_response_;
-    return factor_ * evaluate_brdf_per_sr(*material_, frame_.to_local(direction), outgoing_);
+    return factor_ * surface_.brdf_per_sr(surface_.frame().to_local(direction), outgoing_);
 }
 
 double Receiver::relative_response(const Vec3& direction) const {
     if (constant_response_) return 1;
-    return relative_brdf(*material_, evaluate_brdf_per_sr(*material_, frame_.to_local(direction), outgoing_));
+    return relative_brdf(surface_.material(),
+                         surface_.brdf_per_sr(surface_.frame().to_local(direction), outgoing_));
 }
 
 std::optional<Receiver::Sample> Receiver::sample(double u1, double u2) const {
     if (body_) {
         const Vec3 local = body_->sample(u1, u2);
-        return Sample{frame_.to_world(local), factor_, body_->of(local) / kPi};
+        return Sample{surface_.frame().to_world(local), factor_, body_->of(local) / kPi};
     }
-    const auto scattered = sample_brdf(*material_, outgoing_, u1, u2);
+    const auto scattered = surface_.sample_incoming(outgoing_, u1, u2);
     if (!scattered) return std::nullopt;
-    return Sample{frame_.to_world(scattered->direction), factor_ * scattered->weight, scattered->pdf_per_sr};
+    return Sample{surface_.frame().to_world(scattered->direction), factor_ * scattered->weight,
+                  scattered->pdf_per_sr};
 }
 
 double Receiver::pdf_per_sr(const Vec3& direction) const {
     if (body_) return sensitivity(direction) / kPi;
-    return stilb::materials::pdf_per_sr(*material_, outgoing_, frame_.to_local(direction));
+    return surface_.pdf_of_incoming_per_sr(outgoing_, surface_.frame().to_local(direction));
 }
 
 Receiver Receiver::without_response() const {
     Receiver result = *this;
-    result.material_ = &white();
+    result.surface_ = {white(), normal_, normal_};
     result.outgoing_ = {0, 0, 1};
     result.factor_ = Rgb::grey(kPi);
     result.constant_response_ = Rgb::grey(1);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "materials/shaded_surface.h"
 #include "rays/ray_caster.h"
 #include "sensors/sensor.h"
 #include "transport/line_of_sight.h"
@@ -70,9 +71,8 @@ class Receiver {
 
   private:
     Vec3 position_, lifted_, normal_;
-    Frame frame_;
+    materials::ShadedSurface surface_;  ///< its material is owned by the scene; white for illuminance
     const sensors::Sensitivity* body_ = nullptr;  ///< nothing on a surface
-    const Material* material_;                    ///< owned by the scene; white for illuminance
     Vec3 outgoing_;                               ///< in the frame of the surface
     Rgb factor_;
     std::optional<Rgb> constant_response_;

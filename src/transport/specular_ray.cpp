@@ -7,20 +7,20 @@ namespace {
 struct Meeting {
     const rays::Hit& hit;
     bool is_pane;
-    Frame frame;
+    materials::ShadedSurface surface;
     materials::SpecularBranches branches;
 
-    Meeting(const Material& material, const rays::Hit& met, const Vec3& from)
+    Meeting(const Material& material, const rays::Hit& met, const Vec3& from, Carried carried)
         : hit(met),
-          is_pane(std::holds_alternative<ThinDielectric>(material)),
-          frame(Frame::of_surface(met.normal)),
-          branches(specular_branches(
-              material, met.on_front ? materials::LightSide::outside : materials::LightSide::inside,
-              frame.to_local(from))) {}
+          is_pane(passes_straight(material)),
+          surface(material, met.normal, met.shading_normal),
+          branches(
+              surface.branches(met.on_front ? materials::LightSide::outside : materials::LightSide::inside,
+                               surface.frame().to_local(from), carried)) {}
 
     SpecularRay way(const materials::SpecularBranch& branch, double probability) const {
         const bool reflected = branch.direction.z > 0;
-        return {reflected ? hit.lifted : hit.lifted_behind(), frame.to_world(branch.direction),
+        return {reflected ? hit.lifted : hit.lifted_behind(), surface.frame().to_world(branch.direction),
                 branch.share * (1 / probability), branch.luminance_factor, is_pane && !reflected};
     }
 };
@@ -28,7 +28,7 @@ struct Meeting {
 }  // namespace
 
 std::vector<SpecularRay> specular_rays(const Material& material, const rays::Hit& hit, const Vec3& from) {
-    const Meeting meeting(material, hit, from);
+    const Meeting meeting(material, hit, from, Carried::luminance);
     std::vector<SpecularRay> ways;
     for (const materials::SpecularBranch& branch : meeting.branches.list())
         ways.push_back(meeting.way(branch, 1));
@@ -36,15 +36,19 @@ std::vector<SpecularRay> specular_rays(const Material& material, const rays::Hit
 }
 
 std::optional<SpecularRay> choose_specular_ray(const Material& material, const rays::Hit& hit,
-                                               const Vec3& from, double u) {
-    const Meeting meeting(material, hit, from);
+                                               const Vec3& from, Carried carried, double u) {
+    const Meeting meeting(material, hit, from, carried);
     const auto branches = meeting.branches.list();
     if (branches.empty()) return std::nullopt;
-    if (branches.size() == 1) return meeting.way(branches[0], 1);
-    const double first = branches[0].share.luminance(), second = branches[1].share.luminance();
-    const double probability = first / (first + second);
-    return u < probability ? meeting.way(branches[0], probability)
-                           : meeting.way(branches[1], 1 - probability);
+    double total = 0;
+    for (const materials::SpecularBranch& branch : branches) total += branch.share.luminance();
+    double before = 0;
+    for (const materials::SpecularBranch& branch : branches.first(branches.size() - 1)) {
+        const double probability = branch.share.luminance() / total;
+        if (u < before + probability) return meeting.way(branch, probability);
+        before += probability;
+    }
+    return meeting.way(branches.back(), 1 - before);
 }
 
 }  // namespace stilb::transport

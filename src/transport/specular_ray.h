@@ -4,9 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "materials/shaded_surface.h"
 #include "rays/ray_caster.h"
 
 namespace stilb::transport {
+
+using materials::Carried;
 
 struct SpecularRay {
     Vec3 origin;  ///< off the surface, on the side that the way goes to
@@ -17,12 +20,13 @@ struct SpecularRay {
     bool straight = false;
 };
 
-/// All ways on from `hit` on a specular surface; `from`: unit, towards where the path came from.
+/// All ways on from `hit` on a specular surface of a path that carries luminance; `from`: unit, towards where
+/// the path came from.
 std::vector<SpecularRay> specular_rays(const Material& material, const rays::Hit& hit, const Vec3& from);
 
 /// One of them, drawn in proportion to its luminous share by `u` in [0, 1); the share is divided by the
 /// probability. Nothing where all light is absorbed.
 std::optional<SpecularRay> choose_specular_ray(const Material& material, const rays::Hit& hit,
-                                               const Vec3& from, double u);
+                                               const Vec3& from, Carried carried, double u);
 
 }  // namespace stilb::transport

@@ -226,8 +226,8 @@ std::vector<VerificationCase> furnaces_with_things() {
         invisible_case("pane", sheet, ThinDielectric{1.52, white}, 0),
         invisible_case("mirror", sheet, Mirror{white}, 0),
         invisible_case("white diffuse ball", ball, Diffuse{white}, 0),
-        invisible_case("white rough ball", ball, RoughConductor(white, 0.3), 0.003),
-        invisible_case("white plastic ball", ball, Plastic(white, 1.5, 0.2), 0.001),
+        invisible_case("white rough ball", ball, RoughConductor({white, 0.3}), 0.003),
+        invisible_case("white plastic ball", ball, Plastic({white, 1.5, 0.2}), 0.001),
     };
 }
 

@@ -68,10 +68,10 @@ Scene glossy_box(const Material& gloss) {
 }
 Scene broad_phong_box() { return glossy_box(phong(0.4, 0.3, 5)); }
 Scene narrow_phong_box() { return glossy_box(phong(0.4, 0.3, 200)); }
-Scene rough_box() { return glossy_box(RoughConductor(rgb(0.8, 0.7, 0.5), 0.3)); }
+Scene rough_box() { return glossy_box(RoughConductor({rgb(0.8, 0.7, 0.5), 0.3})); }
 
-Scene ward_box() { return glossy_box(Ward(rgb(0.5, 0.4, 0.3), rgb(0.3, 0.4, 0.2), {0.1, 0.4}, 30)); }
-Scene plastic_box() { return glossy_box(Plastic(rgb(0.7, 0.6, 0.4), 1.5, 0.2)); }
+Scene ward_box() { return glossy_box(Ward({rgb(0.5, 0.4, 0.3), rgb(0.3, 0.4, 0.2), {0.1, 0.4}, 30})); }
+Scene plastic_box() { return glossy_box(Plastic({rgb(0.7, 0.6, 0.4), 1.5, 0.2})); }
 
 Scene mirror_and_panel() {
     Scene scene;
@@ -168,8 +168,8 @@ Scene sphere_over_gloss(const Material& gloss) {
     return scene;
 }
 Scene sphere_over_phong() { return sphere_over_gloss(phong(0.3, 0.4, 100)); }
-Scene sphere_over_smooth_metal() { return sphere_over_gloss(RoughConductor(rgb(0.9, 0.7, 0.5), 0.1)); }
-Scene sphere_over_plastic() { return sphere_over_gloss(Plastic(rgb(0.5, 0.3, 0.2), 1.5, 0.15)); }
+Scene sphere_over_smooth_metal() { return sphere_over_gloss(RoughConductor({rgb(0.9, 0.7, 0.5), 0.1})); }
+Scene sphere_over_plastic() { return sphere_over_gloss(Plastic({rgb(0.5, 0.3, 0.2), 1.5, 0.15})); }
 
 /// A pane divides the room, a glass ball lies on a table.
 Scene room_with_glass() {
@@ -242,6 +242,25 @@ Scene room_with_lamp(const Shape& shape) {
 }
 Scene harmonic_lamp() { return room_with_lamp(lamp()); }
 Scene harmonic_lamp_as_mesh() { return room_with_lamp(fine_mesh(lamp())); }
+
+/// Coarse meshes that are to look round: of 80 triangles, whose vertex normals lean by up to 20 degrees.
+Scene room_with_smooth_meshes(const std::array<Material, 3>& materials) {
+    constexpr std::array<Sphere, 3> balls{Sphere{{1, 1, 0.5}, 0.35}, Sphere{{3.2, 1, 0.6}, 0.4},
+                                          Sphere{{2, 2.4, 1.1}, 0.4}};
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        add_object(scene, smooth_icosphere(balls[i], 1), materials[i]);
+    add_area_light(scene, large_panel(), 500 * kWhite, diffuse(0.5));
+    return scene;
+}
+Scene smooth_meshes() {
+    return room_with_smooth_meshes(
+        {Diffuse{rgb(0.8, 0.5, 0.3)}, phong(0.3, 0.4, 20), RoughConductor({rgb(0.9, 0.7, 0.5), 0.4})});
+}
+Scene smooth_specular_meshes() {
+    return room_with_smooth_meshes({Dielectric{1.5}, mirror(0.9), Diffuse{rgb(0.8, 0.5, 0.3)}});
+}
 
 /// Everything at once, for paths of few reflections.
 Scene mixed_room() {
@@ -485,6 +504,9 @@ std::span<const AgreementScene> agreement_scenes() {
         {"BodiesAndMirrors", nothing, {}, mirror_and_panel, {}, {}, bodies},
         {"BodiesUnderLuminaires", nothing, {}, photometry_luminaires, {}, {}, bodies},
         {"BodiesOneReflection", nothing, 1, mixed_room, {}, {}, bodies},
+        {"SmoothMeshes", nothing, {}, smooth_meshes, inside, at_bodies},
+        {"SmoothMeshesOneReflection", nothing, 1, smooth_meshes, inside, at_bodies},
+        {"SmoothSpecularMeshes", nothing, {}, smooth_specular_meshes, inside, at_bodies},
     };
     return scenes;
 }

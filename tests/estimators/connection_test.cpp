@@ -164,7 +164,7 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
         for (int n = 0; n < 600; ++n) {
             transport::LightVertex node;
             node.position = random_point(random);
-            node.normal = random_direction(random);
+            node.normal = node.shading_normal = random_direction(random);
             node.lifted = node.position + 1e-5 * node.normal;
             do node.incoming = random_direction(random);
             while (dot(node.incoming, node.normal) <= 0);

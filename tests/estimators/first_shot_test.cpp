@@ -137,9 +137,9 @@ TEST(FirstShot, DifferenceToShadowRaysFallsWithTheResolution) {
 
 /// L* = e f(w_i, w), whatever the BRDF, and nothing behind the side.
 TEST(FirstShot, IncomingReflectsByTheBrdf) {
-    const std::vector<Material> materials{kGlossy, RoughConductor({{0.9, 0.6, 0.3}}, 0.3),
-                                          Ward(Rgb::grey(0.2), Rgb::grey(0.3), {0.1, 0.4}, 25),
-                                          Plastic({{0.5, 0.4, 0.1}}, 1.5, 0.2)};
+    const std::vector<Material> materials{kGlossy, RoughConductor({{{0.9, 0.6, 0.3}}, 0.3}),
+                                          Ward({Rgb::grey(0.2), Rgb::grey(0.3), {0.1, 0.4}, 25}),
+                                          Plastic({{{0.5, 0.4, 0.1}}, 1.5, 0.2})};
     for (const Material& material : materials) {
         const PreparedScene cube(cube_with_bulb(material), 1);
         const FirstShot shot = cube.first_shot(options(FirstShotVariant::incoming, 64));
@@ -183,7 +183,7 @@ TEST(FirstShot, DiffuseVariantLeavesTheRestToShadowRays) {
     const auto& phong = std::get<Phong>(kGlossy);
     const PreparedScene matt(room_of(Diffuse{phong.diffuse}), 0.8), glossy(room_of(kGlossy), 0.8),
         lobe(room_of(Phong{{}, phong.specular, phong.exponent}), 0.8),
-        plastic(room_of(Plastic(Rgb::grey(0.5), 1.5, 0.2)), 0.8);
+        plastic(room_of(Plastic({Rgb::grey(0.5), 1.5, 0.2})), 0.8);
     const FirstShot split = glossy.first_shot(options(FirstShotVariant::diffuse, 64));
     const FirstShot stored = matt.first_shot(options(FirstShotVariant::diffuse, 64));
     const FirstShot rest = lobe.first_shot(options(FirstShotVariant::on_the_fly, 64));

@@ -42,7 +42,7 @@ double albedo(const Material& material, const Vec3& out) {
 TEST(IncomingLight, ReflectsConstantLightByTheAlbedo) {
     const std::vector<Material> materials{Diffuse{Rgb::grey(0.6)}, Phong{Rgb::grey(0.2), Rgb::grey(0.5), 3},
                                           Phong{Rgb::grey(0.2), Rgb::grey(0.5), 80},
-                                          RoughConductor(Rgb::grey(0.7), 0.3)};
+                                          RoughConductor({Rgb::grey(0.7), 0.3})};
     for (const Material& material : materials) {
         const Cube cube(material);
         const TermLayout layout(cube.transport, 6, reflecting_sides(cube.transport));
@@ -82,7 +82,7 @@ TEST(IncomingLight, KeepsOneTermOfDiffuseSidesAndNoneOfBlackAndMirrors) {
     Scene scene = empty_cube(Diffuse{Rgb::grey(0.5)});
     add_object(scene, Rectangle{{1, 1, 1}, {1, 0, 0}, {0, 1, 0}}, Mirror{Rgb::grey(0.9)});
     add_object(scene, Rectangle{{1, 1, 2}, {1, 0, 0}, {0, 1, 0}}, Black{});
-    add_object(scene, Rectangle{{1, 1, 3}, {1, 0, 0}, {0, 1, 0}}, RoughConductor(Rgb::grey(0.5), 0.5));
+    add_object(scene, Rectangle{{1, 1, 3}, {1, 0, 0}, {0, 1, 0}}, RoughConductor({Rgb::grey(0.5), 0.5}));
     const rays::RayCaster caster(scene);
     PatchOptions options;
     options.patch_m = 2;

@@ -48,6 +48,31 @@ TEST(Transform, TellsSimilaritiesAndFlatOnes) {
     EXPECT_EQ((Transform{{1, 0, 0}, {0, 0, 0}, {0, 0, 1}, {}}).regularity(), 0);
 }
 
+TEST(Transform, NormalsStayAtRightAnglesAndOutside) {
+    const std::array<Transform, 4> transforms{
+        Transform::rotation(normalized({1, 2, 3}), 70), kMirror,
+        Transform{{2, 0, 0}, {0.3, 0.5, 0}, {0, -0.7, 3}, {1, 2, 3}},
+        Transform{{-2, 0.1, 0}, {0.3, 0.5, 0}, {0, -0.7, 3}, {1, 2, 3}}};
+    for (const Transform& transform : transforms) {
+        Mesh box = triangulated(Box{{-1, -2, -3}, {1, 2, 3}});
+        for (std::uint32_t t = 0; t < box.triangles.size(); ++t) {
+            box.normals.push_back(normalized(front(box, box.triangles[t])));
+            box.corner_normals.push_back({t, t, t});
+        }
+        const Mesh moved = std::get<Mesh>(transformed(box, transform));
+        for (std::uint32_t t = 0; t < moved.triangles.size(); ++t)
+            expect_near(moved.normals[t], normalized(front(moved, moved.triangles[t])));
+    }
+    expect_near(kMirror.normal({}), {});
+}
+
+TEST(Transform, TurnedTrianglesTakeTheirNormalsAlong) {
+    Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{2, 1, 0}}};
+    const auto moved = std::get<Mesh>(transformed(mesh, kMirror));
+    EXPECT_EQ(moved.triangles[0], (Triangle{0, 2, 1}));
+    EXPECT_EQ(moved.corner_normals[0], (Triangle{2, 0, 1}));
+}
+
 TEST(Transform, MirroringKeepsFrontsInFront) {
     const Mesh box = triangulated(Box{{1, 1, 1}, {2, 3, 4}});
     EXPECT_NEAR(volume(box), 6, 1e-12);

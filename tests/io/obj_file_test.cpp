@@ -32,10 +32,32 @@ TEST(ObjFile, what_is_written_is_read) {
 }
 
 TEST(ObjFile, all_forms_of_corners) {
+    std::string nine_of_each;
+    for (int i = 0; i < 9; ++i) nine_of_each += "vt 0 0\nvn 0 0 1\n";
     for (const std::string face : {"1 2 3", "1/7 2/8 3/9", "1//7 2//8 3//9", "1/7/1 2/8/1 3/9/1", "-4 -3 -2",
                                    "1/ 2/ 3/", "-4/-1/-1 2 3", "1 2 3 # the floor"}) {
-        EXPECT_EQ(read(kSquare + "f " + face).mesh.triangles, (Triangles{{0, 1, 2}})) << face;
+        EXPECT_EQ(read(kSquare + nine_of_each + "f " + face).mesh.triangles, (Triangles{{0, 1, 2}})) << face;
     }
+}
+
+TEST(ObjFile, normals_of_corners) {
+    const std::string normals = "vn 0 0 1\nvn 0 3 4\nvn 0 0 0\n";
+    const Mesh mesh = read(kSquare + normals + "f 1//1 2//-2 3//2 4//1\nf 1 2 3\nf 2//3 3//1 4//1\n").mesh;
+    EXPECT_EQ(mesh.normals, (std::vector<Vec3>{{0, 0, 1}, {0, 0.6, 0.8}, {}}));
+    ASSERT_EQ(mesh.corner_normals.size(), mesh.triangles.size());
+    const std::array<std::uint32_t, 4> of_vertex{0, 1, 1, 0};
+    for (std::size_t t = 0; t < 2; ++t) {
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_EQ(mesh.corner_normals[t][i], of_vertex[mesh.triangles[t][i]]);
+    }
+    EXPECT_EQ(mesh.corner_normals[2], (Triangle{kNoNormal, kNoNormal, kNoNormal}));
+    EXPECT_EQ(mesh.corner_normals[3], (Triangle{2, 0, 0}));
+}
+
+TEST(ObjFile, normals_that_no_face_names_are_left_out) {
+    const Mesh mesh = read(kSquare + "vn 0 0 1\nf 1 2 3\nf 1/ 2/ 3/\n").mesh;
+    EXPECT_TRUE(mesh.normals.empty());
+    EXPECT_TRUE(mesh.corner_normals.empty());
 }
 
 TEST(ObjFile, relative_numbers_count_from_the_face) {
@@ -82,7 +104,7 @@ TEST(ObjFile, materials_and_groups_of_each_triangle) {
 
 TEST(ObjFile, other_statements_change_nothing) {
     const std::string others =
-        "mtllib a.mtl\nvt 0 0\nvn nan 0 1\nvp 0\ns off\nl 1 2\np 1\nlod 3\ncstype bezier\nend\n";
+        "mtllib a.mtl\nvt 0 0\nvn 0 0 1\nvp 0\ns off\nl 1 2\np 1\nlod 3\ncstype bezier\nend\n";
     EXPECT_EQ(read(others + kSquare + "f 1 2 3\n").mesh.triangles.size(), 1U);
 }
 
@@ -116,6 +138,8 @@ TEST(ObjFile, wrong_vertices) {
     expect_refusal("v 0 0 +-1\n", ":1: the vertex's z is \"+-1\"" + rule);
     expect_refusal("v 0 0 1.2.3\n", ":1: the vertex's z is \"1.2.3\"" + rule);
     expect_refusal("v 0 1\n", ":1: the vertex has 2 coordinates; it needs three: v x y z");
+    expect_refusal("vn 0 nan 1\n", ":1: the normal's y is \"nan\"" + rule);
+    expect_refusal("vn 0 1\n", ":1: the normal has 2 coordinates; it needs three: vn x y z");
     expect_refusal("v # none\n", ":1: the vertex has 0 coordinates; it needs three: v x y z");
 }
 
@@ -124,10 +148,20 @@ TEST(ObjFile, wrong_faces) {
     expect_refusal(kSquare + "f", ":5: the face has 0 corners; it needs three or more: f 1 2 3");
     const std::string range = ", but 4 vertices stand before it; they count from 1, or backwards from -1";
     expect_refusal(kSquare + "f 1 2 5\nv 9 9 9\n", ":5: the face's corner \"5\" names vertex 5" + range);
-    expect_refusal(kSquare + "f 1 2/1 -5/1\n", ":5: the face's corner \"-5/1\" names vertex -5" + range);
+    expect_refusal(kSquare + "vt 0 0\nf 1 2/1 -5/1\n",
+                   ":6: the face's corner \"-5/1\" names vertex -5" + range);
     expect_refusal(kSquare + "f 0 1 2\n", ":5: the face's corner \"0\" names vertex 0" + range);
     expect_refusal(kSquare + "f 1 2 4294967297\n",
                    ":5: the face's corner \"4294967297\" names vertex 4294967297" + range);
+    const std::string start = kSquare + "vt 0 0\nvn 0 0 1\nvn 1 0 0\nf 1 2 ";
+    const std::string counting = " stand before it; they count from 1, or backwards from -1";
+    expect_refusal(start + "3//3", ":8: the face's corner \"3//3\" names normal 3, but 2 normals" + counting);
+    expect_refusal(start + "3/1/0",
+                   ":8: the face's corner \"3/1/0\" names normal 0, but 2 normals" + counting);
+    expect_refusal(start + "3/-2/1",
+                   ":8: the face's corner \"3/-2/1\" names texture coordinate -2, but 1 "
+                   "texture coordinates" +
+                       counting);
     const std::string form = "; it must be a vertex number, alone or as v/vt, v//vn or v/vt/vn";
     for (const std::string corner :
          {"x", "1.5", "/1", "1/2/3/4", "1/a", "1e0", "99999999999999999999", "--1"})

@@ -62,6 +62,19 @@ TEST(PlyFile, text) {
     EXPECT_EQ(file.group_of_triangle, std::vector<std::uint32_t>{0});
 }
 
+TEST(PlyFile, vertex_normals) {
+    const std::string header =
+        kVertices + "property float nx\nproperty float ny\nproperty float nz\n" + kFaces;
+    const std::string rows = "0 0 0 0 0 2\n1 0 0 0 3 4\n1 1 0 0 0 0\n0 1 0 0 0 -1\n3 0 1 2\n";
+    const Mesh mesh = read(text_file(header, rows)).mesh;
+    EXPECT_EQ(mesh.normals, (std::vector<Vec3>{{0, 0, 1}, {0, 0.6, 0.8}, {}, {0, 0, -1}}));
+    EXPECT_TRUE(mesh.corner_normals.empty());
+    // Two of three are none.
+    const std::string two = kVertices + "property float nx\nproperty float ny\n" + kFaces;
+    EXPECT_TRUE(
+        read(text_file(two, "0 0 0 0 1\n1 0 0 0 1\n1 1 0 0 1\n0 1 0 0 1\n3 0 1 2\n")).mesh.normals.empty());
+}
+
 TEST(PlyFile, text_with_other_line_ends_blank_lines_and_no_last_end) {
     EXPECT_EQ(read("ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\nproperty float "
                    "y\r\nproperty float z\r\n"

@@ -38,28 +38,28 @@ std::vector<Case> make_cases() {
                             {"phong 10000", Phong{kColour * 0.4, kColour * 0.6, 1e4}, 8}};
     for (const double roughness : {0.001, 0.01, 0.1, 0.3, 0.6, 1.0}) {
         const std::string name = "rough " + std::to_string(roughness);
-        cases.push_back({name, RoughConductor(kColour, roughness), concentration_for(roughness)});
+        cases.push_back({name, RoughConductor({kColour, roughness}), concentration_for(roughness)});
         cases.push_back(
-            {"white " + name, RoughConductor(kWhite, roughness), concentration_for(roughness), true});
+            {"white " + name, RoughConductor({kWhite, roughness}), concentration_for(roughness), true});
     }
     for (const double roughness : {0.001, 0.1, 1.0}) {
         const std::string name = "ward " + std::to_string(roughness);
-        cases.push_back({name, Ward(kColour * 0.3, kColour * 0.7, {roughness, roughness}, 0),
+        cases.push_back({name, Ward({kColour * 0.3, kColour * 0.7, {roughness, roughness}, 0}),
                          concentration_for(roughness)});
-        cases.push_back(
-            {"specular " + name, Ward({}, kWhite, {roughness, roughness}, 0), concentration_for(roughness)});
+        cases.push_back({"specular " + name, Ward({{}, kWhite, {roughness, roughness}, 0}),
+                         concentration_for(roughness)});
     }
-    cases.push_back({"brushed ward", Ward(kColour * 0.3, kColour * 0.7, {0.1, 0.4}, 30), 3});
-    cases.push_back({"long ward", Ward({}, kWhite, {1, 0.2}, -70), 2});
+    cases.push_back({"brushed ward", Ward({kColour * 0.3, kColour * 0.7, {0.1, 0.4}, 30}), 3});
+    cases.push_back({"long ward", Ward({{}, kWhite, {1, 0.2}, -70}), 2});
     for (const double roughness : {0.001, 0.1, 0.4, 1.0}) {
         for (const double ior : {1.0, 1.5, 2.5}) {
             const std::string name = fmt::format("plastic {} {}", ior, roughness);
-            cases.push_back({name, Plastic(kColour, ior, roughness), concentration_for(roughness)});
+            cases.push_back({name, Plastic({kColour, ior, roughness}), concentration_for(roughness)});
             cases.push_back(
-                {"white " + name, Plastic(kWhite, ior, roughness), concentration_for(roughness), true});
+                {"white " + name, Plastic({kWhite, ior, roughness}), concentration_for(roughness), true});
         }
     }
-    cases.push_back({"coat over black", Plastic({}, 1.5, 0.3), 2});
+    cases.push_back({"coat over black", Plastic({{}, 1.5, 0.3}), 2});
     return cases;
 }
 
@@ -233,7 +233,7 @@ TEST(MaterialLaws, ConcentrationIsThatOfNormalIncidence) {
 
 TEST(WardMaterial, TurnsItsGroovesCounterclockwise) {
     // Smooth along u, turned by 30 degrees: under light along the normal the highlight is long across that.
-    const Ward brushed({}, kWhite, {0.05, 0.4}, 30);
+    const Ward brushed({{}, kWhite, {0.05, 0.4}, 30});
     const auto along = [&](double azimuth_deg) {
         const double phi = azimuth_deg * kPi / 180;
         const Vec3 out{std::sin(0.3) * std::cos(phi), std::sin(0.3) * std::sin(phi), std::cos(0.3)};
@@ -247,7 +247,7 @@ TEST(WardMaterial, TurnsItsGroovesCounterclockwise) {
 TEST(WardMaterial, HasThePublishedValueAtThePeak) {
     // At the mirrored direction h is along the normal: specular / (4 pi a b cos^2).
     const Vec3 in = incident(60), out{-in.x, -in.y, in.z};
-    EXPECT_NEAR(Ward({}, kWhite, {0.1, 0.2}, 17).brdf_per_sr(in, out)[0], 1 / (4 * kPi * 0.1 * 0.2 * 0.25),
+    EXPECT_NEAR(Ward({{}, kWhite, {0.1, 0.2}, 17}).brdf_per_sr(in, out)[0], 1 / (4 * kPi * 0.1 * 0.2 * 0.25),
                 1e-9);
 }
 
@@ -255,7 +255,7 @@ TEST(PlasticMaterial, HasFresnelsReflectanceWhereSmooth) {
     // The albedo of the coat alone, over a black base.
     for (const double angle : {0.0, 45.0, 70.0, 80.0}) {
         const Vec3 in = incident(angle);
-        const Case coat{"", Plastic({}, 1.5, 0.001), 8};
+        const Case coat{"", Plastic({{}, 1.5, 0.001}), 8};
         EXPECT_NEAR(albedo(coat, in)[0], fresnel_reflectance(in.z, 1.5).unpolarised(), 2e-4) << angle;
     }
 }
@@ -264,7 +264,7 @@ TEST(PlasticMaterial, ReflectsLessThanItsBaseByInternalReflection) {
     // 0.0918: the mean of Fresnel's reflectance of ior 1.5 under light from everywhere [Duntley 1942].
     const double outside = 0.0918, inside = 1 - (1 - outside) / 2.25;
     const double expected = outside + (1 - outside) * 0.5 * (1 - inside) / (1 - 0.5 * inside);
-    EXPECT_NEAR(Plastic(Rgb::grey(0.5), 1.5, 0.001).mean_reflectance()[0], expected, 2e-4);
+    EXPECT_NEAR(Plastic({Rgb::grey(0.5), 1.5, 0.001}).mean_reflectance()[0], expected, 2e-4);
 }
 
 }  // namespace

@@ -1,10 +1,7 @@
-#include "materials/specular.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "materials/dielectric.h"
 #include "materials/material.h"
 
 namespace stilb::materials {
@@ -83,15 +80,16 @@ TEST(GlassMaterial, LuminanceComesBackFromWithin) {
 
 TEST(PaneMaterial, HasTheTransmittancesOfWindowGlass) {
     const ThinDielectric pane{1.52, Rgb::grey(0.96)};
-    EXPECT_NEAR(pane_shares(pane, 1).transmittance[1], 0.8815, 5e-5);
-    EXPECT_NEAR(pane_shares(pane, 0.5).transmittance[1], 0.8015, 5e-5);
+    EXPECT_NEAR(pane.shares(1).transmittance[1], 0.8815, 5e-5);
+    EXPECT_NEAR(pane.shares(0.5).transmittance[1], 0.8015, 5e-5);
 }
 
 TEST(PaneMaterial, KeepsAllLightWhereNothingIsAbsorbedInside) {
     for (const double degrees : kDegrees) {
         for (const double ior : {1.0, 1.3, 1.52, 2.5}) {
-            const PaneShares clear = pane_shares({ior, Rgb::grey(1)}, cosine(degrees));
-            const PaneShares grey = pane_shares({ior, {{0.9, 0.5, 0.1}}}, cosine(degrees));
+            const ThinDielectric::Shares clear = ThinDielectric{ior, Rgb::grey(1)}.shares(cosine(degrees));
+            const ThinDielectric::Shares grey =
+                ThinDielectric{ior, {{0.9, 0.5, 0.1}}}.shares(cosine(degrees));
             for (std::size_t b = 0; b < kBands; ++b) {
                 EXPECT_NEAR(clear.reflectance[b] + clear.transmittance[b], 1, 1e-12);
                 EXPECT_LT(grey.reflectance[b] + grey.transmittance[b], 1);
@@ -99,14 +97,14 @@ TEST(PaneMaterial, KeepsAllLightWhereNothingIsAbsorbedInside) {
             }
         }
     }
-    EXPECT_EQ(pane_shares({}, 0).reflectance, Rgb::grey(1));
+    EXPECT_EQ(ThinDielectric{}.shares(0).reflectance, Rgb::grey(1));
 }
 
 TEST(PaneMaterial, ReflectsAndLetsPassStraightOn) {
     const ThinDielectric pane{1.52, {{0.9, 0.8, 0.3}}};
     for (const double degrees : kDegrees) {
         const Vec3 in = incident(degrees);
-        const PaneShares shares = pane_shares(pane, in.z);
+        const ThinDielectric::Shares shares = pane.shares(in.z);
         for (const LightSide side : {LightSide::outside, LightSide::inside}) {
             const SpecularBranches branches = specular_branches(pane, side, in);
             ASSERT_EQ(branches.list().size(), 2u);

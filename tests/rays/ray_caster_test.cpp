@@ -291,5 +291,44 @@ TEST(RayCaster, LosesNoPacketsAlongAxes) {
     }
 }
 
+TEST(RayCaster, InterpolatesVertexNormals) {
+    const Sphere sphere{{1, 2, 3}, 0.7};
+    Scene scene;
+    add_object(scene, smooth_icosphere(sphere, 2), diffuse(0.5));
+    const RayCaster caster(scene);
+    RandomPairs random(12);
+    for (int i = 0; i < 2000; ++i) {
+        const auto [u1, u2] = random.next_pair();
+        const Vec3 direction = math::sample_sphere(u1, u2).direction;
+        // From outside, and from within.
+        for (const double distance_m : {2.0, 0.0}) {
+            const auto hit = caster.closest(sphere.center + distance_m * direction,
+                                            distance_m > 0 ? -direction : direction);
+            ASSERT_TRUE(hit);
+            const Vec3 outside = distance_m > 0 ? direction : -direction;
+            EXPECT_GT(dot(hit->normal, outside), 0.97);
+            EXPECT_GT(dot(hit->shading_normal, outside), 0.9997);
+            EXPECT_NEAR(length(hit->shading_normal), 1, 1e-14);
+        }
+    }
+}
+
+TEST(RayCaster, HasNoShadingNormalWhereNormalsAreOfNoUse) {
+    const std::vector<Vec3> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const auto hit_of = [](const Mesh& mesh) {
+        Scene scene;
+        add_object(scene, mesh, diffuse(0.5));
+        return *RayCaster(scene).closest({0.25, 0.25, 1}, {0, 0, -1});
+    };
+    const std::vector<Mesh> meshes{{vertices, {{0, 1, 2}}},
+                                   {vertices, {{0, 1, 2}}, {{0, 0.6, 0.8}}, {{0, 0, kNoNormal}}},
+                                   {vertices, {{0, 1, 2}}, {{}, {}, {}}},
+                                   {vertices, {{0, 1, 2}}, {{1, 0, 0}}, {{0, 0, 0}}}};
+    for (const Mesh& mesh : meshes) EXPECT_EQ(hit_of(mesh).shading_normal, (Vec3{0, 0, 1}));
+    // A file whose normals point behind the front: the surface that they mean is the same.
+    const Hit hit = hit_of({vertices, {{0, 1, 2}}, {{0, 0.6, -0.8}}, {{0, 0, 0}}});
+    EXPECT_LT(length(hit.shading_normal - Vec3{0, -0.6, 0.8}), 1e-15);
+}
+
 }  // namespace
 }  // namespace stilb::rays

@@ -27,7 +27,7 @@ Scene glossy_room() {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Diffuse{{{0.7, 0.6, 0.4}}});
     add_object(scene, Box{{2, 1, 0}, {2.6, 1.6, 1}}, Phong{Rgb::grey(0.3), Rgb::grey(0.4), 5});
-    add_object(scene, Box{{0.5, 2, 0}, {1.2, 2.6, 0.6}}, RoughConductor(Rgb::grey(0.8), 0.4));
+    add_object(scene, Box{{0.5, 2, 0}, {1.2, 2.6, 0.6}}, RoughConductor({Rgb::grey(0.8), 0.4}));
     add_area_light(scene, Rectangle{{1, 0.6, 2.7}, {0, 1.6, 0}, {2, 0, 0}}, Rgb::grey(100));
     add_point_light(scene, {3.2, 2.4, 2}, Rgb::grey(100));
     return scene;

@@ -119,6 +119,13 @@ inline Mesh icosphere(const Sphere& sphere, int subdivisions) {
     return mesh;
 }
 
+/// The same with the sphere's normals at its vertices.
+inline Mesh smooth_icosphere(const Sphere& sphere, int subdivisions) {
+    Mesh mesh = icosphere(sphere, subdivisions);
+    for (const Vec3& vertex : mesh.vertices) mesh.normals.push_back(normalized(vertex - sphere.center));
+    return mesh;
+}
+
 inline Sensor point_sensor(const std::vector<MeasuringPoint>& points) {
     return {"points", IlluminancePoints{points}};
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/vectorized.h"
+#include "materials/shaded_surface.h"
 #include "transport/kernel_split.h"
 
 namespace stilb::estimators {
@@ -53,13 +54,15 @@ STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTil
 void add_visible_directional(const FanNode& node, const PointTile& tile, const RayPacket& packet,
                              const LaneMask& lanes, const Floats& g_per_m2, TileSums& sums) {
     const transport::LightVertex& chain_node = *node.node;
-    const Frame frame = Frame::of_surface(chain_node.normal);
+    const materials::ShadedSurface surface(*chain_node.material, chain_node.normal,
+                                           chain_node.shading_normal);
+    const Frame& frame = surface.frame();
     const Vec3 in = frame.to_local(chain_node.incoming);
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         if (lanes[i] == 0 || packet.end[i] < 0) continue;
         const Vec3 to_point =
             normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
-        const Rgb brdf = evaluate_brdf_per_sr(*chain_node.material, in, frame.to_local(to_point));
+        const Rgb brdf = surface.brdf_per_sr(in, frame.to_local(to_point));
         const transport::Receiver& receiver = tile.receivers[i];
         const double relative =
             transport::relative_brdf(*chain_node.material, brdf) * receiver.relative_response(-to_point);
@@ -86,7 +89,8 @@ void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
 }
 
 FanNode fan_node(const transport::LightVertex& node, const Vec3& center) {
-    const auto* diffuse = std::get_if<Diffuse>(node.material);
+    const bool is_smooth = node.shading_normal != node.normal;
+    const auto* diffuse = is_smooth ? nullptr : std::get_if<Diffuse>(node.material);
     const Rgb coefficient =
         diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
     FanNode result{SegmentOrigin(node.position, node.lifted, node.normal, center),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "materials/shaded_surface.h"
 #include "math/sampling.h"
 #include "transport/kernel_split.h"
 #include "transport/russian_roulette.h"
@@ -21,7 +22,7 @@ class SharedPlace {
     /// `own` share.
     SharedPlace(const rays::Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
                 const Vec3& center)
-        : material_(material), tile_(tile), frame_(Frame::of_surface(hit.normal)) {
+        : surface_(material, hit.normal, hit.shading_normal), tile_(tile) {
         // At y at least one reflection takes place.
         connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, center), 1, tile, segments_, lanes_,
                 g_per_m2_);
@@ -38,7 +39,7 @@ class SharedPlace {
 
     /// 1 - w as it is on average over the ways of the light, at the receiver where it is largest.
     double gathered_share() const {
-        const double concentration = mean_concentration(material_);
+        const double concentration = mean_concentration(surface_.material());
         double largest = 0;
         for_each_lane([&](std::size_t i) { largest = std::max(largest, share_at(i)(concentration)); });
         return largest;
@@ -61,12 +62,13 @@ class SharedPlace {
         double weight = 0;   ///< 1 / probability of having gone on
     };
     std::optional<Beam> sample_beam(std::size_t lane, math::SampleStream& stream) const {
-        const double survival = transport::survival_probability(Rgb::grey(1), reflectance_bound(material_));
+        const double survival =
+            transport::survival_probability(Rgb::grey(1), reflectance_bound(surface_.material()));
         if (stream.next() >= survival) return std::nullopt;
         const auto [u1, u2] = stream.next_two();
-        const auto scattered = sample_brdf(material_, out_[lane], u1, u2);
+        const auto scattered = surface_.sample_incoming(out_[lane], u1, u2);
         if (!scattered) return std::nullopt;
-        const Vec3 direction = frame_.to_world(scattered->direction);
+        const Vec3 direction = surface_.frame().to_world(scattered->direction);
         const double density = beam_density(direction);
         if (!(density > 0)) return std::nullopt;
         return Beam{direction, density, 1 / survival};
@@ -81,20 +83,21 @@ class SharedPlace {
 
     /// How densely they meet y and go on along `direction` [1/(m2 sr)].
     double beam_density(const Vec3& direction) const {
-        const Vec3 in = frame_.to_local(direction);
+        const Vec3 in = surface_.frame().to_local(direction);
         double sum = 0;
-        for_each_lane(
-            [&](std::size_t i) { sum += ray_density_per_m2_[i] * pdf_per_sr(material_, out_[i], in); });
+        for_each_lane([&](std::size_t i) {
+            sum += ray_density_per_m2_[i] * surface_.pdf_of_incoming_per_sr(out_[i], in);
+        });
         return sum;
     }
 
     /// Adds what the readings receive of light that comes to y from `direction`, given its illuminance on a
     /// surface across it, over the density of y.
     void reflect(const Vec3& direction, const Rgb& normal_illuminance, ReadingSums& sums) const {
-        const Vec3 in = frame_.to_local(direction);
+        const Vec3 in = surface_.frame().to_local(direction);
         for_each_lane([&](std::size_t i) {
-            const Rgb brdf = evaluate_brdf_per_sr(material_, in, out_[i]);
-            const double gathered = share_at(i)(transport::relative_brdf(material_, brdf));
+            const Rgb brdf = surface_.brdf_per_sr(in, out_[i]);
+            const double gathered = share_at(i)(transport::relative_brdf(surface_.material(), brdf));
             sums.add(tile_.receivers[i].reading(),
                      normal_illuminance * brdf * response_[i] * (in.z * double{g_per_m2_[i]} * gathered));
         });
@@ -114,7 +117,7 @@ class SharedPlace {
     void join(std::size_t i, const rays::Hit& hit) {
         const Vec3 segment =
             normalized(Vec3{segments_.direction_x[i], segments_.direction_y[i], segments_.direction_z[i]});
-        out_[i] = frame_.to_local(segment);
+        out_[i] = surface_.frame().to_local(segment);
         const transport::Receiver& receiver = tile_.receivers[i];
         response_[i] = receiver.response(-segment);
         if (receiver.constant_response()) {
@@ -127,9 +130,8 @@ class SharedPlace {
         ray_density_per_m2_[i] = receiver.pdf_per_sr(-segment) * out_[i].z / squared_distance;
     }
 
-    const Material& material_;
+    materials::ShadedSurface surface_;
     const PointTile& tile_;
-    Frame frame_;
     RayPacket segments_;
     LaneMask lanes_;
     alignas(64) PointTile::Floats g_per_m2_;

@@ -192,6 +192,7 @@ std::vector<transport::LightVertex> unit_nodes(std::span<const transport::LightV
     std::vector<transport::LightVertex> result(nodes.begin(), nodes.end());
     for (transport::LightVertex& node : result) {
         node.material = &white;
+        node.shading_normal = node.normal;
         node.flux_lm = Rgb::grey(1);
         node.only_by_light = false;
     }

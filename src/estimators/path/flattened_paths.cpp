@@ -24,7 +24,7 @@ std::vector<bool> replaced(const FirstShotPatches* patches) {
 
 bool has_panes(const Scene& scene) {
     return std::ranges::any_of(scene.materials, [](const NamedMaterial& named) {
-        return std::holds_alternative<ThinDielectric>(named.material);
+        return passes_straight(named.material);
     });
 }
 

@@ -1,6 +1,8 @@
 
 #include "io/mesh/mesh_file.h"
 
+#include <optional>
+#include <cmath>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,23 +43,44 @@ std::uint32_t PartNames::index() {
     return *index_;
 }
 
-void MeshBuilder::add_triangle(const Triangle& t) {
+void MeshBuilder::add_normal(const Vec3& normal) {
+    const double size = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    constexpr double kSmallest = 1e-100;  // its square is still a number
+    file_.mesh.normals.push_back(size > kSmallest ? normalized(normal / size) : Vec3{});
+}
+
+void MeshBuilder::add_triangle(const Triangle& t, const std::optional<Triangle>& normals) {
     const std::vector<Vec3>& vertices = file_.mesh.vertices;
     if (is_degenerate(vertices[t[0]], vertices[t[1]], vertices[t[2]])) {
         ++file_.degenerate_triangles;
         return;
     }
     file_.mesh.triangles.push_back(t);
+    if (normals) file_.mesh.corner_normals.push_back(*normals);
     file_.material_of_triangle.push_back(materials_.index());
     file_.group_of_triangle.push_back(groups_.index());
 }
 
-void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners) {
-    if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
+void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners,
+                              std::span<const std::uint32_t> normals) {
+    const auto add = [&](const Triangle& t) {
+        const auto of = [&](std::span<const std::uint32_t> indices) {
+            return Triangle{indices[t[0]], indices[t[1]], indices[t[2]]};
+        };
+        add_triangle(of(corners), normals.empty() ? std::nullopt : std::optional(of(normals)));
+    };
+    if (corners.size() == 3) return add({0, 1, 2});
     polygon_.clear();
     for (const std::uint32_t corner : corners) polygon_.push_back(file_.mesh.vertices[corner]);
-    for (const Triangle& t : triangulate_polygon(polygon_))
-        add_triangle({corners[t[0]], corners[t[1]], corners[t[2]]});
+    for (const Triangle& t : triangulate_polygon(polygon_)) add(t);
+}
+
+void MeshBuilder::drop_unused_normals() {
+    Mesh& mesh = file_.mesh;
+    const auto has_normals = [](const Triangle& t) { return std::ranges::count(t, kNoNormal) == 0; };
+    if (mesh.corner_normals.empty() || std::ranges::any_of(mesh.corner_normals, has_normals)) return;
+    mesh.normals.clear();
+    mesh.corner_normals.clear();
 }
 
 MeshFile MeshBuilder::finish(const std::string& name, std::string_view remedy) && {
@@ -68,6 +91,7 @@ MeshFile MeshBuilder::finish(const std::string& name, std::string_view remedy) &
         throw InputError(
             fmt::format("no triangle in the file{}, so there is no surface; {}", dropped, remedy), {name});
     }
+    drop_unused_normals();
     file_.material_names = std::move(materials_).names();
     file_.group_names = std::move(groups_).names();
     return std::move(file_);

@@ -15,8 +15,8 @@
 
 namespace stilb::io {
 
-/// A mesh as its file gives it: coordinates untransformed, polygons triangulated, vertex normals and texture
-/// coordinates ignored (light is computed on the true geometry).
+/// A mesh as its file gives it: coordinates untransformed, polygons triangulated, texture coordinates
+/// ignored.
 struct MeshFile {
     Mesh mesh;
     /// Names of the file's parts and, for each triangle, indices into them. Unnamed parts have the name "".
@@ -73,19 +73,26 @@ class MeshBuilder {
     void reserve_vertices(std::size_t count) { file_.mesh.vertices.reserve(count); }
     std::size_t vertex_count() const { return file_.mesh.vertices.size(); }
     void add_vertex(const Vec3& position) { file_.mesh.vertices.push_back(position); }
+    std::size_t normal_count() const { return file_.mesh.normals.size(); }
+    /// Of any length; zero: of no use.
+    void add_normal(const Vec3& normal);
 
     /// The names for the polygons that follow; "" before the first call.
     void use_material(std::string_view name) { materials_.use(name); }
     void use_group(std::string_view name) { groups_.use(name); }
 
-    /// A simple planar polygon of three corners or more.
-    void add_polygon(std::span<const std::uint32_t> corners);
-    void add_triangle(const Triangle& triangle);
+    /// A simple planar polygon of three corners or more. `normals`: of its corners, or kNoNormal; empty where
+    /// normals have the vertices' indices, or there are none.
+    void add_polygon(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals = {});
+    void add_triangle(const Triangle& triangle, const std::optional<Triangle>& normals = std::nullopt);
 
     /// Throws InputError where no triangle has come together; `remedy` says what the format would need.
     MeshFile finish(const std::string& name, std::string_view remedy) &&;
 
   private:
+    /// Normals that no triangle is given.
+    void drop_unused_normals();
+
     MeshFile file_;
     PartNames materials_, groups_;
     std::vector<Vec3> polygon_;

@@ -17,10 +17,10 @@ using namespace std::string_view_literals;
 
 /// Statements that change nothing about surfaces of polygons.
 constexpr std::array kIgnored{
-    "vt"sv,   "vn"sv,    "vp"sv,       "s"sv,        "mtllib"sv, "l"sv,      "p"sv,          "mg"sv,
-    "lod"sv,  "bevel"sv, "c_interp"sv, "d_interp"sv, "usemap"sv, "maplib"sv, "shadow_obj"sv, "trace_obj"sv,
-    "deg"sv,  "bmat"sv,  "step"sv,     "cstype"sv,   "ctech"sv,  "stech"sv,  "curv"sv,       "curv2"sv,
-    "parm"sv, "trim"sv,  "hole"sv,     "scrv"sv,     "sp"sv,     "end"sv,    "con"sv};
+    "vp"sv,       "s"sv,        "mtllib"sv, "l"sv,      "p"sv,          "mg"sv,        "lod"sv,  "bevel"sv,
+    "c_interp"sv, "d_interp"sv, "usemap"sv, "maplib"sv, "shadow_obj"sv, "trace_obj"sv, "deg"sv,  "bmat"sv,
+    "step"sv,     "cstype"sv,   "ctech"sv,  "stech"sv,  "curv"sv,       "curv2"sv,     "parm"sv, "trim"sv,
+    "hole"sv,     "scrv"sv,     "sp"sv,     "end"sv,    "con"sv};
 /// Statements that bring surfaces which this reader cannot make: without them the scene would be another.
 constexpr std::array kSurfaces{"surf"sv, "fo"sv,  "bzp"sv,  "bsp"sv, "cdc"sv,
                                "cdp"sv,  "res"sv, "call"sv, "csh"sv};
@@ -65,7 +65,9 @@ class ObjReader {
     }
 
     void obey(std::string_view word, std::string_view arguments) {
-        if (word == "v") return read_vertex(arguments);
+        if (word == "v") return builder_.add_vertex(read_triple(arguments, "vertex", "v x y z"));
+        if (word == "vn") return builder_.add_normal(read_triple(arguments, "normal", "vn x y z"));
+        if (word == "vt") return void(++texture_coordinates_);
         if (word == "f") return read_face(arguments);
         if (word == "usemtl") return builder_.use_material(trimmed(arguments));
         if (word == "g" || word == "o") return builder_.use_group(trimmed(arguments));
@@ -81,50 +83,72 @@ class ObjReader {
             in_quotes(word)));
     }
 
-    void read_vertex(std::string_view arguments) {
-        std::array<double, 3> position{};
+    /// Three finite numbers; `what` has them.
+    Vec3 read_triple(std::string_view arguments, std::string_view what, std::string_view form) const {
+        std::array<double, 3> triple{};
         for (std::size_t i = 0; i < 3; ++i) {
             const std::string_view word = next_word(arguments);
             if (word.empty() || word[0] == '#')
-                fail(fmt::format("the vertex has {} coordinates; it needs three: v x y z", i));
+                fail(fmt::format("the {} has {} coordinates; it needs three: {}", what, i, form));
             const auto value = parse_number(word);
             if (!value || !is_coordinate(*value))
-                fail(fmt::format("the vertex's {} is {}; it must be a finite number, at most 1e30 in size",
+                fail(fmt::format("the {}'s {} is {}; it must be a finite number, at most 1e30 in size", what,
                                  "xyz"[i], in_quotes(word)));
-            position[i] = *value;
+            triple[i] = *value;
         }
-        builder_.add_vertex({position[0], position[1], position[2]});
+        return {triple[0], triple[1], triple[2]};
     }
 
     void read_face(std::string_view arguments) {
         corners_.clear();
+        normals_.clear();
         for (std::string_view word = next_word(arguments); !word.empty() && word[0] != '#';
              word = next_word(arguments))
-            corners_.push_back(corner(word));
+            read_corner(word);
         if (corners_.size() < 3)
             fail(fmt::format("the face has {} corners; it needs three or more: f 1 2 3", corners_.size()));
-        builder_.add_polygon(corners_);
+        builder_.add_polygon(corners_, normals_);
     }
 
-    /// The vertex that a word of a face names: v, v/vt, v//vn or v/vt/vn.
-    std::uint32_t corner(std::string_view word) const {
-        const std::string_view vertex = word.substr(0, word.find('/'));
-        const std::string_view others = word.substr(vertex.size());
-        const auto index = parse_integer(vertex);
-        if (!index || std::count(others.begin(), others.end(), '/') > 2 ||
-            others.find_first_not_of("/-0123456789") != others.npos) {
-            fail(fmt::format(
-                "the face's corner is {}; it must be a vertex number, alone or as v/vt, v//vn or v/vt/vn",
-                in_quotes(word)));
+    /// What a word of a face names: v, v/vt, v//vn or v/vt/vn.
+    void read_corner(std::string_view word) {
+        std::array<std::string_view, 3> parts;
+        std::string_view rest = word;
+        std::size_t count = 0;
+        for (bool goes_on = true; goes_on; ++count) {
+            if (count == parts.size()) fail_corner(word);
+            const std::size_t end = rest.find('/');
+            goes_on = end != rest.npos;
+            parts[count] = rest.substr(0, end);
+            rest.remove_prefix(goes_on ? end + 1 : rest.size());
         }
-        const auto count = static_cast<long long>(builder_.vertex_count());
+        corners_.push_back(index(word, parts[0], "vertex", "vertices", builder_.vertex_count()));
+        if (!parts[1].empty())
+            index(word, parts[1], "texture coordinate", "texture coordinates", texture_coordinates_);
+        normals_.push_back(parts[2].empty()
+                               ? kNoNormal
+                               : index(word, parts[2], "normal", "normals", builder_.normal_count()));
+    }
+
+    /// From 0, of a part of a face's corner.
+    std::uint32_t index(std::string_view word, std::string_view part, std::string_view one,
+                        std::string_view many, std::size_t how_many) const {
+        const auto index = parse_integer(part);
+        if (!index) fail_corner(word);
+        const auto count = static_cast<long long>(how_many);
         if (*index == 0 || *index > count || *index < -count) {
-            fail(fmt::format(
-                "the face's corner {} names vertex {}, but {} vertices stand before it; they count from 1, "
-                "or backwards from -1",
-                in_quotes(word), *index, count));
+            fail(
+                fmt::format("the face's corner {} names {} {}, but {} {} stand before it; they count from 1, "
+                            "or backwards from -1",
+                            in_quotes(word), one, *index, count, many));
         }
         return static_cast<std::uint32_t>(*index > 0 ? *index - 1 : count + *index);
+    }
+
+    [[noreturn]] void fail_corner(std::string_view word) const {
+        fail(fmt::format(
+            "the face's corner is {}; it must be a vertex number, alone or as v/vt, v//vn or v/vt/vn",
+            in_quotes(word)));
     }
 
     TextLines lines_;
@@ -132,7 +156,8 @@ class ObjReader {
     std::string_view statement_;
     std::size_t line_ = 0;  // where the statement begins
     std::string joined_;
-    std::vector<std::uint32_t> corners_;
+    std::vector<std::uint32_t> corners_, normals_;
+    std::size_t texture_coordinates_ = 0;
     MeshBuilder builder_;
 };
 

@@ -382,18 +382,29 @@ class PlyReader {
         return static_cast<std::size_t>(length);
     }
 
+    /// The number of the property of this name, no list.
+    static std::optional<std::size_t> scalar_named(const PlyElement& element, std::string_view name) {
+        const auto has_name = [&](const PlyProperty& p) { return p.name == name && !p.is_list(); };
+        const auto found = std::find_if(element.properties.begin(), element.properties.end(), has_name);
+        if (found == element.properties.end()) return std::nullopt;
+        return static_cast<std::size_t>(found - element.properties.begin());
+    }
+
     void read_vertices(const PlyElement& element) {
-        constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
-        std::array<double, 3> position{};
+        constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"}, kNormals{"nx", "ny", "nz"};
+        std::array<double, 3> position{}, normal{};
         std::vector<double*> targets(element.properties.size(), nullptr);  // null: to be skipped
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto has_name = [&](const PlyProperty& p) { return p.name == kAxes[axis] && !p.is_list(); };
-            const auto found = std::find_if(element.properties.begin(), element.properties.end(), has_name);
-            if (found == element.properties.end())
+            const auto property = scalar_named(element, kAxes[axis]);
+            if (!property)
                 fail_declaration(element,
                                  fmt::format("has no property {}; it needs x, y and z", kAxes[axis]));
-            targets[static_cast<std::size_t>(found - element.properties.begin())] = &position[axis];
+            targets[*property] = &position[axis];
         }
+        const bool has_normals = std::ranges::all_of(
+            kNormals, [&](std::string_view name) { return scalar_named(element, name).has_value(); });
+        for (std::size_t axis = 0; has_normals && axis < 3; ++axis)
+            targets[*scalar_named(element, kNormals[axis])] = &normal[axis];
         const auto read_property = [&](std::size_t i) {
             const PlyProperty& property = element.properties[i];
             if (targets[i] == nullptr) return skip(property);
@@ -407,6 +418,7 @@ class PlyReader {
         builder_.reserve_vertices(element.count);
         read_rows(element, read_property, [&] {
             builder_.add_vertex({position[0], position[1], position[2]});
+            if (has_normals) builder_.add_normal({normal[0], normal[1], normal[2]});
         });
     }
 

@@ -144,8 +144,7 @@ double TomlItem::number(const Range& range) const {
     } else {
         fail_type("a number");
     }
-    const bool inside = number >= range.min && number <= range.max;  // false for NaN
-    if (!inside) fail(fmt::format("{} is not allowed. Allowed: {}.", number, range.allowed));
+    if (!range.contains(number)) fail(refusal(number, range));
     return number;
 }
 

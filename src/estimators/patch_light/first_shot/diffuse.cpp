@@ -18,7 +18,9 @@ SplitMaterial split(const Phong& material) {
     return {material.diffuse, Phong{{}, material.specular, material.exponent}};
 }
 SplitMaterial split(const Ward& material) {
-    return {material.diffuse(), Ward({}, material.specular(), material.roughness(), material.rotation_deg())};
+    Ward::Parameters rest = material.parameters();
+    rest.diffuse = {};
+    return {material.parameters().diffuse, Ward(rest)};
 }
 SplitMaterial split(const auto& material) { return {{}, material}; }
 

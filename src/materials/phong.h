@@ -1,0 +1,63 @@
+// Gloss as a power of the cosine, over a diffuse part.
+#pragma once
+
+#include <cmath>
+
+#include "materials/model.h"
+
+namespace stilb::materials {
+
+/// Energy-normalised modified Phong: f = diffuse/pi + specular (n+2)/(2 pi) cos+^n(alpha), where alpha is the
+/// angle to the mirrored direction and n the exponent; diffuse + specular <= 1 in every band.
+struct Phong {
+    Rgb diffuse;
+    Rgb specular;
+    double exponent = 1;
+
+    static constexpr std::string_view kType = "phong";
+    static constexpr auto fields() {
+        return std::tuple{
+            Field{"diffuse", &Phong::diffuse, kReflectance, "share that is reflected diffusely"},
+            Field{"specular", &Phong::specular, kReflectance, "share in the lobe, at normal incidence"},
+            Field{"exponent", &Phong::exponent, kExponent, "of the lobe: the higher, the narrower"}};
+    }
+    std::optional<std::string> contradiction() const { return contradiction_of_shares(diffuse, specular); }
+
+    Rgb brdf_per_sr(const Vec3& in, const Vec3& out) const { return brdf_of_lobe_per_sr(lobe(in, out)); }
+    double pdf_per_sr(const Vec3& in, const Vec3& out) const {
+        return pdf_of_lobe_per_sr(lobe(in, out), out);
+    }
+    ScatterValue evaluate(const Vec3& in, const Vec3& out) const {
+        const double value = lobe(in, out);
+        return {brdf_of_lobe_per_sr(value), pdf_of_lobe_per_sr(value, in)};
+    }
+    std::optional<ScatterSample> sample(const Vec3& in, double u1, double u2) const;
+    /// Exact for grey ones at normal incidence, where pi f of the lobe is (n+2)/2 cos^n and its own light
+    /// sees (n+2)^2 / (4 (n+1)) of it on average; what the lobe sees of the diffuse part, and the reverse,
+    /// is 1.
+    double concentration() const;
+    Rgb reflectance_bound() const { return diffuse + specular; }
+
+  private:
+    static constexpr Range kExponent{0, 1e6, "from 0 to 1e6"};
+
+    /// cos+^n(alpha): the unnormalised lobe.
+    double lobe(const Vec3& in, const Vec3& out) const {
+        const double cos_alpha = in.z * out.z - in.x * out.x - in.y * out.y;
+        return cos_alpha > 0 ? std::pow(cos_alpha, exponent) : 0;
+    }
+    Rgb brdf_of_lobe_per_sr(double lobe) const {
+        const double lobe_per_sr = (exponent + 2) / (2 * std::numbers::pi) * lobe;
+        return diffuse * std::numbers::inv_pi + specular * lobe_per_sr;
+    }
+    double pdf_of_lobe_per_sr(double lobe, const Vec3& out) const;
+    /// Probability of drawing from the diffuse part; nothing where the material reflects nothing. In
+    /// proportion to luminance, so that the luminance of a weighted sample stays near the albedo.
+    std::optional<double> diffuse_probability() const;
+};
+
+}  // namespace stilb::materials
+
+namespace stilb {
+using materials::Phong;
+}  // namespace stilb
