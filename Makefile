@@ -10,7 +10,7 @@ FUZZ_SECONDS ?= 60
 configure = test -f build/$(1)/build.ninja || cmake --preset $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-lint build demo test verify-long bench format format-check lint sanitize fuzz clean
+.PHONY: help setup setup-lint build demo test verify-long bench format format-check lint odr sanitize fuzz clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' Makefile
@@ -55,8 +55,12 @@ format-check: setup-lint ## fail where a source is not in the project's format
 
 lint: setup-lint ## clang-tidy, and the directions of includes
 	@scripts/check-includes
-	@$(call configure,release)
-	@run-clang-tidy-14 -quiet -j $(JOBS) -p $(RELEASE) '^$(CURDIR)/(src|experiments)/'
+	@cmake --preset release -B build/lint -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+	@run-clang-tidy-14 -quiet -j $(JOBS) -p build/lint '^$(CURDIR)/(src|experiments)/'
+
+odr: setup ## link with link-time optimisation: fails where two files define one name in two ways
+	@$(call configure,odr)
+	@cmake --build --preset odr --target stilb
 
 sanitize: setup ## all tests with address and undefined-behaviour sanitizers
 	@$(call configure,debug)

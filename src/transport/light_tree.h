@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "math/discrete.h"
 #include "math/sampling.h"
 
 namespace stilb::transport {

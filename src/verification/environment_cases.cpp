@@ -118,8 +118,8 @@ std::vector<VerificationCase> seen_cases() {
         seen_case("glass ball", ball, Dielectric{1.5}, kLuminance, kRareEnds),
         seen_case("glass box", Box{{-0.4, -0.3, -0.5}, {0.4, 0.3, 0.5}}, Dielectric{1.5}, kLuminance,
                   kRareEnds),
-        seen_case("white rough ball", ball, RoughConductor(white, 0.3), kLuminance, 0.003),
-        seen_case("white plastic ball", ball, Plastic(white, 1.5, 0.2), kLuminance, 0.001),
+        seen_case("white rough ball", ball, RoughConductor({white, 0.3}), kLuminance, 0.003),
+        seen_case("white plastic ball", ball, Plastic({white, 1.5, 0.2}), kLuminance, 0.001),
     };
 }
 

@@ -315,7 +315,7 @@ Scene outdoors() {
     add_object(scene, Rectangle{{-2, -1.5, 0}, {8, 0, 0}, {0, 6, 0}}, diffuse(0.3));
     add_object(scene, Box{{1, 0.8, 0}, {1.6, 1.5, 1.2}}, phong(0.3, 0.4, 20));
     add_object(scene, Sphere{{2.8, 1.8, 0.5}, 0.4}, mirror(0.9));
-    add_object(scene, Box{{3, 0.4, 0}, {3.6, 1, 0.6}}, RoughConductor(rgb(0.8, 0.7, 0.5), 0.3));
+    add_object(scene, Box{{3, 0.4, 0}, {3.6, 1, 0.6}}, RoughConductor({rgb(0.8, 0.7, 0.5), 0.3}));
     add_sky(scene);
     return scene;
 }

@@ -117,8 +117,7 @@ TEST(GridPicture, IsTheSameOfResultsAndTheirFile) {
     RunResult result = luminance_results();
     const auto add = [&](const std::string& name, const std::array<int, 2>& count) {
         SensorResult& grid = result.sensors.emplace_back();
-        grid.sensor =
-            {name, Grid{{1, 2, 0.75}, {1.7, 0, 0}, {0, 0, 1.1}, count, Vec3{0, 1, 0}}};
+        grid.sensor = {name, Grid{{1, 2, 0.75}, {1.7, 0, 0}, {0, 0, 1.1}, count, Vec3{0, 1, 0}}};
         std::vector<double> values;
         for (std::size_t i = 0; i < grid.sensor.size(); ++i) {
             values.push_back(300 + 20. / 7 * static_cast<double>(i));

@@ -8,9 +8,9 @@
 #include <sstream>
 #include <string>
 
-#include "base/error.h"
 #include "materials/material.h"
 #include "math/sampling.h"
+#include "stilb/error.h"
 #include "support/random_pairs.h"
 
 namespace stilb::materials {

@@ -162,8 +162,8 @@ TEST(Environment, APanoramaOfItselfIsItself) {
 /// What is seen beside surfaces is what surrounds them, whatever the method.
 TEST(Environment, IsTheBackgroundOfPictures) {
     Scene scene = box_under_sky();
-    const Sensor camera{
-        "camera", Camera{{4, 4, 2}, {0.5, 0.4, 0.3}, {0, 0, 1}, 50, {9, 9}, Projection::perspective}};
+    const Sensor camera{"camera",
+                        Camera{{4, 4, 2}, {0.5, 0.4, 0.3}, {0, 0, 1}, 50, {9, 9}, Projection::perspective}};
     for (const std::string method : {"path", "auto", "double-local", "ray-bundle", "particles"}) {
         const auto pixels = render(scene, camera, options_of(method, 4)).pixels.rgb_cd_m2;
         // The upper left pixel looks 4 degrees upwards, the lower left one 40 downwards: to one pixel of the

@@ -23,9 +23,8 @@ std::vector<bool> replaced(const FirstShotPatches* patches) {
 }
 
 bool has_panes(const Scene& scene) {
-    return std::ranges::any_of(scene.materials, [](const NamedMaterial& named) {
-        return passes_straight(named.material);
-    });
+    return std::ranges::any_of(scene.materials,
+                               [](const NamedMaterial& named) { return passes_straight(named.material); });
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 
 #include "io/mesh/mesh_file.h"
 
-#include <optional>
-#include <cmath>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "io/text/text.h"
 #include "stilb/error.h"

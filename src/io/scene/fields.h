@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/field.h"
-#include "io/scene/toml_table.h"
+#include "io/scene/toml.h"
 
 namespace stilb::io {
 
