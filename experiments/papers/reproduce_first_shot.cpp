@@ -15,6 +15,7 @@
 #include "papers/furnished_room.h"
 #include "papers/reproduce.h"
 #include "plot/plot.h"
+#include "transport/receiver.h"
 
 namespace stilb::papers {
 namespace {
