@@ -12,9 +12,9 @@
 #include "efficiency.h"
 #include "estimators/estimator.h"
 #include "estimators/estimator_list.h"
-#include "transport/receiver.h"
 #include "rooms.h"
 #include "sensors/goniometer.h"
+#include "transport/receiver.h"
 
 namespace stilb {
 namespace {

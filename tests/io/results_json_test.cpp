@@ -12,9 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json json_of(const RunResult& made) {
-    return Json::parse(to_json(made, "room.toml"))["sensors"];
-}
+Json json_of(const RunResult& made) { return Json::parse(to_json(made, "room.toml"))["sensors"]; }
 
 TEST(ResultsJson, LuminancesSayWhereTheLightComesFrom) {
     const Json view = json_of(luminance_results())[0];
