@@ -31,7 +31,7 @@ const Sensor& floor_point() {
 
 Sensor view() {
     return {"camera",
-            Camera{{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, {0, 0, 1}, 70, {16, 12}, Projection::perspective}};
+            Camera{{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, {0, 0, 1}, 70, {64, 48}, Projection::perspective}};
 }
 
 RunOptions options_for(const std::string& method) {
