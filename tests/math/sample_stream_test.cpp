@@ -7,7 +7,7 @@
 
 #include "math/random.h"
 #include "statistics/hypothesis.h"
-#include "statistics/moments.h"
+#include "support/moments.h"
 
 namespace stilb::math {
 namespace {

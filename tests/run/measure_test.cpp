@@ -69,9 +69,8 @@ TEST(Measure, ResultsOwnTheirSensorsAndTheMeansOfTheirReplicates) {
     RunOptions options = options_for("auto");
     RunResult result;
     {
-        const std::vector<Sensor> sensors{
-            sensors::make_grid_sensor("plane", {{0.5, 0.5, 0.8}, {3, 0, 0}, {0, 3, 0}, {3, 2}}, {0, 0, 1}),
-            sights()};
+        const std::vector<Sensor> sensors{{"plane", Grid{{0.5, 0.5, 0.8}, {3, 0, 0}, {0, 3, 0}, {3, 2}}},
+                                          sights()};
         result = measure(mirror_room(), sensors, options);
     }
     ASSERT_EQ(result.sensors.size(), 2U);

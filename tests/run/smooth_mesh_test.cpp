@@ -35,7 +35,7 @@ std::vector<double> luminances(const Shape& ball, const Material& material, cons
     options.method = "double-local";
     options.paths = 32;
     options.bounces = 1;
-    const std::vector<Sensor> sensors{{"sights", SensorType::luminance, sights()}};
+    const std::vector<Sensor> sensors{{"sights", Luminance{sights()}}};
     const RunResult result = run::measure(scene, sensors, options);
     std::vector<double> values;
     for (const Reading& reading : result.sensors[0].readings) values.push_back(reading.estimate.value);

@@ -8,7 +8,7 @@
 
 #include "exact/configuration_factors.h"
 #include "statistics/hypothesis.h"
-#include "statistics/moments.h"
+#include "support/moments.h"
 #include "support/scene_builder.h"
 
 namespace stilb::transport {
