@@ -111,10 +111,11 @@ void LightSampler::plant_tree(const Scene& scene) {
     std::vector<LightTree::Light> leaves;
     for (std::uint32_t i = 0; i < count(); ++i) {
         if (is_made_elsewhere(i)) continue;
-        LightTree::Light leaf{i, {}, flux_lm_[i].luminance()};
+        // Between that of a ball and of a flat surface along its normal.
+        LightTree::Light leaf{i, {}, flux_lm_[i].luminance() / (2 * std::numbers::pi), is_point(i)};
         if (const auto origin = lights::point_origin(scene.lights[i])) {
             leaf.bounds.include(origin->position);
-            leaf.intensity_cd /= 4 * std::numbers::pi;
+            leaf.intensity_cd /= 2;
         }
         if (const auto surface = lights::surface_emission(scene.lights[i]))
             leaf.bounds = bounds_of(scene.object(surface->object).shape);

@@ -1,6 +1,7 @@
 #include "transport/light_tree.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace stilb::transport {
@@ -29,6 +30,7 @@ void LightTree::divide(std::uint32_t node, std::span<Light> lights) {
     nodes_[node].intensity_cd = intensity_cd;
     if (lights.size() == 1) {
         nodes_[node].is_light = true;
+        nodes_[node].is_point = lights[0].is_point;
         nodes_[node].first = lights[0].number;
         node_of_[lights[0].number] = node;
         return;
@@ -47,10 +49,9 @@ void LightTree::divide(std::uint32_t node, std::span<Light> lights) {
     divide(first + 1, lights.subspan(count));
 }
 
-bool LightTree::is_near(const Node& node, const Vec3& from) const {
-    constexpr double distance_by_radius = 3;
-    return squared_length(node.center - from) <
-           distance_by_radius * distance_by_radius * node.squared_radius_m2;
+double LightTree::nearness_of(const Node& node, const Vec3& from) {
+    const double squared_m2 = squared_length(node.center - from);
+    return squared_m2 > 0 ? node.squared_radius_m2 / squared_m2 : std::numeric_limits<double>::infinity();
 }
 
 double LightTree::box_lx(const Node& node, const Vec3& from, const Vec3& normal) const {

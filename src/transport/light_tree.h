@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -15,16 +16,16 @@ namespace stilb::transport {
 
 /// A binary tree of bounding boxes over lights. At a point, all boxes that are near for their size are
 /// opened, down to single lights or until there are kMostOpen of them; one is chosen by what it gives, and a
-/// branch at a time below it. A single light gives what the caller's `rough_lx(number)` says, a box about its
-/// flux over the squared distance times the largest cosine above the surface: never 0 where one of its lights
-/// gives something. Immutable; queries take no memory.
+/// branch at a time below it. A point gives what the caller's `rough_lx(number)` says, boxes and surfaces
+/// give about their flux over the squared distance times the largest cosine above the surface: never 0 where
+/// one of its lights gives something. Immutable; queries take no memory.
 class LightTree {
   public:
     struct Light {
         std::uint32_t number = 0;  ///< the caller's
         Bounds bounds;
-        double intensity_cd =
-            0;  ///< luminous, about: the rough illuminance at a distance is this over its square
+        double intensity_cd = 0;  ///< luminous, about
+        bool is_point = false;
     };
 
     LightTree() = default;
@@ -37,7 +38,7 @@ class LightTree {
 
       private:
         friend class LightTree;
-        static constexpr std::size_t kMostOpen = 64;
+        static constexpr std::size_t kMostOpen = 32;
         std::array<std::uint32_t, kMostOpen> nodes_;
         std::array<double, kMostOpen> sums_lx_;
         std::size_t count_ = 0;
@@ -62,15 +63,17 @@ class LightTree {
         double intensity_cd = 0;
         std::uint32_t parent = 0;
         std::uint32_t first = 0;  ///< child, the other follows; of single lights: the number
-        bool is_light = false;
+        bool is_light = false, is_point = false;
     };
 
     void divide(std::uint32_t node, std::span<Light> lights);
-    bool is_near(const Node& node, const Vec3& from) const;
+    /// The squared ratio of its radius and its distance; boxes below kNear stay closed.
+    static double nearness_of(const Node& node, const Vec3& from);
+    static constexpr double kNear = 1. / 9;
     double box_lx(const Node& node, const Vec3& from, const Vec3& normal) const;
     template <typename Rough>
     double node_lx(std::uint32_t node, const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
-        return nodes_[node].is_light ? rough_lx(nodes_[node].first) : box_lx(nodes_[node], from, normal);
+        return nodes_[node].is_point ? rough_lx(nodes_[node].first) : box_lx(nodes_[node], from, normal);
     }
     /// Of the first child beside the other. A box may have a corner above the horizon where neither child has
     /// one.
@@ -90,20 +93,38 @@ template <typename Rough>
 LightTree::Cut LightTree::cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
     Cut cut;
     if (nodes_.empty()) return cut;
-    std::array<std::uint32_t, Cut::kMostOpen> waiting;
-    std::size_t count = 1;
-    waiting[0] = 0;
-    double total_lx = 0;
-    while (count > 0) {
-        const std::uint32_t at = waiting[--count];
-        const Node& node = nodes_[at];
-        if (!node.is_light && is_near(node, from) && cut.count_ + count + 2 <= Cut::kMostOpen) {
-            waiting[count++] = node.first + 1;
-            waiting[count++] = node.first;
-            continue;
+    /// Boxes that are to be opened, as a heap: the nearest for its size first.
+    struct Waiting {
+        double nearness;
+        std::uint32_t node;
+        auto operator<=>(const Waiting&) const = default;
+    };
+    std::array<Waiting, Cut::kMostOpen> waiting;
+    auto end = waiting.begin();
+    const auto add = [&](std::uint32_t node) {
+        const double nearness = nodes_[node].is_light ? 0 : nearness_of(nodes_[node], from);
+        if (nearness < kNear) {
+            cut.nodes_[cut.count_++] = node;
+        } else {
+            *end++ = {nearness, node};
+            std::push_heap(waiting.begin(), end);
         }
-        cut.nodes_[cut.count_] = at;
-        cut.sums_lx_[cut.count_++] = total_lx += node_lx(at, from, normal, rough_lx);
+    };
+    add(0);
+    while (end != waiting.begin()) {
+        std::pop_heap(waiting.begin(), end);
+        const std::uint32_t node = (--end)->node;
+        const std::size_t open = cut.count_ + static_cast<std::size_t>(end - waiting.begin());
+        if (open + 2 > Cut::kMostOpen) {
+            cut.nodes_[cut.count_++] = node;
+        } else {
+            add(nodes_[node].first);
+            add(nodes_[node].first + 1);
+        }
+    }
+    double total_lx = 0;
+    for (std::size_t i = 0; i < cut.count_; ++i) {
+        cut.sums_lx_[i] = total_lx += node_lx(cut.nodes_[i], from, normal, rough_lx);
     }
     return cut;
 }

@@ -271,7 +271,7 @@ Scene mixed_room() {
     return scene;
 }
 
-/// The wall towards -y has a window, 2 m wide and 1.4 m high.
+/// The wall towards -y has a window, 3.4 m wide and 2 m high.
 void add_room_with_window(Scene& scene, const Material& matt, const Material& floor) {
     const auto add_part = [&](double x, double z, double width, double height) {
         add_object(scene, Rectangle{{x, 0, z}, {0, 0, height}, {width, 0, 0}}, matt);
@@ -280,7 +280,8 @@ void add_room_with_window(Scene& scene, const Material& matt, const Material& fl
          {std::pair{0u, Side::low}, {0u, Side::high}, {1u, Side::high}, {2u, Side::high}})
         add_object(scene, wall(kRoom, axis, side), matt);
     add_object(scene, wall(kRoom, 2, Side::low), floor);
-    add_part(0, 0, 1, 2.8), add_part(3, 0, 1, 2.8), add_part(1, 0, 2, 0.9), add_part(1, 2.3, 2, 0.5);
+    add_part(0, 0, 0.3, 2.8), add_part(3.7, 0, 0.3, 2.8), add_part(0.3, 0, 3.4, 0.6);
+    add_part(0.3, 2.6, 3.4, 0.2);
 }
 
 Scene room_with_window() {
@@ -303,7 +304,7 @@ Scene room_under_sky() {
 Scene room_with_glazing() {
     Scene scene;
     add_room_with_window(scene, diffuse(0.6), diffuse(0.4));
-    add_object(scene, Rectangle{{1, 0.05, 0.9}, {0, 0, 1.4}, {2, 0, 0}},
+    add_object(scene, Rectangle{{0.3, 0.05, 0.6}, {0, 0, 2}, {3.4, 0, 0}},
                ThinDielectric{1.52, {{0.95, 0.96, 0.9}}});
     add_sky(scene, {0.2, 0.1, 1}, 20);
     return scene;

@@ -42,7 +42,7 @@ TEST(Unlit, AnEnvironmentLightsAllThatIsOutside) {
     scene.lights.push_back({"sky", EnvironmentLight{Rgb::grey(1e6)}});
     EXPECT_EQ(unlit_in(scene), std::vector{ObjectId{2}});
     scene.lights.erase(scene.lights.begin());
-    scene.objects.push_back({"shut in the room", Box{{1, 1, 0}, {2, 2, 1}}, {MaterialId{0}}});
+    scene.objects.push_back({"shut in the room", Box{{1, 1, 0.1}, {2, 2, 1}}, {MaterialId{0}}});
     EXPECT_EQ(unlit_in(scene), (std::vector{ObjectId{2}, ObjectId{3}}));
 }
 

@@ -44,7 +44,7 @@ inline void add_environment(Scene& scene, const Rgb& luminance_cd_m2) {
     scene.lights.push_back({std::to_string(scene.lights.size()), EnvironmentLight{luminance_cd_m2}});
 }
 
-/// A blue sky that is brighter towards its top, a dark ground, and a small bright sun towards (2, -1, 2), of
+/// A blue sky that is brighter towards its top, a dark ground, and a small sun behind haze towards (2, -1, 2), of
 /// 16 x 8 pixels; `up` is the direction of its top.
 inline void add_sky(Scene& scene, const Vec3& up = {0, 0, 1}, double rotation_deg = 0) {
     Panorama::Image image{16, 8, {}};
@@ -54,7 +54,7 @@ inline void add_sky(Scene& scene, const Vec3& up = {0, 0, 1}, double rotation_de
             image.rgb_cd_m2.push_back({0.7F * level, level, (row < 4 ? 1.5F : 0.5F) * level});
         }
     }
-    image.rgb_cd_m2[2 * 16 + 9] = {2000, 1800, 1300};
+    image.rgb_cd_m2[2 * 16 + 9] = {600, 500, 350};
     EnvironmentLight light;
     light.panorama = std::make_shared<const Panorama>(std::move(image));
     light.axes = lights::panorama_axes(normalized(up), rotation_deg);
