@@ -33,14 +33,19 @@ Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const ray
 
 Receiver::Receiver(std::uint32_t reading, const BodyPoint& body, const rays::RayCaster& caster)
     : position_(body.position),
-      lifted_(lifted_position(body, caster)),
+      lifted_(body.position),
       frame_(Frame::of_surface(body.axis)),
       body_(body.sensitivity),
       material_(&white()),
       outgoing_{0, 0, 1},
       factor_(Rgb::grey(kPi)),
       constant_response_(Rgb::grey(1)),
-      reading_(reading) {}
+      reading_(reading) {
+    if (const auto surface = surface_at(body, caster)) {
+        lifted_ = surface->lifted;
+        horizon_ = surface->normal;
+    }
+}
 
 Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material)
     : position_(sub_point.surface.position),
@@ -58,7 +63,9 @@ Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Mater
 }
 
 double Receiver::sensitivity(const Vec3& direction) const {
-    return body_ ? body_->of(frame_.to_local(direction)) : std::max(0.0, dot(direction, normal_));
+    if (!body_) return std::max(0.0, dot(direction, normal_));
+    if (horizon_ && dot(direction, *horizon_) <= 0) return 0;
+    return body_->of(frame_.to_local(direction));
 }
 
 Rgb Receiver::response(const Vec3& direction) const {
@@ -74,7 +81,9 @@ double Receiver::relative_response(const Vec3& direction) const {
 std::optional<Receiver::Sample> Receiver::sample(double u1, double u2) const {
     if (body_) {
         const Vec3 local = body_->sample(u1, u2);
-        return Sample{frame_.to_world(local), factor_, body_->of(local) / kPi};
+        const Vec3 direction = frame_.to_world(local);
+        if (horizon_ && dot(direction, *horizon_) <= 0) return std::nullopt;
+        return Sample{direction, factor_, body_->of(local) / kPi};
     }
     const auto scattered = sample_brdf(*material_, outgoing_, u1, u2);
     if (!scattered) return std::nullopt;

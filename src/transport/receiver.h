@@ -72,8 +72,10 @@ class Receiver {
     Vec3 position_, lifted_, normal_;
     Frame frame_;
     const sensors::Sensitivity* body_ = nullptr;  ///< nothing on a surface
-    const Material* material_;                    ///< owned by the scene; white for illuminance
-    Vec3 outgoing_;                               ///< in the frame of the surface
+    std::optional<Vec3>
+        horizon_;               ///< normal of the surface that a body lies on, which hides half of the sphere
+    const Material* material_;  ///< owned by the scene; white for illuminance
+    Vec3 outgoing_;             ///< in the frame of the surface
     Rgb factor_;
     std::optional<Rgb> constant_response_;
     int reflections_ = 0;  ///< from here to the sensor
