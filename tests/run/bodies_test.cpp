@@ -227,7 +227,7 @@ TEST(Bodies, PatchMethodsAgreeWithPathTracing) {
     const RunResult exact = measure(scene, bodies, options_for("auto", 1 << 17));
     for (const std::string method : {"ray-bundle", "radiosity", "particles"}) {
         RunOptions options = options_for(method, method == "particles" ? 1 << 19 : 1 << 13);
-        options.patches.patch_m = 0.3;
+        options.patches.patch_m = 0.45;
         const RunResult result = measure(scene, bodies, options);
         for (std::size_t b = 0; b < 4; ++b) {
             const double value = estimate(exact, b).value;
