@@ -37,8 +37,10 @@ Horizontal by_azimuth(double azimuth_rad, double height_rad) {
     return {level * std::sin(azimuth_rad), level * std::cos(azimuth_rad), std::sin(height_rad)};
 }
 
+double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
 /// In a frame whose z axis is the cylinder's.
-constexpr Sensitivity kCylinder{[](const Vec3& d) { return std::hypot(d.x, d.y) / kPi; },
+constexpr Sensitivity kCylinder{[](const Vec3& d) { return length_of(d.x, d.y) / kPi; },
                                 [](double u1, double u2) {
                                     const auto [across, along, up] =
                                         by_azimuth(2 * kPi * u2, sample_squared_cosine(u1));
@@ -47,7 +49,7 @@ constexpr Sensitivity kCylinder{[](const Vec3& d) { return std::hypot(d.x, d.y) 
                                 ""};
 
 /// In the frame of a wall that faces along the direction: y is upwards, z away from it.
-constexpr Sensitivity kSemicylinder{[](const Vec3& d) { return (std::hypot(d.x, d.z) + d.z) / kPi; },
+constexpr Sensitivity kSemicylinder{[](const Vec3& d) { return (length_of(d.x, d.z) + d.z) / kPi; },
                                     [](double u1, double u2) {
                                         // The azimuth has density (1 + cos(alpha)) / (2 pi) = cos^2(alpha /
                                         // 2) / pi.

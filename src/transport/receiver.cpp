@@ -32,13 +32,18 @@ Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const ray
 
 Receiver::Receiver(std::uint32_t reading, const BodyPoint& body, const rays::RayCaster& caster)
     : position_(body.position),
-      lifted_(lifted_position(body, caster)),
+      lifted_(body.position),
       surface_(white(), body.axis, body.axis),
       body_(body.sensitivity),
       outgoing_{0, 0, 1},
       factor_(Rgb::grey(kPi)),
       constant_response_(Rgb::grey(1)),
-      reading_(reading) {}
+      reading_(reading) {
+    if (const auto surface = surface_at(body, caster)) {
+        lifted_ = surface->lifted;
+        horizon_ = surface->normal;
+    }
+}
 
 Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material)
     : position_(sub_point.surface.position),
@@ -56,7 +61,9 @@ Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Mater
 }
 
 double Receiver::sensitivity(const Vec3& direction) const {
-    return body_ ? body_->of(surface_.frame().to_local(direction)) : std::max(0.0, dot(direction, normal_));
+    if (!body_) return std::max(0.0, dot(direction, normal_));
+    if (horizon_ && dot(direction, *horizon_) <= 0) return 0;
+    return body_->of(surface_.frame().to_local(direction));
 }
 
 Rgb Receiver::response(const Vec3& direction) const {
@@ -73,7 +80,9 @@ double Receiver::relative_response(const Vec3& direction) const {
 std::optional<Receiver::Sample> Receiver::sample(double u1, double u2) const {
     if (body_) {
         const Vec3 local = body_->sample(u1, u2);
-        return Sample{surface_.frame().to_world(local), factor_, body_->of(local) / kPi};
+        const Vec3 direction = surface_.frame().to_world(local);
+        if (horizon_ && dot(direction, *horizon_) <= 0) return std::nullopt;
+        return Sample{direction, factor_, body_->of(local) / kPi};
     }
     const auto scattered = surface_.sample_incoming(outgoing_, u1, u2);
     if (!scattered) return std::nullopt;

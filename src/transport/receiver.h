@@ -73,7 +73,9 @@ class Receiver {
     Vec3 position_, lifted_, normal_;
     materials::ShadedSurface surface_;  ///< its material is owned by the scene; white for illuminance
     const sensors::Sensitivity* body_ = nullptr;  ///< nothing on a surface
-    Vec3 outgoing_;                               ///< in the frame of the surface
+    /// Normal of the surface that a body lies on, which hides half of the sphere.
+    std::optional<Vec3> horizon_;
+    Vec3 outgoing_;  ///< in the frame of the surface
     Rgb factor_;
     std::optional<Rgb> constant_response_;
     int reflections_ = 0;  ///< from here to the sensor

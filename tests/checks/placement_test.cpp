@@ -167,5 +167,25 @@ TEST(Placement, NoLightNoWarning) {
     EXPECT_EQ(warnings_of(scene, {at({0.5, 0.5, 1})}).size(), 0u);
 }
 
+TEST(Placement, BodiesStandFree) {
+    const Sensor free{"people", Cylindrical{{{2, 2, 1.2}, {3, 2, 1.6}}}};
+    EXPECT_EQ(warnings_of(furnished_room(), {free}), Texts{});
+    const Sensor some{"people", Cylindrical{{{2, 2, 1.2}, {3, 2, 0}}}}, one{"globe", Spherical{{{3, 2, 0}}}};
+    const Texts warnings = warnings_of(furnished_room(), {some, one});
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_EQ(
+        warnings[0],
+        "sensor \"people\": 1 of 2 points lie on a surface, which hides half of the surroundings from a "
+        "sensor of type cylindrical. Move it off the surface, or measure illuminance with a normal.");
+    EXPECT_TRUE(has(warnings[1], "sensor \"globe\": it lies on a surface")) << warnings[1];
+}
+
+TEST(Placement, BodiesInTheDarkAreNamed) {
+    const Sensor dark{"people", Cylindrical{{{0.5, 0.5, 1}}}};
+    const Texts warnings = warnings_of(furnished_room(), {dark});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_TRUE(has(warnings[0], "sensor \"people\": it lies inside object \"cabinet\"")) << warnings[0];
+}
+
 }  // namespace
 }  // namespace stilb::checks

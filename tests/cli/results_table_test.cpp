@@ -106,7 +106,7 @@ TEST(ResultsTable, ShowsBodies) {
     const Sensor people{"people", Cylindrical{{{1, 2, 3}, {2, 2, 3}}}};
     made.sensors = {{face, {io::reading(500)}, {}, {}, 0.01},
                     {people, {io::reading(100), io::reading(90)}, {}, {}, 0.01}};
-    EXPECT_TRUE(has(table_of(made), "\nface           500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 1, 0)\n"))
+    EXPECT_TRUE(has(table_of(made), "\nface          500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 1, 0)\n"))
         << table_of(made);
     EXPECT_TRUE(has(table_of(made), "\npeople        2 points; 95 % of")) << table_of(made);
     EXPECT_TRUE(has(table_of(made), "\n    90.0 ± 2.0 lx   at (2, 2, 3)\n")) << table_of(made);

@@ -43,7 +43,7 @@ TEST(HeadInRoom, StandsUprightAndLooksAtTheCamera) {
 
 TEST(HeadInRoom, ShowsItFromTheFront) {
     const Scene scene = room_with(placed_in_room(sphere_mesh()));
-    const auto points = visible_points(scene, view_of_head({24, 24}).camera);
+    const auto points = visible_points(scene, *view_of_head({24, 24}).camera());
     ASSERT_GT(points.size(), 150U);
     for (const HeadPoint& point : points) {
         EXPECT_LT(point.position.y, 4.5);

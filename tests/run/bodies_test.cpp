@@ -40,7 +40,7 @@ std::vector<std::string> all_methods() {
 RunOptions options_for(const std::string& method, std::uint64_t paths, std::uint64_t seed = 1) {
     RunOptions options;
     options.method = method;
-    options.paths = paths;
+    options.paths = method == "ray-bundle" ? paths / 16 : paths;  // a step does more than a path
     options.seed = seed;
     options.patches.patch_m = 0.5;
     return options;
@@ -50,13 +50,13 @@ statistics::Estimate estimate(const RunResult& result, std::size_t sensor) {
     return result.sensors[sensor].readings[0].estimate;
 }
 
-/// Of the four bodies: z-scores, or where a method has no errors and the value's rounding shows, its
-/// distance.
-void expect_exact(const RunResult& result, const std::array<double, 4>& exact_lx, double rounding) {
+/// Of the four bodies by z-scores; a method without errors is to be as near as its fixed directions bring it.
+void expect_exact(const RunResult& result, const std::array<double, 4>& exact_lx, double rounding,
+                  double without_error = 1e-3) {
     for (std::size_t b = 0; b < 4; ++b) {
         const statistics::Estimate e = estimate(result, b);
         if (std::isnan(e.standard_error)) {
-            EXPECT_NEAR(e.value, exact_lx[b], 1e-3 * exact_lx[b]) << result.method << ", body " << b;
+            EXPECT_NEAR(e.value, exact_lx[b], without_error * exact_lx[b]) << result.method << ", body " << b;
             continue;
         }
         const double error = std::hypot(e.standard_error, rounding * exact_lx[b]);
@@ -150,6 +150,18 @@ TEST_P(BodiesBy, ADiskLight) {
     expect_exact(result, means_over_bodies(lx), 1e-5);
 }
 
+/// On the floor the lower half of the sphere is hidden, though the floor shines too: the upper half of a
+/// furnace is left.
+TEST_P(BodiesBy, AFurnaceOnItsFloor) {
+    constexpr double reflectance = 0.6, luminance = 50;
+    Scene scene;
+    add_area_light(scene, inward({{0, 0, 0}, {4, 3, 2.8}}), Rgb::grey(luminance), diffuse(reflectance));
+    const double half = exact::furnace_illuminance_lx(luminance, reflectance) / 2;
+    const RunResult result = measure(scene, bodies_at({1.3, 0.7, 0}), options_for(GetParam(), 1 << 15));
+    // The horizon cuts through the 2^14 fixed directions of radiosity: about N^(-3/4) of twice the value.
+    expect_exact(result, {half, half, half * (1 + kTilted.z / 2), half}, 1e-5, 3e-3);
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, BodiesBy, testing::ValuesIn(all_methods()), [](const auto& method) {
     std::string name = method.param;
     std::erase(name, '-');
@@ -184,7 +196,7 @@ Scene furnished() {
 TEST(Bodies, CylindersReadTheMeanOfVerticalIlluminances) {
     const Vec3 at{1.2, 1.9, 1.3};
     IlluminancePoints all_around, in_front;
-    constexpr int azimuths = 256;
+    constexpr int azimuths = 96;
     for (int i = 0; i < azimuths; ++i) {
         const double angle = 2 * kPi * i / azimuths;
         const Vec3 normal{std::cos(angle), std::sin(angle), 0};
@@ -194,8 +206,8 @@ TEST(Bodies, CylindersReadTheMeanOfVerticalIlluminances) {
     }
     const std::vector<Sensor> elements{{"around", all_around}, {"front", in_front}};
     for (const std::string method : {"auto", "path"}) {
-        const std::uint64_t paths = method == "auto" ? 1 << 17 : 1 << 14;
-        const RunResult bodies = measure(furnished(), bodies_at(at), options_for(method, 1 << 18, 11));
+        const std::uint64_t paths = method == "auto" ? 1 << 16 : 1 << 12;
+        const RunResult bodies = measure(furnished(), bodies_at(at), options_for(method, 1 << 17, 11));
         const RunResult means = measure(furnished(), elements, options_for(method, paths, 12));
         for (std::size_t b = 0; b < 2; ++b) {
             const statistics::Estimate body = estimate(bodies, b), mean = means.sensors[b].summary.mean;
@@ -214,8 +226,8 @@ TEST(Bodies, PatchMethodsAgreeWithPathTracing) {
     const std::vector<Sensor> bodies = bodies_at({1.2, 1.9, 1.3});
     const RunResult exact = measure(scene, bodies, options_for("auto", 1 << 17));
     for (const std::string method : {"ray-bundle", "radiosity", "particles"}) {
-        RunOptions options = options_for(method, method == "particles" ? 1 << 19 : 1 << 11);
-        options.patches.patch_m = 0.2;
+        RunOptions options = options_for(method, method == "particles" ? 1 << 19 : 1 << 13);
+        options.patches.patch_m = 0.45;
         const RunResult result = measure(scene, bodies, options);
         for (std::size_t b = 0; b < 4; ++b) {
             const double value = estimate(exact, b).value;
@@ -241,26 +253,6 @@ TEST(Bodies, ShareARunWithSurfaceElements) {
     for (std::size_t b = 0; b < 4; ++b) {
         EXPECT_LT(std::abs(z_score(estimate(both, b + 1), estimate(bodies, b))), 4) << b;
     }
-}
-
-/// On the floor the lower half of the sphere is hidden: the upper half of a furnace is left.
-TEST(Bodies, OnASurfaceSeeHalfOfTheSphere) {
-    constexpr double luminance = 50;
-    Scene scene;
-    const Box room{{0, 0, 0}, {4, 3, 2.8}};
-    for (std::size_t i = 1; i < 6; ++i) {  // the floor is black
-        const std::size_t axis = i == 5 ? 2 : (i - 1) / 2;
-        const Side side = i == 5 || i % 2 == 0 ? Side::high : Side::low;
-        add_area_light(scene, wall(room, axis, side), Rgb::grey(luminance));
-    }
-    add_object(scene, wall(room, 2, Side::low), Black{});
-    const RunResult result = measure(scene, bodies_at({1.3, 0.7, 0}), options_for("auto", 1 << 15));
-    const double half = kPi * luminance / 2;
-    expect_exact(result, {half, half, half * (1 + kTilted.z / 2), half}, 1e-5);
-    ASSERT_EQ(result.warnings.size(), 4u);
-    EXPECT_EQ(result.warnings[3],
-              "sensor \"sphere\": it lies on a surface, which hides half of the surroundings from a sensor "
-              "of type spherical. Move it off the surface, or measure illuminance with a normal.");
 }
 
 }  // namespace
