@@ -44,8 +44,8 @@ inline void add_environment(Scene& scene, const Rgb& luminance_cd_m2) {
     scene.lights.push_back({std::to_string(scene.lights.size()), EnvironmentLight{luminance_cd_m2}});
 }
 
-/// A blue sky that is brighter towards its top, a dark ground, and a small sun behind haze towards (2, -1, 2), of
-/// 16 x 8 pixels; `up` is the direction of its top.
+/// A blue sky that is brighter towards its top, a dark ground, and a small sun behind haze towards (2, -1,
+/// 2), of 16 x 8 pixels; `up` is the direction of its top.
 inline void add_sky(Scene& scene, const Vec3& up = {0, 0, 1}, double rotation_deg = 0) {
     Panorama::Image image{16, 8, {}};
     for (int row = 0; row < 8; ++row) {
