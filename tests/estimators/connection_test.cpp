@@ -116,7 +116,7 @@ TEST(Fan, ConnectsBodiesBesideSurfaceElements) {
     for (int n = 0; n < 300; ++n) {
         transport::LightVertex node;
         node.position = random_point(random);
-        node.normal = random_direction(random);
+        node.normal = node.shading_normal = random_direction(random);
         node.lifted = node.position + 1e-5 * node.normal;
         node.incoming = node.normal;
         node.material = &matt;

@@ -13,13 +13,14 @@ namespace {
 const Sphere kBall{{0, 0, 0}, 1};
 const Vec3 kEye{6, 0, 0};
 
-/// Sights over a square around the ball.
+/// Sights of the ball, but for its rim: outlines of meshes are as coarse as they are.
 std::vector<Measurand> sights() {
     constexpr int kSteps = 60;
     std::vector<Measurand> all;
     for (int i = 0; i < kSteps; ++i) {
         for (int j = 0; j < kSteps; ++j) {
             const Vec3 to{0, 2.2 * ((i + 0.5) / kSteps - 0.5), 2.2 * ((j + 0.5) / kSteps - 0.5)};
+            if (to.y * to.y + to.z * to.z > 0.8 * 0.8) continue;
             all.emplace_back(LineOfSight{kEye, normalized(to - kEye)});
         }
     }
@@ -42,7 +43,7 @@ std::vector<double> luminances(const Shape& ball, const Material& material, cons
     return values;
 }
 
-/// Root mean square of what is off, over that of the ball itself, where all three meshes are seen.
+/// Root mean square of what is off, over that of the ball itself.
 double off_by(const std::vector<double>& mesh, const std::vector<double>& ball) {
     double squares = 0, all = 0;
     for (std::size_t i = 0; i < ball.size(); ++i) {
@@ -67,7 +68,7 @@ TEST(SmoothMesh, LooksMoreLikeTheBodyThanItsFacets) {
             const double facets = off_by(luminances(icosphere(kBall, 2), of.material, light), ball);
             const double smooth = off_by(luminances(smooth_icosphere(kBall, 2), of.material, light), ball);
             EXPECT_LT(smooth, of.most * facets) << of.name << ' ' << light.x;
-            std::printf("%s light x %g: facets %.4f smooth %.4f\n", of.name.c_str(), light.x, facets, smooth);
+            RecordProperty(of.name + std::to_string(light.x), std::to_string(smooth / facets));
         }
     }
 }
