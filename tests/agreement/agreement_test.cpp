@@ -22,7 +22,8 @@ namespace {
 constexpr int kReplicates = 32;
 /// Relative standard error of a method's readings that is aimed at, by the pilot run, and that is required.
 constexpr double kTargetError = 0.0016;
-constexpr double kLargestError = 0.003;
+/// (Whether that is enough to notice one per cent is looked at in every scene.)
+constexpr double kLargestError = 0.005;
 /// Chance that the whole file fails without a defect, when its seeds are first used.
 constexpr double kFamilyError = 0.01;
 
@@ -147,13 +148,23 @@ Measured biased(Measured measured, double share) {
     return measured;
 }
 
+/// Without any error two readings are equal or apart.
+bool are_exact_and_apart(const Measured& a, const Measured& b) {
+    for (std::size_t i = 0; i < a.estimates.size(); ++i) {
+        const statistics::Estimate &x = a.estimates[i], &y = b.estimates[i];
+        if (x.standard_error == 0 && y.standard_error == 0 && x.value != y.value) return true;
+    }
+    return false;
+}
+
 /// Whether the suite fails where one of the methods is wrong by one per cent: by a comparison with some
 /// other.
 bool notices_one_per_cent(const std::vector<TwoRuns>& all, std::size_t wrong) {
     for (const double share : {-0.01, 0.01}) {
         const Measured planted = biased(all[wrong].both, share);
         const bool noticed = std::ranges::any_of(all, [&](const TwoRuns& other) {
-            return &other != &all[wrong] && worst_z(planted, other.both) > threshold_z();
+            if (&other == &all[wrong]) return false;
+            return are_exact_and_apart(planted, other.both) || worst_z(planted, other.both) > threshold_z();
         });
         if (!noticed) return false;
     }
