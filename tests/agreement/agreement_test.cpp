@@ -148,13 +148,9 @@ Measured biased(Measured measured, double share) {
     return measured;
 }
 
-/// Without any error two readings are equal or apart.
-bool are_exact_and_apart(const Measured& a, const Measured& b) {
-    for (std::size_t i = 0; i < a.estimates.size(); ++i) {
-        const statistics::Estimate &x = a.estimates[i], &y = b.estimates[i];
-        if (x.standard_error == 0 && y.standard_error == 0 && x.value != y.value) return true;
-    }
-    return false;
+/// No share of nothing is wrong.
+bool is_dark(const Measured& measured) {
+    return std::ranges::all_of(measured.estimates, [](const auto& e) { return e.value == 0; });
 }
 
 /// Whether the suite fails where one of the methods is wrong by one per cent: by a comparison with some
@@ -164,7 +160,7 @@ bool notices_one_per_cent(const std::vector<TwoRuns>& all, std::size_t wrong) {
         const Measured planted = biased(all[wrong].both, share);
         const bool noticed = std::ranges::any_of(all, [&](const TwoRuns& other) {
             if (&other == &all[wrong]) return false;
-            return are_exact_and_apart(planted, other.both) || worst_z(planted, other.both) > threshold_z();
+            return worst_z(planted, other.both) > threshold_z();
         });
         if (!noticed) return false;
     }
@@ -190,6 +186,7 @@ TEST_P(Agreement, OfAllMethods) {
     }
     // The comparison itself: a method that is wrong by one per cent does not pass.
     for (std::size_t i = 0; i < all.size() && all.size() > 1; ++i) {
+        if (is_dark(all[i].both)) continue;
         EXPECT_TRUE(notices_one_per_cent(all, i)) << all[i].both.what;
     }
     RecordProperty("worst_z", std::to_string(worst));
