@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -21,12 +22,27 @@
 
 namespace stilb::materials {
 
-template <Model... Models>
-using OneOf = std::variant<Models...>;
-
 /// In the order of lists for users.
 using Material =
-    OneOf<Diffuse, Phong, RoughConductor, Ward, Plastic, Mirror, Dielectric, ThinDielectric, Black>;
+    std::variant<Diffuse, Phong, RoughConductor, Ward, Plastic, Mirror, Dielectric, ThinDielectric, Black>;
+
+/// Stops the compiler at the first alternative that is no Model, and lets it name what is missing.
+template <typename M>
+consteval bool is_model() {
+    static_assert(Described<M>);
+    if constexpr (requires { &M::branches; }) {
+        static_assert(Specular<M>);
+    } else {
+        static_assert(Scattering<M>);
+    }
+    static_assert(Model<M>);
+    return true;
+}
+template <typename... Models>
+consteval bool are_models(std::type_identity<std::variant<Models...>>) {
+    return (is_model<Models>() && ...);
+}
+static_assert(are_models(std::type_identity<Material>{}));
 
 /// Calls `visit.template operator()<M>()` for every model M, in order.
 template <typename Visit>

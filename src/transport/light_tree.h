@@ -17,8 +17,8 @@ namespace stilb::transport {
 /// A binary tree of bounding boxes over lights. At a point, all boxes that are near for their size are
 /// opened, down to single lights or until there are kMostOpen of them; one is chosen by what it gives, and a
 /// branch at a time below it. A point gives what the caller's `rough_lx(number)` says, boxes and surfaces
-/// give about their flux over the squared distance times the largest cosine above the surface: never 0 where
-/// one of its lights gives something. Immutable; queries take no memory.
+/// give about their intensity over the squared distance times the largest cosine above the surface: never 0
+/// where one of its lights gives something. Immutable; queries take no memory.
 class LightTree {
   public:
     struct Light {
