@@ -13,7 +13,7 @@
 
 #include "best_time.h"
 #include "patches/visibility/bundle.h"
-#include "patches/visibility/opengl_bundles.h"
+#include "patches/visibility/opengl.h"
 #include "rooms.h"
 #include "stilb/error.h"
 

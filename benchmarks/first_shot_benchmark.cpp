@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "best_time.h"
-#include "estimators/patch_light/first_shot/first_shot_patches.h"
+#include "estimators/patch_light/first_shot/first_shot.h"
 #include "rooms.h"
 #include "stilb/error.h"
 

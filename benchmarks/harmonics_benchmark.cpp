@@ -9,7 +9,7 @@
 
 #include "best_time.h"
 #include "geometry/harmonics/cells.h"
-#include "geometry/harmonics/march.h"
+#include "geometry/harmonics/surface.h"
 #include "support/harmonic_shapes.h"
 
 namespace stilb {

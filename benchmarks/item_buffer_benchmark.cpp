@@ -10,7 +10,7 @@
 #include "best_time.h"
 #include "patches/vertex_interpolation.h"
 #include "patches/visibility/item_buffer.h"
-#include "patches/visibility/opengl_item_buffers.h"
+#include "patches/visibility/opengl.h"
 #include "patches/visibility/patch_caster.h"
 #include "rooms.h"
 #include "stilb/error.h"

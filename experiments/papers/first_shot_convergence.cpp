@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "estimators/patch_light/patch_location.h"
-#include "estimators/patch_light/patch_picture.h"
+#include "estimators/patch_light/patch_readings.h"
+#include "estimators/patch_light/patch_transport.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 #include "run/schedule.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/fit_report.h"
-#include "run/render.h"
+#include "run/run.h"
 #include "scene/scene.h"
 
 namespace stilb::papers {

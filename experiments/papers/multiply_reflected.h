@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "run/measure.h"
+#include "run/run.h"
 
 namespace stilb::papers {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "estimators/estimator.h"
-#include "estimators/patch_light/patch_picture.h"
+#include "estimators/patch_light/patch_readings.h"
 #include "io/image/picture_file.h"
 #include "io/scene/scene_file.h"
 #include "io/text/table.h"

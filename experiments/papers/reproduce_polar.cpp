@@ -13,7 +13,7 @@
 #include "papers/reproduce.h"
 #include "plot/plot.h"
 #include "sensors/goniometer.h"
-#include "verification/sobolev.h"
+#include "verification/verification.h"
 
 namespace stilb::papers {
 namespace {

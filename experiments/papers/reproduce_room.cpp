@@ -8,7 +8,7 @@
 #include "io/scene/scene_file.h"
 #include "papers/paper_room.h"
 #include "papers/reproduce.h"
-#include "run/render.h"
+#include "run/run.h"
 
 namespace stilb::papers {
 

@@ -11,8 +11,8 @@
 #include "papers/estimate_series.h"
 #include "papers/reproduce.h"
 #include "plot/plot.h"
-#include "run/measure.h"
-#include "verification/sobolev.h"
+#include "run/run.h"
+#include "verification/verification.h"
 
 namespace stilb::papers {
 namespace {

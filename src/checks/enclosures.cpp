@@ -1,8 +1,8 @@
-#include "checks/enclosures.h"
-
 #include <algorithm>
 #include <array>
 #include <iterator>
+
+#include "checks/checks.h"
 
 namespace stilb::checks {
 namespace {

@@ -1,10 +1,10 @@
-#include "checks/placement.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
+
+#include "checks/checks.h"
 
 namespace stilb::checks {
 namespace {

@@ -1,6 +1,4 @@
 
-#include "checks/surfaces.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <tuple>
 
 #include "base/vec.h"
+#include "checks/checks.h"
 
 namespace stilb::checks {
 

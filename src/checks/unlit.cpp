@@ -1,7 +1,6 @@
-#include "checks/unlit.h"
-
 #include <algorithm>
 
+#include "checks/checks.h"
 #include "math/sampling.h"
 #include "transport/light_sampler.h"
 

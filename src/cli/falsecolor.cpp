@@ -8,11 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/commands.h"
+#include "cli/command_line.h"
 #include "io/image/picture_file.h"
 #include "plot/canvas.h"
 #include "plot/false_colour_picture.h"
-#include "plot/grid_picture.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {

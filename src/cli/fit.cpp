@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/commands.h"
+#include "cli/command_line.h"
 #include "cli/fit_report.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"

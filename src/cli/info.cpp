@@ -1,15 +1,22 @@
 // stilb info: what a scene, a luminaire file or a mesh file holds, and what is odd about it.
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "cli/commands.h"
+#include "cli/command_line.h"
 #include "cli/info_report.h"
 #include "io/text/text.h"
 
 namespace stilb::cli {
+
 namespace {
 
 struct InfoRequest {
@@ -47,6 +54,188 @@ void add_info(CommandLine& line) {
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
         return kExitDone;
     });
+}
+
+// The report of `stilb info` for people.
+
+namespace {
+
+using Json = InfoReport;
+
+std::string text(const Json& json, const char* key) { return json.at(key).get<std::string>(); }
+double number(const Json& json, const char* key) { return json.at(key).get<double>(); }
+std::size_t count(const Json& json, const char* key) { return json.at(key).get<std::size_t>(); }
+
+std::string joined(const Json& names) {
+    std::string result;
+    for (const Json& name : names) {
+        const auto word = name.get<std::string>();
+        result += fmt::format("{}{}", result.empty() ? "" : ", ", word.empty() ? "(none)" : word);
+    }
+    return result;
+}
+
+std::string point_text(const Json& p) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0].get<double>(), p[1].get<double>(),
+                       p[2].get<double>());
+}
+
+std::string extent_text(const Json& extent) {
+    if (extent[0] == extent[1]) return "at " + point_text(extent[0]);
+    return fmt::format("from {} to {}", point_text(extent[0]), point_text(extent[1]));
+}
+
+/// A share to three digits, other numbers to four; of an array "0.1 x 0.2".
+std::string parameter_text(const Json& value) {
+    if (value.is_array()) {
+        std::string text;
+        for (const Json& element : value) text += (text.empty() ? "" : " x ") + parameter_text(element);
+        return text;
+    }
+    const double number = value.get<double>();
+    return std::abs(number) <= 1 ? fmt::format("{:.3g}", number) : fmt::format("{:.4g}", number);
+}
+
+std::string material_text(const Json& material) {
+    // The internal transmittance is part of the transmittance.
+    static const std::set<std::string> left_out{"name", "type", "reflectance", "rgb",
+                                                "internal_transmittance"};
+    std::string parameters;
+    for (const auto& [key, value] : material.items()) {
+        if (!left_out.contains(key))
+            parameters +=
+                fmt::format("{}{} {}", parameters.empty() ? " (" : ", ", key, parameter_text(value));
+    }
+    return fmt::format("{:16} {:9} reflectance {:.3g}{}{}", text(material, "name"), text(material, "type"),
+                       number(material, "reflectance"), parameters, parameters.empty() ? "" : ")");
+}
+
+std::string object_text(const Json& object) {
+    const std::size_t triangles = count(object, "triangles"), parts = count(object, "parts");
+    const std::size_t open = count(object, "open_edges");
+    std::string line = fmt::format("{:16} {:9} {:.4g} m2", text(object, "name"), text(object, "shape"),
+                                   number(object, "area_m2"));
+    if (triangles > 0) line += fmt::format(", {} triangles", triangles);
+    if (object.contains("degree")) line += fmt::format(", degree {}", count(object, "degree"));
+    if (object.contains("vertices")) line += fmt::format(", {} vertices", count(object, "vertices"));
+    if (parts > 1) line += fmt::format(", {} parts", parts);
+    line += open == 0 ? ", closed" : fmt::format(", {} open edge{}", open, open == 1 ? "" : "s");
+    line += fmt::format(", {}", extent_text(object.at("extent")));
+    const Json& materials = object.at("materials");
+    line += fmt::format("{}{}", materials.size() > 1 ? "\n    materials: " : ", ", joined(materials));
+    if (object.contains("groups")) {
+        line += fmt::format("\n    groups: {}\n    triangles of no area, left out: {}",
+                            joined(object.at("groups")), count(object, "degenerate_triangles_left_out"));
+    }
+    return line;
+}
+
+/// "peak_intensity_cd" and a number become "peak intensity 80 cd", "object" and a text "object panel".
+std::string light_detail_text(std::string key, const Json& value) {
+    std::string_view unit;
+    constexpr std::array<std::array<std::string_view, 2>, 4> units{
+        {{"_cd_m2", " cd/m2"}, {"_lm", " lm"}, {"_cd", " cd"}, {"_lx", " lx"}}};
+    for (const auto& [ending, name] : units) {
+        if (!unit.empty() || !key.ends_with(ending)) continue;
+        key.resize(key.size() - ending.size());
+        unit = name;
+    }
+    std::ranges::replace(key, '_', ' ');
+    return value.is_string() ? fmt::format("{} {}", key, value.get<std::string>())
+                             : fmt::format("{} {:.5g}{}", key, value.get<double>(), unit);
+}
+
+std::string light_text(const Json& light) {
+    std::vector<std::string> details;
+    if (light.contains("flux_lm")) details.push_back(fmt::format("{:.5g} lm", number(light, "flux_lm")));
+    for (const auto& [key, value] : light.items()) {
+        if (key != "name" && key != "type" && key != "flux_lm")
+            details.push_back(light_detail_text(key, value));
+    }
+    return fmt::format("{:16} {:11} {}", text(light, "name"), text(light, "type"), fmt::join(details, ", "));
+}
+
+std::string luminaire_text(const Json& luminaire) {
+    std::string line =
+        fmt::format("{} ({}): {}\n    {:.5g} lm, peak {:.5g} cd; {}", text(luminaire, "file"),
+                    text(luminaire, "format"), text(luminaire, "name"), number(luminaire, "flux_lm"),
+                    number(luminaire, "peak_intensity_cd"), text(luminaire, "flux_check"));
+    if (luminaire.contains("planes")) {
+        line += fmt::format("\n    {} planes of {} angles", count(luminaire, "planes"),
+                            count(luminaire, "angles"));
+    }
+    return line;
+}
+
+std::string size_text(const Json& size, const char* things) {
+    return fmt::format("{} x {} {}", size[0].get<int>(), size[1].get<int>(), things);
+}
+
+std::string camera_text(const Json& camera) {
+    return fmt::format("{}, {}, {:.4g} degrees across, from {} to {}",
+                       size_text(camera.at("resolution"), "pixels"), text(camera, "projection"),
+                       number(camera, "fov_deg"), point_text(camera.at("position")),
+                       point_text(camera.at("target")));
+}
+
+std::string readings_text(const Json& sensor) {
+    if (sensor.contains("count")) return size_text(sensor["count"], "points");
+    const std::size_t readings = count(sensor, "points");
+    const sensors::Noun noun = sensors::readings_of_type(text(sensor, "type"));
+    return fmt::format("{} {}", readings, readings == 1 ? noun.one : noun.many);
+}
+
+std::string sensor_text(const Json& sensor) {
+    const std::string what = sensor.contains("resolution")
+                                 ? camera_text(sensor)
+                                 : readings_text(sensor) + ", " + extent_text(sensor.at("extent"));
+    return fmt::format("{:16} {:12} {}", text(sensor, "name"), text(sensor, "type"), what);
+}
+
+std::string run_text(const Json& run) {
+    std::string line = "Run: ";
+    for (const auto& [key, value] : run.items()) {
+        const std::string shown = value.is_string() ? value.get<std::string>() : value.dump();
+        line += fmt::format("{}{} {}", key == "method" ? "" : ", ", key, shown);
+    }
+    return line + "\n";
+}
+
+std::string memory_text(const Json& memory) {
+    constexpr double mega = 1e6;
+    return fmt::format("Memory: {:.1f} MB at most; the meshes take {:.2f} MB\n",
+                       number(memory, "peak_bytes") / mega, number(memory, "meshes_bytes") / mega);
+}
+
+using Describe = std::string (*)(const Json&);
+
+std::string section_text(const Json& report, const char* key, const char* title, Describe describe) {
+    if (!report.contains(key) || report[key].empty()) return "";
+    const Json& list = report[key];
+    std::string result = fmt::format("\n{} ({})", title, list.size());
+    if (key == std::string_view("lights") && number(report, "total_flux_lm") > 0)
+        result += fmt::format(", {:.5g} lm in all", number(report, "total_flux_lm"));
+    for (const Json& item : list) result += fmt::format("\n  {}", describe(item));
+    return result + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const InfoReport& report) {
+    const bool is_named = report.contains("name") && !text(report, "name").empty();
+    std::string result = text(report, "file");
+    result += is_named ? fmt::format(": {}\n", text(report, "name")) : "\n";
+    result += section_text(report, "materials", "Materials", material_text);
+    result += section_text(report, "objects", "Objects", object_text);
+    result += section_text(report, "lights", "Lights", light_text);
+    result += section_text(report, "luminaires", "Luminaires", luminaire_text);
+    result += section_text(report, "sensors", "Sensors", sensor_text);
+    result +=
+        section_text(report, "warnings", "Warnings", [](const Json& w) { return w.get<std::string>(); });
+    result += "\n";
+    if (report.contains("run")) result += run_text(report["run"]);
+    if (report.contains("memory")) result += memory_text(report["memory"]);
+    return report["warnings"].empty() ? result + "No warnings\n" : result;
 }
 
 }  // namespace stilb::cli

@@ -4,9 +4,7 @@
 #include <sys/resource.h>
 
 #include "base/vec.h"
-#include "checks/placement.h"
-#include "checks/surfaces.h"
-#include "checks/unlit.h"
+#include "checks/checks.h"
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/mesh_file.h"
 #include "io/photometry/photometry_file.h"

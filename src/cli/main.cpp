@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "base/monitor.h"
-#include "cli/commands.h"
+#include "cli/command_line.h"
 #include "papers/reproduce.h"
 #include "stilb/error.h"
 

@@ -1,6 +1,4 @@
 // stilb measure: all sensors of a scene.
-#include "run/measure.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,15 +7,15 @@
 #include <iterator>
 #include <memory>
 
-#include "cli/commands.h"
+#include "cli/command_line.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
-#include "io/results/results_csv.h"
-#include "io/results/results_json.h"
+#include "io/results/results_writer.h"
 #include "io/scene/scene_file.h"
 #include "plot/canvas.h"
-#include "plot/grid_picture.h"
+#include "plot/false_colour_picture.h"
+#include "run/run.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "run/progress.h"
+#include "run/run.h"
 
 namespace stilb::cli {
 

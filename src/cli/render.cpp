@@ -1,6 +1,4 @@
 // stilb render: a picture of one camera.
-#include "run/render.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,17 +9,16 @@
 #include <optional>
 #include <utility>
 
-#include "cli/commands.h"
-#include "cli/detail_text.h"
-#include "cli/ending.h"
-#include "cli/patch_text.h"
+#include "cli/command_line.h"
 #include "cli/progress.h"
 #include "cli/rendered_picture.h"
+#include "cli/results_table.h"
 #include "cli/run_flags.h"
 #include "io/image/picture_file.h"
 #include "io/results/solution_file.h"
 #include "io/scene/scene_file.h"
-#include "io/text/content_hash.h"
+#include "io/text/text.h"
+#include "run/run.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {

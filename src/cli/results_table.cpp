@@ -1,3 +1,4 @@
+
 #include "cli/results_table.h"
 
 #include <fmt/format.h>
@@ -5,12 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/detail_text.h"
-#include "cli/ending.h"
-#include "cli/patch_text.h"
-#include "cli/place_text.h"
-
 namespace stilb::cli {
+
 namespace {
 
 /// Columns and rows up to which a grid's values are printed one by one.
@@ -136,6 +133,90 @@ std::string to_table(const RunResult& result) {
                         ending_with_error(result));
     text += detail_text(result.levels_of_detail);
     return result.patches ? text + patch_text(*result.patches) : text;
+}
+
+std::string place_text(const Vec3& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z); }
+std::string direction_text(const Vec3& d) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x, d.y, d.z); }
+
+std::string place_text(const Place& place) {
+    std::string text = fmt::format("{} {}", place.preposition, place_text(place.position));
+    for (const Place::Direction& direction : place.directions) {
+        if (!direction.preposition.empty())
+            text += fmt::format(" {} {}", direction.preposition, direction_text(direction.value));
+    }
+    return text;
+}
+
+std::string angles_text(const Place& place) {
+    std::string text;
+    for (const Place::Angle& angle : place.angles)
+        text += fmt::format("{}{} {:5.5g}°", text.empty() ? "" : "  ", angle.name, angle.value_deg);
+    return text;
+}
+
+std::string detail_text(std::span<const run::LevelOfDetail> levels) {
+    std::string text;
+    for (const run::LevelOfDetail& level : levels) {
+        if (level.degree == level.full_degree) {
+            text += fmt::format("{}: all {} degrees; fewer would show by more than {:.2g} mm\n", level.object,
+                                level.full_degree, 1e3 * level.allowed_m);
+        } else {
+            text += fmt::format(
+                "{}: degree {} of {}, within {:.2g} mm of the full series ({:.2g} mm allowed)\n",
+                level.object, level.degree, level.full_degree, 1e3 * level.error_m, 1e3 * level.allowed_m);
+        }
+    }
+    return text;
+}
+
+std::string ending(StopReason reason, std::string_view all) {
+    switch (reason) {
+        case StopReason::target_reached:
+            return "the error asked for is reached";
+        case StopReason::paths_done:
+            return fmt::format("all {} done", all);
+        case StopReason::time_over:
+            return "time limit reached";
+        case StopReason::interrupted:
+            return "interrupted";
+        case StopReason::solved:
+            break;
+    }
+    return "solved";
+}
+
+namespace {
+
+/// Of those that are not replaced, the ones that are named.
+constexpr std::size_t kMostNames = 3;
+
+std::string first_shot_text(const estimators::PatchReport& report) {
+    if (report.first_shot == estimators::FirstShotVariant::none) return "no first shot";
+    const auto replaced = std::ranges::count_if(report.lights, &estimators::FirstShotLight::is_replaced);
+    const std::string resolution =
+        report.resolution ? fmt::format(", resolution {}", *report.resolution) : "";
+    return fmt::format("first shot ({}{}) for {} of {} lights, {:.2g} s, {:.0f} bytes per patch",
+                       name_of(report.first_shot), resolution, replaced, report.lights.size(),
+                       report.set_up_s, report.bytes_per_patch);
+}
+
+std::string left_lights(const estimators::PatchReport& report) {
+    if (report.first_shot == estimators::FirstShotVariant::none) return "";
+    std::string text;
+    std::size_t left = 0;
+    for (const estimators::FirstShotLight& light : report.lights) {
+        if (light.is_replaced || ++left > kMostNames) continue;
+        text += fmt::format("{}{} ({})", left > 1 ? ", " : "lights that stay: ", light.name, light.why);
+    }
+    if (left > kMostNames) text += fmt::format(" and {} more", left - kMostNames);
+    return text.empty() ? text : text + '\n';
+}
+
+}  // namespace
+
+std::string patch_text(const estimators::PatchReport& report) {
+    return fmt::format("{} patches of {:.2g} m; {}\n", report.count, report.size_m, first_shot_text(report)) +
+           left_lights(report);
 }
 
 }  // namespace stilb::cli

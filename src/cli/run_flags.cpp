@@ -1,15 +1,22 @@
+
 #include "cli/run_flags.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "estimators/estimator_list.h"
 #include "run/options.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
+
 namespace {
 
 /// As in scene files.
@@ -82,6 +89,101 @@ RunOptions RunFlags::over(RunOptions options) const {
     if (seed) options.seed = *seed;
     if (threads) options.threads = *threads;
     options.patches = patches.options_for(options.method);
+    return options;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kWindowNames{"cube", "hemicube", "tetrahedron"};
+
+/// The value of `flag`, by its place among the names; nothing where it was not typed.
+template <typename Enum>
+std::optional<Enum> read(const char* flag, const std::optional<std::string>& typed,
+                         std::span<const std::string_view> names) {
+    if (!typed) return std::nullopt;
+    const auto found = std::ranges::find(names, *typed);
+    if (found == names.end()) {
+        const std::string nearest = nearest_name(*typed, names);
+        throw InputError(fmt::format("{} {}: there is no such value.{} Allowed: {}.", flag, *typed,
+                                     nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
+                                     fmt::join(names, ", ")));
+    }
+    return static_cast<Enum>(found - names.begin());
+}
+
+}  // namespace
+
+void PatchFlags::add_to(Command& command) {
+    const std::string group =
+        "Patches and first shot (ray-bundle, radiosity; path with --first-shot; particles: --patch only)";
+    const auto add = [&](const char* name, auto& value, const std::string& text, const char* type) {
+        command.add(name, value, text).value_name(type).heading(group);
+    };
+    add("--patch", patch_m, "Longest edge of a patch [m] (default: about 10,000 patches)", "SIZE");
+    add("--first-shot", first_shot,
+        "What stands for small lights: auto, none, classical, diffuse, incoming, on-the-fly (default: auto, "
+        "which is incoming; path: none)",
+        "NAME");
+    add("--window", window,
+        "Item buffers on area lights, and on patches of radiosity: cube (its rear half carries nothing), "
+        "hemicube (default) or tetrahedron; points have cubes",
+        "NAME");
+    add("--resolution", resolution,
+        "Pixels along an edge of item buffers (default: by the patches; 64 on patches of radiosity)", "R");
+    add("--visibility", visibility, "Visibility backend: rays (default) or opengl", "NAME");
+    add("--directions", directions, "ray-bundle: bundles of a step, single, pair or frame (default)", "NAME");
+}
+
+std::vector<std::string_view> PatchFlags::given() const {
+    std::vector<std::string_view> names;
+    const auto add = [&](std::string_view name, bool is_given) {
+        if (is_given) names.push_back(name);
+    };
+    add("--patch", patch_m.has_value());
+    add("--first-shot", first_shot.has_value());
+    add("--window", window.has_value());
+    add("--resolution", resolution.has_value());
+    add("--visibility", visibility.has_value());
+    add("--directions", directions.has_value());
+    return names;
+}
+
+void PatchFlags::require_known_to(const estimators::EstimatorEntry& method) const {
+    const auto goes_by = [](const estimators::EstimatorEntry& entry, std::string_view flag) {
+        return std::ranges::find(entry.patch_options, flag.substr(2)) != entry.patch_options.end();
+    };
+    for (const std::string_view flag : given()) {
+        if (goes_by(method, flag)) continue;
+        std::vector<std::string_view> methods;
+        for (const estimators::EstimatorEntry& entry : estimators::estimator_list()) {
+            if (goes_by(entry, flag)) methods.push_back(entry.name);
+        }
+        throw InputError(fmt::format("{} means nothing to method {}. It is for {}.", flag, method.name,
+                                     fmt::join(methods, ", ")));
+    }
+    if (!method.lights_patches && !given().empty() && !first_shot) {
+        throw InputError(
+            fmt::format("{} means nothing to method {} without --first-shot.", given().front(), method.name));
+    }
+}
+
+estimators::PatchOptions PatchFlags::options_for(const std::string& method) const {
+    require_known_to(estimators::find_estimator(method));
+    estimators::PatchOptions options;
+    options.patch_m = patch_m;
+    options.first_shot.variant =
+        first_shot == "auto"
+            ? estimators::kUsualFirstShot
+            : read<estimators::FirstShotVariant>("--first-shot", first_shot, estimators::kFirstShotNames);
+    estimators::ShootingOptions& shooting = options.first_shot.shooting;
+    shooting.window = read<patches::BufferShape>("--window", window, kWindowNames).value_or(shooting.window);
+    shooting.backend = read<patches::BufferBackend>("--visibility", visibility, patches::kBufferBackendNames)
+                           .value_or(shooting.backend);
+    options.directions =
+        read<estimators::BundleDirections>("--directions", directions, estimators::kBundleDirectionsNames)
+            .value_or(options.directions);
+    options.resolution = resolution;
+    if (resolution) options.shot_resolution = *resolution;
     return options;
 }
 

@@ -7,15 +7,14 @@
 #include <memory>
 #include <utility>
 
-#include "cli/commands.h"
-#include "cli/ending.h"
-#include "cli/patch_text.h"
+#include "cli/command_line.h"
 #include "cli/progress.h"
+#include "cli/results_table.h"
 #include "cli/run_flags.h"
 #include "io/results/solution_file.h"
 #include "io/scene/scene_file.h"
-#include "io/text/content_hash.h"
 #include "io/text/table.h"
+#include "io/text/text.h"
 #include "math/zernike.h"
 
 namespace stilb::cli {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/commands.h"
-#include "cli/place_text.h"
+#include "cli/command_line.h"
 #include "cli/progress.h"
+#include "cli/results_table.h"
 #include "estimators/estimator_list.h"
 #include "io/results/places.h"
 #include "run/options.h"

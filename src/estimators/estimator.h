@@ -15,7 +15,6 @@
 #include "base/monitor.h"
 #include "base/rgb.h"
 #include "estimators/patch_light/patch_options.h"
-#include "estimators/patch_light/patch_report.h"
 #include "math/random.h"
 #include "rays/ray_caster.h"
 #include "sensors/sensor.h"

@@ -1,3 +1,4 @@
+
 #include "estimators/estimator_list.h"
 
 #include <fmt/format.h>
@@ -7,10 +8,10 @@
 #include <iterator>
 #include <vector>
 
-#include "estimators/methods.h"
 #include "stilb/error.h"
 
 namespace stilb::estimators {
+
 namespace {
 
 constexpr std::array<std::string_view, 6> kBundleOptions{"patch",      "first-shot", "window",

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lights/luminaire_frame.h"
+#include "lights/luminaire.h"
 #include "math/sampling.h"
 
 namespace stilb::lights {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/ids.h"
-#include "base/lift.h"
+#include "base/rays.h"
 #include "base/rgb.h"
 #include "base/vec.h"
 #include "geometry/shape.h"

@@ -1,6 +1,7 @@
 // Luminaires by their luminous intensity distribution (file type "photometry").
 #pragma once
 
+#include "base/vec.h"
 #include "lights/light_kind.h"
 
 namespace stilb::lights {
@@ -45,6 +46,18 @@ class LuminaireEmitter {
     const PhotometricSolid* solid_;
     Vec3 lifted_;
 };
+
+// How a luminaire hangs in the scene.
+
+/// Unit vectors of a luminaire's (left-handed) frame in the scene: towards C0, C90 and the nadir.
+struct LuminaireFrame {
+    Vec3 c0, c90, nadir;
+};
+
+/// A luminaire that hangs straight down (nadir -z, C0 +x, C90 +y) is first turned about its vertical axis by
+/// `spin_deg`, counterclockwise seen from behind, which is from above; then its nadir is turned to `unit_aim`
+/// on the shortest way. For an aim of exactly +z that way is a half turn about the x axis.
+LuminaireFrame aim_luminaire(const Vec3& unit_aim, double spin_deg);
 
 }  // namespace stilb::lights
 

@@ -1,7 +1,10 @@
 // Isotropic point lights.
 #pragma once
 
+#include <numbers>
+
 #include "lights/light_kind.h"
+#include "math/sampling.h"
 
 namespace stilb::lights {
 
@@ -60,6 +63,31 @@ double illuminance_by_point_lx(const Vec3& position, const Vec3& from, const Vec
     if (!(height > 0)) return 0;
     const double distance = std::sqrt(squared_distance);
     return luminous_intensity_cd(towards / distance) * height / (squared_distance * distance);
+}
+
+inline Rgb PointLight::flux_lm(const Surroundings&) const { return 4 * std::numbers::pi * intensity_cd; }
+
+inline std::vector<LightDetail> PointLight::details(const Surroundings&) const {
+    return {{"intensity_cd", intensity_cd.luminance()}};
+}
+
+inline PointEmitter::PointEmitter(const PointLight& light, const Surroundings&, const Lift&)
+    : light_(light) {}
+
+inline Emission PointEmitter::emit(math::SampleStream& stream) const {
+    const auto [u1, u2] = stream.next_two();
+    return {light_.position, math::sample_sphere(u1, u2).direction};
+}
+
+inline std::optional<IncidentLight> PointEmitter::sample_incident(const ReceivingPoint& at,
+                                                                  const std::array<double, 2>&) const {
+    return incident_from_point(light_.position, light_.position, at.position,
+                               [&](const Vec3&) { return light_.intensity_cd; });
+}
+
+inline double PointEmitter::rough_illuminance_lx(const Vec3& from, const Vec3& normal) const {
+    return illuminance_by_point_lx(light_.position, from, normal,
+                                   [&](const Vec3&) { return light_.intensity_cd.luminance(); });
 }
 
 }  // namespace stilb::lights

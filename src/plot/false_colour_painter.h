@@ -5,7 +5,6 @@
 
 #include "plot/axis.h"
 #include "plot/canvas.h"
-#include "plot/colour_map.h"
 #include "plot/false_colour.h"
 
 namespace stilb::plot {

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "io/image/picture.h"
+#include "io/results/results_file.h"
 #include "plot/false_colour.h"
+#include "run/result.h"
 
 namespace stilb::plot {
 
@@ -16,5 +18,13 @@ namespace stilb::plot {
 /// or a file that cannot be written.
 void draw_false_colour(const io::Picture& picture, const std::string& title,
                        const FalseColourOptions& options, const std::filesystem::path& path);
+
+// Measured grids as a false-colour picture.
+
+/// A panel for each grid, with mean, minimum and uniformity. Throws InputError where there is no grid or
+/// their units differ: one scale cannot hold them.
+FalseColour picture_of(const io::ResultsFile& results);
+/// The same of the grids among the results of a run; `scene` is what its file is called.
+FalseColour picture_of(const RunResult& result, const std::string& scene);
 
 }  // namespace stilb::plot

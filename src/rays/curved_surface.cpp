@@ -1,13 +1,11 @@
-#include "rays/curved_surface.h"
-
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "geometry/harmonics/cells.h"
-#include "geometry/harmonics/march.h"
 #include "geometry/harmonics/surface.h"
+#include "rays/embree_geometry.h"
 
 namespace stilb::rays {
 namespace {

@@ -4,12 +4,48 @@
 #include <embree3/rtcore.h>
 
 #include <array>
+#include <cstddef>
 #include <memory>
 
+#include "base/rays.h"
+#include "base/vec.h"
 #include "geometry/shape.h"
-#include "rays/curved_surface.h"
+#include "rays/ray_caster.h"
 
 namespace stilb::rays {
+
+// Surfaces that rays are intersected with exactly, in double precision, instead of through triangles.
+
+/// The points origin + t direction, start < t < end; the direction need not be a unit vector.
+struct RayInterval {
+    Vec3 origin, direction;
+    double start = 0, end = 0;
+};
+
+/// A point of the surface with the unit normal of its front; `size_m` bounds the shape's extent.
+struct SurfacePoint {
+    Vec3 position, normal;
+    double size_m = 0;
+};
+
+/// In parts that have bounds each. Immutable.
+class CurvedSurface {
+  public:
+    virtual ~CurvedSurface() = default;
+    virtual std::size_t part_count() const = 0;
+    virtual Bounds bounds_of(std::size_t part) const = 0;
+    /// Smallest t in the interval at which the ray meets the part, from either side; infinite where it does
+    /// not.
+    virtual double intersect(std::size_t part, const RayInterval& ray) const = 0;
+    virtual bool has_verdicts() const { return false; }
+    /// What intersect() would find, as far as a surface can tell that sooner.
+    virtual LaneVerdicts classifications(std::size_t, const RayPacket&) const { return {}; }
+    /// `near_by` (a hit with the rounding error of single precision) projected onto the part.
+    virtual SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
+};
+
+/// The surface of a shape relative to `origin`; null where it is made of triangles.
+std::unique_ptr<CurvedSurface> curved_surface(const Shape& shape, const Vec3& origin);
 
 /// What rays that met a geometry need to know of it: a mesh in single precision, or a curved surface.
 struct EmbreeGeometry {
@@ -22,5 +58,15 @@ struct EmbreeGeometry {
 /// The shape relative to `origin`, not committed yet. `kept` is filled and must outlive the geometry and stay
 /// where it is. A curved surface's parts are the geometry's primitives.
 RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origin, EmbreeGeometry& kept);
+
+// What Embree is told of rays, for the files that see Embree.
+
+inline RTCIntersectContext context_for(Coherence coherence) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                                     : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return context;
+}
 
 }  // namespace stilb::rays

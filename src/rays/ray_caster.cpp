@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "rays/embree_context.h"
 #include "rays/embree_geometry.h"
 
 namespace stilb::rays {

@@ -18,8 +18,7 @@
 #include <span>
 
 #include "base/ids.h"
-#include "base/lift.h"
-#include "base/ray_packet.h"
+#include "base/rays.h"
 #include "base/vec.h"
 #include "scene/scene.h"
 

@@ -1,5 +1,3 @@
-#include "run/measure.h"
-
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -9,12 +7,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "checks/placement.h"
+#include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "run/level_of_detail.h"
+#include "run/run.h"
 #include "run/schedule.h"
 #include "statistics/interval.h"
-#include "statistics/stopping.h"
 #include "stilb/error.h"
 #include "transport/line_of_sight.h"
 

@@ -1,5 +1,3 @@
-#include "run/render.h"
-
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -12,13 +10,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "checks/placement.h"
+#include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "estimators/patch_light/patch_solution.h"
 #include "math/random.h"
 #include "run/level_of_detail.h"
+#include "run/run.h"
 #include "run/schedule.h"
-#include "statistics/stopping.h"
+#include "statistics/interval.h"
 #include "stilb/error.h"
 
 namespace stilb::run {

@@ -9,7 +9,7 @@
 
 #include "base/rgb.h"
 #include "base/vec.h"
-#include "estimators/patch_light/patch_report.h"
+#include "estimators/patch_light/patch_options.h"
 #include "sensors/sensor.h"
 #include "statistics/grid_summary.h"
 #include "statistics/interval.h"

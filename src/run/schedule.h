@@ -13,8 +13,8 @@
 #include "base/monitor.h"
 #include "estimators/estimator.h"
 #include "run/options.h"
-#include "run/progress.h"
 #include "run/result.h"
+#include "run/run.h"
 
 namespace stilb::run {
 

@@ -11,7 +11,6 @@
 #include "estimators/patch_light/incoming_light.h"
 #include "run/schedule.h"
 #include "statistics/interval.h"
-#include "statistics/stopping.h"
 #include "stilb/error.h"
 #include "transport/receiver.h"
 

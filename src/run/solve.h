@@ -6,8 +6,8 @@
 
 #include "estimators/patch_light/patch_solution.h"
 #include "run/options.h"
-#include "run/progress.h"
 #include "run/result.h"
+#include "run/run.h"
 #include "scene/scene.h"
 
 namespace stilb::run {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lights/luminaire_frame.h"
+#include "lights/luminaire.h"
 
 namespace stilb::sensors {
 namespace {

@@ -1,8 +1,8 @@
 #include "transport/light_path.h"
 
 #include "materials/shaded_surface.h"
-#include "transport/russian_roulette.h"
-#include "transport/specular_ray.h"
+#include "transport/line_of_sight.h"
+#include "transport/weights.h"
 
 namespace stilb::transport {
 

@@ -3,9 +3,8 @@
 #include <cmath>
 
 #include "materials/shaded_surface.h"
-#include "transport/balance.h"
-#include "transport/russian_roulette.h"
-#include "transport/specular_ray.h"
+#include "transport/line_of_sight.h"
+#include "transport/weights.h"
 
 namespace stilb::transport {
 

@@ -10,6 +10,7 @@
 #include "materials/shaded_surface.h"
 #include "rays/ray_caster.h"
 #include "sensors/sensor.h"
+#include "transport/light_sampler.h"
 #include "transport/line_of_sight.h"
 
 namespace stilb::transport {
@@ -90,5 +91,17 @@ std::optional<Receiver> receiver_of_illuminance(std::uint32_t reading, const Mea
 /// neighbours in space share packets of rays. A packet is kPacketWidth of them from a multiple of
 /// kPacketWidth on. A reading may have several (several sub-points) or none.
 std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers);
+
+// Light that reaches receivers straight from the sources, through panes too, integrated on its own
+// [LocalEstimation 3].
+
+/// What a receiver gets from all lights that are points: exact, one shadow ray each.
+Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights);
+
+/// One sample of what a receiver gets from all other lights: each by itself and, where the response
+/// depends on direction, all by a ray in proportion to the response as well, weighted by the balance
+/// heuristic.
+Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,
+                             const LightSampler& lights, math::SampleStream& stream);
 
 }  // namespace stilb::transport

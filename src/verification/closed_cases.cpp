@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "exact/closed_rooms.h"
-#include "verification/verification_cases.h"
+#include "verification/verification.h"
 
 namespace stilb::verification {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "exact/configuration_factors.h"
-#include "verification/verification_cases.h"
+#include "verification/verification.h"
 
 namespace stilb::verification {
 namespace {

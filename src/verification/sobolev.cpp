@@ -1,6 +1,4 @@
 
-#include "verification/sobolev.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/verification_cases.h"
+#include "verification/verification.h"
 
 namespace stilb::verification {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "exact/closed_rooms.h"
 #include "exact/configuration_factors.h"
-#include "exact/pane.h"
 #include "io/mesh/mesh_file.h"
-#include "verification/verification_cases.h"
+#include "verification/verification.h"
 
 namespace stilb::verification {
 

@@ -12,7 +12,7 @@
 
 #include "agreement/scenes.h"
 #include "estimators/estimator_list.h"
-#include "run/measure.h"
+#include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 

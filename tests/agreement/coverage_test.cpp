@@ -6,7 +6,7 @@
 
 #include "exact/closed_rooms.h"
 #include "exact/sobolev.h"
-#include "run/measure.h"
+#include "run/run.h"
 #include "support/scene_builder.h"
 
 namespace stilb {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "checks/surfaces.h"
+#include "checks/checks.h"
 
 namespace stilb::checks {
 namespace {

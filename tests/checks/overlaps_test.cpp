@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "checks/surfaces.h"
+#include "checks/checks.h"
 
 namespace stilb::checks {
 namespace {

@@ -1,6 +1,6 @@
-#include "checks/placement.h"
-
 #include <gtest/gtest.h>
+
+#include "checks/checks.h"
 
 namespace stilb::checks {
 namespace {

@@ -10,7 +10,7 @@
 #include "estimators/receivers.h"
 #include "support/random_pairs.h"
 #include "support/scene_builder.h"
-#include "transport/kernel_split.h"
+#include "transport/weights.h"
 
 namespace stilb::estimators {
 namespace {

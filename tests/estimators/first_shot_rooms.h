@@ -2,7 +2,7 @@
 #pragma once
 
 #include "estimators/patch_light/first_shot/first_shot.h"
-#include "patches/visibility/opengl_patches.h"
+#include "patches/visibility/opengl.h"
 #include "support/scene_builder.h"
 
 namespace stilb::estimators {

@@ -1,10 +1,10 @@
-#include "exact/pane.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "exact/closed_rooms.h"
 
 namespace stilb::exact {
 namespace {

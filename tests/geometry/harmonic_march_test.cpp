@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/harmonics/march.h"
+#include "geometry/harmonics/surface.h"
 #include "support/harmonic_shapes.h"
 
 namespace stilb::geometry {

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "rays/curved_surface.h"
+#include "rays/embree_geometry.h"
 #include "support/harmonic_shapes.h"
 
 namespace stilb::geometry {

@@ -1,11 +1,10 @@
 // What a solution's scene may change in, and what not.
-#include "io/text/content_hash.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "io/text/table.h"
+#include "io/text/text.h"
 
 namespace stilb::io {
 namespace {

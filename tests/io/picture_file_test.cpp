@@ -49,7 +49,7 @@ TEST_F(PictureFile, PngHasThePixelsOfItsCurve) {
     const auto curve = write_picture(picture, folder_ / "a.png", {.exposure = 0.02});
     ASSERT_TRUE(curve);
     EXPECT_EQ(curve->exposure(), 0.02);
-    const Pixels pixels = read_png(folder_ / "a.png");
+    const PngPixels pixels = read_png(folder_ / "a.png");
     ASSERT_EQ(pixels.width, picture.width);
     ASSERT_EQ(pixels.height, picture.height);
     for (std::size_t i = 0; i < picture.pixel_count(); ++i) {

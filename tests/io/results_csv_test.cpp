@@ -1,8 +1,7 @@
-#include "io/results/results_csv.h"
-
 #include <gtest/gtest.h>
 
 #include "io/luminance_results.h"
+#include "io/results/results_writer.h"
 #include "io/text/text.h"
 
 namespace stilb::io {

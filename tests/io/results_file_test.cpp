@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "io/luminance_results.h"
-#include "io/results/results_json.h"
-#include "plot/grid_picture.h"
+#include "io/results/results_writer.h"
+#include "plot/false_colour_picture.h"
 #include "stilb/error.h"
 
 namespace stilb::io {

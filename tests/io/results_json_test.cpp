@@ -1,5 +1,3 @@
-#include "io/results/results_json.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 
 #include "io/luminance_results.h"
 #include "io/results/results_file.h"
+#include "io/results/results_writer.h"
 
 namespace stilb::io {
 namespace {

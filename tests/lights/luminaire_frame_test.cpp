@@ -1,6 +1,6 @@
-#include "lights/luminaire_frame.h"
-
 #include <gtest/gtest.h>
+
+#include "lights/luminaire.h"
 
 namespace stilb::lights {
 namespace {

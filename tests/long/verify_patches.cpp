@@ -11,7 +11,7 @@
 
 #include "agreement/scenes.h"
 #include "patches/backends.h"
-#include "run/measure.h"
+#include "run/run.h"
 
 namespace stilb {
 namespace {

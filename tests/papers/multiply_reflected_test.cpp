@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "verification/sobolev.h"
+#include "verification/verification.h"
 
 namespace stilb::papers {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "patches/visibility/buffer_backend.h"
-#include "patches/visibility/opengl_patches.h"
+#include "patches/visibility/opengl.h"
 #include "stilb/error.h"
 
 namespace stilb::patches {

@@ -9,7 +9,7 @@
 #include "patches/backends.h"
 #include "patches/rooms.h"
 #include "patches/visibility/item_buffer.h"
-#include "patches/visibility/opengl_item_buffers.h"
+#include "patches/visibility/opengl.h"
 
 namespace stilb::patches {
 namespace {

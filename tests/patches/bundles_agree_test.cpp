@@ -9,7 +9,7 @@
 #include "patches/backends.h"
 #include "patches/rooms.h"
 #include "patches/visibility/bundle.h"
-#include "patches/visibility/opengl_bundles.h"
+#include "patches/visibility/opengl.h"
 
 namespace stilb::patches {
 namespace {

@@ -1,9 +1,9 @@
-#include "plot/colour_map.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "plot/false_colour.h"
 
 namespace stilb::plot {
 namespace {

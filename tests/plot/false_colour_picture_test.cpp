@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "io/sample_picture.h"
-#include "plot/colour_map.h"
+#include "plot/false_colour.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
 
@@ -34,19 +34,19 @@ FalseColourOptions zero_to_hundred() {
     return options;
 }
 
-Pixels draw(const io::Picture& picture, const FalseColourOptions& options) {
+PngPixels draw(const io::Picture& picture, const FalseColourOptions& options) {
     const auto path = picture_path(".png");
     draw_false_colour(picture, "Luminance", options, path);
     return read_png(path);
 }
 
 /// Where the colour is that stands for `fraction` of the scale, left of the bar.
-Spot find_value(const Pixels& pixels, double fraction) {
+Spot find_value(const PngPixels& pixels, double fraction) {
     return find_colour(pixels, ColourMap().at(fraction), pixels.width * 85 / 100);
 }
 
 TEST(FalseColourPicture, DrawsEachPixelAsOneOfThePng) {
-    const Pixels pixels = draw(with_block(1200, 300, 60), zero_to_hundred());
+    const PngPixels pixels = draw(with_block(1200, 300, 60), zero_to_hundred());
     const Spot block = find_value(pixels, 0.6);
     EXPECT_EQ(block.count, 100);
     const Spot rest = find_colour(pixels, ColourMap().at(0.1), pixels.width * 9 / 10);
@@ -62,22 +62,22 @@ TEST(FalseColourPicture, MagnifiesSmallPicturesSharply) {
 }
 
 TEST(FalseColourPicture, AveragesVeryLargePictures) {
-    const Pixels pixels = draw(with_block(8192, 40, 60), zero_to_hundred());
+    const PngPixels pixels = draw(with_block(8192, 40, 60), zero_to_hundred());
     EXPECT_NEAR(find_value(pixels, 0.6).count, 25, 12);
     EXPECT_LT(pixels.width, 4600);
 }
 
 TEST(FalseColourPicture, HatchesWhatHasNoValue) {
-    const Pixels holes = draw(with_block(250, 100, NAN), zero_to_hundred());
+    const PngPixels holes = draw(with_block(250, 100, NAN), zero_to_hundred());
     EXPECT_GT(find_colour(holes, io::grey(0.86)).count, 800);
     EXPECT_GT(find_colour(holes, io::grey(0.62)).count, 20);
-    const Pixels whole = draw(with_block(250, 100, 50), zero_to_hundred());
+    const PngPixels whole = draw(with_block(250, 100, 50), zero_to_hundred());
     EXPECT_LT(find_colour(whole, io::grey(0.86)).count, 100);  // some pixels of the writing
 
     io::Picture fisheye = with_block(200, 200, 10);
     fisheye.camera = io::sample_camera(Projection::fisheye);
     fisheye.camera->resolution = {200, 200};
-    const Pixels circle = draw(fisheye, zero_to_hundred());
+    const PngPixels circle = draw(fisheye, zero_to_hundred());
     const Spot seen = find_value(circle, 0.1);
     EXPECT_NEAR(seen.count / 25.0, 0.7854 * 200 * 200, 300);
 }
@@ -86,7 +86,7 @@ TEST(FalseColourPicture, LogarithmicScaleTakesDarkPixelsToItsLowestColour) {
     FalseColourOptions options = zero_to_hundred();
     options.scale = ScaleType::logarithmic;
     options.minimum = 1;
-    const Pixels pixels = draw(with_block(100, 50, 0), options);
+    const PngPixels pixels = draw(with_block(100, 50, 0), options);
     EXPECT_EQ(find_value(pixels, 0).count, 10000);
     EXPECT_GT(find_value(pixels, 0.5).count, 400'000);
 }
@@ -100,9 +100,9 @@ TEST(FalseColourPicture, DrawsIsolinesAndNumbers) {
         ramp.rgb_cd_m2.push_back({grey, grey, grey});
     }
     FalseColourOptions options = zero_to_hundred();
-    const Pixels plain = draw(ramp, options);
+    const PngPixels plain = draw(ramp, options);
     options.isolines = true;
-    const Pixels lines = draw(ramp, options);
+    const PngPixels lines = draw(ramp, options);
     ASSERT_EQ(plain.width, lines.width);
     // A cut in the upper quarter, above the labels: changes at multiples of 20 or 10 only.
     const Spot middle = find_colour(plain, ColourMap().at(0.5), plain.width * 8 / 10);
@@ -117,7 +117,7 @@ TEST(FalseColourPicture, DrawsIsolinesAndNumbers) {
 
     options.isolines = false;
     options.numbers = true;
-    const Pixels numbers = draw(ramp, options);
+    const PngPixels numbers = draw(ramp, options);
     int written = 0;
     for (std::size_t i = 0; i < plain.rgb.size(); ++i) written += plain.rgb[i] != numbers.rgb[i];
     EXPECT_GT(written, 2000);

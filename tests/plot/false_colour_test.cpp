@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "plot/colour_map.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
 
@@ -25,7 +24,7 @@ FalseColourOptions zero_to_hundred() {
     return options;
 }
 
-Pixels draw(const FalseColour& picture, const FalseColourOptions& options) {
+PngPixels draw(const FalseColour& picture, const FalseColourOptions& options) {
     const auto path = picture_path(".png");
     draw_false_colour(picture, options, path);
     return read_png(path);
@@ -34,12 +33,12 @@ Pixels draw(const FalseColour& picture, const FalseColourOptions& options) {
 io::Colour colour_at(double fraction) { return ColourMap().at(fraction); }
 
 /// The cells' part of the picture, which leaves out the colour bar at the right.
-int cells_end(const Pixels& pixels) { return pixels.width * 87 / 100; }
+int cells_end(const PngPixels& pixels) { return pixels.width * 87 / 100; }
 
 TEST(FalseColour, DrawsUToTheRightAndVUpwards) {
-    const Pixels origin = draw(with_one_cell(0, 0, 60), zero_to_hundred());
-    const Pixels along_u = draw(with_one_cell(4, 0, 60), zero_to_hundred());
-    const Pixels along_v = draw(with_one_cell(0, 4, 60), zero_to_hundred());
+    const PngPixels origin = draw(with_one_cell(0, 0, 60), zero_to_hundred());
+    const PngPixels along_u = draw(with_one_cell(4, 0, 60), zero_to_hundred());
+    const PngPixels along_v = draw(with_one_cell(0, 4, 60), zero_to_hundred());
     const Spot at_origin = find_colour(origin, colour_at(0.6), cells_end(origin));
     const Spot at_u = find_colour(along_u, colour_at(0.6), cells_end(along_u));
     const Spot at_v = find_colour(along_v, colour_at(0.6), cells_end(along_v));
@@ -53,13 +52,14 @@ TEST(FalseColour, DrawsUToTheRightAndVUpwards) {
 
 TEST(FalseColour, GivesEveryValueItsColourOnTheScale) {
     for (const auto& [value, fraction] : {std::pair{35.0, 0.35}, {90.0, 0.9}, {250.0, 1.0}}) {
-        const Pixels pixels = draw(with_one_cell(2, 2, value), zero_to_hundred());
+        const PngPixels pixels = draw(with_one_cell(2, 2, value), zero_to_hundred());
         EXPECT_GT(find_colour(pixels, colour_at(fraction), cells_end(pixels)).count, 2500) << value;
     }
     FalseColourOptions options = zero_to_hundred();
     options.scale = ScaleType::logarithmic;
     options.minimum = 1;
-    const Pixels pixels = draw(with_one_cell(2, 2, 10), options);  // the other cells are 0: the lowest colour
+    const PngPixels pixels =
+        draw(with_one_cell(2, 2, 10), options);  // the other cells are 0: the lowest colour
     EXPECT_GT(find_colour(pixels, colour_at(0.5), cells_end(pixels)).count, 2500);
     EXPECT_GT(find_colour(pixels, colour_at(0), cells_end(pixels)).count, 50000);
 }
@@ -67,12 +67,12 @@ TEST(FalseColour, GivesEveryValueItsColourOnTheScale) {
 TEST(FalseColour, PanelsShareOneScale) {
     FalseColour picture = with_one_cell(2, 2, 100);
     picture.panels.push_back({"other", "", 1, 1, 1, 1, {50}});
-    const Pixels pixels = draw(picture, {});
+    const PngPixels pixels = draw(picture, {});
     EXPECT_GT(find_colour(pixels, colour_at(0.5)).count, 40000);
 }
 
 TEST(FalseColour, HatchesCellsWithoutAValue) {
-    const Pixels pixels = draw(with_one_cell(2, 2, NAN), zero_to_hundred());
+    const PngPixels pixels = draw(with_one_cell(2, 2, NAN), zero_to_hundred());
     const Spot hatched = find_colour(pixels, io::grey(0.86), cells_end(pixels));
     const Spot bars = find_colour(pixels, io::grey(0.62), cells_end(pixels));
     EXPECT_GT(hatched.count, 1000);
@@ -85,7 +85,7 @@ TEST(FalseColour, DrawsNumbersOnlyWhereTheyFit) {
     const auto white_on_cells = [&](int count) {
         FalseColourPanel panel{"", "", count, count, 0, 0, {}};
         panel.values.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(count), 5.0);
-        const Pixels pixels = draw({"", "lx", {panel}}, options);
+        const PngPixels pixels = draw({"", "lx", {panel}}, options);
         const Spot cells = find_colour(pixels, colour_at(0.05), cells_end(pixels));
         int white = 0;
         for (int y = int(cells.y) - 200; y < int(cells.y) + 200; ++y) {
@@ -104,9 +104,9 @@ TEST(FalseColour, DrawsIsolinesWhereTheyBelong) {
     FalseColourPanel panel{"", "", 20, 10, 2, 1, {}};
     for (int i = 0; i < 200; ++i) panel.values.push_back((i % 20 + 0.5) * 5);  // 0 to 100 along u
     FalseColourOptions options = zero_to_hundred();
-    const Pixels without = draw({"", "lx", {panel}}, options);
+    const PngPixels without = draw({"", "lx", {panel}}, options);
     options.isolines = true;
-    const Pixels with = draw({"", "lx", {panel}}, options);
+    const PngPixels with = draw({"", "lx", {panel}}, options);
     ASSERT_EQ(with.width, without.width);
     const Spot first = find_colour(without, colour_at(0.025), cells_end(without));
     const Spot last = find_colour(without, colour_at(0.975), without.width * 9 / 10);
@@ -125,7 +125,7 @@ TEST(FalseColour, DrawsIsolinesWhereTheyBelong) {
 
 TEST(FalseColour, WritesSvgOfTheSameProportions) {
     const FalseColour picture = with_one_cell(1, 3, 60);
-    const Pixels pixels = draw(picture, zero_to_hundred());
+    const PngPixels pixels = draw(picture, zero_to_hundred());
     const auto path = picture_path(".svg");
     draw_false_colour(picture, zero_to_hundred(), path);
     const std::string svg = read_text(path);
@@ -159,7 +159,7 @@ TEST(FalseColour, DrawsManyPanelsOfAnyShape) {
         picture.panels.push_back({"panel", "mean 1 lx", i, 10 - i, 0.3 * i, 5.0 / i, {}});
         picture.panels.back().values.assign(static_cast<std::size_t>(i * (10 - i)), 10.0 * i);
     }
-    const Pixels pixels = draw(picture, {});
+    const PngPixels pixels = draw(picture, {});
     EXPECT_LT(pixels.width, 3000);
     EXPECT_LT(pixels.height, 4000);
 }

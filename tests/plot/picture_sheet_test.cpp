@@ -19,7 +19,7 @@ TEST(PictureSheet, ShowsEveryPixelByOneCurve) {
     const io::ToneCurve curve(0.1);
     const std::array<std::array<float, 3>, 3> colours{{{1, 1, 5}, {4, 1, 1}, {9, 9, 2}}};
     draw_picture_sheet({plain(colours[0]), plain(colours[1]), plain(colours[2])}, 2, curve, path);
-    const Pixels pixels = read_png(path);
+    const PngPixels pixels = read_png(path);
     std::vector<Spot> spots;
     for (const auto& colour : colours) {
         const auto [red, green, blue] = curve.srgb(colour);

@@ -10,7 +10,7 @@
 namespace stilb::plot {
 namespace {
 
-Pixels draw(const Plot& plot) {
+PngPixels draw(const Plot& plot) {
     const auto path = picture_path(".png");
     draw_plot(plot, path);
     return read_png(path);
@@ -60,8 +60,8 @@ TEST(Plot, PutsPointsOnLogarithmicAxes) {
 }
 
 TEST(Plot, InterruptsLinesAtNaN) {
-    const Pixels whole = draw(plot_of({{"", {0, 2, 4, 6, 8, 10}, {5, 5, 5, 5, 5, 5}}}));
-    const Pixels broken = draw(plot_of({{"", {0, 2, 4, 6, 8, 10}, {5, 5, NAN, 5, 5, 5}}}));
+    const PngPixels whole = draw(plot_of({{"", {0, 2, 4, 6, 8, 10}, {5, 5, 5, 5, 5, 5}}}));
+    const PngPixels broken = draw(plot_of({{"", {0, 2, 4, 6, 8, 10}, {5, 5, NAN, 5, 5, 5}}}));
     const Spot all = find_colour(whole, palette_colour(0));
     const Spot rest = find_colour(broken, palette_colour(0));
     EXPECT_NEAR(all.right - all.left, 1240, 4);
@@ -86,7 +86,7 @@ TEST(Plot, DrawsBarsBetweenTheirEnds) {
     Series series{"", {5}, {5}, {2.5}, {7.5}};
     series.line = LineStyle::none;
     series.interval = IntervalStyle::bars;
-    const Pixels pixels = draw(plot_of({series}));
+    const PngPixels pixels = draw(plot_of({series}));
     const Spot spot = find_colour(pixels, palette_colour(0));
     EXPECT_NEAR(spot.y, marker_at(5, 5).y, 1);
     EXPECT_GT(spot.count, 300);  // 2.5 to 7.5 is half of 620 pixels
@@ -97,7 +97,7 @@ TEST(Plot, BandsDownToZeroFillALogarithmicPanel) {
     Series series{"", {1, 10}, {5, 5}, {0, 0}, {10, 10}};
     series.line = LineStyle::none;
     const PlotAxis axis{"x", ScaleType::logarithmic, 1.0, 10.0};
-    const Pixels pixels = draw(plot_of({series}, axis, axis));
+    const PngPixels pixels = draw(plot_of({series}, axis, axis));
     const Spot white = find_colour(pixels, io::grey(1));
     EXPECT_LT(white.count, pixels.width * pixels.height - 0.95 * 1240 * 620);
 }
@@ -115,7 +115,7 @@ TEST(Plot, PanelsShareTheXAxis) {
     Plot plot = plot_of({points({7}, {5})});
     plot.panels.push_back({zero_to_ten(), {points({7}, {5})}, 310});
     plot.panels[1].series[0].colour = palette_colour(1);
-    const Pixels pixels = draw(plot);
+    const PngPixels pixels = draw(plot);
     const Spot above = find_colour(pixels, palette_colour(0));
     const Spot below = find_colour(pixels, palette_colour(1));
     EXPECT_NEAR(above.x, below.x, 0.5);

@@ -10,7 +10,7 @@
 namespace stilb::plot {
 namespace {
 
-Pixels draw(const PolarPlot& plot) {
+PngPixels draw(const PolarPlot& plot) {
     const auto path = picture_path(".png");
     draw_polar_plot(plot, path);
     return read_png(path);
@@ -76,7 +76,7 @@ TEST(PolarPlot, TakesTheRoomThatItsTextsNeed) {
     PolarPlot with_texts = plain;
     with_texts.title = "A title";
     with_texts.series[0].name = "a curve";
-    const Pixels without = draw(plain), with = draw(with_texts);
+    const PngPixels without = draw(plain), with = draw(with_texts);
     EXPECT_GT(with.height, without.height + 60);
     // The curve's swatch in the legend: 28 units of a line 1.7 wide.
     EXPECT_GT(find_colour(with, palette_colour(0)).count,

@@ -8,7 +8,7 @@
 #include "estimators/estimator_list.h"
 #include "exact/closed_rooms.h"
 #include "exact/configuration_factors.h"
-#include "run/measure.h"
+#include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 

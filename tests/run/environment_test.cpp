@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "run/measure.h"
-#include "run/render.h"
+#include "run/run.h"
 #include "run/solve.h"
 #include "statistics/hypothesis.h"
 #include "stilb/error.h"

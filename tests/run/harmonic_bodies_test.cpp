@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "run/measure.h"
+#include "run/run.h"
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 

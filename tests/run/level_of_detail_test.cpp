@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "run/render.h"
+#include "run/run.h"
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 

@@ -1,9 +1,8 @@
 // What a run tells of its sensors beside the estimates.
-#include "run/measure.h"
-
 #include <gtest/gtest.h>
 
 #include "estimators/estimator_list.h"
+#include "run/run.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {

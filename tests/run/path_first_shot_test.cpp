@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "run/measure.h"
-#include "run/render.h"
+#include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 

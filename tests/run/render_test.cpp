@@ -1,10 +1,9 @@
-#include "run/render.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "estimators/estimator_list.h"
+#include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"

@@ -9,8 +9,7 @@
 #include <thread>
 
 #include "base/monitor.h"
-#include "run/measure.h"
-#include "run/render.h"
+#include "run/run.h"
 #include "run/solve.h"
 #include "support/scene_builder.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "run/measure.h"
+#include "run/run.h"
 #include "support/scene_builder.h"
 
 namespace stilb {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "run/render.h"
+#include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"

@@ -1,7 +1,7 @@
 // The number of threads changes no bit of a result.
 #include <gtest/gtest.h>
 
-#include "run/measure.h"
+#include "run/run.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {

@@ -1,11 +1,11 @@
-#include "statistics/stopping.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <random>
 #include <vector>
+
+#include "statistics/interval.h"
 
 namespace stilb::statistics {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/harmonics/cells.h"
-#include "geometry/harmonics/march.h"
+#include "geometry/harmonics/surface.h"
 #include "support/box_tree.h"
 #include "support/harmonic_rays.h"
 #include "support/harmonic_reference.h"

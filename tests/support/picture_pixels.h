@@ -1,4 +1,4 @@
-// Pixels of a PNG file, for tests of what was drawn.
+// PngPixels of a PNG file, for tests of what was drawn.
 #pragma once
 
 #include <cairo/cairo.h>
@@ -17,7 +17,7 @@
 
 namespace stilb {
 
-struct Pixels {
+struct PngPixels {
     int width = 0, height = 0;
     std::vector<std::uint32_t> rgb;  // row by row from the top, 0xRRGGBB
 
@@ -27,10 +27,10 @@ struct Pixels {
     }
 };
 
-inline Pixels read_png(const std::filesystem::path& path) {
+inline PngPixels read_png(const std::filesystem::path& path) {
     cairo_surface_t* surface = cairo_image_surface_create_from_png(path.c_str());
     EXPECT_EQ(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS) << path;
-    Pixels pixels{cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), {}};
+    PngPixels pixels{cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), {}};
     for (int y = 0; y < pixels.height; ++y) {
         const unsigned char* row = cairo_image_surface_get_data(surface) +
                                    std::ptrdiff_t{y} * cairo_image_surface_get_stride(surface);
@@ -51,7 +51,7 @@ struct Spot {
     int left = 1 << 30, right = -1;
 };
 
-inline Spot find_colour(const Pixels& pixels, const io::Colour& colour, int x_end = 1 << 30) {
+inline Spot find_colour(const PngPixels& pixels, const io::Colour& colour, int x_end = 1 << 30) {
     const auto close = [](std::uint32_t byte, double component) {
         return std::abs(double(byte & 0xff) - 255 * component) <= 1;
     };

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lights/luminaire_frame.h"
+#include "lights/luminaire.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 

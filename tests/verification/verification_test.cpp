@@ -7,8 +7,6 @@
 #include <limits>
 #include <set>
 
-#include "verification/sobolev.h"
-
 namespace stilb::verification {
 namespace {
 

@@ -7,8 +7,7 @@
 
 #include "materials/shaded_surface.h"
 #include "math/sampling.h"
-#include "transport/kernel_split.h"
-#include "transport/russian_roulette.h"
+#include "transport/weights.h"
 
 namespace stilb::estimators {
 namespace {

@@ -27,13 +27,12 @@
 #include <limits>
 
 #include "estimators/camera_paths.h"
+#include "estimators/estimator_list.h"
 #include "estimators/limits.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/gather.h"
-#include "estimators/local/node_selection.h"
 #include "estimators/local/split_plan.h"
-#include "estimators/methods.h"
-#include "transport/direct_light.h"
+#include "transport/receiver.h"
 
 namespace stilb::estimators {
 namespace {

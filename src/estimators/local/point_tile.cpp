@@ -1,6 +1,6 @@
 #include "estimators/local/point_tile.h"
 
-#include "base/vectorized.h"
+#include "base/rays.h"
 
 namespace stilb::estimators {
 namespace {

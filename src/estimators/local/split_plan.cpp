@@ -12,7 +12,7 @@
 
 #include "estimators/local/connection.h"
 #include "math/sampling.h"
-#include "transport/kernel_split.h"
+#include "transport/weights.h"
 
 namespace stilb::estimators {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "estimators/limits.h"
-#include "estimators/patch_light/first_shot/surface.h"
+#include "estimators/patch_light/first_shot/variants.h"
 #include "estimators/patch_light/incoming_light.h"
-#include "estimators/patch_light/patch_picture.h"
+#include "estimators/patch_light/patch_readings.h"
 #include "math/zernike.h"
 #include "stilb/error.h"
 

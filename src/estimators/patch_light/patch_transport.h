@@ -4,12 +4,16 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
-#include "estimators/patch_light/first_shot/first_shot_patches.h"
+#include "estimators/patch_light/first_shot/first_shot.h"
 #include "patches/vertex_interpolation.h"
 #include "patches/visibility/buffer_backend.h"
 #include "patches/visibility/bundle.h"
+#include "patches/visibility/patch_caster.h"
+#include "rays/ray_caster.h"
 
 namespace stilb::estimators {
 
@@ -73,5 +77,25 @@ struct PatchTransport : FirstShotPatches {
     void add_reflection(std::uint32_t patch);
     void add_emission(std::size_t light);
 };
+
+// Where on the patches something is that was found on the true surfaces.
+
+struct PatchLocation {
+    std::uint32_t side = 0;
+    math::Barycentric place;
+};
+
+/// A point of a true surface, seen from the unit direction `outgoing`.
+struct ViewedHit {
+    rays::Hit hit;
+    Vec3 outgoing;
+};
+
+/// The places on patches that stand for points. Where the patches of a curved surface leave one out, at its
+/// outline, what is behind stands for it; nothing where there is nothing. `coherence`: of the ways that
+/// neighbouring points are seen along.
+std::vector<std::optional<PatchLocation>> find_patch_locations(
+    const patches::PatchCaster& caster, std::span<const ViewedHit> points,
+    rays::Coherence coherence = rays::Coherence::coherent);
 
 }  // namespace stilb::estimators

@@ -8,16 +8,87 @@
 // pixel (path_tracer.h). Finite variance for bounded BRDFs. Not made: light that leaves a point-like source
 // and meets a mirror or glass before anything else, but panes straight on. With first shot, which is only
 // taken where it is asked for, it is biased by the patches.
+
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "estimators/camera_paths.h"
-#include "estimators/methods.h"
-#include "estimators/path/flattened_paths.h"
-#include "transport/direct_light.h"
+#include "estimators/estimator_list.h"
+#include "estimators/limits.h"
+#include "estimators/patch_light/first_shot/first_shot.h"
+#include "transport/path_tracer.h"
 #include "transport/receiver.h"
 
 namespace stilb::estimators {
+
 namespace {
+
+std::unique_ptr<const FirstShotPatches> patches_for(const Scene& scene, const rays::RayCaster& caster,
+                                                    const PatchOptions& options, const Monitor& monitor) {
+    if (options.first_shot.variant.value_or(FirstShotVariant::none) == FirstShotVariant::none) return nullptr;
+    return std::make_unique<FirstShotPatches>(scene, caster, options, monitor);
+}
+
+std::vector<bool> replaced(const FirstShotPatches* patches) {
+    std::vector<bool> lights;
+    if (!patches) return lights;
+    for (const FirstShotLight& light : patches->first_shot.lights()) lights.push_back(light.is_replaced);
+    return lights;
+}
+
+bool has_panes(const Scene& scene) {
+    return std::ranges::any_of(scene.materials,
+                               [](const NamedMaterial& named) { return passes_straight(named.material); });
+}
+
+// Path tracing of a scene as it is, or flattened by first shot: small lights replaced by their first
+// reflection, which every surface on a path adds as the patch that stands for it does.
+
+/// Keeps references to scene and caster. Stays where it is made. Immutable.
+struct FlattenedPaths {
+    /// There are patches only where the options name a variant of first shot.
+    FlattenedPaths(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
+                   const Monitor& monitor);
+    FlattenedPaths(const FlattenedPaths&) = delete;
+    FlattenedPaths& operator=(const FlattenedPaths&) = delete;
+
+    std::vector<std::string> warnings() const;
+    std::optional<PatchReport> report() const;
+
+    const Scene& scene;
+    std::unique_ptr<const FirstShotPatches> patches;  ///< null without first shot
+    transport::LightSampler lights;                   ///< those that are replaced are made elsewhere
+    transport::PathTracer tracer;
+};
+
+FlattenedPaths::FlattenedPaths(const Scene& all, const rays::RayCaster& caster, const PatchOptions& options,
+                               const Monitor& monitor)
+    : scene(all),
+      patches(patches_for(scene, caster, options, monitor)),
+      lights(scene, caster, replaced(patches.get())),
+      tracer(scene, caster, lights, patches.get()) {}
+
+std::vector<std::string> FlattenedPaths::warnings() const {
+    std::vector<std::string> warnings = path_warnings(scene);
+    if (!patches) return warnings;
+    const FirstShotVariant variant = patches->first_shot.variant();
+    warnings.push_back(fmt::format(
+        "path tracing with first shot ({}) is biased by patches of {:.2g} m; the stated errors do not "
+        "include this bias: halve the size of the patches to see how large it is.",
+        name_of(variant), patches->size_m));
+    if (variant != FirstShotVariant::on_the_fly && has_panes(scene)) {
+        warnings.push_back(fmt::format(
+            "first shot ({}) ends at panes: light of small lights that passes one before anything else is "
+            "missing. Use first shot \"on-the-fly\".",
+            name_of(variant)));
+    }
+    return warnings;
+}
+
+std::optional<PatchReport> FlattenedPaths::report() const {
+    return patches ? std::optional{patches->report()} : std::nullopt;
+}
 
 /// Paths that are traced together: enough to fill packets until most of them have ended.
 constexpr std::uint64_t kSideBySide = 256;

@@ -18,7 +18,7 @@
 #include <memory>
 #include <vector>
 
-#include "base/ray_packet.h"
+#include "base/rays.h"
 #include "base/vec.h"
 #include "geometry/harmonics/cell_polynomial.h"
 #include "geometry/harmonics/surface.h"

@@ -14,7 +14,7 @@
 
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
-#include "io/image/primaries.h"
+#include "io/image/tone_curve.h"
 #include "stilb/error.h"
 
 namespace stilb::io {

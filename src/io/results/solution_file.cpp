@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/text/content_hash.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "stilb/error.h"

@@ -13,7 +13,7 @@ namespace stilb::io {
 struct StoredSolution {
     std::string version;     ///< of Stilb
     std::string scene;       ///< the scene's file, relative to the folder of the solution's
-    std::string light_hash;  ///< of the scene (content_hash.h)
+    std::string light_hash;  ///< of the scene (io/text/text.h)
     std::uint64_t seed = 0;
     std::uint64_t steps = 0;    ///< of all walks together
     double attained_error = 0;  ///< as SolveResult has it

@@ -6,10 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/field.h"
+#include "io/scene/sections.h"
 #include "io/scene/toml.h"
+#include "sensors/fields.h"
 
 namespace stilb::io {
 
@@ -52,6 +57,145 @@ Parameters read_typed_fields(TomlTable& table, std::string_view type) {
     keys.insert(keys.begin(), "type");
     table.expect_keys(keys, fmt::format("type \"{}\"", type));
     return read_fields<Parameters>(table);
+}
+
+// Reads a sensor by the list of its fields: one function for each kind of key of sensors/fields.h.
+
+/// A table's values are read through this; warnings are of values that are odd but not wrong.
+struct FieldSource {
+    const TomlTable& table;
+    std::vector<std::string>& warnings;
+};
+
+using Keys = std::vector<std::string_view>;
+
+// The parts that need no type.
+
+Vec3 read_direction_field(const FieldSource& source, std::string_view key, bool warns_of_length);
+std::vector<Vec3> read_positions(const FieldSource& source);
+std::vector<MeasuringPoint> read_measuring_points(const FieldSource& source);
+std::vector<Measurand> read_sights(const FieldSource& source);
+std::array<int, 2> read_counts(const TomlItem& item, const sensors::CountLimit& limit);
+/// The unit vector from the position to a target.
+Vec3 read_way_to(const TomlItem& target, const Vec3& position);
+
+// The keys of each kind of field, as messages list them.
+
+template <typename Owner, typename Value>
+Keys keys_of(const Field<Owner, Value>& field) {
+    return {field.key};
+}
+template <typename Owner>
+Keys keys_of(const sensors::PositionField<Owner>& field) {
+    return {field.key};
+}
+template <typename Owner>
+Keys keys_of(const sensors::TargetField<Owner>& field) {
+    return {field.key};
+}
+template <typename Owner, typename Value>
+Keys keys_of(const sensors::DirectionField<Owner, Value>& field) {
+    return {field.key};
+}
+template <typename Owner>
+Keys keys_of(const sensors::PositionsField<Owner>&) {
+    return {"position", "points"};
+}
+template <typename Owner>
+Keys keys_of(const sensors::MeasuringPointsField<Owner>&) {
+    return {"position", "points", "normal"};
+}
+template <typename Owner>
+Keys keys_of(const sensors::SightsField<Owner>&) {
+    return {"position", "direction", "target", "directions", "targets"};
+}
+template <typename Owner>
+Keys keys_of(const sensors::ParallelogramField<Owner>&) {
+    return {"corner", "edge_u", "edge_v"};
+}
+template <typename Owner>
+Keys keys_of(const sensors::CountsField<Owner>& field) {
+    return {field.key};
+}
+template <typename Owner, typename Enumeration>
+Keys keys_of(const sensors::ChoiceField<Owner, Enumeration>& field) {
+    return {field.key};
+}
+
+// What stands at the keys becomes the member.
+
+inline bool is_left_out(const FieldSource& source, std::string_view key, Presence presence) {
+    return presence == Presence::optional && !source.table.has(key);
+}
+
+template <typename Owner, typename Value>
+void read_field(const Field<Owner, Value>& field, const FieldSource& source, Owner& owner) {
+    if (is_left_out(source, field.key, field.presence)) return;
+    owner.*field.member = source.table.at(field.key).number(field.range);
+}
+template <typename Owner>
+void read_field(const sensors::PositionField<Owner>& field, const FieldSource& source, Owner& owner) {
+    owner.*field.member = source.table.at(field.key).vector();
+}
+template <typename Owner>
+void read_field(const sensors::TargetField<Owner>& field, const FieldSource& source, Owner& owner) {
+    const TomlItem item = source.table.at(field.key);
+    owner.*field.member = item.vector();
+    read_way_to(item, owner.*field.position);  // fails where there is none
+}
+template <typename Owner, typename Value>
+void read_field(const sensors::DirectionField<Owner, Value>& field, const FieldSource& source, Owner& owner) {
+    if (is_left_out(source, field.key, field.presence)) return;
+    owner.*field.member = read_direction_field(source, field.key, field.warns_of_length);
+}
+template <typename Owner>
+void read_field(const sensors::PositionsField<Owner>& field, const FieldSource& source, Owner& owner) {
+    owner.*field.member = read_positions(source);
+}
+template <typename Owner>
+void read_field(const sensors::MeasuringPointsField<Owner>& field, const FieldSource& source, Owner& owner) {
+    owner.*field.member = read_measuring_points(source);
+}
+template <typename Owner>
+void read_field(const sensors::SightsField<Owner>& field, const FieldSource& source, Owner& owner) {
+    owner.*field.member = read_sights(source);
+}
+template <typename Owner>
+void read_field(const sensors::ParallelogramField<Owner>& field, const FieldSource& source, Owner& owner) {
+    const Rectangle rectangle = read_rectangle(source.table);
+    owner.*field.corner = rectangle.corner;
+    owner.*field.edge_u = rectangle.edge_u;
+    owner.*field.edge_v = rectangle.edge_v;
+}
+template <typename Owner>
+void read_field(const sensors::CountsField<Owner>& field, const FieldSource& source, Owner& owner) {
+    owner.*field.member = read_counts(source.table.at(field.key), field.limit);
+}
+template <typename Owner, typename Enumeration>
+void read_field(const sensors::ChoiceField<Owner, Enumeration>& field, const FieldSource& source,
+                Owner& owner) {
+    if (is_left_out(source, field.key, field.presence)) return;
+    owner.*field.member =
+        static_cast<Enumeration>(source.table.at(field.key).index_in(field.names, field.key));
+}
+
+/// A sensor of this kind, all its keys checked by themselves and together.
+template <typename Kind>
+Kind read_by_fields(TomlTable& table, std::vector<std::string>& warnings) {
+    Keys keys{"type"};
+    for_each_field<Kind>([&](const auto& field) {
+        for (const std::string_view key : keys_of(field)) keys.push_back(key);
+    });
+    table.expect_keys(keys, "type \"" + std::string(Kind::kType) + "\"");
+    Kind kind;
+    for_each_field<Kind>([&](const auto& field) { read_field(field, FieldSource{table, warnings}, kind); });
+    if constexpr (requires(const sensors::GivenKeys& given) { kind.settle(given); }) {
+        std::vector<std::string> given;
+        for (const auto& [key, item] : table.items()) given.push_back(key);
+        if (const auto fault = kind.settle(sensors::GivenKeys(std::move(given))))
+            table.at(fault->key).fail(fault->message);
+    }
+    return kind;
 }
 
 }  // namespace stilb::io

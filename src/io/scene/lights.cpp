@@ -12,7 +12,7 @@
 #include "io/scene/sections.h"
 #include "io/text/text.h"
 #include "lights/colour_temperature.h"
-#include "lights/luminaire_frame.h"
+#include "lights/luminaire.h"
 #include "stilb/error.h"
 
 namespace stilb::io {

@@ -1,3 +1,4 @@
+
 #include "io/scene/scene_file.h"
 
 #include <fmt/format.h>
@@ -7,12 +8,14 @@
 #include <limits>
 
 #include "estimators/estimator_list.h"
+#include "io/scene/fields.h"
 #include "io/scene/sections.h"
 #include "io/text/text.h"
 #include "run/options.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
+
 namespace {
 
 constexpr Range kRelativeError{1e-9, 0.999999, "a share between 0 and 1, such as 0.01 or \"1%\""};
@@ -156,6 +159,31 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
     SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path());
     file.sources.insert(file.sources.begin(), path);
     return file;
+}
+
+// [materials.NAME]
+
+namespace {
+
+/// Each model reads its own parameters.
+Material read_material(TomlTable& table) {
+    const std::string_view type = table.choose("type", materials::type_names());
+    std::optional<Material> read;
+    materials::for_each_model([&]<typename Model>() {
+        if (type == Model::kType)
+            read = Model(read_typed_fields<materials::ParametersOf<Model>>(table, Model::kType));
+    });
+    return *read;
+}
+
+}  // namespace
+
+std::vector<NamedMaterial> read_materials(const TomlTable& section) {
+    std::vector<NamedMaterial> materials;
+    for (auto& [name, table] : named_tables(section)) {
+        materials.push_back({name, read_material(table)});
+    }
+    return materials;
 }
 
 }  // namespace stilb::io

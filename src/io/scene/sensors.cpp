@@ -5,7 +5,7 @@
 #include <array>
 #include <type_traits>
 
-#include "io/scene/sensor_fields.h"
+#include "io/scene/fields.h"
 
 namespace stilb::io {
 namespace {

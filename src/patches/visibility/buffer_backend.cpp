@@ -2,8 +2,7 @@
 
 #include "patches/visibility/bundle.h"
 #include "patches/visibility/item_buffer.h"
-#include "patches/visibility/opengl_bundles.h"
-#include "patches/visibility/opengl_item_buffers.h"
+#include "patches/visibility/opengl.h"
 
 namespace stilb::patches {
 

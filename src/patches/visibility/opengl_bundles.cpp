@@ -5,8 +5,6 @@
 //
 // Agreement with rays is that of item buffers (opengl_item_buffers.cpp): a line that is nearer than 1/256 of
 // the spacing to an edge may fall to the other side of it.
-#include "patches/visibility/opengl_bundles.h"
-
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -16,7 +14,7 @@
 #include <vector>
 
 #include "patches/visibility/bundle.h"
-#include "patches/visibility/opengl_patches.h"
+#include "patches/visibility/opengl.h"
 
 namespace stilb::patches {
 namespace {

@@ -7,8 +7,6 @@
 // Agreement with rays. Both see a pixel's middle from the same place, rounded alike, through vertices rounded
 // alike. OpenGL rounds them once more on the screen, usually to 1/256 of a pixel: the middle of a pixel that
 // is nearer than that to an edge may fall to the other side of it.
-#include "patches/visibility/opengl_item_buffers.h"
-
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
@@ -16,7 +14,7 @@
 #include <array>
 #include <string>
 
-#include "patches/visibility/opengl_patches.h"
+#include "patches/visibility/opengl.h"
 #include "stilb/error.h"
 
 namespace stilb::patches {

@@ -1,6 +1,4 @@
 
-#include "patches/visibility/opengl_patches.h"
-
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -10,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "patches/visibility/opengl.h"
 #include "stilb/error.h"
 
 namespace stilb::patches {

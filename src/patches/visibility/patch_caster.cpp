@@ -10,7 +10,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "rays/embree_context.h"
+#include "rays/embree_geometry.h"
 
 namespace stilb::patches {
 namespace {

@@ -17,7 +17,7 @@
 #include <variant>
 #include <vector>
 
-#include "estimators/patch_light/patch_report.h"
+#include "estimators/patch_light/patch_options.h"
 #include "patches/visibility/item_buffer.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"

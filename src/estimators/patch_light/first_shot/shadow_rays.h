@@ -4,14 +4,66 @@
 // low discrepancy in one call, and without bias over keys and over positions.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <variant>
 
+#include "estimators/patch_light/first_shot/factors.h"
 #include "estimators/patch_light/first_shot/lights.h"
-#include "estimators/patch_light/first_shot/surface.h"
+#include "materials/material.h"
 #include "math/random.h"
+#include "patches/patches.h"
+#include "rays/ray_caster.h"
 #include "transport/light_sampler.h"
 
 namespace stilb::estimators {
+
+// Sides of patches as surfaces that reflect.
+
+inline const Material& material_of(const Scene& scene, const patches::Patches& patches, std::uint32_t side) {
+    return scene.material(patches.materials[patches.patch_of(side)]);
+}
+
+/// The frame that the material of a side knows directions in, by world coordinates.
+inline Frame frame_of(const patches::Patches& patches, std::uint32_t side) {
+    return Frame::of_surface(patches.normal_of(side));
+}
+
+/// Bands in single precision, for what is stored per side.
+inline patches::Float3 in_floats(const Rgb& s) {
+    return {static_cast<float>(s[0]), static_cast<float>(s[1]), static_cast<float>(s[2])};
+}
+inline Rgb to_spectrum(const patches::Float3& bands) { return {{bands.x, bands.y, bands.z}}; }
+
+/// Mirrors, glass and panes too: they have no BRDF.
+inline bool reflects_nothing(const Material& material) {
+    return std::holds_alternative<Black>(material) || is_specular(material);
+}
+/// Whether what is reflected, if anything, is the same in all directions.
+inline bool reflects_alike(const Material& material) {
+    return std::holds_alternative<Diffuse>(material) || reflects_nothing(material);
+}
+
+/// Adds to each of `sums` what the material reflects towards the unit world direction in `outs` at the same
+/// place [cd/m2]. `for_each_arrival(visit)` calls `visit(in, illuminance_lx)` for all light that arrives,
+/// `in` being the unit world direction that it comes from.
+template <typename ForEachArrival>
+void reflect(const Material& any, const Frame& frame, const ForEachArrival& for_each_arrival,
+             std::span<const Vec3> outs, std::span<Rgb> sums) {
+    std::visit(
+        [&](const auto& material) {
+            for_each_arrival([&](const Vec3& in, const Rgb& illuminance_lx) {
+                const Vec3 local_in = frame.to_local(in);
+                for (std::size_t i = 0; i < outs.size(); ++i) {
+                    const Vec3 out = frame.to_local(outs[i]);
+                    sums[i] += evaluate_brdf_per_sr(material, local_in, out) * illuminance_lx;
+                }
+            });
+        },
+        any);
+}
+
+// Shadow rays.
 
 /// Where rays from a position on a patch start: lifted off the true surface on that side. Spheres bulge out
 /// beyond their patches.
@@ -46,5 +98,13 @@ class ShadowRays {
     const transport::LightSampler& sampler_;
     const FirstShotLights& lights_;
 };
+
+// How often item buffers were too coarse.
+
+/// Pairs of a side and a light sample that has no pixel on it, though light of it reaches the side's middle.
+/// Only sides of a few pixels' size are looked at.
+std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
+                         std::span<const LightSample> samples, const FirstShotFactors& factors,
+                         int resolution, const Monitor& monitor);
 
 }  // namespace stilb::estimators

@@ -10,13 +10,11 @@
 #include <limits>
 #include <numbers>
 
+#include "estimators/estimator_list.h"
 #include "estimators/limits.h"
-#include "estimators/methods.h"
-#include "estimators/patch_light/patch_light.h"
-#include "estimators/patch_light/patch_picture.h"
 #include "estimators/patch_light/patch_readings.h"
 #include "patches/visibility/item_buffer.h"
-#include "transport/russian_roulette.h"
+#include "transport/weights.h"
 
 namespace stilb::estimators {
 

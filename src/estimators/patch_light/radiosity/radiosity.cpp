@@ -13,9 +13,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "estimators/estimator_list.h"
 #include "estimators/limits.h"
-#include "estimators/methods.h"
-#include "estimators/patch_light/patch_picture.h"
 #include "estimators/patch_light/patch_readings.h"
 #include "estimators/patch_light/radiosity/patch_shots.h"
 #include "stilb/error.h"

@@ -18,7 +18,7 @@
 #include <cstdint>
 
 #include "base/monitor.h"
-#include "estimators/patch_light/patch_light.h"
+#include "estimators/patch_light/patch_readings.h"
 
 namespace stilb::estimators {
 

@@ -21,7 +21,7 @@
 #include <optional>
 #include <vector>
 
-#include "estimators/patch_light/patch_light.h"
+#include "estimators/patch_light/patch_readings.h"
 #include "math/random.h"
 
 namespace stilb::estimators {

@@ -7,9 +7,8 @@
 #include <array>
 #include <bit>
 
+#include "estimators/estimator_list.h"
 #include "estimators/limits.h"
-#include "estimators/methods.h"
-#include "estimators/patch_light/patch_picture.h"
 #include "estimators/patch_light/patch_readings.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
 #include <string>
 
 #include "patches/patches.h"
+#include "patches/visibility/bundle.h"
+#include "patches/visibility/item_buffer.h"
 
 namespace stilb::patches {
 
@@ -73,5 +76,51 @@ void check_opengl();
 
 /// Of the program in use: vec3 at `location`, or an array of them.
 void set_uniform(int location, std::initializer_list<Vec3> vectors);
+
+// Bundles by the graphics card.
+
+/// Draws the patches without perspective, layer behind layer, until nothing is left to draw; without a card
+/// by Mesa's software. A pixel's middle is a line. Casts may run in parallel, but draw one after another.
+/// Copies of the patches' geometry go to the driver. Distances are right to 2^-8 of the spacing, as measured
+/// across the patch.
+class OpenGlBundles : public Bundles {
+  public:
+    /// Throws InputError where there is no OpenGL 4.5 (OpenGlContext).
+    explicit OpenGlBundles(const Patches& patches);
+    ~OpenGlBundles() override;
+
+    /// Throws std::runtime_error too, where OpenGL fails (out of memory).
+    void cast(const Bundle& bundle, const LineVisitor& visit) const override;
+
+    /// Who draws, for reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    const std::string& renderer() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+// Item buffers by the graphics card.
+
+/// Draws the patches with their number as colour, without a window, by Mesa's software where there is no
+/// card. One buffer at a time, from any thread. Copies of the patches' geometry go to the driver.
+class OpenGlItemBuffers : public ItemBuffers {
+  public:
+    /// Throws InputError where there is no OpenGL 4.5 (OpenGlContext).
+    explicit OpenGlItemBuffers(const Patches& patches);
+    ~OpenGlItemBuffers() override;
+
+    /// Throws InputError where the driver has no pictures of that size, std::runtime_error where OpenGL fails
+    /// (out of memory).
+    void fill(const ItemBufferLayout& layout, const Viewpoint& viewpoint,
+              std::span<std::uint32_t> sides) override;
+
+    /// Who draws, for reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    const std::string& renderer() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
 
 }  // namespace stilb::patches

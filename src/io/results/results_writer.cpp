@@ -1,8 +1,17 @@
-#include "io/results/results_json.h"
+
+#include "io/results/results_writer.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
 
 #include "io/results/places.h"
+#include "io/text/table.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -117,6 +126,92 @@ std::string to_json(const RunResult& result, const std::string& scene) {
     for (const SensorResult& sensor : result.sensors) list.push_back(sensor_json(sensor, sensor.sensor));
     json["sensors"] = std::move(list);
     return json.dump(1) + "\n";
+}
+
+namespace {
+
+/// Columns of a sensor's readings, made of what is told of each.
+class ReadingColumns {
+  public:
+    explicit ReadingColumns(std::size_t readings) : readings_(readings) {}
+
+    void add(std::string name, const auto& number_of) {
+        std::vector<double> cells;
+        for (std::size_t j = 0; j < readings_; ++j) cells.push_back(number_of(j));
+        columns_.push_back({std::move(name), std::move(cells)});
+    }
+    void add_vector(const std::array<std::string, 3>& names, const auto& vector_of) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            add(names[axis], [&](std::size_t j) { return vector_of(j)[axis]; });
+    }
+    const std::vector<Column>& columns() const { return columns_; }
+
+  private:
+    std::size_t readings_;
+    std::vector<Column> columns_;
+};
+
+/// All readings of a sensor have the same directions and angles.
+void add_places(ReadingColumns& columns, const Sensor& sensor) {
+    std::vector<Place> places;
+    for (std::size_t j = 0; j < sensor.size(); ++j) places.push_back(sensor.place(j));
+    columns.add_vector({"x_m", "y_m", "z_m"}, [&](std::size_t j) { return places[j].position; });
+    if (places.empty()) return;
+    for (std::size_t d = 0; d < places.front().directions.size(); ++d) {
+        const std::string name(places.front().directions[d].name);
+        columns.add_vector({name + "_x", name + "_y", name + "_z"},
+                           [&](std::size_t j) { return places[j].directions[d].value; });
+    }
+    for (std::size_t a = 0; a < places.front().angles.size(); ++a) {
+        columns.add(std::string(places.front().angles[a].name) + "_deg",
+                    [&](std::size_t j) { return places[j].angles[a].value_deg; });
+    }
+}
+
+/// "cd/m2" and names of several words as parts of a column's name.
+std::string in_column(std::string_view text) {
+    std::string name(text);
+    for (char& c : name) {
+        if (c == '/' || c == ' ') c = '_';
+    }
+    return name;
+}
+
+void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings, const Quantity& quantity) {
+    const std::string unit = fmt::format("_{}", in_column(quantity.unit));
+    const auto estimate = [&](std::size_t j) -> const statistics::Estimate& { return readings[j].estimate; };
+    columns.add(in_column(quantity.name) + unit, [&](std::size_t j) { return estimate(j).value; });
+    columns.add("standard_error" + unit, [&](std::size_t j) { return estimate(j).standard_error; });
+    columns.add("interval_low" + unit, [&](std::size_t j) { return estimate(j).lower; });
+    columns.add("interval_high" + unit, [&](std::size_t j) { return estimate(j).upper; });
+    constexpr std::array<const char*, kBands> bands{"red", "green", "blue"};
+    for (std::size_t b = 0; b < kBands; ++b)
+        columns.add(bands[b] + unit, [&](std::size_t j) { return readings[j].rgb[b]; });
+}
+
+void write_sensor(const SensorResult& result, const Sensor& sensor, const std::filesystem::path& path) {
+    ReadingColumns columns(result.readings.size());
+    add_places(columns, sensor);
+    if (sensor.measures_luminance()) {
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        columns.add_vector({"hit_x_m", "hit_y_m", "hit_z_m"}, [&](std::size_t j) {
+            return sub_point(result, sensor, j).value_or(Vec3{none, none, none});
+        });
+    }
+    add_readings(columns, result.readings, sensor.quantity());
+    write_csv(columns.columns(), path);
+}
+
+}  // namespace
+
+void write_results_csv(const RunResult& result, const std::filesystem::path& directory) {
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error)
+        throw InputError(fmt::format("the folder cannot be made: {}", error.message()), {directory.string()});
+    for (const SensorResult& sensor : result.sensors) {
+        write_sensor(sensor, sensor.sensor, directory / (sensor.sensor.name + ".csv"));
+    }
 }
 
 }  // namespace stilb::io

@@ -1,4 +1,5 @@
-#include "estimators/patch_light/first_shot/classical.h"
+
+#include "estimators/patch_light/first_shot/variants.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -12,6 +13,7 @@
 #include "stilb/error.h"
 
 namespace stilb::estimators {
+
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -92,6 +94,88 @@ void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, math::Ra
         const std::size_t bin = count == 1 ? 0 : bins_.bin_of(out);
         sums[i] += to_spectrum(radiance_cd_m2_[first_[side] + bin]);
     }
+}
+
+namespace {
+
+// A BRDF as a sum: a part that is the same for all directions, of which pi times stands here, and the rest.
+// Rough and Plastic are all rest: what they reflect diffusely depends on both angles.
+
+struct SplitMaterial {
+    Rgb diffuse;
+    Material rest;
+};
+
+SplitMaterial split(const Diffuse& material) { return {material.reflectance, Black{}}; }
+SplitMaterial split(const Phong& material) {
+    return {material.diffuse, Phong{{}, material.specular, material.exponent}};
+}
+SplitMaterial split(const Ward& material) {
+    Ward::Parameters rest = material.parameters();
+    rest.diffuse = {};
+    return {material.parameters().diffuse, Ward(rest)};
+}
+SplitMaterial split(const auto& material) { return {{}, material}; }
+
+}  // namespace
+
+DiffuseFirstShot::DiffuseFirstShot(const Scene& scene, const patches::Patches& patches,
+                                   const IncomingFirstShot& incoming, const ShadowRays& rays)
+    : scene_(scene), patches_(patches), rays_(rays), radiance_cd_m2_(2 * patches.count()) {
+    std::vector<Rgb> diffuse;
+    for (const NamedMaterial& named : scene.materials) {
+        const SplitMaterial parts = std::visit([](const auto& m) { return split(m); }, named.material);
+        diffuse.push_back(parts.diffuse * std::numbers::inv_pi);
+        rest_.push_back(parts.rest);
+    }
+    for (std::uint32_t side = 0; side < radiance_cd_m2_.size(); ++side) {
+        const auto material = index_of(patches.materials[patches.patch_of(side)]);
+        radiance_cd_m2_[side] = in_floats(diffuse[material] * incoming.illuminance_lx(side));
+    }
+}
+
+void DiffuseFirstShot::add_reflected(std::uint32_t side, const Vec3& position, math::RandomKey key,
+                                     std::span<const Vec3> outs, std::span<Rgb> sums) const {
+    const Vec3 normal = patches_.normal_of(side);
+    for (std::size_t i = 0; i < outs.size(); ++i) {
+        if (dot(outs[i], normal) > 0) sums[i] += to_spectrum(radiance_cd_m2_[side]);
+    }
+    const Material& rest = rest_[index_of(patches_.materials[patches_.patch_of(side)])];
+    rays_.add_reflected_by(rest, side, position, key, outs, sums);
+}
+
+IncomingFirstShot::IncomingFirstShot(const Scene& scene, const patches::Patches& patches,
+                                     const FirstShotLights& lights, FirstShotFactors factors)
+    : scene_(scene), patches_(patches), factors_(std::move(factors)) {
+    for (const LightSample& sample : lights.samples) {
+        sources_.push_back({sample.viewpoint.position, lights.lights[sample.light].colour});
+    }
+}
+
+Rgb IncomingFirstShot::illuminance_lx(std::uint32_t side) const {
+    Rgb sum;
+    for (const auto& factor : factors_.of(side)) {
+        sum += sources_[factor.sample].colour * factor.illuminance_lx;
+    }
+    return sum;
+}
+
+void IncomingFirstShot::add_reflected(std::uint32_t side, const Vec3&, math::RandomKey,
+                                      std::span<const Vec3> outs, std::span<Rgb> sums) const {
+    const auto factors = factors_.of(side);
+    if (factors.empty()) return;
+    const Vec3 middle = patches_.middle(patches_.patch_of(side));
+    const auto for_each_arrival = [&](const auto& visit) {
+        for (const auto& factor : factors) {
+            const Source& source = sources_[factor.sample];
+            visit(normalized(source.position - middle), source.colour * factor.illuminance_lx);
+        }
+    };
+    reflect(material_of(scene_, patches_, side), frame_of(patches_, side), for_each_arrival, outs, sums);
+}
+
+bool IncomingFirstShot::is_constant(std::uint32_t side) const {
+    return factors_.of(side).empty() || reflects_alike(material_of(scene_, patches_, side));
 }
 
 }  // namespace stilb::estimators

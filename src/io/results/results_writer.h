@@ -1,0 +1,21 @@
+// The results of a run as a JSON document (docs/json.md) and as CSV.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "run/result.h"
+
+namespace stilb::io {
+
+/// `scene` is the scene file as the user named it. Two runs that did the same give the same text but for
+/// elapsed_s and first_shot_set_up_s.
+std::string to_json(const RunResult& result, const std::string& scene);
+
+// The results of a run as CSV, a file per sensor.
+
+/// Writes DIR/<sensor>.csv, a line per reading; makes the folder where it is missing. Throws InputError where
+/// a file cannot be written.
+void write_results_csv(const RunResult& result, const std::filesystem::path& directory);
+
+}  // namespace stilb::io
