@@ -5,18 +5,19 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 FUZZERS = $(patsubst fuzz/%_fuzzer.cpp,%,$(wildcard fuzz/*_fuzzer.cpp))
 FUZZ_SECONDS ?= 60
+PREFIX ?= /usr/local
 
 # $(call configure,PRESET): only where it was not done; afterwards Ninja itself notices changes.
 configure = test -f build/$(1)/build.ninja || cmake --preset $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-lint build demo test verify-long bench format format-check lint odr sanitize fuzz clean
+.PHONY: help setup setup-lint build demo test install verify-long bench format format-check lint odr sanitize fuzz clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' Makefile
 
 setup: ## install what building and testing need (apt), or name it
-	@scripts/setup build test
+	@scripts/setup build test install
 
 setup-lint: ## the same for format, lint and fuzz
 	@scripts/setup build test lint
@@ -34,6 +35,11 @@ test: setup ## build everything and run all tests
 	@$(call configure,release)
 	@cmake --build --preset release
 	@ctest --preset release -j $(JOBS)
+
+install: build ## the program, the library with its CMake package, manual pages and completions: PREFIX, DESTDIR
+	@scripts/setup install
+	@cmake --build --preset release --target stilb_library
+	@cmake --install build/release --prefix $(PREFIX)
 
 verify-long: build ## all exact solutions at 0.2 %, closed meshes with 1e8 rays each, patches as they shrink, harmonics
 	$(RELEASE)/stilb verify --error 0.2%

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "cli/progress.h"
-#include "cli/rendered_picture.h"
+#include "io/image/picture.h"
 #include "io/image/picture_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/table.h"
@@ -36,7 +36,7 @@ io::Picture picture_of(const RenderedHead& head, const std::string& name) {
     origin.method = first.method;
     origin.command = "stilb reproduce harmonics";
     origin.version = STILB_VERSION;
-    io::Picture mean = cli::picture_of(first, *head.view.camera(), origin);
+    io::Picture mean = io::picture_of(first, *head.view.camera(), origin);
     const auto rounds = static_cast<float>(head.rounds.size());
     for (std::size_t i = 0; i < mean.pixel_count(); ++i) {
         std::array<float, 3> sum{};

@@ -3,7 +3,7 @@
 // By `auto`, which is local estimation where that is good: by itself, as in the paper, it speckles the
 // surfaces next to corners (docs/methods/local.md).
 #include "cli/progress.h"
-#include "cli/rendered_picture.h"
+#include "io/image/picture.h"
 #include "io/image/picture_file.h"
 #include "io/scene/scene_file.h"
 #include "papers/paper_room.h"
@@ -24,7 +24,7 @@ void reproduce_room(const std::filesystem::path& directory) {
     origin.seed = file.run.seed;
     cli::TerminalProgress progress("passes");
     const io::Picture picture =
-        cli::picture_of(render(file.scene, view, file.run, &progress), *view.camera(), origin);
+        io::picture_of(render(file.scene, view, file.run, &progress), *view.camera(), origin);
     for (const char* name : {"room.exr", "room.png"}) write_picture(picture, directory / name);
 }
 

@@ -1,4 +1,5 @@
-// Errors that a user can mend. The library throws them; only the command line prints them and exits.
+// Errors that a user can mend, and interruptions. The library throws them; only the command line prints and
+// exits.
 #pragma once
 
 #include <span>
@@ -18,6 +19,13 @@ struct SourceLocation {
 class InputError : public std::runtime_error {
   public:
     explicit InputError(const std::string& message, const SourceLocation& where = {});
+};
+
+/// Thrown out of work that ended before there was any result: the user or the time limit ended it. what()
+/// says why and where, and what would help.
+class Cancelled : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
 };
 
 /// The allowed name nearest to `found` by edit distance; empty where none is near.

@@ -6,18 +6,12 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
-namespace stilb {
+#include "stilb/error.h"
 
-/// Thrown out of work that ended before there was any result: the user or the time limit ended it. what()
-/// says why and where, and what would help.
-class Cancelled : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
+namespace stilb {
 
 /// Takes reports from any thread, and passes on one at a time, some ten in a second. Outlives what it is
 /// given to.

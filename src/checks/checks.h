@@ -110,4 +110,10 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
 /// were. An object may be named wrongly only where almost no light gets to it.
 std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& caster);
 
+// All of it.
+
+/// What all checks warn of, in sentences for users.
+std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaster& caster,
+                                        const Enclosures& enclosures, std::span<const Sensor> sensors);
+
 }  // namespace stilb::checks

@@ -26,8 +26,8 @@ Json parameter_json(const std::array<double, count>& values) {
     return values;
 }
 
-/// The parameters that a type lists. Of a colour the luminance; of "reflectance", which is stated before, the
-/// bands.
+/// The listed parameters of a material type. A colour is given by its luminance; "reflectance", which is
+/// stated before, by its bands.
 template <typename Parameters>
 void add_parameters(Json& json, const Parameters& parameters) {
     for_each_field<Parameters>([&](const auto& field) {
@@ -157,7 +157,7 @@ std::size_t mesh_bytes(const Scene& scene) {
     return bytes;
 }
 
-/// The most memory that this process has had so far.
+/// The peak memory of this process so far.
 std::size_t peak_resident_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -171,18 +171,11 @@ Json list_json(const List& list, const Describe& describe) {
     return json;
 }
 
-std::vector<std::string> checked(const io::SceneFile& file, const rays::RayCaster& caster,
-                                 const checks::Enclosures& spaces) {
+std::vector<std::string> warnings_of(const io::SceneFile& file, const rays::RayCaster& caster,
+                                     const checks::Enclosures& enclosures) {
     std::vector<std::string> warnings = file.warnings;
-    const auto add = [&](const std::vector<std::string>& more) {
-        warnings.insert(warnings.end(), more.begin(), more.end());
-    };
-    add(checks::hole_warnings(file.scene, spaces.shells()));
-    add(overlap_warnings(file.scene, caster, spaces));
-    add(checks::placement_warnings(file.scene, caster, file.sensors));
-    for (const ObjectId object : checks::unlit_objects(file.scene, caster))
-        warnings.push_back(
-            fmt::format("object \"{}\": no light reaches it.", file.scene.object(object).name));
+    std::ranges::move(checks::scene_warnings(file.scene, caster, enclosures, file.sensors),
+                      std::back_inserter(warnings));
     return warnings;
 }
 
@@ -207,7 +200,7 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     json["luminaires"] = list_json(scene.solids, luminaire_json);
     json["sensors"] = list_json(file.sensors, sensor_json);
     json["run"] = run_json(file.run);
-    json["warnings"] = checked(file, caster, spaces);
+    json["warnings"] = warnings_of(file, caster, spaces);
     json["memory"] = {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}};
     return json;
 }

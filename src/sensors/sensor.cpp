@@ -1,7 +1,13 @@
 #include "sensors/sensor.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
+
+#include "stilb/error.h"
 
 namespace stilb::sensors {
 namespace {
@@ -87,6 +93,63 @@ std::optional<std::array<int, 2>> Sensor::count() const {
             return std::nullopt;
         },
         kind);
+}
+
+namespace {
+
+/// Of those that `is_wanted`, the one of this name; `what` they are, for messages.
+template <typename IsWanted>
+const Sensor& sensor_named(const std::vector<Sensor>& all, const std::string& name, std::string_view what,
+                           const std::string& file, const IsWanted& is_wanted) {
+    std::vector<std::string_view> names;
+    for (const Sensor& sensor : all) {
+        if (!is_wanted(sensor)) continue;
+        if (sensor.name == name) return sensor;
+        names.push_back(sensor.name);
+    }
+    const std::string nearest = nearest_name(name, names);
+    throw InputError(fmt::format("there is no {0} \"{1}\".{2} Allowed: {3}.", what, name,
+                                 nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
+                                 fmt::join(names, ", ")),
+                     {file});
+}
+
+bool is_camera(const Sensor& sensor) { return sensor.camera() != nullptr; }
+
+}  // namespace
+
+const Sensor& choose_camera(const std::vector<Sensor>& all, const std::string& name,
+                            const std::string& file) {
+    std::vector<std::string_view> cameras;
+    for (const Sensor& sensor : all) {
+        if (is_camera(sensor)) cameras.push_back(sensor.name);
+    }
+    if (cameras.empty()) {
+        throw InputError("no camera: the scene needs a sensor of type \"camera\" under [sensors].", {file});
+    }
+    if (name.empty() && cameras.size() > 1) {
+        throw InputError(
+            fmt::format("the scene has several cameras: {}. Name one of them as the sensor.", fmt::join(cameras, ", ")), {file});
+    }
+    return sensor_named(all, name.empty() ? std::string(cameras.front()) : name, "camera", file, is_camera);
+}
+
+std::vector<Sensor> choose_meters(const std::vector<Sensor>& all, const std::vector<std::string>& names,
+                                  const std::string& file) {
+    std::vector<Sensor> chosen;
+    for (const std::string& name : names) {
+        chosen.push_back(sensor_named(all, name, "sensor", file, [](const Sensor&) { return true; }));
+        if (!is_camera(chosen.back())) continue;
+        throw InputError(fmt::format("sensor \"{}\" is a camera, which makes a picture: render it.", name),
+                         {file});
+    }
+    if (names.empty()) std::ranges::remove_copy_if(all, std::back_inserter(chosen), is_camera);
+    if (chosen.empty() && !all.empty()) {
+        throw InputError(
+            "no sensor to measure: all are cameras, which make pictures. Render one, or add another sensor.",
+            {file});
+    }
+    return chosen;
 }
 
 }  // namespace stilb::sensors

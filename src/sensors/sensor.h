@@ -61,6 +61,15 @@ struct Sensor {
     const Camera* camera() const { return std::get_if<Camera>(&kind); }
 };
 
+// Choosing by name; `file` is where the sensors come from, for messages. All throw InputError.
+
+/// The camera of that name; where the name is empty, the only one.
+const Sensor& choose_camera(const std::vector<Sensor>& all, const std::string& name,
+                            const std::string& file = "");
+/// The sensors of these names, which must not be cameras; where there are no names, all that are none.
+std::vector<Sensor> choose_meters(const std::vector<Sensor>& all, const std::vector<std::string>& names,
+                                  const std::string& file = "");
+
 }  // namespace stilb::sensors
 
 namespace stilb {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/rgb.h"
+#include "run/result.h"
 #include "sensors/camera.h"
 
 namespace stilb::io {
@@ -59,6 +60,11 @@ std::string too_large_message(long long width, long long height);
 
 /// Throws std::invalid_argument where there are no pixels or a channel's size is not theirs.
 void require_consistency(const Picture& picture);
+
+/// A picture that is not finished.
+Picture picture_of(const Pixels& pixels, const Camera& camera, const PictureOrigin& origin);
+/// A finished one, with normals and depth; how it went is added to the origin.
+Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrigin origin);
 
 // What a picture file says about its picture besides the pixels: named texts, the same in all formats.
 

@@ -222,4 +222,29 @@ void write_solution_file(const StoredSolution& stored, const std::filesystem::pa
     replace_file(path, to_bytes(stored));
 }
 
+StoredSolution stored_solution(const RunSummary& run, estimators::PatchSolution solution,
+                               std::span<const std::filesystem::path> sources,
+                               const std::filesystem::path& path) {
+    StoredSolution stored;
+    stored.version = STILB_VERSION;
+    const auto folder = std::filesystem::absolute(path).parent_path();
+    stored.scene = std::filesystem::proximate(sources.front(), folder).generic_string();
+    stored.light_hash = light_hash(sources);
+    stored.seed = run.seed;
+    stored.steps = run.samples;
+    stored.attained_error = run.attained_error;
+    stored.solution = std::move(solution);
+    return stored;
+}
+
+void require_same_light(const StoredSolution& stored, std::span<const std::filesystem::path> sources,
+                        const std::string& solution_file) {
+    if (light_hash(sources) == stored.light_hash) return;
+    throw InputError(
+        fmt::format("materials, objects or lights of '{}', or files that it refers to, have changed "
+                    "since it was solved (only sensors may change). Solve it again.",
+                    sources.front().string()),
+        {solution_file});
+}
+
 }  // namespace stilb::io

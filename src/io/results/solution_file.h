@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "estimators/patch_light/patch_solution.h"
+#include "run/result.h"
 
 namespace stilb::io {
 
@@ -19,6 +21,16 @@ struct StoredSolution {
     double attained_error = 0;  ///< as SolveResult has it
     estimators::PatchSolution solution;
 };
+
+/// What a file at `path` keeps of a solution. `sources`: of the scene (SceneFile), its file first.
+StoredSolution stored_solution(const RunSummary& run, estimators::PatchSolution solution,
+                               std::span<const std::filesystem::path> sources,
+                               const std::filesystem::path& path);
+
+/// Throws InputError, which names the solution's file, where the scene's light is not the one that was
+/// solved.
+void require_same_light(const StoredSolution& stored, std::span<const std::filesystem::path> sources,
+                        const std::string& solution_file);
 
 std::string to_bytes(const StoredSolution& stored);
 /// Throws InputError, with the name, where the bytes are no solution, of another version, truncated or

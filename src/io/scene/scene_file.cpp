@@ -142,7 +142,7 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     warn_of_unused_materials(materials, file);
     read_lights(section_of(root, "lights", none), directory, file);
     if (file.scene.lights.empty())
-        file.warnings.push_back(fmt::format("{}: no light: the scene is dark.", name));
+        file.warnings.emplace_back(InputError("no light: the scene is dark.", {name}).what());
     read_sensors(section_of(root, "sensors", none), file);
     file.run = read_run(section_of(root, "run", none));
     return file;

@@ -129,7 +129,7 @@ void TomlItem::fail(std::string_view message) const {
     throw InputError(with_path(path_, message), {*file_, value_->line});
 }
 
-std::string TomlItem::where() const { return fmt::format("{}:{}: {}", *file_, value_->line, path_); }
+std::string TomlItem::where() const { return InputError(path_, {*file_, value_->line}).what(); }
 
 void TomlItem::fail_type(std::string_view needed) const {
     fail(fmt::format("found {} where {} is needed.", described(*value_), needed));
@@ -254,7 +254,7 @@ void TomlTable::fail(std::string_view message) const {
     throw InputError(with_path(path_, message), {*file_, line_});
 }
 
-std::string TomlTable::where() const { return fmt::format("{}:{}: {}", *file_, line_, path_); }
+std::string TomlTable::where() const { return InputError(path_, {*file_, line_}).what(); }
 
 void TomlTable::expect_keys(const std::vector<std::string_view>& allowed, std::string_view kind) {
     kind_ = kind.empty() ? "" : fmt::format(" for {}", kind);

@@ -1,0 +1,66 @@
+// Readings of sensors, with an error on every number.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stilb/options.h"
+#include "stilb/scene.h"
+
+namespace stilb::api {
+
+/// A value with its standard error and its 95 % interval; these are NaN where a method is deterministic.
+struct Estimate {
+    double value = 0;
+    double standard_error = 0;
+    double lower = 0, upper = 0;
+};
+
+struct Reading : Estimate {
+    Triple rgb{};       ///< linear Rec. 709, in the sensor's unit; its luminance is the value
+    Triple position{};  ///< [m]
+};
+
+/// The readings of one sensor.
+struct SensorResult {
+    std::string name, type;
+    std::string quantity, unit;     ///< such as "illuminance" and "lx"
+    std::array<int, 2> count{};     ///< columns and rows of a grid; {0, 0} of other sensors
+    std::vector<Reading> readings;  ///< of a grid row by row
+    Estimate mean, minimum, maximum;
+    Estimate uniformity;        ///< minimum over mean
+    double attained_error = 0;  ///< relative half-width of the intervals of 95 % of the readings, at most
+};
+
+/// What measure(), render() and solve() say of their run.
+struct Summary {
+    std::string method;
+    std::uint64_t seed = 0;
+    std::uint64_t samples = 0;  ///< as in Options
+    double elapsed_s = 0;
+    /// False where the error asked for was not reached, or the run was interrupted.
+    bool converged = true;
+    double attained_error = 0;
+    std::vector<std::string> warnings;
+};
+
+struct Result : Summary {
+    std::vector<SensorResult> sensors;
+    /// The document that `stilb measure --json` prints: docs/json.md.
+    std::string json;
+
+    /// Throws InputError where there is no such sensor.
+    const SensorResult& operator[](std::string_view sensor) const;
+};
+
+/// Measures the sensors of a scene that are no cameras. Without options, by the scene file's section [run].
+/// The result depends on the scene, the method, the limits, the seed and the number of samples, and not on
+/// the number of threads. Throws InputError where an option is wrong or the scene has no such sensor, and
+/// Cancelled where the run ends before there is a result.
+Result measure(const Scene& scene, const std::optional<Options>& options = {}, const Control& control = {});
+
+}  // namespace stilb::api

@@ -1,0 +1,56 @@
+// Luminance pictures, and solutions: the light of a scene for all viewpoints.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stilb/measure.h"
+#include "stilb/options.h"
+#include "stilb/scene.h"
+
+namespace stilb::api {
+
+/// Pixels row by row from the top; NaN where the camera shows nothing.
+struct Picture : Summary {
+    int width = 0, height = 0;
+    std::vector<float> luminance_cd_m2;
+    std::vector<float> standard_error_cd_m2;      ///< empty where it is not known
+    std::vector<std::array<float, 3>> rgb_cd_m2;  ///< linear Rec. 709
+
+    /// Writes .exr, .hdr or .png, by the extension. Throws InputError where the file cannot be written.
+    void save(const std::filesystem::path& path) const;
+
+    struct Data;
+    std::shared_ptr<const Data> data;
+};
+
+/// Renders a camera of the scene; its name may be left out where there is one only. Throws as measure().
+Picture render(const Scene& scene, const std::string& camera = "", const std::optional<Options>& options = {},
+               const Control& control = {});
+
+/// The light on all surfaces of a scene, independent of the viewpoint. Immutable; copies share their data.
+class Solution {
+  public:
+    const Summary& summary() const;
+    /// A picture from the stored light, without new light transport. Throws as render().
+    Picture render(const std::string& camera = "", const Control& control = {}) const;
+    /// Writes a file for `stilb render --from`. Throws InputError where the file cannot be written, and where
+    /// the scene was built in code: the solution's file refers to the scene's.
+    void save(const std::filesystem::path& path) const;
+
+    struct Data;
+    explicit Solution(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+  private:
+    std::shared_ptr<const Data> data_;
+};
+
+/// Solves a scene by ray bundles, whatever the options' method. Throws as measure().
+Solution solve(const Scene& scene, const std::optional<Options>& options = {}, const Control& control = {});
+
+}  // namespace stilb::api

@@ -1,0 +1,114 @@
+// Scenes: read from a file, or built in code with the same keys, the same checks and the same messages.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "stilb/options.h"
+
+namespace stilb::api {
+
+/// A position [m], a direction, or a colour (linear Rec. 709).
+using Triple = std::array<double, 3>;
+
+/// The value of a key: true or false, a number, a text, or a list of values such as {0, 0, 1}.
+class Value {
+  public:
+    using List = std::vector<Value>;
+    using Content = std::variant<bool, std::int64_t, double, std::string, List>;
+
+    Value(bool value) : content_(value) {}
+    Value(int value) : content_(std::int64_t{value}) {}
+    Value(std::int64_t value) : content_(value) {}
+    Value(double value) : content_(value) {}
+    Value(const char* text) : content_(std::string(text)) {}
+    Value(std::string text) : content_(std::move(text)) {}
+    Value(const Triple& triple) : content_(List(triple.begin(), triple.end())) {}
+    Value(List list) : content_(std::move(list)) {}
+    Value(std::initializer_list<Value> list) : content_(List(list)) {}
+
+    const Content& content() const { return content_; }
+
+  private:
+    Content content_;
+};
+
+/// Keys and values as in scene files: docs/scene-format.md lists them.
+using Parameters = std::map<std::string, Value>;
+
+/// Objects, materials, lights and sensors. Immutable; copies share their data.
+class Scene {
+  public:
+    /// Reads a scene file. Throws InputError: file, line, key, what was found, and what is allowed.
+    static Scene load(const std::filesystem::path& path);
+    /// Reads a scene from a text; file names in it are relative to `directory`.
+    static Scene parse(std::string_view toml, const std::filesystem::path& directory = ".");
+
+    std::string name() const;
+    /// In the order of the scene; cameras are among them.
+    std::vector<std::string> sensors() const;
+    /// The scene file's section [run]; the defaults where it has none.
+    Options options() const;
+
+    struct Data;
+    explicit Scene(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+    const Data& data() const { return *data_; }
+
+  private:
+    std::shared_ptr<const Data> data_;
+};
+
+/// Collects the parts of a scene. Their names are used by results and messages.
+class SceneBuilder {
+  public:
+    explicit SceneBuilder(const std::string& name = "");
+    ~SceneBuilder();
+    SceneBuilder(SceneBuilder&&) noexcept;
+    SceneBuilder& operator=(SceneBuilder&&) noexcept;
+
+    /// Such as `material("wall", {{"type", "diffuse"}, {"reflectance", 0.6}})`.
+    SceneBuilder& material(const std::string& name, const Parameters& parameters);
+    /// Such as `object("room", {{"shape", "box"}, {"min", {0, 0, 0}}, {"max", {4, 3, 2.5}}, {"material",
+    /// "wall"}})`.
+    SceneBuilder& object(const std::string& name, const Parameters& parameters);
+    /// Triangles as indices of vertices [m]; the front of a triangle is the side from which its vertices run
+    /// counterclockwise. Meshes of a million triangles are better read from files: object() with shape
+    /// "mesh".
+    SceneBuilder& mesh(const std::string& name, const std::vector<Triple>& vertices,
+                       const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                       const std::string& material);
+    /// Such as `light("bulb", {{"type", "point"}, {"position", {2, 1.5, 2.3}}, {"flux", 800}})`.
+    SceneBuilder& light(const std::string& name, const Parameters& parameters);
+    /// Such as `sensor("desk", {{"type", "illuminance"}, {"position", {1, 1, 0.75}}, {"normal", {0, 0,
+    /// 1}}})`.
+    SceneBuilder& sensor(const std::string& name, const Parameters& parameters);
+    /// The folder that file names are relative to; the working directory by default.
+    SceneBuilder& directory(const std::filesystem::path& path);
+
+    /// Throws InputError with the scene reader's message, such as "materials.wall.reflectance: 2 is not a
+    /// number from 0 to 1".
+    Scene build() const;
+
+  private:
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+/// What is odd about a scene though it can be computed: holes in closed surfaces, overlapping surfaces,
+/// lights and sensors on the wrong side of a wall, objects that no light reaches, and what the reader
+/// noticed. The sentences of `stilb info`; empty where nothing is odd. Traces rays, which takes about a
+/// second.
+std::vector<std::string> validate(const Scene& scene);
+/// The same of a scene that is being built; the message of build() where it cannot be built.
+std::vector<std::string> validate(const SceneBuilder& builder);
+
+}  // namespace stilb::api

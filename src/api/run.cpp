@@ -1,0 +1,187 @@
+// Runs of the library: options and results in public types.
+#include "run/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "api/scene_data.h"
+#include "io/image/picture_file.h"
+#include "io/results/results_writer.h"
+#include "io/results/solution_file.h"
+#include "run/solve.h"
+#include "stilb/error.h"
+#include "stilb/measure.h"
+#include "stilb/render.h"
+
+namespace stilb::api {
+namespace {
+
+/// Passes on what runs report.
+class ControlSink final : public PictureSink {
+  public:
+    explicit ControlSink(const Control& control) : control_(control) {}
+
+    void report_set_up(const SetUp& set_up) override {
+        constexpr double unknown = std::numeric_limits<double>::infinity();
+        pass_on({std::string(set_up.stage), set_up.elapsed_s, unknown, unknown});
+    }
+    void report(const ProgressSink::Progress& progress) override {
+        pass_on({"", progress.elapsed_s, progress.remaining_s, progress.attained_error});
+    }
+    bool wants_picture() override { return false; }
+    void show(const Pixels&) override {}
+
+  private:
+    void pass_on(const api::Progress& progress) const {
+        if (control_.report) control_.report(progress);
+    }
+
+    const Control& control_;
+};
+
+Triple triple(const Rgb& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
+Triple triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Estimate estimate(const statistics::Estimate& e) { return {e.value, e.standard_error, e.lower, e.upper}; }
+
+Summary summary(const RunSummary& run, const std::vector<std::string>& scene_warnings) {
+    Summary summary{.method = run.method,
+                    .seed = run.seed,
+                    .samples = run.samples,
+                    .elapsed_s = run.elapsed_s,
+                    .converged = run.converged,
+                    .attained_error = run.attained_error,
+                    .warnings = scene_warnings};
+    summary.warnings.insert(summary.warnings.end(), run.warnings.begin(), run.warnings.end());
+    return summary;
+}
+
+SensorResult sensor_result(const run::SensorResult& measured) {
+    const Sensor& sensor = measured.sensor;
+    SensorResult result{.name = sensor.name,
+                        .type = std::string(sensor.type()),
+                        .quantity = std::string(sensor.quantity().name),
+                        .unit = std::string(sensor.quantity().unit),
+                        .count = sensor.count().value_or(std::array{0, 0}),
+                        .readings = {},
+                        .mean = estimate(measured.summary.mean),
+                        .minimum = estimate(measured.summary.minimum),
+                        .maximum = estimate(measured.summary.maximum),
+                        .uniformity = estimate(measured.summary.uniformity),
+                        .attained_error = measured.attained_error};
+    for (std::size_t j = 0; j < measured.readings.size(); ++j) {
+        const run::Reading& reading = measured.readings[j];
+        result.readings.push_back(
+            {estimate(reading.estimate), triple(reading.rgb), triple(position_of(sensor.measurand(j)))});
+    }
+    return result;
+}
+
+}  // namespace
+
+const SensorResult& Result::operator[](std::string_view sensor) const {
+    std::vector<std::string_view> names;
+    for (const SensorResult& result : sensors) {
+        if (result.name == sensor) return result;
+        names.push_back(result.name);
+    }
+    throw InputError(
+        fmt::format("there is no result of a sensor \"{}\". Allowed: {}.", sensor, fmt::join(names, ", ")));
+}
+
+Result measure(const Scene& scene, const std::optional<Options>& options, const Control& control) {
+    const io::SceneFile& file = scene.data().file;
+    ControlSink sink(control);
+    RunResult run = run::measure(file.scene, sensors::choose_meters(file.sensors, {}),
+                                 run_options(scene, options), &sink, control.interrupt);
+    run.warnings.insert(run.warnings.begin(), file.warnings.begin(), file.warnings.end());
+    Result result{summary(run, {}), {}, io::to_json(run, scene.data().path.string())};
+    std::ranges::transform(run.sensors, std::back_inserter(result.sensors), sensor_result);
+    return result;
+}
+
+struct Picture::Data {
+    io::Picture picture;
+};
+
+namespace {
+
+Picture to_picture(const RenderResult& rendered, const Scene& scene, const Sensor& camera) {
+    io::PictureOrigin origin;
+    origin.scene = scene.data().path.string();
+    origin.sensor = camera.name;
+    origin.method = rendered.method;
+    origin.seed = rendered.seed;
+    origin.version = STILB_VERSION;
+    Picture picture;
+    static_cast<Summary&>(picture) = summary(rendered, scene.data().file.warnings);
+    picture.data = std::make_shared<const Picture::Data>(
+        Picture::Data{io::picture_of(rendered, *camera.camera(), origin)});
+    const io::Picture& pixels = picture.data->picture;
+    picture.width = pixels.width;
+    picture.height = pixels.height;
+    picture.rgb_cd_m2 = pixels.rgb_cd_m2;
+    picture.standard_error_cd_m2 = pixels.standard_error_cd_m2;
+    for (std::size_t pixel = 0; pixel < pixels.pixel_count(); ++pixel) {
+        picture.luminance_cd_m2.push_back(static_cast<float>(pixels.luminance_cd_m2(pixel)));
+    }
+    return picture;
+}
+
+}  // namespace
+
+void Picture::save(const std::filesystem::path& path) const { io::write_picture(data->picture, path); }
+
+Picture render(const Scene& scene, const std::string& camera, const std::optional<Options>& options,
+               const Control& control) {
+    const io::SceneFile& file = scene.data().file;
+    const Sensor& sensor = sensors::choose_camera(file.sensors, camera);
+    ControlSink sink(control);
+    return to_picture(run::render(file.scene, sensor, run_options(scene, options), &sink, control.interrupt),
+                      scene, sensor);
+}
+
+struct Solution::Data {
+    Scene scene;
+    Summary summary;
+    SolveResult result;
+    int threads = 0;
+};
+
+const Summary& Solution::summary() const { return data_->summary; }
+
+Picture Solution::render(const std::string& camera, const Control& control) const {
+    const io::SceneFile& file = data_->scene.data().file;
+    const Sensor& sensor = sensors::choose_camera(file.sensors, camera);
+    ControlSink sink(control);
+    return to_picture(run::render_solution(file.scene, sensor, data_->result.solution, data_->threads, &sink,
+                                           control.interrupt),
+                      data_->scene, sensor);
+}
+
+void Solution::save(const std::filesystem::path& path) const {
+    const io::SceneFile& file = data_->scene.data().file;
+    if (data_->scene.data().path.empty()) {
+        throw InputError(
+            "a solution's file refers to the scene's file, and this scene was built in code. Save the scene "
+            "as a scene file, and solve that.",
+            {path.string()});
+    }
+    write_solution_file(io::stored_solution(data_->result, data_->result.solution, file.sources, path), path);
+}
+
+Solution solve(const Scene& scene, const std::optional<Options>& options, const Control& control) {
+    const io::SceneFile& file = scene.data().file;
+    std::optional<Options> by_bundles = options ? options : scene.options();
+    by_bundles->method = "ray-bundle";
+    const RunOptions run = run_options(scene, by_bundles);
+    ControlSink sink(control);
+    SolveResult result = run::solve(file.scene, run, run::kDefaultDegree, &sink, control.interrupt);
+    const Summary all = summary(result, file.warnings);
+    return Solution(
+        std::make_shared<const Solution::Data>(Solution::Data{scene, all, std::move(result), run.threads}));
+}
+
+}  // namespace stilb::api

@@ -1,0 +1,193 @@
+#include "stilb/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "api/scene_data.h"
+#include "checks/checks.h"
+#include "estimators/estimator_list.h"
+#include "io/scene/toml.h"
+#include "stilb/error.h"
+
+namespace stilb::api {
+namespace {
+
+io::TomlValue toml_of(const Value& value) {
+    return std::visit(
+        [](const auto& content) -> io::TomlValue {
+            if constexpr (std::is_same_v<std::decay_t<decltype(content)>, Value::List>) {
+                io::TomlArray array;
+                for (const Value& element : content) array.push_back(toml_of(element));
+                return {std::move(array)};
+            } else {
+                return {content};
+            }
+        },
+        value.content());
+}
+
+template <typename Numbers>
+io::TomlValue toml_list(const Numbers& numbers) {
+    io::TomlArray array;
+    for (const auto number : numbers) {
+        if constexpr (std::is_integral_v<std::decay_t<decltype(number)>>) {
+            array.push_back({std::int64_t{number}});
+        } else {
+            array.push_back({number});
+        }
+    }
+    return {std::move(array)};
+}
+
+template <typename Lists>
+io::TomlValue toml_lists(const Lists& lists) {
+    io::TomlArray array;
+    for (const auto& list : lists) array.push_back(toml_list(list));
+    return {std::move(array)};
+}
+
+io::TomlMembers members_of(const Parameters& parameters) {
+    io::TomlMembers members;
+    for (const auto& [key, value] : parameters) members.push_back({key, 0, toml_of(value)});
+    return members;
+}
+
+Scene make_scene(io::SceneFile file, const std::filesystem::path& path = {}) {
+    return Scene(std::make_shared<const Scene::Data>(Scene::Data{std::move(file), path}));
+}
+
+}  // namespace
+
+Scene Scene::load(const std::filesystem::path& path) { return make_scene(io::read_scene_file(path), path); }
+
+Scene Scene::parse(std::string_view toml, const std::filesystem::path& directory) {
+    return make_scene(io::read_scene(toml, "", directory));
+}
+
+std::string Scene::name() const { return data_->file.scene.name; }
+
+std::vector<std::string> Scene::sensors() const {
+    std::vector<std::string> names;
+    for (const Sensor& sensor : data_->file.sensors) names.push_back(sensor.name);
+    return names;
+}
+
+Options Scene::options() const {
+    const RunOptions& run = data_->file.run;
+    return {.method = run.method,
+            .error = run.error,
+            .time_s = run.time_s,
+            .samples = run.paths,
+            .bounces = run.bounces,
+            .patch_m = run.patches.patch_m,
+            .seed = run.seed,
+            .threads = run.threads};
+}
+
+RunOptions run_options(const Scene& scene, const std::optional<Options>& options) {
+    RunOptions run = scene.data().file.run;
+    if (!options) return run;
+    run.method = options->method;
+    run.error = options->error;
+    run.time_s = options->time_s;
+    run.paths = options->samples;
+    run.bounces = options->bounces;
+    run.patches.patch_m = options->patch_m;
+    run.seed = options->seed;
+    run.threads = options->threads;
+    const estimators::EstimatorEntry& method = estimators::find_estimator(run.method);
+    if (options->patch_m && !method.lights_patches) {
+        throw InputError(fmt::format("patch_m: method {} does not use patches.", run.method));
+    }
+    return run;
+}
+
+/// The scene as the reader takes it: a tree without lines.
+struct SceneBuilder::Data {
+    std::string name;
+    io::TomlMembers materials, objects, lights, sensors;
+    std::filesystem::path directory = ".";
+
+    void add(io::TomlMembers Data::*section, std::string_view section_name, const std::string& part,
+             io::TomlMembers parameters) {
+        const auto has_name = [&](const io::TomlMember& member) { return member.key == part; };
+        if (std::ranges::any_of(this->*section, has_name)) {
+            throw InputError(fmt::format("{}.{}: there is already a part of this name. Choose another name.",
+                                         section_name, part));
+        }
+        (this->*section).push_back({part, 0, {std::move(parameters)}});
+    }
+};
+
+SceneBuilder::SceneBuilder(const std::string& name) : data_(std::make_unique<Data>()) { data_->name = name; }
+SceneBuilder::~SceneBuilder() = default;
+SceneBuilder::SceneBuilder(SceneBuilder&&) noexcept = default;
+SceneBuilder& SceneBuilder::operator=(SceneBuilder&&) noexcept = default;
+
+SceneBuilder& SceneBuilder::material(const std::string& name, const Parameters& parameters) {
+    data_->add(&Data::materials, "materials", name, members_of(parameters));
+    return *this;
+}
+
+SceneBuilder& SceneBuilder::object(const std::string& name, const Parameters& parameters) {
+    data_->add(&Data::objects, "objects", name, members_of(parameters));
+    return *this;
+}
+
+SceneBuilder& SceneBuilder::mesh(const std::string& name, const std::vector<Triple>& vertices,
+                                 const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                 const std::string& material) {
+    data_->add(&Data::objects, "objects", name,
+               {{"shape", 0, {std::string("polygons")}},
+                {"vertices", 0, toml_lists(vertices)},
+                {"faces", 0, toml_lists(triangles)},
+                {"material", 0, {material}}});
+    return *this;
+}
+
+SceneBuilder& SceneBuilder::light(const std::string& name, const Parameters& parameters) {
+    data_->add(&Data::lights, "lights", name, members_of(parameters));
+    return *this;
+}
+
+SceneBuilder& SceneBuilder::sensor(const std::string& name, const Parameters& parameters) {
+    data_->add(&Data::sensors, "sensors", name, members_of(parameters));
+    return *this;
+}
+
+SceneBuilder& SceneBuilder::directory(const std::filesystem::path& path) {
+    data_->directory = path;
+    return *this;
+}
+
+Scene SceneBuilder::build() const {
+    const io::TomlMembers title{{"name", 0, {data_->name}}};
+    const io::TomlMembers root{{"scene", 0, {title}},
+                               {"materials", 0, {data_->materials}},
+                               {"objects", 0, {data_->objects}},
+                               {"lights", 0, {data_->lights}},
+                               {"sensors", 0, {data_->sensors}}};
+    return make_scene(io::read_scene(root, "", data_->directory));
+}
+
+std::vector<std::string> validate(const Scene& scene) {
+    const io::SceneFile& file = scene.data().file;
+    const rays::RayCaster caster(file.scene);
+    const checks::Enclosures enclosures(file.scene, caster);
+    std::vector<std::string> warnings = file.warnings;
+    std::ranges::move(checks::scene_warnings(file.scene, caster, enclosures, file.sensors),
+                      std::back_inserter(warnings));
+    return warnings;
+}
+
+std::vector<std::string> validate(const SceneBuilder& builder) {
+    try {
+        return validate(builder.build());
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+}
+
+}  // namespace stilb::api

@@ -1,0 +1,20 @@
+// What the library's scenes hold.
+#pragma once
+
+#include <filesystem>
+
+#include "io/scene/scene_file.h"
+#include "run/options.h"
+#include "stilb/scene.h"
+
+namespace stilb::api {
+
+struct Scene::Data {
+    io::SceneFile file;
+    std::filesystem::path path;  ///< of the scene file; empty where the scene was made otherwise
+};
+
+/// The options of a run: those given, or those of the scene. Throws InputError where one is wrong.
+RunOptions run_options(const Scene& scene, const std::optional<Options>& options);
+
+}  // namespace stilb::api

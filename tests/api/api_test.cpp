@@ -1,0 +1,233 @@
+// The library as other programs see it: public headers only.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "stilb/stilb.h"
+
+namespace {
+
+constexpr std::string_view kRoom = R"(
+scene.name = "room"
+[materials]
+wall = { type = "diffuse", reflectance = 0.6 }
+floor = { type = "phong", diffuse = [0.2, 0.3, 0.4], specular = 0.3, exponent = 20 }
+[objects]
+room = { shape = "box", min = [0, 0, 0], max = [4, 3, 2.5], material = "wall" }
+floor = { shape = "polygons", vertices = [[0, 0, 0.01], [4, 0, 0.01], [4, 3, 0.01], [0, 3, 0.01]],
+          faces = [[0, 1, 2], [0, 2, 3]], material = "floor" }
+[lights]
+bulb = { type = "point", position = [2, 1.5, 2.3], flux = 800 }
+[sensors]
+desk = { type = "grid", corner = [1, 1, 0.75], edge_u = [1.6, 0, 0], edge_v = [0, 0.8, 0], count = [4, 2] }
+spot = { type = "luminance", position = [1, 1, 1.5], direction = [0, 0, -1] }
+view = { type = "camera", position = [0.3, 0.3, 1.6], target = [2.5, 2, 0.8], fov = 70, resolution = [12, 8] }
+)";
+
+stilb::SceneBuilder room() {
+    stilb::SceneBuilder builder("room");
+    builder.material("wall", {{"type", "diffuse"}, {"reflectance", 0.6}})
+        .material("floor", {{"type", "phong"}, {"diffuse", {0.2, 0.3, 0.4}}, {"specular", 0.3}, {"exponent", 20}})
+        .object("room", {{"shape", "box"}, {"min", {0, 0, 0}}, {"max", {4, 3, 2.5}}, {"material", "wall"}})
+        .mesh("floor", {{0, 0, 0.01}, {4, 0, 0.01}, {4, 3, 0.01}, {0, 3, 0.01}}, {{0, 1, 2}, {0, 2, 3}}, "floor")
+        .light("bulb", {{"type", "point"}, {"position", {2, 1.5, 2.3}}, {"flux", 800}})
+        .sensor("desk", {{"type", "grid"},
+                         {"corner", {1, 1, 0.75}},
+                         {"edge_u", {1.6, 0, 0}},
+                         {"edge_v", {0, 0.8, 0}},
+                         {"count", {4, 2}}})
+        .sensor("spot", {{"type", "luminance"}, {"position", {1, 1, 1.5}}, {"direction", {0, 0, -1}}})
+        .sensor("view", {{"type", "camera"},
+                         {"position", {0.3, 0.3, 1.6}},
+                         {"target", {2.5, 2, 0.8}},
+                         {"fov", 70},
+                         {"resolution", {12, 8}}});
+    return builder;
+}
+
+stilb::Options few_samples() {
+    stilb::Options options;
+    options.samples = 1024;
+    return options;
+}
+
+std::string message_of(const auto& action) {
+    try {
+        action();
+    } catch (const stilb::InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Library, BuiltScenesMeasureWhatReadScenesDo) {
+    const stilb::Result built = stilb::measure(room().build(), few_samples());
+    const stilb::Result read = stilb::measure(stilb::Scene::parse(kRoom), few_samples());
+    ASSERT_EQ(built.sensors.size(), 2u) << "the camera is left out";
+    for (const char* name : {"desk", "spot"}) {
+        const stilb::SensorResult& a = built[name];
+        const stilb::SensorResult& b = read[name];
+        ASSERT_EQ(a.readings.size(), b.readings.size());
+        for (std::size_t i = 0; i < a.readings.size(); ++i) {
+            EXPECT_EQ(a.readings[i].value, b.readings[i].value);
+            EXPECT_GT(a.readings[i].standard_error, 0);
+            EXPECT_LT(a.readings[i].lower, a.readings[i].value);
+            EXPECT_GT(a.readings[i].upper, a.readings[i].value);
+            EXPECT_EQ(a.readings[i].position, b.readings[i].position);
+        }
+    }
+    const stilb::SensorResult& desk = built["desk"];
+    EXPECT_EQ(desk.count, (std::array{4, 2}));
+    EXPECT_EQ(desk.unit, "lx");
+    EXPECT_EQ(desk.type, "grid");
+    EXPECT_NEAR(desk.readings[5].position[0], 1.6, 1e-12);
+    EXPECT_NEAR(desk.readings[5].position[1], 1.6, 1e-12);
+    EXPECT_LT(desk.minimum.value, desk.mean.value);
+    EXPECT_NEAR(desk.uniformity.value, desk.minimum.value / desk.mean.value, 1e-12);
+    EXPECT_EQ(built["spot"].unit, "cd/m2");
+    EXPECT_EQ(built.samples, 1024u);
+    EXPECT_NE(built.json.find("\"desk\""), std::string::npos);
+}
+
+/// The reader's message without the file and line that it begins with.
+std::string readers_message(const std::string& toml) {
+    const std::string message = message_of([&] { stilb::Scene::parse(toml); });
+    const std::size_t line_end = message.find(": ");
+    return message.substr(message.starts_with(':') ? line_end + 2 : 0);
+}
+
+TEST(Library, BuildersHaveTheReadersMessages) {
+    const auto message = [](const char* key, const stilb::Value& value) {
+        return message_of([&] {
+            stilb::SceneBuilder builder;
+            builder.material("wall", {{"type", "diffuse"}, {key, value}}).build();
+        });
+    };
+    const auto expect_same = [&](const char* key, const stilb::Value& value, const std::string& text) {
+        const std::string read =
+            readers_message("materials.wall = { type = \"diffuse\", " + std::string(key) + " = " + text + " }");
+        EXPECT_EQ(message(key, value), read);
+        EXPECT_NE(read, "no error");
+        EXPECT_NE(read.find("materials.wall"), std::string::npos) << read;
+    };
+    expect_same("reflectance", 2, "2");
+    expect_same("reflectance", "white", "\"white\"");
+    expect_same("reflectance", {0.5, 0.5}, "[0.5, 0.5]");
+    expect_same("reflectence", 0.5, "0.5");
+}
+
+TEST(Library, NamesAreGivenOnce) {
+    stilb::SceneBuilder builder = room();
+    EXPECT_NE(message_of([&] { builder.light("bulb", {}); }).find("lights.bulb"), std::string::npos);
+}
+
+TEST(Library, ValidateFindsWhatIsWrongAndWhatIsOdd) {
+    EXPECT_TRUE(validate(room()).empty()) << validate(room()).front();
+    stilb::SceneBuilder wrong = room();
+    wrong.light("spot", {{"type", "point"}, {"position", {2, 1, 1}}});
+    ASSERT_EQ(validate(wrong).size(), 1u);
+    EXPECT_EQ(validate(wrong).front(), message_of([&] { wrong.build(); }));
+
+    stilb::SceneBuilder odd = room();
+    odd.sensor("outside", {{"type", "illuminance"}, {"position", {9, 9, 9}}, {"normal", {0, 0, 1}}});
+    ASSERT_EQ(validate(odd).size(), 1u);
+    EXPECT_NE(validate(odd).front().find("outside"), std::string::npos);
+    EXPECT_EQ(validate(odd.build()), validate(odd));
+}
+
+TEST(Library, OptionsAreThoseOfTheSceneUnlessOthersAreGiven) {
+    const stilb::Scene scene =
+        stilb::Scene::parse(std::string(kRoom) + "[run]\nmethod = \"path\"\npaths = 256\nseed = 7\n");
+    EXPECT_EQ(scene.name(), "room");
+    EXPECT_EQ(scene.sensors(), (std::vector<std::string>{"desk", "spot", "view"}));
+    const stilb::Options options = scene.options();
+    EXPECT_EQ(options.method, "path");
+    EXPECT_EQ(options.samples, 256u);
+    const stilb::Result result = stilb::measure(scene);
+    EXPECT_EQ(result.method, "path");
+    EXPECT_EQ(result.samples, 256u);
+    EXPECT_EQ(result.seed, 7u);
+}
+
+TEST(Library, WrongOptionsAndNamesAreRefused) {
+    const stilb::Scene scene = room().build();
+    stilb::Options options = few_samples();
+    options.method = "pth";
+    EXPECT_NE(message_of([&] { stilb::measure(scene, options); }).find("\"path\""), std::string::npos);
+    options = few_samples();
+    options.patch_m = 0.1;
+    EXPECT_NE(message_of([&] { stilb::measure(scene, options); }).find("patch_m"), std::string::npos);
+    options = few_samples();
+    options.threads = -1;
+    EXPECT_NE(message_of([&] { stilb::measure(scene, options); }).find("threads"), std::string::npos);
+    EXPECT_NE(message_of([&] { stilb::render(scene, "veiw", few_samples()); }).find("\"view\""), std::string::npos);
+    const stilb::Result result = stilb::measure(scene, few_samples());
+    EXPECT_NE(message_of([&] { result["desc"]; }).find("desk"), std::string::npos);
+}
+
+TEST(Library, RunsAreFollowedAndInterrupted) {
+    std::atomic<bool> interrupt{false};
+    int reports = 0;
+    stilb::Control control;
+    control.interrupt = &interrupt;
+    control.report = [&](const stilb::Progress& progress) {
+        ++reports;
+        if (progress.stage.empty()) interrupt = true;
+    };
+    stilb::Options options;
+    options.error = 1e-6;
+    options.time_s = 60;
+    const stilb::Result result = stilb::measure(room().build(), options, control);
+    EXPECT_GT(reports, 0);
+    EXPECT_FALSE(result.converged);
+    EXPECT_LT(result.elapsed_s, 30);
+}
+
+TEST(Library, PicturesHavePixelsAndErrors) {
+    stilb::Options options;
+    options.samples = 16;
+    const stilb::Picture picture = stilb::render(room().build(), "", options);
+    ASSERT_EQ(picture.luminance_cd_m2.size(), 12u * 8u);
+    EXPECT_EQ(picture.width, 12);
+    EXPECT_EQ(picture.rgb_cd_m2.size(), 12u * 8u);
+    EXPECT_EQ(picture.standard_error_cd_m2.size(), 12u * 8u);
+    EXPECT_GT(picture.luminance_cd_m2[50], 0);
+    const auto file = std::filesystem::temp_directory_path() / "stilb_library_test.png";
+    picture.save(file);
+    EXPECT_GT(std::filesystem::file_size(file), 100u);
+    std::filesystem::remove(file);
+    EXPECT_THROW(picture.save("/nowhere/picture.png"), stilb::InputError);
+}
+
+TEST(Library, SolutionsShowWhatRenderingDoes) {
+    const auto folder = std::filesystem::temp_directory_path() / "stilb_library_test";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "room.toml") << kRoom;
+    const stilb::Scene scene = stilb::Scene::load(folder / "room.toml");
+    stilb::Options options;
+    options.samples = 4096;
+    options.patch_m = 0.3;
+    const stilb::Solution solution = stilb::solve(scene, options);
+    const stilb::Picture stored = solution.render("view");
+    options.method = "ray-bundle";
+    options.samples = 64;
+    const stilb::Picture direct = stilb::render(scene, "view", options);
+    double stored_sum = 0, direct_sum = 0;
+    for (std::size_t i = 0; i < stored.luminance_cd_m2.size(); ++i) {
+        stored_sum += stored.luminance_cd_m2[i];
+        direct_sum += direct.luminance_cd_m2[i];
+    }
+    EXPECT_NEAR(stored_sum, direct_sum, 0.05 * direct_sum);
+    EXPECT_EQ(solution.summary().method, "ray-bundle");
+    solution.save(folder / "room.solution");
+    EXPECT_GT(std::filesystem::file_size(folder / "room.solution"), 1000u);
+    std::filesystem::remove_all(folder);
+    EXPECT_NE(message_of([&] { stilb::solve(room().build(), options).save("room.solution"); }).find("built in code"),
+              std::string::npos);
+}
+
+}  // namespace
