@@ -31,9 +31,11 @@ view = { type = "camera", position = [0.3, 0.3, 1.6], target = [2.5, 2, 0.8], fo
 stilb::SceneBuilder room() {
     stilb::SceneBuilder builder("room");
     builder.material("wall", {{"type", "diffuse"}, {"reflectance", 0.6}})
-        .material("floor", {{"type", "phong"}, {"diffuse", {0.2, 0.3, 0.4}}, {"specular", 0.3}, {"exponent", 20}})
+        .material("floor",
+                  {{"type", "phong"}, {"diffuse", {0.2, 0.3, 0.4}}, {"specular", 0.3}, {"exponent", 20}})
         .object("room", {{"shape", "box"}, {"min", {0, 0, 0}}, {"max", {4, 3, 2.5}}, {"material", "wall"}})
-        .mesh("floor", {{0, 0, 0.01}, {4, 0, 0.01}, {4, 3, 0.01}, {0, 3, 0.01}}, {{0, 1, 2}, {0, 2, 3}}, "floor")
+        .mesh("floor", {{0, 0, 0.01}, {4, 0, 0.01}, {4, 3, 0.01}, {0, 3, 0.01}}, {{0, 1, 2}, {0, 2, 3}},
+              "floor")
         .light("bulb", {{"type", "point"}, {"position", {2, 1.5, 2.3}}, {"flux", 800}})
         .sensor("desk", {{"type", "grid"},
                          {"corner", {1, 1, 0.75}},
@@ -108,8 +110,8 @@ TEST(Library, BuildersHaveTheReadersMessages) {
         });
     };
     const auto expect_same = [&](const char* key, const stilb::Value& value, const std::string& text) {
-        const std::string read =
-            readers_message("materials.wall = { type = \"diffuse\", " + std::string(key) + " = " + text + " }");
+        const std::string read = readers_message("materials.wall = { type = \"diffuse\", " +
+                                                 std::string(key) + " = " + text + " }");
         EXPECT_EQ(message(key, value), read);
         EXPECT_NE(read, "no error");
         EXPECT_NE(read.find("materials.wall"), std::string::npos) << read;
@@ -164,7 +166,8 @@ TEST(Library, WrongOptionsAndNamesAreRefused) {
     options = few_samples();
     options.threads = -1;
     EXPECT_NE(message_of([&] { stilb::measure(scene, options); }).find("threads"), std::string::npos);
-    EXPECT_NE(message_of([&] { stilb::render(scene, "veiw", few_samples()); }).find("\"view\""), std::string::npos);
+    EXPECT_NE(message_of([&] { stilb::render(scene, "veiw", few_samples()); }).find("\"view\""),
+              std::string::npos);
     const stilb::Result result = stilb::measure(scene, few_samples());
     EXPECT_NE(message_of([&] { result["desc"]; }).find("desk"), std::string::npos);
 }
@@ -226,7 +229,9 @@ TEST(Library, SolutionsShowWhatRenderingDoes) {
     solution.save(folder / "room.solution");
     EXPECT_GT(std::filesystem::file_size(folder / "room.solution"), 1000u);
     std::filesystem::remove_all(folder);
-    EXPECT_NE(message_of([&] { stilb::solve(room().build(), options).save("room.solution"); }).find("built in code"),
+    EXPECT_NE(message_of([&] {
+                  stilb::solve(room().build(), options).save("room.solution");
+              }).find("built in code"),
               std::string::npos);
 }
 

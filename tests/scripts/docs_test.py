@@ -105,5 +105,12 @@ class ExampleTest(unittest.TestCase):
         self.assertEqual(keys(json.loads(patches)), keys(result["patches"]))
 
 
+class LibraryTest(unittest.TestCase):
+    def test_the_example_is_the_one_that_is_built(self):
+        page, example = ROOT / "docs/library.md", ROOT / "examples/library"
+        self.assertEqual(blocks(page, "cpp"), [(example / "main.cpp").read_text()])
+        self.assertEqual(blocks(page, "cmake"), [(example / "CMakeLists.txt").read_text()])
+
+
 if __name__ == "__main__":
     unittest.main()
