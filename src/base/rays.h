@@ -10,10 +10,10 @@
 #include "base/vec.h"
 
 // Sanitizers instrument the code that picks, which runs before they are ready.
-#if defined(__SANITIZE_ADDRESS__) || defined(__clang__)
-#define STILB_VECTORIZED
-#else
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
 #define STILB_VECTORIZED __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define STILB_VECTORIZED
 #endif
 
 namespace stilb {

@@ -1,17 +1,11 @@
-// HarmonicCells::verdicts(): crossing() in single precision with bounds of its errors, in a loop that
+// HarmonicCells::classifications(): crossing() in single precision with bounds of its errors, in a loop that
 // compilers turn into vector instructions. So it has no branches, and no conditions but comparisons of two
 // numbers.
 #include <cmath>
 #include <limits>
 
+#include "base/rays.h"
 #include "geometry/harmonics/cells.h"
-
-// Compiled for several kinds of processors; the best that the machine knows is taken.
-#if defined(__x86_64__) && !defined(__clang__)
-#define STILB_FOR_ALL_PROCESSORS __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define STILB_FOR_ALL_PROCESSORS
-#endif
 
 namespace stilb::geometry {
 namespace {
@@ -60,6 +54,7 @@ struct HarmonicCells::FloatCell {
 
     FloatCell(const Outline& cell, const Span& column, const Span& row, const PacketPlacement& placement);
     Classification classification(const Vec3f& origin, const Vec3f& direction, float start, float end) const;
+    LaneVerdicts classifications(const RayPacket& rays) const;
 };
 
 HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, const Span& row,
@@ -128,18 +123,20 @@ HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, con
     return doubt < most_doubt ? sure : Classification::unclear;
 }
 
-STILB_FOR_ALL_PROCESSORS
-LaneVerdicts HarmonicCells::classifications(std::size_t number, const RayPacket& rays,
-                                            const PacketPlacement& placement) const {
-    const Outline& outline = outlines_[number];
-    const FloatCell cell(outline, spans_[outline.column], spans_[outline.row], placement);
+STILB_VECTORIZED LaneVerdicts HarmonicCells::FloatCell::classifications(const RayPacket& rays) const {
     LaneVerdicts classifications;
     for (std::size_t n = 0; n < kPacketWidth; ++n) {
-        classifications[n] = cell.classification(
+        classifications[n] = classification(
             {rays.origin_x[n], rays.origin_y[n], rays.origin_z[n]},
             {rays.direction_x[n], rays.direction_y[n], rays.direction_z[n]}, rays.start[n], rays.end[n]);
     }
     return classifications;
+}
+
+LaneVerdicts HarmonicCells::classifications(std::size_t number, const RayPacket& rays,
+                                            const PacketPlacement& placement) const {
+    const Outline& outline = outlines_[number];
+    return FloatCell(outline, spans_[outline.column], spans_[outline.row], placement).classifications(rays);
 }
 
 }  // namespace stilb::geometry
