@@ -1,11 +1,10 @@
 #include "papers/first_shot_convergence.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "base/parallel.h"
 #include "estimators/patch_light/patch_readings.h"
 #include "estimators/patch_light/patch_transport.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
@@ -58,7 +57,7 @@ double difference(const std::vector<estimators::FloatRgb>& sides,
 std::vector<estimators::FloatRgb> reference_of(const estimators::PatchTransport& transport,
                                                const estimators::VisibleSides& seen) {
     std::array<std::vector<estimators::FloatRgb>, kReferenceWalks> sums;
-    tbb::parallel_for(std::uint64_t{0}, kReferenceWalks, [&](std::uint64_t walk) {
+    parallel_for(kReferenceWalks, [&](std::uint64_t walk) {
         sums[walk].resize(seen.count());
         estimators::BundleIteration iteration(transport, math::RandomKey{kReference}.derived(walk));
         for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();

@@ -1,6 +1,5 @@
 // Error of ray-bundle iteration over the rays that it takes, for each way to draw directions (theory 8).
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 #include "io/text/table.h"
 #include "papers/reproduce.h"
@@ -62,8 +62,7 @@ std::vector<WalkSums> walk(const estimators::PatchTransport& transport, math::Ra
 std::vector<std::vector<WalkSums>> walks(const estimators::PatchTransport& transport, math::RandomKey key,
                                          std::uint64_t count) {
     std::vector<std::vector<WalkSums>> all(count);
-    tbb::parallel_for(std::uint64_t{0}, count,
-                      [&](std::uint64_t i) { all[i] = walk(transport, key.derived(i)); });
+    parallel_for(count, [&](std::uint64_t i) { all[i] = walk(transport, key.derived(i)); });
     return all;
 }
 

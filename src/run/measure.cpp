@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/parallel.h"
 #include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "run/level_of_detail.h"
@@ -66,7 +66,7 @@ class Campaign final : public Work {
     /// The same next samples of every replicate. Each replicate's sums are its task's own: nothing depends on
     /// threads.
     bool advance(std::uint64_t count, const std::atomic<bool>*) override {
-        tbb::parallel_for(std::size_t{0}, sums_.size(), [&](std::size_t r) {
+        parallel_for(sums_.size(), [&](std::size_t r) {
             estimator_.run_batch({keys_[r], samples_, count}, sums_[r]);
         });
         samples_ += count;
@@ -280,7 +280,8 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kPreparation));
     problem.measurands = wanted.measurands;
     problem.weights = wanted.weights;
-    const auto estimator = session.on_threads([&] { return method.make(problem); });
+    std::unique_ptr<estimators::Estimator> estimator;
+    session.on_threads([&] { estimator = method.make(problem); });
     Campaign campaign(*estimator, sensors, wanted.measurands.size(), options.replicates, options.seed);
     RunResult result;
     session.on_threads([&] {

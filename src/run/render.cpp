@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/parallel.h"
 #include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "estimators/patch_light/patch_solution.h"
@@ -160,7 +160,7 @@ class Passes final : public Work {
         const std::vector<estimators::PixelBlock> blocks = estimators::blocks_of(resolution_, offset_of(p));
         const auto started = estimator_.start(pass);
         const auto is_interrupted = [&] { return interrupt && *interrupt; };
-        tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+        parallel_for(blocks.size(), [&](std::size_t b) {
             if (!is_interrupted()) sample(blocks[b], *started);
         });
         if (is_interrupted()) return false;

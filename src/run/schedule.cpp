@@ -1,7 +1,5 @@
 #include "run/schedule.h"
 
-#include <tbb/info.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -90,9 +88,7 @@ Session::Session(const Scene& scene, const RunOptions& asked, const RunOptions& 
       interrupt_(interrupt),
       monitor_(interrupt, deadline_of(asked), report_to(sink, clock_)),
       caster_(scene),
-      threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
-      parallelism_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
-      arena_(threads_) {}
+      pool_(options.threads) {}
 
 estimators::Problem Session::problem(math::RandomKey preparation_key) const {
     return {.scene = scene_,

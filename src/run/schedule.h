@@ -2,15 +2,14 @@
 // schedule, which advances some work until a rule says stop.
 #pragma once
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "base/monitor.h"
+#include "base/parallel.h"
 #include "estimators/estimator.h"
 #include "run/options.h"
 #include "run/result.h"
@@ -104,10 +103,7 @@ class Session {
     estimators::Problem problem(math::RandomKey preparation_key) const;
 
     /// Calls `action` where its parallel loops take as many threads as the user asks for.
-    template <typename Action>
-    auto on_threads(const Action& action) {
-        return arena_.execute(action);
-    }
+    void on_threads(const std::function<void()>& action) { pool_.execute(action); }
 
     /// Advances the work until a rule says stop: sets samples, stop_reason, converged and attained_error.
     void run(Work& work, RunSummary& summary);
@@ -123,9 +119,7 @@ class Session {
     const std::atomic<bool>* interrupt_;
     Monitor monitor_;
     rays::RayCaster caster_;
-    int threads_;
-    tbb::global_control parallelism_;
-    tbb::task_arena arena_;
+    ThreadPool pool_;
 };
 
 }  // namespace stilb::run

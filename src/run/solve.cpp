@@ -1,12 +1,12 @@
 #include "run/solve.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
 #include <memory>
 
+#include "base/parallel.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/incoming_light.h"
 #include "run/schedule.h"
@@ -32,7 +32,7 @@ class Walks final : public Work {
         : transport_(transport), layout_(layout), walks_(kReplicates) {
         const std::uint64_t dark = first_steps(transport);
         Stage stage(monitor, "first steps", kReplicates * dark);
-        tbb::parallel_for(std::size_t{0}, kReplicates, [&](std::size_t w) {
+        parallel_for(kReplicates, [&](std::size_t w) {
             walks_[w] = std::make_unique<Walk>(transport, layout, math::RandomKey{seed}.derived(w));
             for (std::uint64_t i = 0; i < dark; ++i) {
                 walks_[w]->iteration.step();
@@ -54,7 +54,7 @@ class Walks final : public Work {
     std::uint64_t most_at_once() const override { return kStepsAtOnce; }
 
     bool advance(std::uint64_t steps, const std::atomic<bool>*) override {
-        tbb::parallel_for(std::size_t{0}, kReplicates, [&](std::size_t w) {
+        parallel_for(kReplicates, [&](std::size_t w) {
             for (std::uint64_t i = 0; i < steps; ++i) {
                 walks_[w]->iteration.step();
                 walks_[w]->sums.add(walks_[w]->iteration);

@@ -78,7 +78,7 @@ class CheckIncludes(unittest.TestCase):
             "cairo-svg.h": ("plot/canvas.cpp", "plot/plot.cpp"),
             "CLI/CLI.hpp": ("cli/command_line.cpp", "cli/measure.cpp"),
             "nlohmann/json.hpp": ("io/results/results_json.cpp", "estimators/path/path.cpp"),
-            "tbb/parallel_for.h": ("run/run.cpp", "rays/ray_caster.cpp"),
+            "tbb/parallel_for.h": ("base/parallel.cpp", "rays/ray_caster.cpp"),
             "boost/math/distributions/normal.hpp": ("statistics/interval.cpp", "scene/scene.cpp"),
             "Random123/philox.h": ("math/random.cpp", "estimators/path.cpp"),
         }

@@ -20,12 +20,12 @@
 //
 // Not made: light that leaves a point-like source, meets a mirror or glass first and comes to the receiver by
 // a mirror or glass last; the run warns of it.
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <limits>
 
+#include "base/parallel.h"
 #include "estimators/camera_paths.h"
 #include "estimators/estimator_list.h"
 #include "estimators/limits.h"
@@ -397,7 +397,7 @@ class LocalPicture {
                                kChainsPerSelected};
         const Pass pass{key.derived(kPlan), 0};
         std::atomic<std::size_t> done = 0;
-        tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) {
+        parallel_for(cells.size(), [&](std::size_t c) {
             problem.monitor.report("planning",
                                    static_cast<double>(done++) / static_cast<double>(cells.size()));
             std::vector<Pixel> pixels;

@@ -1,7 +1,5 @@
 #include "estimators/local/split_plan.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -10,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/parallel.h"
 #include "estimators/local/connection.h"
 #include "math/sampling.h"
 #include "transport/weights.h"
@@ -278,7 +277,7 @@ std::vector<ReceiverModel> model_receivers(const rays::RayCaster& caster, const 
     std::vector<ReceiverModel> models(receivers.size());
     const std::size_t packets = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+    parallel_for(packets, [&](std::size_t p) {
         monitor.report("planning", static_cast<double>(done++) / static_cast<double>(packets));
         const std::size_t first = p * kPacketWidth;
         const std::size_t count = std::min<std::size_t>(kPacketWidth, receivers.size() - first);

@@ -1,11 +1,10 @@
 #include "estimators/patch_light/patch_solution.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <span>
 #include <utility>
 
+#include "base/parallel.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/first_shot/variants.h"
 #include "estimators/patch_light/incoming_light.h"
@@ -120,7 +119,7 @@ class SolutionPicture final : public Estimator {
         std::vector<Seen> seen;
         sides.for_each([&](std::uint32_t side, const Vec3& out) { seen.push_back({side, out}); });
         std::ranges::fill(replicates_cd_m2_, std::vector<FloatRgb>(sides.count()));
-        tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
+        parallel_for(seen.size(), [&](std::size_t i) {
             const auto& [side, out] = seen[i];
             const std::vector<FloatRgb> factors = reflection_factors(transport_, layout, side, out);
             for (std::size_t r = 0; r < replicates.size(); ++r) {

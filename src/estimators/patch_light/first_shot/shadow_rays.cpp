@@ -1,12 +1,12 @@
 
 #include "estimators/patch_light/first_shot/shadow_rays.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <functional>
+
+#include "base/parallel.h"
 
 namespace stilb::estimators {
 
@@ -123,17 +123,17 @@ std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, cons
     // Of four pixels in the middle of a cube's face, where they are largest.
     const double small_sr = 16. / (static_cast<double>(resolution) * resolution);
     const LineOfSightFollower follower(scene, caster, patches, samples, factors, small_sr);
-    using Range = tbb::blocked_range<std::uint32_t>;
-    return tbb::parallel_reduce(
-        Range(0, static_cast<std::uint32_t>(2 * patches.count())), std::size_t{0},
-        [&](const Range& sides, std::size_t count) {
-            monitor.report("first shot: sides without pixels",
-                           static_cast<double>(sides.begin()) / static_cast<double>(2 * patches.count()));
-            for (std::uint32_t side = sides.begin(); side != sides.end(); ++side)
-                count += follower.missed(side);
-            return count;
-        },
-        std::plus<>());
+    const std::size_t sides = 2 * patches.count();
+    constexpr std::size_t chunk = 256;
+    std::atomic<std::size_t> count = 0;
+    parallel_for((sides + chunk - 1) / chunk, [&](std::size_t number) {
+        const std::size_t begin = number * chunk, end = std::min(begin + chunk, sides);
+        monitor.report("first shot: sides without pixels",
+                       static_cast<double>(begin) / static_cast<double>(sides));
+        for (std::size_t side = begin; side < end; ++side)
+            count += follower.missed(static_cast<std::uint32_t>(side));
+    });
+    return count;
 }
 
 }  // namespace stilb::estimators

@@ -2,7 +2,6 @@
 #include "estimators/patch_light/first_shot/variants.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/parallel.h"
 #include "stilb/error.h"
 
 namespace stilb::estimators {
@@ -61,7 +61,7 @@ ClassicalFirstShot::ClassicalFirstShot(const Scene& scene, const patches::Patche
         first_.push_back(first_.back() + (is_dark ? 0 : reflects_alike(material) ? 1 : bins_.count()));
     }
     radiance_cd_m2_.resize(first_.back());
-    tbb::parallel_for(0u, sides, [&](std::uint32_t side) { store(side, incoming); });
+    parallel_for(sides, [&](std::size_t side) { store(static_cast<std::uint32_t>(side), incoming); });
 }
 
 void ClassicalFirstShot::store(std::uint32_t side, const IncomingFirstShot& incoming) {

@@ -3,13 +3,12 @@
 // the map of some particles.
 #include "estimators/patch_light/particles/particles.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/patch_readings.h"
@@ -137,7 +136,7 @@ class Particles final : public Estimator {
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         const math::RandomKey key = pass.key.derived(kWalks);
         std::array<std::vector<FloatRgb>, kMaps> maps;
-        tbb::parallel_for(std::uint64_t{0}, kMaps, [&](std::uint64_t i) {
+        parallel_for(kMaps, [&](std::uint64_t i) {
             IlluminationMap map(transport_);
             map.add(key, (pass.index * kMaps + i) * particles_, particles_);
             maps[i] = map.reflected_cd_m2();

@@ -6,13 +6,13 @@
 #include "estimators/patch_light/radiosity/radiosity.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/patch_readings.h"
@@ -153,7 +153,7 @@ constexpr std::uint64_t kBlocks = 32, kSamplesOfABlock = 128;
 ReadingSums sum_readings(const PatchReadings& readings, const PatchLight& light, const Monitor& monitor) {
     std::vector<ReadingSums> blocks(kBlocks, ReadingSums(readings.known_part().size()));
     std::atomic<std::uint64_t> done = 0;
-    tbb::parallel_for(std::uint64_t{0}, kBlocks, [&](std::uint64_t block) {
+    parallel_for(kBlocks, [&](std::uint64_t block) {
         monitor.report("readings", static_cast<double>(done++) / kBlocks);
         for (std::uint64_t i = 0; i < kSamplesOfABlock; ++i) {
             readings.add(light, math::RandomKey{}, block * kSamplesOfABlock + i, blocks[block]);

@@ -1,12 +1,12 @@
 // Stochastic iteration with ray bundles and first shot: bundle_iteration.h has the iteration,
 // patch_readings.h and patch_picture.h what is made of it. For readings each batch is a walk of its own,
 // which leaves out its first steps; a pass over a picture is the mean over the steps of some walks.
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
+#include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/patch_readings.h"
@@ -73,7 +73,7 @@ class RayBundle final : public Estimator {
         const std::uint64_t first = first_steps(transport_), steps = std::max(first, kLeastSteps);
         const math::RandomKey key = pass.key.derived(kWalkOfPass).derived(pass.index);
         std::array<std::vector<FloatRgb>, kWalks> sums;
-        tbb::parallel_for(std::uint64_t{0}, kWalks, [&](std::uint64_t walk) {
+        parallel_for(kWalks, [&](std::uint64_t walk) {
             sums[walk].resize(seen_->count());
             BundleIteration iteration(transport_, key.derived(walk));
             for (std::uint64_t i = 0; i < first; ++i) iteration.step();
