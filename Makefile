@@ -61,7 +61,7 @@ format-check: setup-lint ## fail where a source is not in the project's format
 
 lint: setup-lint ## clang-tidy, and the directions of includes
 	@scripts/check-includes
-	@cmake --preset release -B build/lint -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+	@cmake --preset release -B build/lint -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSTILB_UNITY=OFF
 	@run-clang-tidy-14 -quiet -j $(JOBS) -p build/lint '^$(CURDIR)/(src|experiments)/'
 
 odr: setup ## link with link-time optimisation: fails where two files define one name in two ways

@@ -1,8 +1,31 @@
 #include "materials/material.h"
 
+#include <type_traits>
+
 #include <fmt/format.h>
 
 namespace stilb::materials {
+namespace {
+
+/// Stops the compiler at the first alternative that is no Model, and lets it name what is missing.
+template <typename M>
+consteval bool is_model() {
+    static_assert(Described<M>);
+    if constexpr (requires { &M::branches; }) {
+        static_assert(Specular<M>);
+    } else {
+        static_assert(Scattering<M>);
+    }
+    static_assert(Model<M>);
+    return true;
+}
+template <typename... Models>
+consteval bool are_models(std::type_identity<std::variant<Models...>>) {
+    return (is_model<Models>() && ...);
+}
+static_assert(are_models(std::type_identity<Material>{}));
+
+}  // namespace
 
 std::optional<std::string> contradiction_of_shares(const Rgb& diffuse, const Rgb& specular) {
     constexpr double rounding = 1e-12;  // 0.7 + 0.3 need not be 1 to the last bit

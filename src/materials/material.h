@@ -26,24 +26,6 @@ namespace stilb::materials {
 using Material =
     std::variant<Diffuse, Phong, RoughConductor, Ward, Plastic, Mirror, Dielectric, ThinDielectric, Black>;
 
-/// Stops the compiler at the first alternative that is no Model, and lets it name what is missing.
-template <typename M>
-consteval bool is_model() {
-    static_assert(Described<M>);
-    if constexpr (requires { &M::branches; }) {
-        static_assert(Specular<M>);
-    } else {
-        static_assert(Scattering<M>);
-    }
-    static_assert(Model<M>);
-    return true;
-}
-template <typename... Models>
-consteval bool are_models(std::type_identity<std::variant<Models...>>) {
-    return (is_model<Models>() && ...);
-}
-static_assert(are_models(std::type_identity<Material>{}));
-
 /// Calls `visit.template operator()<M>()` for every model M, in order.
 template <typename Visit>
 void for_each_model(const Visit& visit) {
