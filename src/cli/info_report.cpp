@@ -26,8 +26,8 @@ Json parameter_json(const std::array<double, count>& values) {
     return values;
 }
 
-/// The parameters that a type lists. Of a colour the luminance; of "reflectance", which is stated before, the
-/// bands.
+/// The listed parameters of a material type. A colour is given by its luminance; "reflectance", which is
+/// stated before, by its bands.
 template <typename Parameters>
 void add_parameters(Json& json, const Parameters& parameters) {
     for_each_field<Parameters>([&](const auto& field) {
@@ -157,7 +157,7 @@ std::size_t mesh_bytes(const Scene& scene) {
     return bytes;
 }
 
-/// The most memory that this process has had so far.
+/// The peak memory of this process so far.
 std::size_t peak_resident_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

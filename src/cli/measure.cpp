@@ -1,4 +1,4 @@
-// stilb measure: all sensors of a scene.
+// stilb measure: readings of all sensors of a scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,22 +34,20 @@ const Sensor& sensor_named(const std::string& name, const std::vector<Sensor>& a
     if (found != all.end()) return *found;
     std::vector<std::string_view> known;
     for (const Sensor& sensor : all) known.push_back(sensor.name);
-    const std::string nearest = nearest_name(name, known);
     throw InputError(fmt::format("--sensor {}: there is no such sensor.{} Sensors: {}.", name,
-                                 nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
-                                 fmt::join(known, ", ")),
+                                 did_you_mean(name, known), fmt::join(known, ", ")),
                      {file});
 }
 
 bool is_camera(const Sensor& sensor) { return sensor.camera() != nullptr; }
 
-/// All sensors but cameras.
+/// All sensors except cameras.
 std::vector<Sensor> measured_sensors(const std::vector<Sensor>& all, const std::string& file) {
     std::vector<Sensor> measured;
     std::remove_copy_if(all.begin(), all.end(), std::back_inserter(measured), is_camera);
     if (measured.empty() && !all.empty()) {
         throw InputError(
-            "no sensor to measure: all are cameras, and these make pictures. Use `stilb render`, or add "
+            "no sensor to measure: all sensors are cameras, which make pictures. Use `stilb render`, or add "
             "another sensor.",
             {file});
     }
@@ -64,8 +62,8 @@ std::vector<Sensor> chosen_sensors(const std::vector<Sensor>& all, const std::ve
         chosen.push_back(sensor_named(name, all, file));
         if (is_camera(chosen.back())) {
             throw InputError(
-                fmt::format("--sensor {}: this is a camera, which makes a picture. Use `stilb render`.",
-                            name),
+                fmt::format(
+                    "--sensor {}: this sensor is a camera, which makes a picture. Use `stilb render`.", name),
                 {file});
         }
     }
@@ -100,7 +98,8 @@ int run_measure(const MeasureRequest& request) {
 }  // namespace
 
 void add_measure(CommandLine& line) {
-    Command command = line.add_command("measure", "Illuminance at all sensors of a scene, with error bars");
+    Command command = line.add_command(
+        "measure", "Measure illuminance and luminance at all sensors of a scene, with error bars");
     command.set_examples(
         "  stilb measure office.toml\n"
         "  stilb measure office.toml --error 0.5% --sensor desk\n"
@@ -108,13 +107,14 @@ void add_measure(CommandLine& line) {
         "  stilb measure office.toml --csv results --falsecolor office.png\n");
     auto request = std::make_shared<MeasureRequest>();
     command.add("SCENE", request->scene, "Scene file (TOML)").required();
-    command.add("--sensor", request->sensors, "Only this sensor (may be repeated)")
+    command.add("--sensor", request->sensors, "Measure only this sensor (may be repeated)")
         .value_name("NAME")
         .repeatable();
     command.add("--json", request->json, "One JSON document on stdout instead of the table");
-    command.add("--csv", request->csv_directory, "Also a CSV file per sensor into this folder")
+    command.add("--csv", request->csv_directory, "Write also a CSV file per sensor into this folder")
         .value_name("DIR");
-    command.add("--falsecolor", request->picture, "Also a false-colour picture of the grids (.png, .svg)")
+    command
+        .add("--falsecolor", request->picture, "Write also a false-colour picture of the grids (.png, .svg)")
         .value_name("FILE");
     request->flags.add_to(command);
     command.run([request] { return run_measure(*request); });

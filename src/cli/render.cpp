@@ -1,4 +1,4 @@
-// stilb render: a picture of one camera.
+// stilb render: a luminance picture of one camera.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,15 +46,14 @@ Sensor chosen_camera(const io::SceneFile& file, const RenderRequest& request) {
     const std::string list = fmt::format("{}", fmt::join(names, ", "));
     if (request.sensor.empty()) {
         if (cameras.size() == 1) return cameras.front();
-        throw InputError(fmt::format("several cameras: {}. Choose one with --sensor.", list),
+        throw InputError(fmt::format("the scene has several cameras: {}. Choose one with --sensor.", list),
                          {request.scene});
     }
     for (const Sensor& camera : cameras) {
         if (camera.name == request.sensor) return camera;
     }
-    const std::string nearest = nearest_name(request.sensor, names);
     throw InputError(fmt::format("--sensor {}: there is no such camera.{} Cameras: {}.", request.sensor,
-                                 nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest), list),
+                                 did_you_mean(request.sensor, names), list),
                      {request.scene});
 }
 
@@ -103,17 +102,18 @@ void print_summary(const RenderResult& result, const Sensor& sensor) {
     if (result.patches) fmt::print("{}", patch_text(*result.patches));
 }
 
-/// What is computed otherwise than from a solution would not be in the picture.
+/// Refuses flags of the light computation, which a stored solution cannot follow.
 void require_no_run_flags(const RunFlags& flags) {
     const std::vector<std::string_view> given = flags.given();
     if (given.empty()) return;
-    throw InputError(fmt::format(
-        "{} means nothing with --from, where the light is known. `stilb solve` takes such flags, but for "
-        "--method and --bounces.",
-        given.front()));
+    throw InputError(
+        fmt::format("{} has no effect with --from, which takes the light from the solution. Give it to "
+                    "`stilb solve` (which has no "
+                    "--method and --bounces).",
+                    given.front()));
 }
 
-/// The solution that --from names; its scene becomes that of the request, unless one is given.
+/// Reads the solution named by --from. Its scene becomes the request's scene unless one is given.
 io::StoredSolution read_solution_for(RenderRequest& request) {
     require_no_run_flags(request.flags);
     io::StoredSolution stored = io::read_solution_file(request.solution);
@@ -133,13 +133,15 @@ io::StoredSolution read_solution_for(RenderRequest& request) {
 void require_same_light(const io::StoredSolution& stored, const io::SceneFile& file,
                         const RenderRequest& request) {
     if (io::light_hash(file.sources) == stored.light_hash) return;
-    throw InputError(fmt::format("materials, objects or lights of '{0}', or files that it refers to, changed "
-                                 "since it was solved (sensors may). Solve it again: stilb solve {0} -o {1}",
-                                 request.scene, request.solution),
-                     {request.solution});
+    throw InputError(
+        fmt::format(
+            "materials, objects or lights of '{0}', or files that it refers to, have changed "
+            "since the scene was solved (only sensors may change). Solve it again: stilb solve {0} -o {1}",
+            request.scene, request.solution),
+        {request.solution});
 }
 
-/// Everything between the request and the picture: the light is computed, or known where there is `stored`.
+/// Computes the picture, from the stored solution where there is one.
 RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, const Sensor& sensor,
                       std::optional<io::StoredSolution> stored, io::PictureOrigin& origin) {
     if (stored) {
@@ -161,7 +163,9 @@ int run_render(RenderRequest request) {
     std::optional<io::StoredSolution> stored;
     if (!request.solution.empty()) stored = read_solution_for(request);
     if (request.scene.empty()) {
-        throw InputError("which scene? stilb render SCENE -o FILE, or a solution: --from FILE.");
+        throw InputError(
+            "the scene is missing. Give a scene (stilb render SCENE -o FILE) or a solution (stilb render "
+            "--from FILE -o FILE).");
     }
     const io::SceneFile file = io::read_scene_file(request.scene);
     if (stored) require_same_light(*stored, file, request);
@@ -190,28 +194,31 @@ int run_render(RenderRequest request) {
 }  // namespace
 
 void add_render(CommandLine& line) {
-    Command command = line.add_command("render", "A luminance picture of one camera, with standard errors");
+    Command command =
+        line.add_command("render", "Render a luminance picture of one camera, with standard errors");
     command.set_examples(
         "  stilb render office.toml -o office.exr\n"
         "  stilb render office.toml -o office.png --time 20 --sensor desk\n"
         "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n"
         "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<RenderRequest>();
-    command.add("SCENE", request->scene, "Scene file (TOML); with --from only where it has moved");
+    command.add("SCENE", request->scene, "Scene file (TOML); with --from only if it has moved");
     command
         .add("--from", request->solution,
-             "A solution that `stilb solve` wrote: nothing is computed but what the eye sees of it")
+             "Take the light from this solution (written by `stilb solve`); only the view is computed")
         .value_name("FILE");
     command.add("-o,--output", request->output, "Picture to write: .exr, .hdr or .png")
         .required()
         .value_name("FILE");
-    command.add("--sensor", request->sensor, "Which camera, where there are several").value_name("NAME");
+    command.add("--sensor", request->sensor, "The camera, if the scene has several").value_name("NAME");
     command
-        .add("--preview", request->preview, "Also the picture so far, every few seconds (.exr, .hdr or .png)")
+        .add("--preview", request->preview,
+             "Write also the unfinished picture every few seconds (.exr, .hdr or .png)")
         .value_name("FILE");
     command
         .add("--exposure", request->tone.exposure,
-             "For .png, per cd/m2: 0.18 over this becomes middle grey (default: by the picture)")
+             "Exposure of a .png per cd/m2: a luminance of 0.18 / exposure becomes middle grey (default: by "
+             "the picture)")
         .above_zero()
         .value_name("E");
     request->flags.add_to(command);

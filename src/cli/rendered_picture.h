@@ -1,4 +1,4 @@
-// What was rendered, as a picture to be written.
+// Rendered results as pictures to be written.
 #pragma once
 
 #include "io/image/picture.h"
@@ -6,9 +6,9 @@
 
 namespace stilb::cli {
 
-/// Of a picture that is not finished.
+/// The picture of an unfinished rendering.
 io::Picture picture_of(const Pixels& pixels, const Camera& camera, const io::PictureOrigin& origin);
-/// Of a finished one, with normals and depth; how it went is added to the origin.
+/// The finished picture with normals and depth. The run's method, samples and time are added to the origin.
 io::Picture picture_of(const RenderResult& result, const Camera& camera, io::PictureOrigin origin);
 
 }  // namespace stilb::cli

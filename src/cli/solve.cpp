@@ -1,4 +1,4 @@
-// stilb solve: the light of a scene for all eyes at once, as a file.
+// stilb solve: the view-independent light of a scene, as a file.
 #include "run/solve.h"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ io::StoredSolution stored(SolveResult& result, const io::SceneFile& file, const 
 }
 
 void print_summary(const SolveResult& result, const io::StoredSolution& stored, const std::string& output) {
-    fmt::print("{}: {} sides with light, {:.1f} MB\n", output, stored.solution.lit_sides.size(),
+    fmt::print("{}: {} lit sides of patches, {:.1f} MB\n", output, stored.solution.lit_sides.size(),
                1e-6 * static_cast<double>(std::filesystem::file_size(output)));
     fmt::print("95 % of the light falls on sides with a 95 % interval within {:.2g} % of their illuminance\n",
                100 * result.attained_error);
@@ -74,7 +74,7 @@ int run_solve(const SolveRequest& request) {
 
 void add_solve(CommandLine& line) {
     Command command = line.add_command(
-        "solve", "The light of a scene for all eyes at once, as a file that render --from makes pictures of");
+        "solve", "Compute the light of a scene independently of the view, for pictures by render --from");
     command.set_examples(
         "  stilb solve office.toml -o office.solution\n"
         "  stilb solve office.toml -o office.solution --error 0.5% --patch 0.1\n"
@@ -84,9 +84,10 @@ void add_solve(CommandLine& line) {
     command.add("-o,--output", request->output, "Solution to write").required().value_name("FILE");
     command
         .add("--degree", request->degree,
-             fmt::format("Of the functions that keep the light of glossy surfaces (default: {}): "
-                         "more are sharper, and take more room",
-                         run::kDefaultDegree))
+             fmt::format(
+                 "Degree of the directional basis that stores the light on glossy surfaces (default: {}): "
+                 "a higher one is sharper and takes more memory",
+                 run::kDefaultDegree))
         .from_to(0, math::ZernikeBasis::kMostDegree)
         .value_name("N");
     request->flags.add_those_of_one_method(command);
@@ -95,7 +96,8 @@ void add_solve(CommandLine& line) {
         "their "
         "illuminance: 1% or 0.01");
     command.find("--paths").description("Stop after this many steps of ray-bundle iteration");
-    command.find("--first-shot").description("What stands for small lights: incoming (default), none");
+    command.find("--first-shot")
+        .description("First shot that replaces small lights: incoming (default) or none");
     command.run([request] { return run_solve(*request); });
 }
 

@@ -89,9 +89,7 @@ const EstimatorEntry& find_estimator(std::string_view name) {
         if (entry.name == name) return entry;
         names.push_back(entry.name);
     }
-    const std::string nearest = nearest_name(name, names);
-    throw InputError(fmt::format("unknown method \"{}\".{} Methods: {}.", name,
-                                 nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
+    throw InputError(fmt::format("unknown method \"{}\".{} Methods: {}.", name, did_you_mean(name, names),
                                  fmt::join(names, ", ")));
 }
 

@@ -211,11 +211,11 @@ TEST(PlyFile, broken_headers) {
                    ":2: the header has no format line; it needs one, such as: format ascii 1.0");
     expect_refusal("ply\nformat binary_littel_endian 1.0\n",
                    ":2: the format is \"binary_littel_endian\"; it must be ascii, "
-                   "binary_little_endian or binary_big_endian; did you mean binary_little_endian?");
+                   "binary_little_endian or binary_big_endian. Did you mean \"binary_little_endian\"?");
     expect_refusal("ply\nformat ascii 2.0\n", ":2: the format's version is \"2.0\"; it must be 1.0");
     expect_refusal("ply\nformat ascii 1.0\nelemnt vertex 3\n",
                    ":3: the header says \"elemnt\"; allowed are format, element, property, comment, obj_info "
-                   "and end_header; did you mean element?");
+                   "and end_header. Did you mean \"element\"?");
     const std::string count = "; it must be a whole number, 0 or more: element NAME COUNT";
     for (const std::string wrong : {"-1", "3.5", "many", "99999999999999999999"})
         expect_refusal("ply\nformat ascii 1.0\nelement vertex " + wrong,
@@ -225,10 +225,10 @@ TEST(PlyFile, broken_headers) {
     expect_refusal("ply\nformat ascii 1.0\nproperty float x\n",
                    ":3: a property stands before any element; an element line must come first");
     const std::string types =
-        "; allowed are char, uchar, short, ushort, int, uint, float, double, and int8 to float64";
+        "; allowed are char, uchar, short, ushort, int, uint, float, double, and int8 to float64.";
     const std::string start = "ply\nformat ascii 1.0\nelement vertex 1\n";
     expect_refusal(start + "property flaot x\n",
-                   ":4: the property's type is \"flaot\"" + types + "; did you mean float?");
+                   ":4: the property's type is \"flaot\"" + types + " Did you mean \"float\"?");
     expect_refusal(start + "property list uchar quaternion x\n",
                    ":4: the property's type is \"quaternion\"" + types);
     expect_refusal(

@@ -196,7 +196,7 @@ TEST(SceneLights, RefusesAreaLightsWithoutTheirObject) {
         light("type = \"area\"\nobject = \"pannel\"\nflux = 1"),
         "s.toml:11: lights.a.object: unknown object \"pannel\". Did you mean \"panel\"? Allowed: panel.");
     EXPECT_REFUSAL("[lights.a]\ntype = \"area\"\nobject = \"panel\"\nflux = 1",
-                   "s.toml:3: lights.a.object: unknown object \"panel\". There is none to choose from.");
+                   "s.toml:3: lights.a.object: unknown object \"panel\". No name is allowed here.");
 }
 
 TEST(SceneLights, RefusesTwoAreaLightsOnOneObject) {

@@ -44,12 +44,6 @@ constexpr std::array kFormats{"ascii"sv, "binary_little_endian"sv, "binary_big_e
 constexpr std::array kStatements{"format"sv,  "element"sv,  "property"sv,
                                  "comment"sv, "obj_info"sv, "end_header"sv};
 
-/// "; did you mean NAME?", where one is near.
-std::string suggestion(std::string_view found, std::span<const std::string_view> allowed) {
-    const std::string nearest = nearest_name(found, allowed);
-    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
-}
-
 class HeaderReader {
   public:
     HeaderReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
@@ -76,17 +70,17 @@ class HeaderReader {
         if (word == "property") return read_property();
         if (word == "comment" || word == "obj_info" || word.empty()) return;
         fail(fmt::format(
-            "the header says {}; allowed are format, element, property, comment, obj_info and end_header{}",
-            in_quotes(word), suggestion(word, kStatements)));
+            "the header says {}; allowed are format, element, property, comment, obj_info and end_header.{}",
+            in_quotes(word), did_you_mean(word, kStatements)));
     }
 
     void read_format() {
         const std::string_view format = next_word(rest_), version = next_word(rest_);
         const auto found = std::find(kFormats.begin(), kFormats.end(), format);
         if (found == kFormats.end()) {
-            fail(
-                fmt::format("the format is {}; it must be ascii, binary_little_endian or binary_big_endian{}",
-                            in_quotes(format), suggestion(format, kFormats)));
+            fail(fmt::format(
+                "the format is {}; it must be ascii, binary_little_endian or binary_big_endian.{}",
+                in_quotes(format), did_you_mean(format, kFormats)));
         }
         if (version != "1.0")
             fail(fmt::format("the format's version is {}; it must be 1.0", in_quotes(version)));
@@ -143,8 +137,8 @@ class HeaderReader {
             fail(
                 fmt::format("the property's type is {}; allowed are char, uchar, short, ushort, int, uint, "
                             "float, double, "
-                            "and int8 to float64{}",
-                            in_quotes(name), suggestion(name, names)));
+                            "and int8 to float64.{}",
+                            in_quotes(name), did_you_mean(name, names)));
         }
         return kScalars[static_cast<std::size_t>(found - names.begin())].scalar;
     }

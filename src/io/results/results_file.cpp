@@ -26,7 +26,7 @@ class Node {
 
     [[noreturn]] void fail(const std::string& expected) const {
         throw InputError(
-            fmt::format("{} is {} (not what 'stilb measure --json' writes). It should be {}.",
+            fmt::format("{} is {}, but should be {}. The file must hold measured results as JSON.",
                         place_.empty() ? "the document" : "'" + place_ + "'", json_.type_name(), expected),
             {file_});
     }
@@ -39,7 +39,7 @@ class Node {
         const auto found = json_.find(key);
         if (found == json_.end()) {
             throw InputError(
-                fmt::format("'{}' is missing (results of 'stilb measure --json' have it).", place), {file_});
+                fmt::format("'{}' is missing. The file must hold measured results as JSON.", place), {file_});
         }
         return {*found, place, file_};
     }
@@ -128,10 +128,10 @@ Json parse_json(std::string_view content, const std::string& name) {
         const std::size_t end = std::min(error.byte, content.size());
         const auto line =
             1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-        throw InputError("not JSON, so not results. Give a file written by 'stilb measure SCENE --json'.",
+        throw InputError("not JSON. The file must hold measured results as JSON.",
                          {name, static_cast<std::size_t>(line)});
     } catch (const Json::out_of_range& error) {
-        throw InputError("a number is too large for a double. Give a file written by 'stilb measure --json'.",
+        throw InputError("a number is too large for a double. The file must hold measured results as JSON.",
                          {name});
     }
 }
@@ -143,8 +143,7 @@ ResultsFile read_results(std::string_view content, const std::string& name) {
     const Node root(json, "", name);
     if (!root.has("stilb")) {
         throw InputError(
-            "JSON, but not results (there is no 'stilb'). Give a file written by 'stilb measure "
-            "SCENE --json'.",
+            "JSON, but not measured results: there is no 'stilb'. The file must be one that Stilb wrote.",
             {name});
     }
     ResultsFile results{root.member("scene").text(), {}};

@@ -109,10 +109,8 @@ std::string listed(std::span<const std::string_view> names) {
 }  // namespace
 
 std::string suggestion(std::string_view found, std::span<const std::string_view> allowed) {
-    if (allowed.empty()) return " There is none to choose from.";
-    const std::string near = nearest_name(found, allowed);
-    const std::string question = near.empty() ? "" : fmt::format(" Did you mean {}?", in_quotes(near));
-    return fmt::format("{} Allowed: {}.", question, listed(allowed));
+    if (allowed.empty()) return " No name is allowed here.";
+    return fmt::format("{} Allowed: {}.", did_you_mean(found, allowed), listed(allowed));
 }
 
 namespace {
