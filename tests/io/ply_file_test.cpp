@@ -199,9 +199,9 @@ void expect_refusal(const std::string& content, const std::string& message) {
 }
 
 TEST(PlyFile, what_is_no_ply) {
-    expect_refusal("", ":1: this is no PLY file: the first line must be ply");
-    expect_refusal("solid room\n", ":1: this is no PLY file: the first line must be ply");
-    expect_refusal(std::string("\0\xff\xff", 3), ":1: this is no PLY file: the first line must be ply");
+    expect_refusal("", ":1: this is not a PLY file: the first line must be ply");
+    expect_refusal("solid room\n", ":1: this is not a PLY file: the first line must be ply");
+    expect_refusal(std::string("\0\xff\xff", 3), ":1: this is not a PLY file: the first line must be ply");
 }
 
 TEST(PlyFile, broken_headers) {
@@ -259,16 +259,16 @@ TEST(PlyFile, absurd_counts_are_refused_before_any_allocation) {
     const std::string many =
         "element vertex 4000000000000\nproperty float x\nproperty float y\nproperty float z\n";
     expect_refusal(text_file(many, kSquare),
-                   ":3: the element vertex is to have 4000000000000 rows of at least 6 bytes, but 24 bytes "
+                   ":3: the element vertex needs 4000000000000 rows of at least 6 bytes, but 24 bytes "
                    "are left; the count is wrong or "
                    "the file is cut off");
     expect_refusal(binary_header(std::endian::little, many) + "1234",
-                   ":3: the element vertex is to have 4000000000000 rows of at least 12 bytes, but 4 bytes "
+                   ":3: the element vertex needs 4000000000000 rows of at least 12 bytes, but 4 bytes "
                    "are left; the count is wrong or "
                    "the file is cut off");
     expect_refusal(binary_header(std::endian::big,
                                  "element hair 9223372036854775807\nproperty list uint double strand\n"),
-                   ":3: the element hair is to have 9223372036854775807 rows of at least 4 bytes, but 0 "
+                   ":3: the element hair needs 9223372036854775807 rows of at least 4 bytes, but 0 "
                    "bytes are left; the count is wrong or "
                    "the file is cut off");
     // A list whose length the file cannot hold, read and skipped.
@@ -372,9 +372,9 @@ TEST(PlyFile, what_follows_the_last_row) {
 TEST(PlyFile, no_triangle) {
     const std::string remedy =
         ", so there is no surface; a PLY file needs an element vertex and an element face (or tristrips)";
-    expect_refusal(text_file(kVertices, kSquare), ": no triangle in the file" + remedy);
+    expect_refusal(text_file(kVertices, kSquare), ": the file has no triangle" + remedy);
     expect_refusal(text_file(kVertices + kFaces, kSquare + "3 0 1 1\n"),
-                   ": no triangle in the file (1 of no area left out)" + remedy);
+                   ": the file has no triangle (1 without area left out)" + remedy);
 }
 
 TEST(PlyFile, igea_is_a_closed_head) {

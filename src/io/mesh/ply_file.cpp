@@ -49,7 +49,8 @@ class HeaderReader {
     HeaderReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
 
     PlyHeader read() && {
-        if (!lines_.next() || lines_.line() != "ply") fail("this is no PLY file: the first line must be ply");
+        if (!lines_.next() || lines_.line() != "ply")
+            fail("this is not a PLY file: the first line must be ply");
         while (lines_.next()) {
             rest_ = lines_.line();
             const std::string_view word = next_word(rest_);
@@ -170,7 +171,7 @@ PlyHeader read_ply_header(std::string_view content, const std::string& name) {
 
 namespace {
 
-/// Where the reader stands, for messages.
+/// The position of the reader, for messages.
 struct Place {
     const std::string& file;
     const PlyElement* element = nullptr;
@@ -184,18 +185,18 @@ struct Place {
     }
 };
 
-/// Whether a value of a body can count or number something: no type that PLY has for that goes further.
+/// Whether a value can be a count or an index: PLY's integer types have no larger range.
 bool is_index(double value) {
     return value >= 0 && value <= std::numeric_limits<std::uint32_t>::max() && value == std::floor(value);
 }
 
-/// Values written as text: each row of an element stands on a line of its own.
+/// Values as text: each row of an element has a line of its own.
 class TextBody {
   public:
     TextBody(const PlyHeader& header, Place& place) : lines_(header.body, header.body_line), place_(place) {}
 
     std::string_view rest() const { return lines_.rest(); }
-    /// The fewest bytes that a row's part can take: a digit and a blank or line end.
+    /// The fewest bytes of a value in a row: a digit and a blank or line end.
     static std::size_t least_size(const PlyProperty&) { return 2; }
 
     void begin_row() {
@@ -232,7 +233,7 @@ class TextBody {
 
     TextLines lines_;
     Place& place_;
-    std::string_view row_;  // what is left of it
+    std::string_view row_;  // the unread rest of the row
 };
 
 template <std::endian order>
@@ -325,7 +326,7 @@ class PlyReader {
                          {place_.file, element.line});
     }
 
-    /// A count that the file cannot hold must become neither an allocation nor a loop.
+    /// Refuses counts that exceed the file's size, before any allocation or loop.
     void check_count(const PlyElement& element) const {
         if (element.count == 0) return;
         if (element.properties.empty()) fail_declaration(element, "has rows but no property; it needs one");
@@ -335,7 +336,7 @@ class PlyReader {
             body_.rest().size() + 1;  // the last line of a text may do without its end
         if (element.count > bytes_left / row_size) {
             fail_declaration(element,
-                             fmt::format("is to have {} rows of at least {} bytes, but {} bytes are left; "
+                             fmt::format("needs {} rows of at least {} bytes, but {} bytes are left; "
                                          "the count is wrong or the file is cut off",
                                          element.count, row_size, body_.rest().size()));
         }
@@ -376,7 +377,7 @@ class PlyReader {
         return static_cast<std::size_t>(length);
     }
 
-    /// The number of the property of this name, no list.
+    /// The index of the scalar property of this name.
     static std::optional<std::size_t> scalar_named(const PlyElement& element, std::string_view name) {
         const auto has_name = [&](const PlyProperty& p) { return p.name == name && !p.is_list(); };
         const auto found = std::find_if(element.properties.begin(), element.properties.end(), has_name);
@@ -387,7 +388,7 @@ class PlyReader {
     void read_vertices(const PlyElement& element) {
         constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"}, kNormals{"nx", "ny", "nz"};
         std::array<double, 3> position{}, normal{};
-        std::vector<double*> targets(element.properties.size(), nullptr);  // null: to be skipped
+        std::vector<double*> targets(element.properties.size(), nullptr);  // null: skipped
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto property = scalar_named(element, kAxes[axis]);
             if (!property)
@@ -416,7 +417,7 @@ class PlyReader {
         });
     }
 
-    /// Rows with a list of vertex numbers, which `use_list()` finds in list_.
+    /// Reads rows with a list of vertex indices into list_, and calls `use_list()` for each.
     template <class UseList>
     void read_lists(const PlyElement& element, UseList use_list) {
         const auto is_vertex_list = [](const PlyProperty& p) {

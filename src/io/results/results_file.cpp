@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// A JSON value and where it stands ("sensors[2].count"), so that every message can say it.
+/// A JSON value and its path ("sensors[2].count"), which every message states.
 class Node {
   public:
     Node(const Json& json, std::string place, const std::string& file)
@@ -93,7 +93,7 @@ void read_size(const Node& values, MeasuredGrid& grid) {
     };
     const double span_u = length(at(nu - 1, 0) - first);
     const double span_v = length(at(0, nv - 1) - first);
-    // A row of single cells is taken for a row of squares.
+    // A row of single cells is treated as a row of squares.
     grid.width_m = extent_of(span_u, nu, nv > 1 ? span_v / (nv - 1) : 0);
     grid.height_m = extent_of(span_v, nv, nu > 1 ? span_u / (nu - 1) : 0);
 }

@@ -34,7 +34,7 @@ Json reading_json(const SensorResult& result, const Sensor& sensor, std::size_t 
     return json;
 }
 
-/// Uniformity is a property of an illuminated area: luminances in several directions have none.
+/// Uniformity is defined for an illuminated area; luminances in several directions have none.
 Json summary_json(const statistics::GridSummary& summary, bool has_uniformity) {
     Json json{
         {"mean", summary.mean.value}, {"minimum", summary.minimum.value}, {"maximum", summary.maximum.value}};
@@ -130,7 +130,7 @@ std::string to_json(const RunResult& result, const std::string& scene) {
 
 namespace {
 
-/// Columns of a sensor's readings, made of what is told of each.
+/// Columns of a sensor's readings, made from the place of each.
 class ReadingColumns {
   public:
     explicit ReadingColumns(std::size_t readings) : readings_(readings) {}
@@ -168,7 +168,7 @@ void add_places(ReadingColumns& columns, const Sensor& sensor) {
     }
 }
 
-/// "cd/m2" and names of several words as parts of a column's name.
+/// The unit and names of several words as parts of a column's name, such as "cd_m2".
 std::string in_column(std::string_view text) {
     std::string name(text);
     for (char& c : name) {
@@ -208,7 +208,8 @@ void write_results_csv(const RunResult& result, const std::filesystem::path& dir
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error)
-        throw InputError(fmt::format("the folder cannot be made: {}", error.message()), {directory.string()});
+        throw InputError(fmt::format("the folder cannot be created: {}", error.message()),
+                         {directory.string()});
     for (const SensorResult& sensor : result.sensors) {
         write_sensor(sensor, sensor.sensor, directory / (sensor.sensor.name + ".csv"));
     }

@@ -38,7 +38,7 @@ sensors::SensorKind read_kind(TomlTable& table, Warnings& warnings) {
     return read_by_fields<Kind>(table, warnings);
 }
 
-/// Reads a sensor of the type that has this place in SensorKind.
+/// Reads a sensor of the type with this index in SensorKind.
 template <typename... Kinds>
 sensors::SensorKind read_nth(std::size_t n, TomlTable& table, Warnings& warnings,
                              std::type_identity<std::variant<Kinds...>>) {
@@ -92,7 +92,7 @@ Vec3 read_way_to(const TomlItem& target, const Vec3& position) {
     const Vec3 way = target.vector() - position;
     constexpr double shortest_m = 1e-9;
     if (length(way) < shortest_m)
-        target.fail("lies at the position, so that there is no direction to it. Allowed: any other point.");
+        target.fail("equals the position, so there is no direction to it. Allowed: any other point.");
     return normalized(way);
 }
 
@@ -118,8 +118,8 @@ void read_sensors(const TomlTable& section, SceneFile& file) {
         file.sensors.push_back({name, read_sensor(table, file.warnings)});
         readings += static_cast<std::int64_t>(file.sensors.back().size());
         if (readings > sensors::kMostReadings) {
-            table.fail(fmt::format("the sensors so far have {} readings. Allowed: {} in all.", readings,
-                                   sensors::kMostReadings));
+            table.fail(fmt::format("the sensors up to this one have {} readings. Allowed: {} in all.",
+                                   readings, sensors::kMostReadings));
         }
     }
 }
