@@ -10,18 +10,18 @@ namespace {
 /// Unit vectors in general position: along no axis, diagonal or symmetry that rooms have.
 constexpr std::array<Vec3, 3> kDirections{
     {{0.2673, 0.5345, 0.8018}, {-0.6851, 0.2114, 0.6971}, {0.4412, -0.7727, 0.4565}}};
-/// Rays through more surfaces than this say nothing.
+/// Rays through more surfaces than this are ignored.
 constexpr int kMostCrossings = 10'000;
-/// Lights that a point is tried to see before its space is found out.
+/// Lights whose visibility is tested before the enclosure of a point is determined.
 constexpr std::size_t kMostLightsTried = 8;
 
-/// Off the surface at `position` on the side of the unit vector `normal`.
+/// A probe lifted off the surface at `position` to the side of the unit vector `normal`.
 ProbeRay probe_ray_off(const Vec3& position, const Vec3& normal, double size_m,
                        const rays::RayCaster& caster) {
     return {position + caster.offset_m(position, size_m) * normal, normal};
 }
 
-/// One from every shell, off its front.
+/// One probe from every component, off its front.
 struct ProbeRaysOfShape {
     const geometry::ConnectedComponents& shells;
     const rays::RayCaster& caster;
@@ -29,7 +29,8 @@ struct ProbeRaysOfShape {
     std::vector<ProbeRay> operator()(const Mesh& mesh) const {
         std::vector<ProbeRay> probe_rays;
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-            if (shells.of_triangle[t] != probe_rays.size()) continue;  // numbered by their first triangles
+            if (shells.of_triangle[t] != probe_rays.size())
+                continue;  // components are numbered by their first triangles
             const auto [i, j, k] = mesh.triangles[t];
             const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
             const Vec3 normal = normalized(cross(b - a, c - a));
@@ -61,7 +62,8 @@ Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scen
     for (const Object& object : scene.objects) shells_.push_back(find_components(object.shape));
     for (const Light& light : scene.lights) {
         std::vector<Enclosure>& spaces = of_lights_.emplace_back();
-        if (place_of(light) == stilb::LightPlace::infinity) spaces.push_back({});  // outside of all shells
+        if (place_of(light) == stilb::LightPlace::infinity)
+            spaces.push_back({});  // outside of all components
         for (const ProbeRay& probe_ray : probe_rays_of(light)) {
             spaces.push_back(voted_enclosure(probe_ray));
             if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, spaces.back()});

@@ -15,7 +15,7 @@ bool contains(const EnclosureList& spaces, const Enclosure& space) {
     return std::find(spaces.begin(), spaces.end(), space) != spaces.end();
 }
 
-/// A shell that the point of `space` lies in and nothing in the `others` does.
+/// A component that encloses the point of `space` and none of the `others`.
 std::optional<ComponentId> only_around(const Enclosure& space, const EnclosureList& others) {
     const auto place = std::find_if(space.begin(), space.end(), [&](const ComponentId& shell) {
         return std::none_of(others.begin(), others.end(), [&](const Enclosure& other) {
@@ -25,17 +25,17 @@ std::optional<ComponentId> only_around(const Enclosure& space, const EnclosureLi
     return place != space.end() ? std::optional{*place} : std::nullopt;
 }
 
-/// Where a point without light lies, next to where the lights are.
+/// The position of a point without light, relative to the lights.
 std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const Scene& scene) {
     if (const auto shell = only_around(dark, lit))
-        return fmt::format("inside object \"{}\", where no light is", scene.object(shell->object).name);
+        return fmt::format("inside object \"{}\", which contains no light", scene.object(shell->object).name);
     if (const auto shell = only_around(lit.front(), {dark}))
         return fmt::format("outside object \"{}\", which encloses the light",
                            scene.object(shell->object).name);
-    return "in a closed space without a light";
+    return "in an enclosure without a light";
 }
 
-/// Rays to where the light of the readings comes from.
+/// Rays along which the light of the readings arrives.
 std::vector<ProbeRay> rays_of(const Sensor& sensor, const rays::RayCaster& caster) {
     if (const Camera* camera = sensor.camera()) {
         const MeasuringPoint eye{camera->position, sensors::CameraView(*camera).forward()};
@@ -51,7 +51,7 @@ std::vector<ProbeRay> rays_of(const Sensor& sensor, const rays::RayCaster& caste
     return rays;
 }
 
-/// Bodies stand free; one on a surface is probably meant to.
+/// Bodies are meant to stand free; one on a surface is probably a mistake.
 std::optional<std::string> body_warning(const Sensor& sensor, const rays::RayCaster& caster) {
     std::size_t on_surfaces = 0;
     for (const Measurand& measurand : sensor.measurands()) {
@@ -80,7 +80,7 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosu
     if (most == nullptr) return std::nullopt;
     const std::string which =
         points == 1 ? "it lies" : fmt::format("{} of {} points lie", dark_points, points);
-    return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} into the lit space.",
+    return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} to where light is.",
                        sensor.name, which, whereabouts(*most, lit, scene),
                        points == 1 ? "it reads" : "they read", sensor.quantity().unit,
                        points == 1 ? "it" : "them");
@@ -93,7 +93,7 @@ std::optional<std::string> fault_of(const Light& light, const EnclosureList& of_
     if (is_measured) return std::nullopt;
     if (place_of(light) == LightPlace::infinity) {
         return fmt::format(
-            "light \"{}\" surrounds the scene, and closed surfaces lie around all sensors: its light cannot "
+            "light \"{}\" surrounds the scene, but closed surfaces enclose all sensors: its light cannot "
             "get in. "
             "Open a window, or remove the light.",
             light.name);
@@ -128,7 +128,7 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
     }
     const bool some_are_lit = std::any_of(of_sensors.begin(), of_sensors.end(),
                                           [&](const Enclosure& space) { return contains(lit, space); });
-    if (!some_are_lit) return warnings;  // one mistake, one message
+    if (!some_are_lit) return warnings;  // one message for one mistake
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         if (auto fault = fault_of(scene.lights[i], spaces.of_lights()[i], of_sensors, scene))
             warnings.push_back(std::move(*fault));

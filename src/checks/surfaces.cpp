@@ -15,8 +15,9 @@ namespace stilb::checks {
 
 namespace {
 
-/// The vector area of a closed surface is 0; that of an open one is as large as its holes, seen flat. A box
-/// without a lid (0.2 of its area, or more for a flat one) is meant so.
+/// The largest vector area, as a share of the area, of a nearly closed surface. The vector area of a closed
+/// surface is 0; that of an open one is the area of its holes, if flat. A box without a lid (0.2 of its area,
+/// or more for a flat one) is open on purpose.
 constexpr double kLargestHole = 0.05;
 
 struct Hole {
@@ -55,17 +56,18 @@ std::vector<std::string> hole_warnings(const Scene& scene,
         const std::string which = shells[i].count() == 1 ? "it nearly closes"
                                                          : fmt::format("{} of its {} parts nearly close",
                                                                        hole.shells, shells[i].count());
-        warnings.push_back(
-            fmt::format("object \"{}\": {}, but for {} open edges: light goes through the holes. Close them, "
-                        "or leave them "
-                        "if they are meant.",
-                        object.name, which, hole.edges));
+        warnings.push_back(fmt::format(
+            "object \"{}\": {}, except for {} open edges: light passes through the holes. Close them, "
+            "or leave them "
+            "if they are meant.",
+            object.name, which, hole.edges));
     }
     for (const Light& light : scene.lights) {
         const auto surface = lights::surface_emission(light);
         if (!surface || shells[index_of(surface->object)].turned_edges == 0) continue;
         warnings.push_back(fmt::format(
-            "light \"{}\": at {} edges of object \"{}\" the front changes sides, and only fronts shine. Turn "
+            "light \"{}\": at {} edges of object \"{}\" the front changes sides, but only fronts emit light. "
+            "Turn "
             "its triangles to one side.",
             light.name, shells[index_of(surface->object)].turned_edges, scene.object(surface->object).name));
     }
@@ -74,9 +76,9 @@ std::vector<std::string> hole_warnings(const Scene& scene,
 
 namespace {
 
-/// Shared area that counts, as a part of the smaller triangle's.
+/// The smallest overlap that counts, as a share of the smaller triangle.
 constexpr double kLeastShare = 1e-3;
-/// Steps in which normals and (times the scene's size) distances of planes are told apart.
+/// Quantisation steps of normals and (times the scene's size) distances of planes.
 constexpr double kPlaneStep = 4e-6;
 
 struct Point2 {
@@ -88,7 +90,7 @@ double doubled_area(const Point2& a, const Point2& b, const Point2& c) {
     return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-/// A triangle in its plane, as seen along the axis that the plane faces most.
+/// A triangle in its plane, projected along the axis that the plane faces most.
 struct FlatTriangle {
     std::array<std::int64_t, 4> plane{};  ///< quantised normal and distance from the origin
     ObjectId object{};
@@ -114,7 +116,7 @@ FlatTriangle flattened(const std::array<Vec3, 3>& corners, double size_m) {
     FlatTriangle flat;
     flat.normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
     flat.axis = dominant_axis(flat.normal);
-    if (flat.normal[flat.axis] < 0) flat.normal = -flat.normal;  // one for both sides
+    if (flat.normal[flat.axis] < 0) flat.normal = -flat.normal;  // the same for both sides
     flat.vertex = corners[0];
     const auto quantised = [](double value) { return std::llround(value / kPlaneStep); };
     flat.plane = {quantised(flat.normal.x), quantised(flat.normal.y), quantised(flat.normal.z),
@@ -128,7 +130,7 @@ FlatTriangle flattened(const std::array<Vec3, 3>& corners, double size_m) {
     return flat;
 }
 
-/// Triangles of flat shapes; curved ones and disks are left out.
+/// Triangles of flat shapes except disks; curved shapes are left out.
 Mesh mesh_of(const Shape& shape) {
     if (const auto* mesh = std::get_if<Mesh>(&shape)) return *mesh;
     if (const auto* rectangle = std::get_if<Rectangle>(&shape)) return triangulated(*rectangle);
@@ -136,7 +138,7 @@ Mesh mesh_of(const Shape& shape) {
     return {};
 }
 
-/// All of the scene's, those in one plane one after another, from left to right.
+/// All triangles of the scene, grouped by plane, from left to right.
 std::vector<FlatTriangle> flat_triangles(const Scene& scene) {
     std::vector<bool> shines(scene.objects.size());
     for (const Light& light : scene.lights) {
@@ -183,7 +185,7 @@ Polygon2 clipped(const Polygon2& polygon, const Point2& a, const Point2& b) {
     return result;
 }
 
-/// A point within what both triangles cover, in the plane of the first.
+/// A point in the overlap of both triangles, in the plane of the first.
 std::optional<Vec3> shared_point(const FlatTriangle& first, const FlatTriangle& second) {
     const auto& [a, b, c] = second.corners;
     const Polygon2 whole(first.corners.begin(), first.corners.end());
@@ -249,13 +251,14 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCas
     for (const auto& [objects, pair] : found) {
         const std::string& first = scene.object(objects.first).name;
         const std::string& second = scene.object(objects.second).name;
-        const std::string who = first == second ? fmt::format("object \"{}\": parts of it", first)
-                                                : fmt::format("objects \"{}\" and \"{}\"", first, second);
+        const std::string named = first == second ? fmt::format("object \"{}\": parts of it", first)
+                                                  : fmt::format("objects \"{}\" and \"{}\"", first, second);
         warnings.push_back(fmt::format(
             "{} overlap in one plane ({}{} pair{} of triangles, one at ({:.4g}, {:.4g}, {:.4g})): rounding "
             "decides "
-            "which of them light meets. Move one by a millimetre.",
-            who, at_least, pair.count, pair.count == 1 ? "" : "s", pair.where.x, pair.where.y, pair.where.z));
+            "which of them light meets. Move one of them by a millimetre.",
+            named, at_least, pair.count, pair.count == 1 ? "" : "s", pair.where.x, pair.where.y,
+            pair.where.z));
     }
     return warnings;
 }

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint64_t kParticles = 4096;
 constexpr int kReflections = 3;
 constexpr std::uint64_t kPointsOnObject = 64;
-/// Lit places that each point on an object is held against.
+/// Lit positions that are tested for each point on an object.
 constexpr std::size_t kPlacesTried = 64;
 enum Purpose : std::uint64_t { kTracing, kLooking };
 
@@ -20,11 +20,11 @@ struct Place {
 };
 
 struct Traced {
-    std::vector<Place> places;  ///< that light was at, in random order
+    std::vector<Place> places;  ///< of particles, in random order
     std::vector<bool> is_object_hit;
 };
 
-/// Every surface reflects diffusely here, black ones too: it is the geometry that is asked for.
+/// All surfaces count as diffuse reflectors here, even black ones: only the geometry matters.
 Traced trace_particles(const Scene& scene, const rays::RayCaster& caster) {
     const transport::LightSampler lights(scene, caster);
     Traced traced{{}, std::vector<bool>(scene.objects.size())};
@@ -100,7 +100,7 @@ bool is_seen(const Object& object, const std::vector<Place>& lit, const rays::Ra
 }  // namespace
 
 std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& caster) {
-    if (scene.lights.empty()) return {};  // then all are, and the reader of scene files says so
+    if (scene.lights.empty()) return {};  // all objects are dark; the scene reader warns of it
     Traced traced = trace_particles(scene, caster);
     for (const Light& light : scene.lights) {
         if (const auto surface = lights::surface_emission(light))

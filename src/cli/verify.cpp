@@ -137,10 +137,10 @@ RunOptions run_options(const VerifyRequest& request) {
 std::string complaints(const std::vector<verification::Verification>& results, double error) {
     std::string text;
     for (const verification::Verification& v : results) {
-        const std::string who = fmt::format("{}, {}, {}", v.name, v.variant, v.method);
-        if (v.contradicts()) text += fmt::format("CONTRADICTION: {}: z = {:.2f}\n", who, v.worst().z);
+        const std::string named = fmt::format("{}, {}, {}", v.name, v.variant, v.method);
+        if (v.contradicts()) text += fmt::format("CONTRADICTION: {}: z = {:.2f}\n", named, v.worst().z);
         if (!(v.widest_interval() <= error)) {
-            text += fmt::format("NOT REACHED: {}: the widest interval is ± {:.2g} %\n", who,
+            text += fmt::format("NOT REACHED: {}: the widest interval is ± {:.2g} %\n", named,
                                 100 * v.widest_interval());
         }
     }

@@ -14,7 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::optional<Monitor::Clock::time_point> deadline_of(const RunOptions& asked) {
     if (!asked.time_s) return std::nullopt;
-    // So long that the clock could not hold it is for ever.
+    // Durations beyond the range of the clock count as unlimited.
     constexpr double longest_s = 1e9;
     const std::chrono::duration<double> time(std::min(*asked.time_s, longest_s));
     return Monitor::Clock::now() + std::chrono::duration_cast<Monitor::Clock::duration>(time);
@@ -55,7 +55,7 @@ std::optional<StopReason> Schedule::advance_to(std::uint64_t look, std::uint64_t
     return std::nullopt;
 }
 
-/// Once the next samples are made, as long as those before took.
+/// Predicts whether the next samples end in time, if they take as long as the last ones.
 bool Schedule::is_time_over(const Work& work, std::uint64_t next) const {
     if (!options_.time_s) return false;
     const double per_sample_s = clock_.elapsed_s() / static_cast<double>(work.samples());

@@ -18,10 +18,10 @@ namespace {
 
 using Floats = PointTile::Floats;
 
-/// Nodes whose contributions are summed in single precision before they are added to the sums in double.
+/// Vertices whose contributions are summed in single precision before they are added to the sums in double.
 constexpr std::size_t kBlock = 64;
 
-/// A chain node as the inner loop wants it.
+/// A light vertex in the form of the inner loop.
 struct FanNode {
     SegmentOrigin origin;
     float split;  ///< 0: w = 1
@@ -36,7 +36,7 @@ struct alignas(64) TileSums {
     Floats largest{};
 };
 
-/// (Without the promise that nothing overlaps, the loop would stay scalar.)
+/// (Without __restrict, which promises that nothing overlaps, the loop would stay scalar.)
 STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTile& __restrict tile,
                                   const RayPacket& __restrict packet, const LaneMask& __restrict lanes,
                                   const Floats& __restrict g, TileSums& __restrict sums) {
@@ -54,8 +54,8 @@ STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTil
     }
 }
 
-/// As add_visible() where the BRDF of the node or the response of a receiver depends on direction: lane by
-/// lane, w included, and the response where one of the tile's depends on direction.
+/// The counterpart of add_visible() where the BRDF of the vertex or the response of a receiver depends on
+/// direction: lane by lane, w included.
 void add_visible_directional(const FanNode& node, const PointTile& tile, const RayPacket& packet,
                              const LaneMask& lanes, const Floats& g_per_m2, TileSums& sums) {
     const transport::LightVertex& chain_node = *node.node;
@@ -80,7 +80,7 @@ void add_visible_directional(const FanNode& node, const PointTile& tile, const R
     }
 }
 
-/// Constant responses are multiplied here, once for a block of nodes; others are in the sums.
+/// Constant responses are multiplied here, once for a block of vertices; others are in the sums.
 void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const transport::Receiver& receiver = tile.receivers[i];
@@ -137,7 +137,7 @@ void Fan::collect(std::span<const transport::LightVertex> nodes, ReadingSums& su
 
 namespace {
 
-/// Which of the six axis directions a normal is nearest to.
+/// The index of the axis direction nearest to a normal, of six.
 int orientation(const Vec3& normal) {
     const Vec3 size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -181,7 +181,7 @@ std::vector<transport::LightVertex> NodePool::select(std::size_t count, double u
     const double step = passed_lm_.back() / static_cast<double>(count);
     std::vector<transport::LightVertex> selected;
     selected.reserve(count + 1);
-    double next = u * step;  // flux at which the next one is selected
+    double next = u * step;  // flux at which the next vertex is selected
     for (auto place = passed_lm_.begin(); place != passed_lm_.end(); ++place) {
         place = std::upper_bound(place, passed_lm_.end(), next);
         if (place == passed_lm_.end()) break;

@@ -1,25 +1,26 @@
-// Local estimation: illuminance at all points from one set of light chains, by the kernel split (theory T.1b)
+// Local estimation: illuminance at all points from one set of light paths, by bounded connections with
+// compensation (theory T.1b)
 //
-//   E(x) = E_direct + sum over nodes of W f_r w G + integral of L_r (1 - w) s_x dw
+//   E(x) = E_direct + sum over light vertices of W f_r w G + integral of L_r (1 - w) s_x dw
 //
-// with w = k / (k + s G) of kernel_split.h. Double local estimation: luminance, by the same sums with the
+// with w = k / (k + s G) of weights.h. Double local estimation: luminance, by the same sums with the
 // response of the sub-points that are seen (receiver.h, theory T.2).
 //
 //   local         k = infinity: the estimator as published [LocalEstimation (5)]. Rays from the point bring
-//                 in only what mirrors and glass show. Infinite variance where chains come arbitrarily near
-//                 to a point: in corners.
+//                 in only light by mirrors and glass. Infinite variance where light vertices come arbitrarily
+//                 near to a point: in corners.
 //   double-local  the same for luminance [LocalEstimation (8) to (10)]; local at illuminance readings.
-//   auto          k and the number of gathering rays by plan_splits(), nodes from a NodePool. Unbiased and
-//                 of finite variance, but for light that only chains can make (it met a mirror or glass
-//                 first): w = 1.
+//   auto          k and the number of gathering rays by plan_splits(), vertices from a NodePool. Unbiased and
+//                 of finite variance, except for light that only light paths can find (it met a mirror or
+//                 glass first): w = 1.
 //
-// Pictures: double local estimation of sub-points that each pass draws anew. A pass walks chains of its own
-// for the whole picture. Each packet of 4 x 4 pixels selects its own few of their nodes, and packets lie
-// elsewhere in every pass: errors of neighbouring packets are nearly independent, and no structure of the
-// chains shows in the picture.
+// Pictures: double local estimation of sub-points that each pass draws anew. A pass traces light paths of its
+// own for the whole picture. Each packet of 4 x 4 pixels selects its own few of their vertices, and packets
+// have another offset in every pass: errors of neighbouring packets are nearly independent, and no structure
+// of the light paths shows in the picture.
 //
-// Not made: light that leaves a point-like source, meets a mirror or glass first and comes to the receiver by
-// a mirror or glass last; the run warns of it.
+// Not found: light that leaves a point-like source, meets a mirror or glass first and comes to the receiver
+// by a mirror or glass last; the run warns of it.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -37,13 +38,13 @@
 namespace stilb::estimators {
 namespace {
 
-/// Chains that are spent on planning; few suffice, because any plan is unbiased.
+/// Light paths for planning; few suffice, because any plan is unbiased.
 constexpr std::uint64_t kPilotChains = 256;
 
-/// Whether light is gathered by rays too.
+/// Whether rays gather light, too.
 enum class Split { none, balanced };
 
-/// What readings and pictures have in common. Stays where it is made.
+/// The common part of readings and pictures. Not movable, because its members refer to each other.
 struct LocalTransport {
     LocalTransport(const Problem& problem, Split asked)
         : scene(problem.scene),
@@ -70,15 +71,15 @@ struct LocalTransport {
     transport::PathTracer tracer;
 };
 
-/// Nodes are sent to the points after so many chains per selected one (below).
+/// Vertices are connected to the points after so many light paths per selected one (below).
 constexpr std::uint64_t kChainBlock = 512;
-/// Chains (divided by the selection's share) for each sample of direct light from area lights.
+/// Light paths (divided by the selection's share) for each sample of direct light from area lights.
 constexpr std::uint64_t kChainsPerDirectSample = 2;
-/// Chains for each ray that `local` sends out where there are mirrors or glass.
+/// Light paths for each ray that `local` sends out where there are mirrors or glass.
 constexpr std::uint64_t kChainsPerSpecularRay = 4;
-/// Of so many chains' nodes `auto` sends one chain's to the points: a chain costs some 50 rays of a fan, so
-/// the more points there are the more is gained by choosing well; the square root balances the cost and the
-/// variance of both.
+/// The vertices of one in so many light paths are connected to the points by `auto`: a light path costs as
+/// much as some 50 shadow rays, so careful selection gains more with more points; the square root balances
+/// the cost and the variance of both.
 std::uint64_t chains_per_selected(std::size_t points) {
     std::uint64_t chains = 1;
     while (chains < 64 && 80 * chains * chains <= points) chains *= 2;
@@ -130,7 +131,7 @@ class LocalReadings {
         return NodePool(nodes).select(nodes.size() / chains_per_selected_ + 1, u);
     }
 
-    /// What the readings are made from.
+    /// Sample streams of the readings.
     struct Seen {
         std::vector<transport::Receiver> receivers;
         struct Faint {
@@ -192,7 +193,7 @@ class LocalReadings {
         }
     }
 
-    /// So little light comes along these that a path for each granule of chains does.
+    /// These branches carry so little light that one path for each granule of light paths suffices.
     void add_faint_ways(const Batch& batch, ReadingSums& sums) const {
         const math::RandomKey key = batch.key.derived(kFaint);
         const std::uint64_t chains = batch_granularity();
@@ -266,14 +267,15 @@ class LocalReadings {
     Gather gather_;
 };
 
-/// Chains of a pass, and of so many of them a packet selects one chain's nodes. The more are walked, the more
-/// evenly the selected nodes lie; walking costs less than a hundredth of a large picture's pass.
+/// Light paths of a pass, and the number of them for one selected path's vertices in a packet. The more paths
+/// are traced, the more evenly the selected vertices lie; tracing costs less than a hundredth of a large
+/// picture's pass.
 constexpr std::uint64_t kChainsPerPass = 4096;
 constexpr std::uint64_t kChainsPerSelected = 256;
-/// For planning, from each sub-point.
+/// Planning rays from each sub-point.
 constexpr unsigned kPilotRays = 4;
 
-/// Edge of a packet.
+/// Edge of a packet in pixels.
 constexpr int kPacketSide = 4;
 static_assert(kPacketSide * kPacketSide == kPacketWidth);
 
@@ -334,7 +336,7 @@ class LocalPicture {
                 k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(pixels[pixel])]);
             }
             if (receivers.empty()) return;
-            // The packet's random numbers: those of its first pixel's place.
+            // The packet's random numbers: those of its first pixel's position.
             const math::RandomKey key = pass_.key.derived(kPackets).derived(
                 static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
             picture_.receive(receivers, k_per_m2, pool_, {key, pass_.index}, sums);
@@ -350,7 +352,7 @@ class LocalPicture {
         return static_cast<std::size_t>(cell);
     }
 
-    /// Appends the sub-point that a path from the camera comes to; returns the emission that it sees and the
+    /// Appends the sub-point of a camera path; returns the emission seen and the
     /// direct light at the sub-point.
     Rgb look(transport::Path& path, std::uint32_t reading,
              std::vector<transport::Receiver>& receivers) const {
@@ -381,7 +383,7 @@ class LocalPicture {
             .collect({pass.key.derived(kGather), pass.index, 1}, sums);
     }
 
-    /// A k for each cell of kBlockSize pixels' edge, from a packet of sub-points spread over it.
+    /// A k for each cell with an edge of kBlockSize pixels, from a packet of sub-points spread over it.
     std::vector<double> plan(const Problem& problem) const {
         const std::vector<PixelBlock> cells = blocks_of(tracing_.camera.resolution);
         std::vector<double> k_per_m2(cells.size(), std::numeric_limits<double>::infinity());

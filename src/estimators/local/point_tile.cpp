@@ -5,7 +5,7 @@
 namespace stilb::estimators {
 namespace {
 
-/// Without the promise that nothing overlaps, the loop would stay scalar.
+/// Without __restrict, which promises that nothing overlaps, the loop would stay scalar.
 STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std::int32_t reflections,
                                     const PointTile& __restrict tile, RayPacket& __restrict segments,
                                     LaneMask& __restrict lanes, PointTile::Floats& __restrict g_per_m2) {

@@ -11,10 +11,10 @@ namespace stilb::estimators {
 
 namespace {
 
-/// From each point: a step of the light costs far more than a ray.
+/// Rays from each point: a step of the light costs far more than a ray.
 constexpr std::uint64_t kRaysPerSample = 4;
 constexpr double kShare = 1.0 / kRaysPerSample;
-/// A key of its own; points have those of their numbers.
+/// A separate key; the points have keys of their numbers.
 constexpr std::uint64_t kViews = ~std::uint64_t{0};
 
 }  // namespace

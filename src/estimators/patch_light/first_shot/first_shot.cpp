@@ -131,7 +131,7 @@ void FirstShotPatches::add_to(std::span<transport::Path* const> paths, rays::Coh
         if (!places[i]) continue;
         transport::Path& path = *paths[i];
         const std::uint32_t side = places[i]->side;
-        // Many paths stand at the same place: each has points of its own on lights.
+        // Many paths share a position: each needs its own points on lights.
         const math::RandomKey key{
             first_shot.needs_position(side) ? std::bit_cast<std::uint64_t>(path.stream.next()) : 0};
         path.luminance_cd_m2 +=

@@ -12,7 +12,7 @@ namespace stilb::estimators {
 
 namespace {
 
-/// Another one for every position of every side.
+/// A different key for every position of every side.
 math::RandomKey key_at(math::RandomKey key, std::uint32_t side, const Vec3& position) {
     key = key.derived(side);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -67,7 +67,7 @@ void ShadowRays::add_reflected_by(const Material& material, std::uint32_t side, 
 
 namespace {
 
-/// Looks from the sides' middles.
+/// Tests visibility from the sides' middles.
 class LineOfSightFollower {
   public:
     LineOfSightFollower(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
@@ -120,7 +120,7 @@ class LineOfSightFollower {
 std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
                          std::span<const LightSample> samples, const FirstShotFactors& factors,
                          int resolution, const Monitor& monitor) {
-    // Of four pixels in the middle of a cube's face, where they are largest.
+    // The pixel size in the middle of a cube's face, where pixels are largest.
     const double small_sr = 16. / (static_cast<double>(resolution) * resolution);
     const LineOfSightFollower follower(scene, caster, patches, samples, factors, small_sr);
     using Range = tbb::blocked_range<std::uint32_t>;

@@ -17,7 +17,7 @@ namespace stilb::estimators {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-/// The mean over a bin is that of these directions.
+/// Directions whose mean represents a bin.
 constexpr std::array<std::pair<double, double>, 4> kPlaces{
     {{0.25, 0.25}, {0.25, 0.75}, {0.75, 0.25}, {0.75, 0.75}}};
 
@@ -27,7 +27,7 @@ HemisphereBins::HemisphereBins(int rings) : rings_(static_cast<std::uint32_t>(ri
     constexpr int kMost = 256;
     if (rings >= 1 && rings <= kMost) return;
     throw InputError(fmt::format(
-        "classical first shot with {} rings of bins: reflected light needs a ring to be stored in. Take 1 "
+        "classical first shot with {} rings of bins: reflected light needs at least one ring. Use 1 "
         "to {}; r rings are 4 r^2 bins of directions for each patch.",
         rings, kMost));
 }
@@ -98,8 +98,8 @@ void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, math::Ra
 
 namespace {
 
-// A BRDF as a sum: a part that is the same for all directions, of which pi times stands here, and the rest.
-// Rough and Plastic are all rest: what they reflect diffusely depends on both angles.
+// A BRDF as a sum of a part that is the same for all directions, stored here times pi, and the rest.
+// For RoughConductor and Plastic all is rest: their diffuse reflection depends on both angles.
 
 struct SplitMaterial {
     Rgb diffuse;

@@ -1,6 +1,6 @@
-// Direct simulation: particles.h has how the patches are lit, patch_readings.h and patch_picture.h what is
-// made of it. A sample is a particle. Each batch of readings makes a map of its own; a pass over a picture is
-// the map of some particles.
+// Direct simulation: particles.h describes the light of the patches, patch_readings.h and patch_picture.h
+// readings and pictures of it. A sample is a particle. Each batch of readings makes a map of its own; a pass
+// over a picture is the map of some particles.
 #include "estimators/patch_light/particles/particles.h"
 
 #include <tbb/parallel_for.h>
@@ -36,7 +36,7 @@ IlluminationMap::Particle IlluminationMap::leave_light(math::SampleStream stream
     return {stream, emitted.origin, emitted.direction, emitted.flux_lm};
 }
 
-/// Particles that share a packet of rays, to the end of the last one.
+/// Particles that share a packet of rays, until the last one ends.
 void IlluminationMap::walk(std::vector<Particle>& particles) {
     while (!particles.empty()) {
         RayPacket packet;
@@ -59,7 +59,7 @@ void IlluminationMap::walk(std::vector<Particle>& particles) {
     }
 }
 
-/// Counts the particle; whether it goes on.
+/// Counts the particle; returns whether it survives.
 bool IlluminationMap::land(Particle& particle, std::uint32_t side, const math::Barycentric& place) {
     add_to(flux_lm_[side], particle.flux_lm);
     const patches::Patches& patches = transport_.patches;
@@ -89,13 +89,13 @@ std::vector<FloatRgb> IlluminationMap::reflected_cd_m2() const {
 namespace {
 
 constexpr std::string_view kName = "particles";
-/// Particles for each look from a reading at the map.
+/// Particles for each evaluation of the map by a reading.
 constexpr std::uint64_t kParticlesPerLook = 64;
 constexpr std::uint64_t kLeastParticles = 4096;
 
 enum Purpose : std::uint64_t { kWalks = kPixels + 1, kLooks };
 
-/// All lights shine by particles.
+/// All lights emit particles.
 PatchTransport transport_for(const Problem& problem) {
     require_diffuse(problem.scene, kName);
     require_all_reflections(problem.max_reflections, kName);
@@ -153,13 +153,13 @@ class Particles final : public Estimator {
     std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
-    /// Of a pass, each a task of its own.
+    /// Particle groups of a pass, each a task of its own.
     static constexpr std::uint64_t kMaps = 4;
 
     PatchTransport transport_;
     PatchReadings readings_;
     std::optional<PictureTracing> tracing_;
-    /// Of a map for pictures.
+    /// Particles of a map for pictures.
     std::uint64_t particles_ = std::max<std::uint64_t>(kLeastParticles, transport_.patches.count());
 };
 
