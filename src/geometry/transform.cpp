@@ -8,7 +8,7 @@
 namespace stilb::geometry {
 namespace {
 
-/// What a similarity multiplies lengths by.
+/// The factor by which a similarity multiplies lengths.
 double similarity_scale(const Transform& t) { return std::cbrt(std::abs(t.determinant())); }
 
 bool keeps_axes(const Transform& t) {

@@ -1,4 +1,4 @@
-// Objects that shine: one-sided diffuse emitters on the front of an object. A luminous sphere is one on a
+// Area lights: one-sided diffuse emitters on the front of an object. A luminous sphere is one on a
 // sphere.
 #pragma once
 

@@ -60,7 +60,7 @@ EmitterElement element_of(const Flat& shape) {
     const double size_m = size(shape);
     return {shape, middle(shape), front_normal(shape), size_m, area(shape), 9 * size_m * size_m};
 }
-/// Seen from anywhere, a quarter of its surface counts.
+/// From every direction, the projected area is a quarter of the surface.
 EmitterElement element_of(const Sphere& sphere) {
     return {sphere,        sphere.center,       std::nullopt,
             sphere.radius, area_m2(sphere) / 4, std::numeric_limits<double>::infinity()};
@@ -88,7 +88,7 @@ double area_pdf_per_sr(const EmitterElement& element, const Vec3& way, const Vec
     return squared_distance * std::sqrt(squared_distance) / (std::abs(dot(way, normal)) * element.area_m2);
 }
 
-/// Nothing of surfaces by harmonics, which are sampled by area.
+/// Empty for surfaces by harmonics, which are sampled by area.
 struct SolidAngleSampler {
     const Vec3& from;
     const std::array<double, 2>& u;
@@ -132,7 +132,7 @@ double rough_pdf_per_sr(const EmitterElement& element, const Vec3& position, con
     if (squared_distance > element.squared_far_m2) return area_pdf_per_sr(element, position - from, normal);
     double cosine = 1;
     if (element.normal) {
-        // Edge-on this is far from the truth, as it is from close by; it must only be the same for all.
+        // Edge-on and close by this is inaccurate; it only has to be consistent for all callers.
         constexpr double least = 0.05;
         cosine = std::max(std::abs(dot(towards, *element.normal)) / std::sqrt(squared_distance), least);
     }

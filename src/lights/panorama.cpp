@@ -23,7 +23,8 @@ constexpr int kMostPartsAcross = 64;
 Panorama::Panorama(Image image) : image_(std::move(image)) {
     check();
     add_up();
-    if (!(total_luminous_lx_ > 0)) throw InputError("the panorama is black. Needed: some light.");
+    if (!(total_luminous_lx_ > 0))
+        throw InputError("the panorama is black. Needed: a pixel with luminance above 0.");
     divide();
 }
 

@@ -1,4 +1,4 @@
-// Functions over the directions of a hemisphere, as polynomials on the disk that it projects to.
+// Functions over the directions of a hemisphere, as polynomials on the unit disk of its projection.
 //
 // A unit direction (x, y, z), z >= 0, lies above the point (x, y) of the unit disk, and the area there is the
 // projected solid angle cos(theta) dw [Nusselt]. Zernike's polynomials are orthogonal on the disk [Born and
@@ -23,7 +23,7 @@ class ZernikeBasis {
     static constexpr int kMostDegree = 12;
     static constexpr std::size_t kMostCount = (kMostDegree + 1) * (kMostDegree + 2) / 2;
 
-    /// Of all polynomials up to `degree`, from 0 to kMostDegree.
+    /// The basis of all polynomials up to `degree`, from 0 to kMostDegree.
     explicit ZernikeBasis(int degree);
 
     int degree() const { return degree_; }

@@ -14,7 +14,7 @@ namespace stilb::patches {
 
 namespace {
 
-/// Sums over the patches around a vertex; d is the way from the vertex to a patch's middle.
+/// Sums over the patches around a vertex; d is the vector from the vertex to a patch's middle.
 struct Surroundings {
     double count = 0;
     Vec3 normal;                 ///< sum of the unit normals
@@ -40,8 +40,8 @@ struct Weighting {
 
 Weighting plain_mean(double count) { return {1 / count, {}}; }
 
-/// Of the fitted plane's value at the vertex: the weights with sum w = 1 and sum w d = 0 (along the surface)
-/// whose squares have the smallest sum.
+/// The weights of the fitted plane's value at the vertex: those with sum w = 1 and sum w d = 0 (along the
+/// surface) whose squares have the smallest sum.
 Weighting fitted_plane(const Surroundings& around) {
     const Frame frame = Frame::around(normalized(around.normal));
     const double n = around.count, u = dot(frame.u, around.d), v = dot(frame.v, around.d);
@@ -54,8 +54,8 @@ Weighting fitted_plane(const Surroundings& around) {
     return {minor / determinant, (by_u / determinant) * frame.u + (by_v / determinant) * frame.v};
 }
 
-/// Calls `visit(patch, corner, vertex, way)` for all corners of all patches; the way leads from the corner to
-/// the patch's middle.
+/// Calls `visit(patch, corner, vertex, offset)` for all corners of all patches; the offset is the vector from
+/// the corner to the patch's middle.
 template <typename Visitor>
 void for_each_corner(const Patches& patches, const Visitor& visit) {
     for (std::uint32_t p = 0; p < patches.count(); ++p) {
@@ -118,7 +118,7 @@ VertexInterpolation::VertexInterpolation(const Patches& patches)
 
 namespace {
 
-/// Corners of triangles are numbered 3 triangle + place.
+/// Corners of triangles are numbered 3 triangle + index.
 std::uint32_t corner_at(std::span<const Triangle> triangles, std::uint32_t triangle, std::uint32_t vertex) {
     const Triangle& corners = triangles[triangle];
     return 3 * triangle + static_cast<std::uint32_t>(std::ranges::find(corners, vertex) - corners.begin());

@@ -36,7 +36,7 @@ void require_success(cairo_status_t status) {
     if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(cairo_status_to_string(status));
 }
 
-/// Cairo's sink: `closure` is the std::string that collects the file.
+/// The output function of Cairo: `closure` is the std::string that collects the file.
 cairo_status_t append(void* closure, const unsigned char* data, unsigned int length) {
     static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
     return CAIRO_STATUS_SUCCESS;
@@ -72,7 +72,7 @@ void set_stroke(cairo_t* context, const Stroke& stroke) {
     cairo_set_dash(context, stroke.dashes.data(), static_cast<int>(stroke.dashes.size()), 0);
 }
 
-/// The extension in lower case; InputError where no picture can have it.
+/// The extension in lower case. Throws InputError where no picture can have it.
 std::string picture_extension(const std::filesystem::path& path) {
     std::string extension = io::extension_of(path);
     if (extension != ".png" && extension != ".svg") {
@@ -90,8 +90,8 @@ void require_picture_path(const std::filesystem::path& path) {
 }
 
 struct Canvas::Cairo {
-    /// The SVG's text as it grows; Cairo writes to it until the surface is finished, hence before the
-    /// surface.
+    /// The growing text of the SVG. It precedes the surface, because Cairo writes to it until the surface is
+    /// finished.
     std::string svg;
     Surface surface;
     Context context;

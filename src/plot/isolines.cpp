@@ -54,12 +54,12 @@ class Nodes {
     static double beyond(double border, double inner) {
         return std::isfinite(inner) ? 1.5 * border - 0.5 * inner : border;
     }
-    /// The value in column i of nodes and row v of cells.
+    /// The value at column i of nodes and row v of cells.
     double along_u(int i, int v) const {
         if (i == 0 || i > nu_) return beyond(cell(i == 0 ? 0 : nu_ - 1, v), cell(i == 0 ? 1 : nu_ - 2, v));
         return cell(i - 1, v);
     }
-    /// A grid of one column or row has the same value beside it.
+    /// A grid of one column or row is extended with the same value.
     double cell(int u, int v) const {
         return values_[static_cast<std::size_t>(std::clamp(v, 0, nv_ - 1)) * static_cast<std::size_t>(nu_) +
                        static_cast<std::size_t>(std::clamp(u, 0, nu_ - 1))];
@@ -83,7 +83,7 @@ void add_segments(const Nodes& nodes, int i, int j, double level, std::vector<Se
     }
     if (count == 2) segments.push_back({crossed[0], crossed[1]});
     if (count == 4) {
-        // A saddle: the mean decides which two corners hang together.
+        // A saddle: the mean decides which two corners are connected.
         const bool center_below = (corner[0] + corner[1] + corner[2] + corner[3]) / 4 < level;
         const std::size_t first = (corner[0] < level) == center_below ? 0 : 1;
         segments.push_back({crossed[first], crossed[first + 1]});
@@ -91,7 +91,7 @@ void add_segments(const Nodes& nodes, int i, int j, double level, std::vector<Se
     }
 }
 
-/// Joins segments that share an edge to chains of edges.
+/// Joins segments that share an edge to polylines of edges.
 class Chains {
   public:
     explicit Chains(std::span<const Segment> segments) : segments_(segments), used_(segments.size(), false) {
@@ -157,7 +157,7 @@ constexpr double kClearance = 3;
 
 double distance_between(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-/// Points by the distance walked along the line.
+/// Points by the distance along the line.
 class Walk {
   public:
     explicit Walk(std::span<const Point> line) : line_(line), walked_(line.size(), 0) {

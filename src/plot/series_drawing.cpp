@@ -18,7 +18,7 @@ constexpr double kMarkerRadius = 3.2;
 constexpr double kLineWidth = 1.7;
 constexpr double kBandAlpha = 0.25;
 
-/// Calls visit(points) for each stretch of points that all have a place.
+/// Calls visit(points) for each stretch of points that all have a position.
 template <typename Visit>
 void for_each_stretch(const std::vector<Point>& points, Visit visit) {
     auto from = points.begin();
@@ -36,7 +36,7 @@ Stroke line_stroke(LineStyle style, const io::Colour& colour) {
 }
 
 void draw_marker(Canvas& canvas, MarkerStyle style, const Point& at, const io::Colour& colour) {
-    // The white rim sets neighbours and the curve behind apart.
+    // The white rim separates neighbours and the curve behind.
     const auto draw = [&](double radius, const io::Colour& fill) {
         if (style == MarkerStyle::circle) canvas.fill_circle(at, radius, fill);
         if (style == MarkerStyle::square) {
@@ -53,7 +53,7 @@ void draw_marker(Canvas& canvas, MarkerStyle style, const Point& at, const io::C
     draw(kMarkerRadius, colour);
 }
 
-/// With caps across it, whichever way it runs.
+/// An interval with caps at its ends, in any orientation.
 void draw_bar(Canvas& canvas, const Point& low, const Point& high, const io::Colour& colour) {
     constexpr double kCap = 3;
     const Stroke stroke{colour, 1.1};

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What the callbacks of a curved surface share for N rays, of which lane i is looked at.
+/// The common data of a curved surface's callbacks for N rays, at lane i.
 RayInterval interval_of(RTCRayN* rays, unsigned width, unsigned lane) {
     return {{RTCRayN_org_x(rays, width, lane), RTCRayN_org_y(rays, width, lane),
              RTCRayN_org_z(rays, width, lane)},
@@ -52,7 +52,7 @@ RayPacket packet_of(RTCRayN* rays, unsigned width) {
     return packet;
 }
 
-/// Unclear for single rays, which are quicker without.
+/// Unclear for single rays, which are faster without classification.
 LaneVerdicts verdicts_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays, unsigned width) {
     if (width == 1 || !surface.has_verdicts()) return {};
     return surface.classifications(part, packet_of(rays, width));

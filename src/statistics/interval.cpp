@@ -88,7 +88,7 @@ double attained_error(std::span<const Estimate> readings, double share) {
 
 double attained_error_of(std::vector<double> half_widths, double share) {
     if (half_widths.empty()) return 0;
-    // The small number keeps 0.95 * 20 from counting as more than 19.
+    // The small number prevents 0.95 * 20 from counting as more than 19.
     const double needed = std::ceil(share * static_cast<double>(half_widths.size()) - 1e-9);
     const auto last =
         half_widths.begin() + std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(needed) - 1, 0);

@@ -7,9 +7,9 @@ namespace stilb::transport {
 
 namespace {
 
-/// Share of the luminance below which a way is not followed on.
+/// Share of the luminance below which a branch is not followed.
 constexpr double kLeastTransmission = 0.005;
-/// Light that is caught in glass could go on for ever.
+/// The limit of interactions, because light can be caught in glass for ever.
 constexpr int kMostFollowed = 32;
 
 class LineOfSightFollower {
@@ -87,7 +87,7 @@ VisibleSurfaces look(const Measurand& luminance, const Scene& scene, const rays:
 
 namespace {
 
-/// Everything that the two functions need of a surface and the way that a path came to it.
+/// The data of a surface and of the incoming path for the two functions.
 struct Meeting {
     const rays::Hit& hit;
     bool is_pane;

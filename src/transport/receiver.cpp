@@ -140,8 +140,8 @@ std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
 
 namespace {
 
-/// Without the response. Direction and distance are those of the point itself; only the shadow ray starts
-/// lifted.
+/// The sample without the response. Direction and distance are those of the point itself; only the shadow ray
+/// starts lifted.
 Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster) {
     const double sensitivity = receiver.sensitivity(light.direction);
     if (sensitivity <= 0) return {};
@@ -149,14 +149,14 @@ Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const r
            caster.transmittance({receiver.lifted(), light.source_point});
 }
 
-/// What has no normal receives light from all around.
+/// A point without a normal receives light from all directions.
 ReceivingPoint receiving_point(const Receiver& receiver) {
     ReceivingPoint point{receiver.position(), std::nullopt};
     if (squared_length(receiver.normal()) > 0) point.normal = receiver.normal();
     return point;
 }
 
-/// The emitters' light along a ray in proportion to the response; beside samples of each light.
+/// The emitters' light along a ray in proportion to the response; combined with samples of each light.
 Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
                        math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();

@@ -15,12 +15,13 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kLuminance = 1000;
 constexpr const char* kNote =
-    "Constant luminance all around, less what black things hide by their configuration factors; convex "
-    "things\n"
+    "Constant luminance from all directions, minus the part that black objects hide by their configuration "
+    "factors; convex "
+    "objects\n"
     "  alone in it, which reflect rho L; and a panorama of two half spaces, whose illuminance is linear in "
     "the cosine.";
 
-/// Near the origin, where black things stand, facing them and more and more turned away.
+/// Elements near the origin, where black objects stand, facing them and increasingly tilted.
 std::vector<exact::Receiver> elements() {
     std::vector<exact::Receiver> all;
     int i = 0;
@@ -89,7 +90,7 @@ VerificationCase under_a_hole() {
     return result;
 }
 
-/// What leaves a convex thing of this material, and what is seen past it.
+/// Rays leaving a convex object of this material, and lines of sight past it.
 VerificationCase seen_case(const std::string& variant, const Shape& shape, const Material& material,
                            double luminance_cd_m2, double tolerance) {
     VerificationCase result{"environment", variant + ", luminance", {}, {}};
@@ -104,9 +105,9 @@ VerificationCase seen_case(const std::string& variant, const Shape& shape, const
     return result;
 }
 
-/// Light that stays in glass for long is followed by paths that end at one surface in 200, each of which
+/// Camera paths in glass end with a probability of one in 200 per surface, while each
 /// carries less than 0.005 of the luminance. A few hundred such paths may all survive or not, and then
-/// nothing else has any noise.
+/// there is no other noise.
 constexpr double kRareEnds = 1e-4;
 
 std::vector<VerificationCase> seen_cases() {
@@ -125,8 +126,8 @@ std::vector<VerificationCase> seen_cases() {
 
 constexpr double kAbove = 1500, kBelow = 200;
 
-/// By a panorama that is `kAbove` about its top and `kBelow` about its bottom, to a plane that nothing
-/// shades.
+/// The illuminance of an unshaded plane by a panorama with `kAbove` around its top and `kBelow` around its
+/// bottom.
 double half_spaces_lx(const Vec3& normal, const Vec3& top) {
     return kPi / 2 * (kAbove + kBelow + (kAbove - kBelow) * dot(normal, top));
 }

@@ -178,14 +178,12 @@ TEST(SceneCamera, RefusesWhatMakesNoPicture) {
     EXPECT_REFUSAL(camera("target = [1, 2, 3]\nresolution = [4, 4]"),
                    "s.toml:4: sensors.s.target: equals the position, so there is no direction to it. "
                    "Allowed: any other point.");
-    EXPECT_REFUSAL(
-        camera("target = [1, 2, 0]\nresolution = [4, 4]"),
-        "s.toml:4: sensors.s.target: lies straight above or below the position, so that no side of "
-        "the picture is up. Allowed: any other point, or another \"up\" than [0, 0, 1].");
-    EXPECT_REFUSAL(
-        camera("target = [1, 7, 3]\nup = [0, -2, 0]\nresolution = [4, 4]"),
-        "s.toml:5: sensors.s.up: is parallel to the way from position to target, so that no side of "
-        "the picture is up. Allowed: any other direction.");
+    EXPECT_REFUSAL(camera("target = [1, 2, 0]\nresolution = [4, 4]"),
+                   "s.toml:4: sensors.s.target: lies straight above or below the position, so the picture "
+                   "has no upward side. Allowed: any other point, or another \"up\" than [0, 0, 1].");
+    EXPECT_REFUSAL(camera("target = [1, 7, 3]\nup = [0, -2, 0]\nresolution = [4, 4]"),
+                   "s.toml:5: sensors.s.up: is parallel to the direction from position to target, so the "
+                   "picture has no upward side. Allowed: any other direction.");
     EXPECT_REFUSAL(camera("target = [1, 7, 3]\nup = [0, 0, 0]\nresolution = [4, 4]"),
                    "s.toml:5: sensors.s.up: [0, 0, 0] has no direction. Allowed: any other vector.");
     EXPECT_REFUSAL(camera("target = [1, 7, 3]"),

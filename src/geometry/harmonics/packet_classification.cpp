@@ -1,12 +1,12 @@
-// HarmonicCells::verdicts(): crossing() in single precision with bounds of its errors, in a loop that
-// compilers turn into vector instructions. So it has no branches, and no conditions but comparisons of two
-// numbers.
+// HarmonicCells::classifications(): crossing() in single precision with bounds of its errors, in a loop that
+// compilers turn into vector instructions. Therefore it has no branches, and no conditions except comparisons
+// of two numbers.
 #include <cmath>
 #include <limits>
 
 #include "geometry/harmonics/cells.h"
 
-// Compiled for several kinds of processors; the best that the machine knows is taken.
+// Compiled for several kinds of processors; the best one is selected at run time.
 #if defined(__x86_64__) && !defined(__clang__)
 #define STILB_FOR_ALL_PROCESSORS __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
@@ -17,10 +17,10 @@ namespace stilb::geometry {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// What roundings add up to, in shares of the coordinates: 30 unit roundoffs on the longest way, the planes
-/// at the sides, and some to spare.
+/// The sum of rounding errors, in shares of the coordinates: 30 unit roundoffs on the longest evaluation
+/// path, the planes at the sides, and a reserve.
 constexpr float kRounding = 48 * 0.5F * std::numeric_limits<float>::epsilon();
-/// Where positions are less certain than this share of the least distance from the origin, nothing is.
+/// Positions less certain than this share of the least distance from the origin classify nothing.
 constexpr float kMostDoubt = 0.01F;
 
 float lesser(float a, float b) { return a < b ? a : b; }
@@ -31,7 +31,7 @@ struct Vec3f {
 };
 float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// The part of a ray where linear functions of the distance are not below 0.
+/// The interval of a ray where linear functions of the distance are not negative.
 struct Stretch {
     float low, high;
 
@@ -94,7 +94,7 @@ HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, con
     const float x = dot(x_axis, from), y = dot(y_axis, from), z = dot(z_axis, from);
     const float dx = dot(x_axis, direction), dy = dot(y_axis, direction), dz = dot(z_axis, direction);
 
-    // The stretch over the cell, which is widened by what positions may be off.
+    // The stretch over the cell, widened by the error of positions.
     const float doubt = kRounding * (std::abs(x) + std::abs(y) + std::abs(z) + magnitude);
     Stretch stretch{start, end};
     stretch.keep(z - low + doubt, dz);

@@ -1,7 +1,7 @@
 // Depth peeling [Everitt 2001, Interactive order-independent transparency]: a layer is the nearest of all
-// that lies behind the layer before, pixel by pixel. Behind means farther or, at the same depth, of a higher
-// number: so two patches in one place both get their layer. Depth is the share of the grid's depth, in single
-// precision; the same patch has exactly the same depth in every layer.
+// surfaces behind the layer before, pixel by pixel. Behind means farther or, at the same depth, of a higher
+// number: so two patches at the same position both get their layer. Depth is the share of the grid's depth,
+// in single precision; the same patch has exactly the same depth in every layer.
 //
 // Agreement with rays is that of item buffers (opengl_item_buffers.cpp): a line that is nearer than 1/256 of
 // the spacing to an edge may fall to the other side of it.
@@ -48,8 +48,8 @@ void main() {
 
 constexpr GLint kCorner = 0, kAxes = 1, kScale = 4, kCount = 5;
 
-/// Larger grids are drawn in parts of so many lines along an edge at most: all layers of one stay in memory.
-/// Every OpenGL 4.5 has pictures of 16384.
+/// Larger grids are drawn in parts of at most so many lines along an edge: all layers of one part stay in
+/// memory. Every OpenGL 4.5 has pictures of 16384.
 constexpr int kLargestTile = 2048;
 
 struct LayerPixel {
@@ -79,7 +79,7 @@ std::vector<Tile> tiles_of(const LineGrid& grid) {
     return tiles;
 }
 
-/// What one line crosses, by its pixel in all layers.
+/// The crossings of one line, from its pixel in all layers.
 void collect(const std::vector<Layer>& layers, std::size_t pixel, double depth_m,
              std::vector<Crossing>& crossings) {
     crossings.clear();
@@ -147,7 +147,7 @@ struct OpenGlBundles::Implementation {
         glViewport(0, 0, tile.width, tile.height);
     }
 
-    /// The last layer is the last that has anything.
+    /// The last layer is the last one with any crossing.
     std::vector<Layer> peeled(const Tile& tile) const {
         std::vector<Layer> all;
         clear_layer(1, kBeforeAll);

@@ -1,12 +1,12 @@
-// Depth. What is written is near / z, z being the distance along the face's axis, in single precision and
+// Depth. The depth value is near / z, z being the distance along the face's axis, in single precision and
 // with nearer being larger: a relative precision of 2^-24 at every distance, whatever the near plane is
 // [Upchurch, Desbrun 2012, Tightening the precision of perspective rendering]. So the near plane can lie
-// closer than anything is seen from: a viewpoint on a surface is lifted by 2^-19 of the scene's size
+// closer than any viewpoint is to a surface: a viewpoint on a surface is lifted by 2^-19 of the scene's size
 // (viewpoint.h), the near plane is at 2^-23.
 //
-// Agreement with rays. Both see a pixel's middle from the same place, rounded alike, through vertices rounded
-// alike. OpenGL rounds them once more on the screen, usually to 1/256 of a pixel: the middle of a pixel that
-// is nearer than that to an edge may fall to the other side of it.
+// Agreement with rays. Both see a pixel's middle from the same viewpoint, with the same rounding of viewpoint
+// and vertices. OpenGL rounds vertices once more on the screen, usually to 1/256 of a pixel: the middle of a
+// pixel that is nearer than that to an edge may fall to the other side of it.
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
@@ -65,8 +65,8 @@ struct OpenGlItemBuffers::Implementation {
         if (size == picture_size) return;
         if (size > drawing.largest_picture()) {
             throw InputError(
-                fmt::format("item buffers of {} pixels are more than the {} that {} can draw. Take "
-                            "that many or fewer, or have them filled by rays.",
+                fmt::format("item buffers of {} pixels exceed the limit of {} pixels of {}. Use "
+                            "a lower resolution, or visibility by rays.",
                             size, drawing.largest_picture(), drawing.renderer()));
         }
         const auto replace = [&](GLuint& picture, GLenum attachment, GLenum format) {
