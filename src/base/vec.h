@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 namespace stilb {
+
+inline constexpr double kPi = std::numbers::pi;
 
 struct Vec3 {
     double x = 0, y = 0, z = 0;

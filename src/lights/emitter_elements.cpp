@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "geometry/harmonics/cells.h"
 #include "geometry/harmonics/surface.h"
@@ -13,7 +12,6 @@
 namespace stilb::lights {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Corners = std::array<Vec3, 3>;
 
 double size(const Rectangle& r) { return std::max(length(r.edge_u), length(r.edge_v)); }

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "lights/luminaire.h"
 #include "math/sampling.h"
 
 namespace stilb::lights {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Vec3 with_components(std::size_t first_axis, double first, double second, double third) {
     std::array<double, 3> v{};

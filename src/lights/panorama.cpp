@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "math/sampling.h"
@@ -13,7 +12,6 @@
 namespace stilb::lights {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// cd/m2: squares and sums stay far from overflow.
 constexpr float kLargest = 1e15F;
 constexpr int kMostPartsAcross = 64;

@@ -7,12 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace stilb::lights {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// The threshold of edge-on views: a point nearer to an emitter's plane than this share of its distance
 /// counts as in the plane, because rounding decides on its side.
 constexpr double kEdgeOn = 1e-12;

@@ -9,8 +9,6 @@ namespace stilb::math {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vec3 from_polar(double sin_theta, double cos_theta, double phi) {
     return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
 }

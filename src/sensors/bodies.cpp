@@ -1,14 +1,12 @@
 #include "sensors/bodies.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "math/sampling.h"
 
 namespace stilb::sensors {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Vec3 kUp{0, 0, 1};
 
 /// An angle from -pi/2 to pi/2 with density 2 cos^2 / pi: the solution of

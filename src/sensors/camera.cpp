@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace stilb::sensors {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Returns false also where rounding alone moves a position from the edge to the outside.
 bool is_beyond(double angle, double limit) {

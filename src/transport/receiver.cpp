@@ -13,8 +13,6 @@ namespace stilb::transport {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 const Material& white() {
     static const Material material = Diffuse{Rgb::grey(1)};
     return material;

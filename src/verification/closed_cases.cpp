@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "exact/closed_rooms.h"
 #include "verification/verification.h"
@@ -11,8 +10,6 @@
 namespace stilb::verification {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 VerificationCase photometric_sphere_case(double reflectance) {
     constexpr double flux_lm = 1000;

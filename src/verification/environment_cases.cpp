@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -12,7 +11,6 @@
 namespace stilb::verification {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLuminance = 1000;
 constexpr const char* kNote =
     "Constant luminance from all directions, minus the part that black objects hide by their configuration "

@@ -16,7 +16,6 @@ namespace stilb::verification {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSourceLuminance = 1000;
 
 /// Elements around a source at the origin that emits upwards: nearer and farther, facing it and increasingly

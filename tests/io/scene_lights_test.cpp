@@ -1,6 +1,5 @@
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <optional>
 
 #include "io/image/picture_file.h"
@@ -8,8 +7,6 @@
 
 namespace stilb::io {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Eight lines before the light's table.
 constexpr const char* kPanel = R"([materials.m]

@@ -6,7 +6,6 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -18,7 +17,6 @@ namespace {
 
 using Grid = PhotometricSolid::Grid;
 using Intensity = std::function<double(const Vec3&)>;
-constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180;
 
 std::vector<double> angles(double first, double last, std::size_t intervals) {

@@ -13,7 +13,6 @@
 namespace stilb::materials {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const Rgb kWhite = Rgb::grey(1);
 
 Vec3 at(double theta_deg, double phi_deg) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "estimators/estimator_list.h"
 #include "exact/closed_rooms.h"
@@ -15,7 +14,6 @@
 namespace stilb::run {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Vec3 kUp{0, 0, 1};
 const Vec3 kFacing = normalized(Vec3{1, -2, 0});
 const Vec3 kTilted = normalized(Vec3{1, -2, 3});

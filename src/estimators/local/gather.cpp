@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "materials/shaded_surface.h"
 #include "math/sampling.h"
@@ -11,8 +10,6 @@
 
 namespace stilb::estimators {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A point y that a ray has met, and the receivers of the ray's packet that may see it. Keeps references.
 class SharedPlace {

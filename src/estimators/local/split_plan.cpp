@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 #include "estimators/local/connection.h"
@@ -16,8 +15,6 @@
 
 namespace stilb::estimators {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Costs in units of one shadow ray of a connection, and factors of the variance model; measured in the
 // example office.

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "io/image/picture_file.h"
 #include "io/photometry/photometry_file.h"
@@ -18,7 +17,6 @@
 namespace stilb::io {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Range kColourTemperature{lights::kMinColourTemperature_k, lights::kMaxColourTemperature_k,
                                    "from 1000 to 25000 K"};
 constexpr double kWholeTurnDeg = 360;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "math/random.h"
 #include "patches/patches.h"
@@ -12,8 +11,6 @@
 
 namespace stilb::estimators {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Mesh fan(const Vec3& middle, const std::vector<Vec3>& rim) {
     Mesh mesh{{middle}, {}};

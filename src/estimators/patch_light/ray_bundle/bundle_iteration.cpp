@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "math/random.h"
@@ -10,7 +9,6 @@
 namespace stilb::estimators {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Dimensions of a step: three for the frame, two for each axis' offset.
 constexpr unsigned kDimensions = 12;
 /// The low-discrepancy sequence is used in a random order within blocks of this many points: consecutive
