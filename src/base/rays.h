@@ -56,7 +56,7 @@ enum class Classification : std::int32_t {
     misses,  ///< the part
     meets,   ///< the surface, there or next to the part
 };
-struct alignas(64) LaneVerdicts : std::array<Classification, kPacketWidth> {};
+struct alignas(64) LaneClassifications : std::array<Classification, kPacketWidth> {};
 
 /// Takes packets to the axes and units of a body: x goes to axes (x - center).
 struct PacketPlacement {
@@ -71,7 +71,7 @@ struct PacketPlacement {
 class Lift {
   public:
     Lift() = default;
-    /// Of a scene with this centre of its bounding box, and half of the box's longest edge.
+    /// The rule for a scene with this centre of its bounding box, and half of the box's longest edge.
     Lift(const Vec3& center, double half_extent_m) : center_(center), half_extent_m_(half_extent_m) {}
 
     const Vec3& center() const { return center_; }

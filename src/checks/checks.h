@@ -19,7 +19,7 @@ namespace stilb::checks {
 /// A closed connected component of an object.
 struct ComponentId {
     ObjectId object{};
-    std::uint32_t shell = 0;
+    std::uint32_t component = 0;
 
     auto operator<=>(const ComponentId&) const = default;
 };
@@ -39,21 +39,21 @@ class Enclosures {
     Enclosures(const Scene& scene, const rays::RayCaster& caster);
 
     /// The enclosure of a light that the point sees; else by the parity of the hits along three rays into the
-    /// hemisphere of the probe's direction, of which two decide.
+    /// hemisphere of the probe's direction, by majority.
     Enclosure enclosure_of(const ProbeRay& probe_ray) const;
     /// The enclosures where each light's rays start: one for points, one for every component of an emitting
     /// object, the outside of all components for light from infinity.
     const std::vector<std::vector<Enclosure>>& of_lights() const { return of_lights_; }
     /// Whether a light's rays start there.
-    bool is_lit(const Enclosure& space) const;
+    bool is_lit(const Enclosure& enclosure) const;
 
     /// The connected components of every object.
-    const std::vector<geometry::ConnectedComponents>& shells() const { return shells_; }
+    const std::vector<geometry::ConnectedComponents>& components() const { return components_; }
 
   private:
-    struct LightPlace {
+    struct LightLocation {
         Vec3 position;
-        Enclosure space;
+        Enclosure enclosure;
     };
 
     std::vector<ProbeRay> probe_rays_of(const Light& light) const;
@@ -62,9 +62,9 @@ class Enclosures {
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
-    std::vector<geometry::ConnectedComponents> shells_;
+    std::vector<geometry::ConnectedComponents> components_;
     std::vector<std::vector<Enclosure>> of_lights_;
-    std::vector<LightPlace> tried_;  ///< the lights whose visibility from a point is tested
+    std::vector<LightLocation> tried_;  ///< the lights whose visibility from a point is tested
 };
 
 // Surfaces that were probably meant to be closed.
@@ -73,7 +73,7 @@ class Enclosures {
 /// holes. And one for emitters whose triangles do not all face the same side. `components`: those of every
 /// object.
 std::vector<std::string> hole_warnings(const Scene& scene,
-                                       const std::vector<geometry::ConnectedComponents>& shells);
+                                       const std::vector<geometry::ConnectedComponents>& components);
 
 // Overlapping surfaces.
 
@@ -93,7 +93,7 @@ inline constexpr std::size_t kMostOverlaps = 1000;
 /// A sentence for each pair of objects that overlap where light arrives: not for the bottom of a cabinet on
 /// the floor.
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                          const Enclosures& spaces);
+                                          const Enclosures& enclosures);
 
 // Misplaced sensors and lights: closed surfaces between them.
 

@@ -21,23 +21,23 @@ namespace {
 constexpr double kLargestHole = 0.05;
 
 struct Hole {
-    std::size_t shells = 0, edges = 0;
+    std::size_t components = 0, edges = 0;
 };
 
-Hole holes_of(const Mesh& mesh, const geometry::ConnectedComponents& shells) {
-    std::vector<Vec3> vector_area(shells.count());
-    std::vector<double> area(shells.count());
+Hole holes_of(const Mesh& mesh, const geometry::ConnectedComponents& components) {
+    std::vector<Vec3> vector_area(components.count());
+    std::vector<double> area(components.count());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto [a, b, c] = mesh.triangles[t];
         const Vec3 doubled = cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
-        vector_area[shells.of_triangle[t]] += doubled;
-        area[shells.of_triangle[t]] += length(doubled);
+        vector_area[components.of_triangle[t]] += doubled;
+        area[components.of_triangle[t]] += length(doubled);
     }
     Hole hole;
-    for (std::uint32_t s = 0; s < shells.count(); ++s) {
-        if (shells.is_closed(s) || length(vector_area[s]) > kLargestHole * area[s]) continue;
-        ++hole.shells;
-        hole.edges += shells.open_edges[s];
+    for (std::uint32_t s = 0; s < components.count(); ++s) {
+        if (components.is_closed(s) || length(vector_area[s]) > kLargestHole * area[s]) continue;
+        ++hole.components;
+        hole.edges += components.open_edges[s];
     }
     return hole;
 }
@@ -45,17 +45,18 @@ Hole holes_of(const Mesh& mesh, const geometry::ConnectedComponents& shells) {
 }  // namespace
 
 std::vector<std::string> hole_warnings(const Scene& scene,
-                                       const std::vector<geometry::ConnectedComponents>& shells) {
+                                       const std::vector<geometry::ConnectedComponents>& components) {
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         const auto* mesh = std::get_if<Mesh>(&object.shape);
         if (mesh == nullptr) continue;
-        const Hole hole = holes_of(*mesh, shells[i]);
-        if (hole.shells == 0) continue;
-        const std::string which = shells[i].count() == 1 ? "it nearly closes"
-                                                         : fmt::format("{} of its {} parts nearly close",
-                                                                       hole.shells, shells[i].count());
+        const Hole hole = holes_of(*mesh, components[i]);
+        if (hole.components == 0) continue;
+        const std::string which =
+            components[i].count() == 1
+                ? "it nearly closes"
+                : fmt::format("{} of its {} parts nearly close", hole.components, components[i].count());
         warnings.push_back(fmt::format(
             "object \"{}\": {}, except for {} open edges: light passes through the holes. Close them, "
             "or leave them "
@@ -64,12 +65,13 @@ std::vector<std::string> hole_warnings(const Scene& scene,
     }
     for (const Light& light : scene.lights) {
         const auto surface = lights::surface_emission(light);
-        if (!surface || shells[index_of(surface->object)].turned_edges == 0) continue;
+        if (!surface || components[index_of(surface->object)].turned_edges == 0) continue;
         warnings.push_back(fmt::format(
             "light \"{}\": at {} edges of object \"{}\" the front changes sides, but only fronts emit light. "
             "Turn "
             "its triangles to one side.",
-            light.name, shells[index_of(surface->object)].turned_edges, scene.object(surface->object).name));
+            light.name, components[index_of(surface->object)].turned_edges,
+            scene.object(surface->object).name));
     }
     return warnings;
 }
@@ -95,14 +97,14 @@ struct FlatTriangle {
     std::array<std::int64_t, 4> plane{};  ///< quantised normal and distance from the origin
     ObjectId object{};
     MaterialId material{};
-    bool shines = false;
+    bool is_emitter = false;
     std::size_t axis = 0;
     Vec3 normal, vertex;
     std::array<Point2, 3> corners{};  ///< counterclockwise
     Point2 min, max;
 
     bool looks_like(const FlatTriangle& other) const {
-        const bool same_emission = shines == other.shines && (!shines || object == other.object);
+        const bool same_emission = is_emitter == other.is_emitter && (!is_emitter || object == other.object);
         return material == other.material && same_emission;
     }
 };
@@ -140,9 +142,10 @@ Mesh mesh_of(const Shape& shape) {
 
 /// All triangles of the scene, grouped by plane, from left to right.
 std::vector<FlatTriangle> flat_triangles(const Scene& scene) {
-    std::vector<bool> shines(scene.objects.size());
+    std::vector<bool> is_emitter(scene.objects.size());
     for (const Light& light : scene.lights) {
-        if (const auto surface = lights::surface_emission(light)) shines[index_of(surface->object)] = true;
+        if (const auto surface = lights::surface_emission(light))
+            is_emitter[index_of(surface->object)] = true;
     }
     std::vector<Mesh> meshes;
     Bounds bounds;
@@ -161,7 +164,7 @@ std::vector<FlatTriangle> flat_triangles(const Scene& scene) {
                 triangles.emplace_back(flattened({vertices[a], vertices[b], vertices[c]}, size_m));
             flat.object = ObjectId{i};
             flat.material = materials.size() == 1 ? materials[0] : materials[t];
-            flat.shines = shines[i];
+            flat.is_emitter = is_emitter[i];
         }
     }
     std::sort(triangles.begin(), triangles.end(), [](const FlatTriangle& a, const FlatTriangle& b) {
@@ -218,10 +221,10 @@ std::vector<Overlap> find_overlaps(const Scene& scene) {
             if (second->plane != first->plane || second->min.u >= first->max.u) break;
             if (second->min.v >= first->max.v || second->max.v <= first->min.v) continue;
             if (first->looks_like(*second)) continue;
-            const auto place = shared_point(*first, *second);
-            if (!place) continue;
+            const auto shared = shared_point(*first, *second);
+            if (!shared) continue;
             const auto [a, b] = std::minmax(first->object, second->object);
-            overlaps.push_back({a, b, *place, first->normal});
+            overlaps.push_back({a, b, *shared, first->normal});
             if (overlaps.size() == kMostOverlaps) return overlaps;
         }
     }
@@ -229,11 +232,11 @@ std::vector<Overlap> find_overlaps(const Scene& scene) {
 }
 
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                          const Enclosures& spaces) {
+                                          const Enclosures& enclosures) {
     const auto is_lit = [&](const Overlap& overlap) {
         const Vec3 offset = 2 * caster.offset_m(overlap.position, caster.half_extent_m()) * overlap.normal;
-        return spaces.is_lit(spaces.enclosure_of({overlap.position + offset, overlap.normal})) ||
-               spaces.is_lit(spaces.enclosure_of({overlap.position - offset, -overlap.normal}));
+        return enclosures.is_lit(enclosures.enclosure_of({overlap.position + offset, overlap.normal})) ||
+               enclosures.is_lit(enclosures.enclosure_of({overlap.position - offset, -overlap.normal}));
     };
     struct Found {
         std::size_t count = 0;

@@ -33,15 +33,15 @@ std::string unit_of(const Sensor& sensor) {
 std::string end_text(const SensorResult& result, std::size_t j) {
     if (result.sub_points.empty()) return "";
     const auto& hit = result.sub_points[j];
-    return hit ? ", meets " + place_text(*hit) : ", leaves the scene";
+    return hit ? ", meets " + location_text(*hit) : ", leaves the scene";
 }
 
 std::string reading_text(const SensorResult& result, const Sensor& sensor, std::size_t j) {
     const std::string value = fmt::format("{} {}", with_error(result.readings[j].estimate), unit_of(sensor));
-    const Place place = sensor.place(j);
-    if (place.angles.empty())
-        return fmt::format("{}   {}{}\n", value, place_text(place), end_text(result, j));
-    return fmt::format("{}   {}\n", angles_text(place), value);
+    const Location location = sensor.location(j);
+    if (location.angles.empty())
+        return fmt::format("{}   {}{}\n", value, location_text(location), end_text(result, j));
+    return fmt::format("{}   {}\n", angles_text(location), value);
 }
 
 std::string grid_values(const SensorResult& result, const std::array<int, 2>& count) {
@@ -61,8 +61,8 @@ std::string size_text(const Sensor& sensor) {
     if (const auto count = sensor.count()) return fmt::format("{} x {} grid", (*count)[0], (*count)[1]);
     const std::string readings =
         fmt::format("{} {}", sensor.size(), sensors::readings_of_type(sensor.type()).many);
-    const auto place = sensor.common_place();
-    return place ? fmt::format("{} {}", readings, place_text(*place)) : readings;
+    const auto location = sensor.common_location();
+    return location ? fmt::format("{} {}", readings, location_text(*location)) : readings;
 }
 
 std::string summary_text(const statistics::GridSummary& summary, const Sensor& sensor) {
@@ -135,21 +135,21 @@ std::string to_table(const RunResult& result) {
     return result.patches ? text + patch_text(*result.patches) : text;
 }
 
-std::string place_text(const Vec3& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z); }
+std::string location_text(const Vec3& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z); }
 std::string direction_text(const Vec3& d) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x, d.y, d.z); }
 
-std::string place_text(const Place& place) {
-    std::string text = fmt::format("{} {}", place.preposition, place_text(place.position));
-    for (const Place::Direction& direction : place.directions) {
+std::string location_text(const Location& location) {
+    std::string text = fmt::format("{} {}", location.preposition, location_text(location.position));
+    for (const Location::Direction& direction : location.directions) {
         if (!direction.preposition.empty())
             text += fmt::format(" {} {}", direction.preposition, direction_text(direction.value));
     }
     return text;
 }
 
-std::string angles_text(const Place& place) {
+std::string angles_text(const Location& location) {
     std::string text;
-    for (const Place::Angle& angle : place.angles)
+    for (const Location::Angle& angle : location.angles)
         text += fmt::format("{}{} {:5.5g}°", text.empty() ? "" : "  ", angle.name, angle.value_deg);
     return text;
 }

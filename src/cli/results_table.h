@@ -20,13 +20,13 @@ std::string with_error(const statistics::Estimate& estimate);
 
 // Positions and directions as text.
 
-std::string place_text(const Vec3& position);
+std::string location_text(const Vec3& position);
 std::string direction_text(const Vec3& direction);
 
 /// Position and direction of a reading: "at ... facing ...".
-std::string place_text(const Place& place);
-/// "theta 30°  phi 0°"; empty where a place has no angles.
-std::string angles_text(const Place& place);
+std::string location_text(const Location& location);
+/// "theta 30°  phi 0°"; empty where a location has no angles.
+std::string angles_text(const Location& location);
 
 // The objects by harmonics whose series were truncated, as text.
 

@@ -46,7 +46,7 @@ std::string reading_rows(const verification::Verification& v) {
     std::string text;
     for (const verification::CheckedReading& reading : v.readings) {
         text += fmt::format("    {:63} {:8.5g} {:10.5g}  {:5} {:7.2g} {:6.2f}\n",
-                            place_text(place_of(reading.exact.measurand)), reading.exact.value,
+                            location_text(location_of(reading.exact.measurand)), reading.exact.value,
                             reading.measured.value, v.unit, 100 * relative_half_width(reading.measured),
                             reading.z);
     }
@@ -57,7 +57,7 @@ nlohmann::ordered_json to_json(const verification::Verification& v) {
     nlohmann::ordered_json readings = nlohmann::ordered_json::array();
     for (const verification::CheckedReading& reading : v.readings) {
         const statistics::Estimate& measured = reading.measured;
-        nlohmann::ordered_json json = io::place_json(place_of(reading.exact.measurand));
+        nlohmann::ordered_json json = io::location_json(location_of(reading.exact.measurand));
         json["exact"] = reading.exact.value;
         json["tolerance"] = reading.exact.tolerance;
         json["value"] = measured.value;

@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what) {
     const bool point_like = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-        return place_of(light) == LightPlace::point;
+        return location_of(light) == LightLocation::point;
     });
     if (!point_like || !has_specular_surfaces(scene)) return {};
     return {
@@ -64,7 +64,7 @@ void require_diffuse(const Scene& scene, std::string_view method) {
 void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::string_view method) {
     if (has_first_shot) return;
     for (const Light& light : scene.lights) {
-        if (place_of(light) != LightPlace::point) continue;
+        if (location_of(light) != LightLocation::point) continue;
         throw InputError(fmt::format(
             "method {} needs a first shot here: light \"{}\" is not a surface, and would light nothing "
             "without one. Use first shot \"incoming\".",
@@ -74,7 +74,7 @@ void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::
 
 void require_no_light_from_outside(const Scene& scene, std::string_view method) {
     for (const Light& light : scene.lights) {
-        if (place_of(light) != LightPlace::infinity) continue;
+        if (location_of(light) != LightLocation::infinity) continue;
         throw InputError(fmt::format(
             "light \"{}\" surrounds the scene, but method {} transports light between surfaces only. Use "
             "method auto, local, double-local, path, ray-bundle or particles.",

@@ -128,8 +128,8 @@ double superfluous_crossings(const Mesh& mesh, const Vec3& from) {
     std::vector<Vec3> directions;
     directions.reserve(mesh.vertices.size());
     for (const Vec3& vertex : mesh.vertices) {
-        const Vec3 way = vertex - from;
-        directions.push_back(way / std::max(length(way), 1e-300));
+        const Vec3 offset = vertex - from;
+        directions.push_back(offset / std::max(length(offset), 1e-300));
     }
     double all = 0, behind = 0;
     for (const auto& [ia, ib, ic] : mesh.triangles) {

@@ -51,7 +51,7 @@ struct ConnectedComponents {
     std::size_t turned_edges = 0;
 
     std::size_t count() const { return open_edges.size(); }
-    bool is_closed(std::uint32_t shell) const { return open_edges[shell] == 0; }
+    bool is_closed(std::uint32_t component) const { return open_edges[component] == 0; }
     std::size_t total_open_edges() const;
 };
 

@@ -15,7 +15,7 @@ struct AreaLight {
     Rgb luminance_cd_m2;
 
     static constexpr std::string_view kType = "area";
-    static constexpr LightPlace kPlace = LightPlace::surface;
+    static constexpr LightLocation kLocation = LightLocation::surface;
     using Emitter = AreaEmitter;
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;

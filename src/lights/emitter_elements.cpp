@@ -30,7 +30,7 @@ Vec3 front_normal(const Rectangle& r) { return normalized(cross(r.edge_u, r.edge
 Vec3 front_normal(const Corners& t) { return normalized(cross(t[1] - t[0], t[2] - t[0])); }
 Vec3 front_normal(const Disk& d) { return d.normal; }
 
-// Those of flat elements leave the normal out: the element has it.
+// Points of flat elements leave the normal out, because the element has it.
 EmitterPoint by_area(const Rectangle& r, const std::array<double, 2>& u) {
     return {r.corner + u[0] * r.edge_u + u[1] * r.edge_v, {}};
 }
@@ -81,9 +81,9 @@ std::vector<EmitterElement> elements_of(const Other& shape) {
 }
 
 /// The density of the direction to a point that is drawn by area.
-double area_pdf_per_sr(const EmitterElement& element, const Vec3& way, const Vec3& normal) {
-    const double squared_distance = squared_length(way);
-    return squared_distance * std::sqrt(squared_distance) / (std::abs(dot(way, normal)) * element.area_m2);
+double area_pdf_per_sr(const EmitterElement& element, const Vec3& offset, const Vec3& normal) {
+    const double squared_distance = squared_length(offset);
+    return squared_distance * std::sqrt(squared_distance) / (std::abs(dot(offset, normal)) * element.area_m2);
 }
 
 /// Empty for surfaces by harmonics, which are sampled by area.

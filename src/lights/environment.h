@@ -16,7 +16,7 @@ struct EnvironmentLight {
     Frame axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< of the panorama in the scene
 
     static constexpr std::string_view kType = "environment";
-    static constexpr LightPlace kPlace = LightPlace::infinity;
+    static constexpr LightLocation kLocation = LightLocation::infinity;
     using Emitter = EnvironmentEmitter;
     /// The flux that enters the scene's bounding box.
     Rgb flux_lm(const Surroundings& surroundings) const;

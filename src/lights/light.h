@@ -31,7 +31,7 @@ struct EmittersOf<std::variant<Kinds...>> {
 using Emitter = EmittersOf<LightSource>::type;
 
 Emitter make_emitter(const Light& light, const Surroundings& surroundings, const Lift& lift);
-LightPlace place_of(const Light& light);
+LightLocation location_of(const Light& light);
 /// The type in scene files; luminous spheres are area lights.
 std::string_view type_of(const Light& light);
 Rgb flux_lm(const Light& light, const Surroundings& surroundings);
@@ -50,5 +50,5 @@ std::optional<LightOrigin> point_origin(const Light& light);
 
 namespace stilb {
 using lights::Light;
-using lights::LightPlace;
+using lights::LightLocation;
 }  // namespace stilb

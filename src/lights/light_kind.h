@@ -22,7 +22,7 @@
 namespace stilb::lights {
 
 /// The location of a kind of light. Transport distinguishes lights by this, never by their kind.
-enum class LightPlace {
+enum class LightLocation {
     point,     ///< no ray can meet it; its light at a point is computed without sampling
     surface,   ///< rays that meet the front of its object see it
     infinity,  ///< rays that leave the scene see it
@@ -124,19 +124,19 @@ concept LightKind = EmitterKind<typename L::Emitter> &&
     std::constructible_from<typename L::Emitter, const L&, const Surroundings&, const Lift&> &&
     requires(const L& light, const Surroundings& surroundings, Bounds& bounds) {
     { L::kType } -> std::convertible_to<std::string_view>;
-    { L::kPlace } -> std::convertible_to<LightPlace>;
+    { L::kLocation } -> std::convertible_to<LightLocation>;
     /// Per band; luminance() of it is lumen.
     { light.flux_lm(surroundings) } -> std::same_as<Rgb>;
     { light.details(surroundings) } -> std::same_as<std::vector<LightDetail>>;
-} &&(L::kPlace != LightPlace::point || (PointEmitterKind<typename L::Emitter> &&
-                                        requires(const L& light) {
-                                            { light.origin() } -> std::same_as<LightOrigin>;
-                                        })) &&
-    (L::kPlace != LightPlace::surface || (SurfaceEmitterKind<typename L::Emitter> &&
-                                          requires(const L& light) {
-                                              { light.object } -> std::convertible_to<ObjectId>;
-                                              { light.luminance_cd_m2 } -> std::convertible_to<Rgb>;
-                                          })) &&
-    (L::kPlace != LightPlace::infinity || InfiniteEmitterKind<typename L::Emitter>);
+} &&(L::kLocation != LightLocation::point || (PointEmitterKind<typename L::Emitter> &&
+                                              requires(const L& light) {
+                                                  { light.origin() } -> std::same_as<LightOrigin>;
+                                              })) &&
+    (L::kLocation != LightLocation::surface || (SurfaceEmitterKind<typename L::Emitter> &&
+                                                requires(const L& light) {
+                                                    { light.object } -> std::convertible_to<ObjectId>;
+                                                    { light.luminance_cd_m2 } -> std::convertible_to<Rgb>;
+                                                })) &&
+    (L::kLocation != LightLocation::infinity || InfiniteEmitterKind<typename L::Emitter>);
 
 }  // namespace stilb::lights

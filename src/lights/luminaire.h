@@ -18,7 +18,7 @@ struct Luminaire {
     Rgb factor;
 
     static constexpr std::string_view kType = "photometry";
-    static constexpr LightPlace kPlace = LightPlace::point;
+    static constexpr LightLocation kLocation = LightLocation::point;
     using Emitter = LuminaireEmitter;
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;

@@ -95,8 +95,8 @@ Vec3 Panorama::direction_at(double column, double z) const {
 std::size_t Panorama::pixel_towards(const Vec3& direction) const {
     const double azimuth = std::atan2(direction.y, direction.x);
     const double polar = std::atan2(std::hypot(direction.x, direction.y), direction.z);
-    const auto inside = [](double place, int count) {
-        return static_cast<std::size_t>(std::clamp(place * count, 0.0, count - 1.0));
+    const auto inside = [](double position, int count) {
+        return static_cast<std::size_t>(std::clamp(position * count, 0.0, count - 1.0));
     };
     return inside(polar / kPi, image_.height) * static_cast<std::size_t>(image_.width) +
            inside(0.5 - azimuth / (2 * kPi), image_.width);

@@ -15,7 +15,7 @@ struct PointLight {
     Rgb intensity_cd;
 
     static constexpr std::string_view kType = "point";
-    static constexpr LightPlace kPlace = LightPlace::point;
+    static constexpr LightLocation kLocation = LightLocation::point;
     using Emitter = PointEmitter;
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;

@@ -25,12 +25,12 @@ class AlbedoTable {
 
   private:
     static constexpr std::size_t kCells = 128;
-    struct Place {
+    struct CellPosition {
         std::size_t cell = 0;
         double fraction = 0;
     };
-    Place place_of(double cosine) const;
-    double cosine_at(double place) const;
+    CellPosition position_of(double cosine) const;
+    double cosine_at(double position) const;
 
     double alpha_;
     double cells_per_log_;

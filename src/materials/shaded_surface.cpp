@@ -93,7 +93,7 @@ SpecularBranches ShadedSurface::branches(LightSide side, const Vec3& from, Carri
     if (!is_bent_ || passes_straight(*material_)) return specular_branches(*material_, side, from);
     if (from.z <= 0) return {};
     return carried == Carried::luminance ? bent_branches_to_light(side, from)
-                                         : bent_branches_to_eye(side, from);
+                                         : bent_branches_to_camera(side, from);
 }
 
 // Particles whose flux is multiplied by J = cos_s(in) cos_g(out) / (cos_g(in) cos_s(out)) [Veach 1997, 5.3.2]
@@ -120,7 +120,7 @@ SpecularBranches ShadedSurface::bent_branches_to_light(LightSide side, const Vec
     return result;
 }
 
-SpecularBranches ShadedSurface::bent_branches_to_eye(LightSide side, const Vec3& from) const {
+SpecularBranches ShadedSurface::bent_branches_to_camera(LightSide side, const Vec3& from) const {
     SpecularBranches result;
     // Reflected light may come from a mirrored direction that was turned upwards, or from one that was not.
     for (const Vec3& mirrored_out : {from, behind(from)}) {

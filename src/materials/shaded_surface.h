@@ -70,7 +70,7 @@ class ShadedSurface {
 
   private:
     SpecularBranches bent_branches_to_light(LightSide side, const Vec3& from) const;
-    SpecularBranches bent_branches_to_eye(LightSide side, const Vec3& from) const;
+    SpecularBranches bent_branches_to_camera(LightSide side, const Vec3& from) const;
     Rgb bent_brdf_per_sr(const Vec3& in, const Vec3& out) const;
     double pdf_of_outgoing_per_sr(const Vec3& shaded_in, const Vec3& out) const;
     std::optional<Vec3> bent_outgoing(const Vec3& shaded_in, double u1, double u2) const;

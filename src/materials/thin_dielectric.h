@@ -28,9 +28,9 @@ struct ThinDielectric {
     struct Shares {
         Rgb reflectance, transmittance;
     };
-    /// Of unpolarised light at an angle of this cosine to the normal, with all inter-reflections: the mean of
-    /// both polarisations, each with r of a face and a = internal_transmittance^(1/cos inside) having T =
-    /// (1-r)^2 a / (1 - r^2 a^2) and R = r + r a T.
+    /// Shares of unpolarised light at an angle of this cosine to the normal, with all inter-reflections: the
+    /// mean of both polarisations, each with r of a face and a = internal_transmittance^(1/cos inside) having
+    /// T = (1-r)^2 a / (1 - r^2 a^2) and R = r + r a T.
     Shares shares(double cosine) const {
         const FresnelReflectance face = fresnel_reflectance(cosine, ior);
         const double length = 1 / refracted_cosine(cosine, ior);

@@ -36,7 +36,7 @@ class ZernikeBasis {
     void evaluate(const Vec3& direction, std::span<double> values) const;
 
   private:
-    /// Of radial polynomials of one m: p_k+1 = (a t + b) p_k - c p_k-1, t = 2 r^2 - 1.
+    /// The recurrence of radial polynomials of one m: p_k+1 = (a t + b) p_k - c p_k-1, t = 2 r^2 - 1.
     struct Recurrence {
         double a = 0, b = 0, c = 0;
     };

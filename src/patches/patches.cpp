@@ -148,10 +148,10 @@ ObjectId Patches::object_of(std::uint32_t patch) const {
     return ObjectId{static_cast<std::uint32_t>(after - first_of_object.begin() - 1)};
 }
 
-Vec3 Patches::position(std::uint32_t patch, const math::Barycentric& place) const {
+Vec3 Patches::position(std::uint32_t patch, const math::Barycentric& barycentric) const {
     const auto& [a, b, c] = corners[patch];
-    return center + place.b0 * Vec3(vertices[a]) + place.b1 * Vec3(vertices[b]) +
-           place.b2 * Vec3(vertices[c]);
+    return center + barycentric.b0 * Vec3(vertices[a]) + barycentric.b1 * Vec3(vertices[b]) +
+           barycentric.b2 * Vec3(vertices[c]);
 }
 
 Vec3 Patches::middle(std::uint32_t patch) const { return position(patch, {1. / 3, 1. / 3, 1. / 3}); }

@@ -9,7 +9,7 @@
 // A patch has two sides, as materials reflect on both. Sides are numbered: the front of patch p is p, its
 // back p + count(), so that the fronts' values come first in arrays of 2 count() values, and those of the
 // backs after them. The front is the side from which the vertices run counterclockwise; only fronts of area
-// lights shine.
+// lights emit.
 #pragma once
 
 #include <cstddef>
@@ -51,7 +51,7 @@ struct Patches {
     std::size_t count() const { return corners.size(); }
     ObjectId object_of(std::uint32_t patch) const;
     /// In world coordinates [m], rounded to 2^-24 of the scene's size.
-    Vec3 position(std::uint32_t patch, const math::Barycentric& place) const;
+    Vec3 position(std::uint32_t patch, const math::Barycentric& barycentric) const;
     Vec3 middle(std::uint32_t patch) const;
 
     /// Precondition: side != kNoSide.

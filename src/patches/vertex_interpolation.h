@@ -40,25 +40,26 @@ class VertexInterpolation {
 
     /// The value at a point of a patch, from the result of at_vertices().
     template <typename Value>
-    Value at(std::span<const Value> of_vertices, std::uint32_t patch, const math::Barycentric& place) const {
+    Value at(std::span<const Value> of_vertices, std::uint32_t patch,
+             const math::Barycentric& barycentric) const {
         const auto& [a, b, c] = patches_.corners[patch];
-        Value value = static_cast<float>(place.b0) * of_vertices[a];
-        value += static_cast<float>(place.b1) * of_vertices[b];
-        value += static_cast<float>(place.b2) * of_vertices[c];
+        Value value = static_cast<float>(barycentric.b0) * of_vertices[a];
+        value += static_cast<float>(barycentric.b1) * of_vertices[b];
+        value += static_cast<float>(barycentric.b2) * of_vertices[c];
         return value;
     }
 
     /// A point of a patch, and the shares of the patches around it in its value: the weights of at().
-    struct Place {
+    struct PatchPoint {
         std::uint32_t patch = 0;
-        math::Barycentric place;
+        math::Barycentric barycentric;
     };
     struct Share {
         std::uint32_t patch = 0;
         double weight = 0;
     };
     /// For few points, whose values are needed without those of all vertices.
-    std::vector<std::vector<Share>> shares_of(std::span<const Place> places) const;
+    std::vector<std::vector<Share>> shares_of(std::span<const PatchPoint> points) const;
 
   private:
     const Patches& patches_;

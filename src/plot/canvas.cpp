@@ -132,10 +132,10 @@ void Canvas::image(const PageRectangle& place, const PixelImage& image) {
     unsigned char* row = cairo_image_surface_get_data(surface.get());
     auto pixel = image.pixels.begin();
     for (int y = 0; y < image.height; ++y, row += cairo_image_surface_get_stride(surface.get())) {
-        unsigned char* place_in_row = row;
-        for (int x = 0; x < image.width; ++x, ++pixel, place_in_row += 4) {
+        unsigned char* position_in_row = row;
+        for (int x = 0; x < image.width; ++x, ++pixel, position_in_row += 4) {
             const std::uint32_t argb = *pixel == PixelImage::kTransparent ? 0 : 0xff000000 | *pixel;
-            std::memcpy(place_in_row, &argb, 4);
+            std::memcpy(position_in_row, &argb, 4);
         }
     }
     cairo_surface_mark_dirty(surface.get());

@@ -92,9 +92,10 @@ void add_segments(const Nodes& nodes, int i, int j, double level, std::vector<Se
 }
 
 /// Joins segments that share an edge to polylines of edges.
-class Chains {
+class Polylines {
   public:
-    explicit Chains(std::span<const Segment> segments) : segments_(segments), used_(segments.size(), false) {
+    explicit Polylines(std::span<const Segment> segments)
+        : segments_(segments), used_(segments.size(), false) {
         for (std::size_t s = 0; s < segments.size(); ++s) {
             touching_[segments[s].from].push_back(s);
             touching_[segments[s].to].push_back(s);
@@ -102,27 +103,28 @@ class Chains {
     }
 
     std::vector<std::vector<EdgeId>> join() {
-        std::vector<std::vector<EdgeId>> chains;
+        std::vector<std::vector<EdgeId>> polylines;
         for (std::size_t s = 0; s < segments_.size(); ++s) {
             if (used_[s]) continue;
             used_[s] = true;
-            std::vector<EdgeId> chain{segments_[s].from, segments_[s].to};
-            extend(chain);
-            std::reverse(chain.begin(), chain.end());
-            extend(chain);
-            chains.push_back(std::move(chain));
+            std::vector<EdgeId> polyline{segments_[s].from, segments_[s].to};
+            extend(polyline);
+            std::reverse(polyline.begin(), polyline.end());
+            extend(polyline);
+            polylines.push_back(std::move(polyline));
         }
-        return chains;
+        return polylines;
     }
 
   private:
-    void extend(std::vector<EdgeId>& chain) {
+    void extend(std::vector<EdgeId>& polyline) {
         for (bool grown = true; grown;) {
             grown = false;
-            for (const std::size_t s : touching_[chain.back()]) {
+            for (const std::size_t s : touching_[polyline.back()]) {
                 if (used_[s]) continue;
                 used_[s] = grown = true;
-                chain.push_back(segments_[s].from == chain.back() ? segments_[s].to : segments_[s].from);
+                polyline.push_back(segments_[s].from == polyline.back() ? segments_[s].to
+                                                                        : segments_[s].from);
                 break;
             }
         }
@@ -142,9 +144,9 @@ std::vector<std::vector<Point>> find_isolines(std::span<const double> values, in
         for (int i = 0; i + 1 < nodes.columns(); ++i) add_segments(nodes, i, j, level, segments);
     }
     std::vector<std::vector<Point>> lines;
-    for (const std::vector<EdgeId>& chain : Chains(segments).join()) {
+    for (const std::vector<EdgeId>& polyline : Polylines(segments).join()) {
         std::vector<Point>& line = lines.emplace_back();
-        for (const EdgeId edge : chain) line.push_back(nodes.crossing(edge, level));
+        for (const EdgeId edge : polyline) line.push_back(nodes.crossing(edge, level));
     }
     return lines;
 }
@@ -197,7 +199,7 @@ std::optional<LabelPlace> LabelPlacer::place(std::span<const Point> line, double
         const Point start = walk.at(from);
         const Point end = walk.at(from + label_width);
         const Point center = walk.at(from + label_width / 2);
-        // Of equally straight stretches the one nearest to the line's middle.
+        // Among equally straight stretches, the one nearest to the line's middle.
         const double straightness =
             distance_between(start, end) / label_width - 0.02 * std::abs(2.0 * i / kCandidates - 1);
         if (straightness <= straightest || !is_free(center, radius)) continue;

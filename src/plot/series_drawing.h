@@ -47,7 +47,7 @@ int crowd_within(const PageRectangle& area, std::span<const PlacedSeries> all);
 PageRectangle legend_box(std::span<const PlacedSeries> all);
 void draw_legend(Canvas& canvas, std::span<const PlacedSeries> all, const PageRectangle& box);
 
-bool has_place(const Point& point);
+bool has_position(const Point& point);
 
 template <typename Frame>
 PlacedSeries place_series(const Series& series, std::size_t index, const Frame& frame) {
@@ -58,7 +58,7 @@ PlacedSeries place_series(const Series& series, std::size_t index, const Frame& 
     for (std::size_t i = 0; i < series.y_low.size(); ++i) {
         Point low = frame.at(series.x[i], frame.low_end(series.y_low[i]));
         Point high = frame.at(series.x[i], series.y_high[i]);
-        if (!has_place(low) || !has_place(high)) low = high = {NAN, NAN};
+        if (!has_position(low) || !has_position(high)) low = high = {NAN, NAN};
         placed.low.push_back(low);
         placed.high.push_back(high);
     }

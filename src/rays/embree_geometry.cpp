@@ -53,8 +53,9 @@ RayPacket packet_of(RTCRayN* rays, unsigned width) {
 }
 
 /// Unclear for single rays, which are faster without classification.
-LaneVerdicts verdicts_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays, unsigned width) {
-    if (width == 1 || !surface.has_verdicts()) return {};
+LaneClassifications classifications_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays,
+                                       unsigned width) {
+    if (width == 1 || !surface.has_classifications()) return {};
     return surface.classifications(part, packet_of(rays, width));
 }
 
@@ -63,7 +64,7 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
-    const LaneVerdicts classifications = verdicts_of(surface, args->primID, rays, args->N);
+    const LaneClassifications classifications = classifications_of(surface, args->primID, rays, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0 || classifications[lane] == Classification::misses) continue;
         const double t = surface.intersect(args->primID, interval_of(rays, args->N, lane));
@@ -77,7 +78,7 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
 
 void curved_occluded(const RTCOccludedFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
-    const LaneVerdicts classifications = verdicts_of(surface, args->primID, args->ray, args->N);
+    const LaneClassifications classifications = classifications_of(surface, args->primID, args->ray, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0 || classifications[lane] == Classification::misses) continue;
         if (classifications[lane] == Classification::meets ||

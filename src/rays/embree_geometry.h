@@ -37,9 +37,9 @@ class CurvedSurface {
     /// Smallest t in the interval at which the ray meets the part, from either side; infinite where it misses
     /// it.
     virtual double intersect(std::size_t part, const RayInterval& ray) const = 0;
-    virtual bool has_verdicts() const { return false; }
+    virtual bool has_classifications() const { return false; }
     /// The result of intersect(), as far as it can be classified faster.
-    virtual LaneVerdicts classifications(std::size_t, const RayPacket&) const { return {}; }
+    virtual LaneClassifications classifications(std::size_t, const RayPacket&) const { return {}; }
     /// `near_by` (a hit with the rounding error of single precision) projected onto the part.
     virtual SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
 };

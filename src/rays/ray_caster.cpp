@@ -360,8 +360,8 @@ Rgb RayCaster::transmittance_of_panes(const Segment& segment) const {
     return left;
 }
 
-RayCaster::Seen RayCaster::seen(const Ray& ray) const {
-    Seen seen;
+RayCaster::FirstHit RayCaster::seen(const Ray& ray) const {
+    FirstHit seen;
     Vec3 origin = ray.origin;
     for (;;) {
         const auto hit = closest(origin, ray.direction);

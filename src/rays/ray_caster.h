@@ -82,11 +82,11 @@ class RayCaster {
 
     /// The first surface other than panes along a ray, none where the ray leaves the
     /// scene, and the transmittance of the panes before it.
-    struct Seen {
+    struct FirstHit {
         std::optional<Hit> hit;
         Rgb transmittance = Rgb::grey(1);
     };
-    Seen seen(const Ray& ray) const;
+    FirstHit seen(const Ray& ray) const;
 
     /// For lanes that are set: `end` becomes negative where a surface is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;

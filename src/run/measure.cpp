@@ -26,7 +26,7 @@ constexpr std::uint64_t kLongestBatch = 1 << 16;
 /// Samples of a replicate: Sobol' indices have 32 bits.
 constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 /// Granules before the first error estimate: an estimate from fewer may be far too small.
-constexpr std::uint64_t kLeastLook = 4;
+constexpr std::uint64_t kLeastCheck = 4;
 /// The number of non-finite contributions that ends a run.
 constexpr double kInvalidRate = 1e-6;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -58,8 +58,8 @@ class Campaign final : public Work {
         return std::min(divided_up(each, granularity_) * granularity_, kMostSamples);
     }
     std::uint64_t most_samples() const override { return kMostSamples; }
-    std::uint64_t next_look() const override {
-        return statistics::next_look(samples_, kLeastLook * granularity_);
+    std::uint64_t next_check() const override {
+        return statistics::next_check(samples_, kLeastCheck * granularity_);
     }
     std::uint64_t most_at_once() const override { return batch_; }
 

@@ -120,7 +120,7 @@ double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
 
 /// The number of passes at the next error estimate: 1, 2, 3, 4, 6, 8, 12 ... of each replicate.
 std::uint64_t next_checkpoint(std::uint64_t passes) {
-    return kReplicates * statistics::next_look(passes / kReplicates, 1);
+    return kReplicates * statistics::next_check(passes / kReplicates, 1);
 }
 
 /// A picture that accumulates one pass after another over all blocks.
@@ -147,7 +147,7 @@ class Passes final : public Work {
     std::uint64_t most_samples() const override { return std::numeric_limits<std::uint64_t>::max(); }
     /// There is no error without two replicates.
     std::uint64_t least_samples() const override { return 2; }
-    std::uint64_t next_look() const override { return next_checkpoint(sums_.passes()); }
+    std::uint64_t next_check() const override { return next_checkpoint(sums_.passes()); }
     std::uint64_t most_at_once() const override { return 1; }
     double attained_error() const override { return run::attained_error(sums_, blind_); }
     void show() override {

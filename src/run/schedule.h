@@ -42,11 +42,11 @@ class Work {
     virtual std::uint64_t samples_for(std::uint64_t paths) const = 0;
     /// The largest number of samples.
     virtual std::uint64_t most_samples() const = 0;
-    /// The least number of samples: without them there is no result, so they are made whatever the limits
-    /// are.
+    /// The least number of samples: without them there is no result, so they are made regardless of the
+    /// limits are.
     virtual std::uint64_t least_samples() const { return 1; }
     /// The number of samples at the next error estimate.
-    virtual std::uint64_t next_look() const = 0;
+    virtual std::uint64_t next_check() const = 0;
     /// Samples between two checks of the clock.
     virtual std::uint64_t most_at_once() const = 0;
 
@@ -74,7 +74,7 @@ class Schedule {
 
   private:
     /// Advances to the next error estimate; returns a reason where the run ends before.
-    std::optional<StopReason> advance_to(std::uint64_t look, std::uint64_t last, Work& work,
+    std::optional<StopReason> advance_to(std::uint64_t check, std::uint64_t last, Work& work,
                                          double& error) const;
     bool is_time_over(const Work& work, std::uint64_t next) const;
     void report(const Work& work, std::uint64_t last, double error) const;

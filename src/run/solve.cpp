@@ -21,7 +21,7 @@ constexpr const char* kMethod = "ray-bundle";
 /// The number of replicates; each has its own light in the file.
 constexpr std::size_t kReplicates = 8;
 /// Steps of each walk before the first error estimate.
-constexpr std::uint64_t kFirstLook = 16;
+constexpr std::uint64_t kFirstCheck = 16;
 constexpr std::uint64_t kStepsAtOnce = 4;
 
 /// Independent walks, each with its own sums.
@@ -50,7 +50,7 @@ class Walks final : public Work {
     std::uint64_t most_samples() const override {
         return std::numeric_limits<std::uint64_t>::max() / kReplicates;
     }
-    std::uint64_t next_look() const override { return statistics::next_look(samples(), kFirstLook); }
+    std::uint64_t next_check() const override { return statistics::next_check(samples(), kFirstCheck); }
     std::uint64_t most_at_once() const override { return kStepsAtOnce; }
 
     bool advance(std::uint64_t steps, const std::atomic<bool>*) override {

@@ -20,9 +20,9 @@ struct SolveResult : RunSummary {
     estimators::PatchSolution solution;
 };
 
-/// Solves by method ray-bundle, whatever the options' method; their `paths` are steps of all walks together.
-/// Without any limit, for a minute. The result depends on scene, patches, degree and seed, and
-/// on the steps done: not on threads. `interrupt` ends the run early, with a result. Throws as measure(), and
+/// Solves by method ray-bundle, regardless of the options' method; their `paths` are steps of all walks
+/// together. Without any limit, for a minute. The result depends on scene, patches, degree and seed, and on
+/// the steps done: not on threads. `interrupt` ends the run early, with a result. Throws as measure(), and
 /// InputError for first shots that cannot be stored: all but incoming and none.
 SolveResult solve(const Scene& scene, const RunOptions& options, int degree = kDefaultDegree,
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);

@@ -57,11 +57,11 @@ Measurand Goniometer::measurand(std::size_t j) const {
     return EmergentRay{point, normal, normalized(frame_of(normal).to_world(local_direction(angles(j))))};
 }
 
-Place Goniometer::place(std::size_t j) const {
-    Place place = place_of(measurand(j));
+Location Goniometer::location(std::size_t j) const {
+    Location location = location_of(measurand(j));
     const auto [theta_deg, phi_deg] = angles(j);
-    place.angles = {{"theta", theta_deg}, {"phi", phi_deg}};
-    return place;
+    location.angles = {{"theta", theta_deg}, {"phi", phi_deg}};
+    return location;
 }
 
 }  // namespace stilb::sensors

@@ -47,10 +47,10 @@ struct Goniometer {
     PolarAngles angles(std::size_t j) const;
     std::size_t size() const { return static_cast<std::size_t>(direction_count()); }
     Measurand measurand(std::size_t j) const;
-    /// The place of a reading with the angles of its direction.
-    Place place(std::size_t j) const;
-    /// The common part of the places of all readings.
-    Place common_place() const { return {"from", point, {{"normal", "facing", normal}}}; }
+    /// The location of a reading with the angles of its direction.
+    Location location(std::size_t j) const;
+    /// The common part of the locations of all readings.
+    Location common_location() const { return {"from", point, {{"normal", "facing", normal}}}; }
 
   private:
     /// The number of directions; more than memory holds where the step is small.

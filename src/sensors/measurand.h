@@ -58,8 +58,8 @@ bool is_luminance(const Measurand& measurand);
 /// The position of a reading, and the side that receives light.
 MeasuringPoint viewpoint_of(const Measurand& measurand);
 
-/// The place of a reading in results: the common source of JSON, CSV and text.
-struct Place {
+/// The location of a reading in results: the common source of JSON, CSV and text.
+struct Location {
     struct Direction {
         std::string_view name;         ///< as a key of JSON and in columns: "normal"
         std::string_view preposition;  ///< in texts: "facing"; empty where texts leave it out
@@ -75,7 +75,7 @@ struct Place {
     std::vector<Direction> directions{};
     std::vector<Angle> angles{};
 };
-Place place_of(const Measurand& measurand);
+Location location_of(const Measurand& measurand);
 
 /// The quantity of a number, as in "illuminance [lx]".
 struct Quantity {
@@ -104,8 +104,8 @@ namespace stilb {
 using sensors::BodyPoint;
 using sensors::EmergentRay;
 using sensors::LineOfSight;
+using sensors::Location;
 using sensors::Measurand;
 using sensors::MeasuringPoint;
-using sensors::Place;
 using sensors::Quantity;
 }  // namespace stilb

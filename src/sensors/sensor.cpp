@@ -59,22 +59,22 @@ std::vector<Measurand> Sensor::measurands() const {
     return all;
 }
 
-Place Sensor::place(std::size_t j) const {
+Location Sensor::location(std::size_t j) const {
     return std::visit(
         [this, j]<typename Kind>(const Kind& one) {
-            if constexpr (requires { one.place(j); }) {
-                return one.place(j);
+            if constexpr (requires { one.location(j); }) {
+                return one.location(j);
             } else {
-                return place_of(measurand(j));
+                return location_of(measurand(j));
             }
         },
         kind);
 }
 
-std::optional<Place> Sensor::common_place() const {
+std::optional<Location> Sensor::common_location() const {
     return std::visit(
-        []<typename Kind>(const Kind& one) -> std::optional<Place> {
-            if constexpr (requires { one.common_place(); }) return one.common_place();
+        []<typename Kind>(const Kind& one) -> std::optional<Location> {
+            if constexpr (requires { one.common_location(); }) return one.common_location();
             return std::nullopt;
         },
         kind);

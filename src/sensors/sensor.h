@@ -4,9 +4,9 @@
 //     fields()                        its keys in scene files (fields.h, base/field.h)
 //     size(), measurand(j)            its readings, all of one quantity; cameras have none
 //
-// and optionally settle(given) for conditions between its keys, place(j) where results show more than
-// place_of(measurand), common_place() and `count` for rows and columns. The scene reader, JSON, CSV, the
-// table and `info` use this interface alone: a new kind is its files and a line in SensorKind.
+// and optionally settle(given) for conditions between its keys, location(j) where results show more than
+// location_of(measurand), common_location() and `count` for rows and columns. The scene reader, JSON, CSV,
+// the table and `info` use this interface alone: a new kind is its files and a line in SensorKind.
 #pragma once
 
 #include <array>
@@ -52,9 +52,9 @@ struct Sensor {
     Measurand measurand(std::size_t j) const;
     /// All measurands, in order.
     std::vector<Measurand> measurands() const;
-    Place place(std::size_t j) const;
-    /// The common part of the places of all readings, if results state it once.
-    std::optional<Place> common_place() const;
+    Location location(std::size_t j) const;
+    /// The common part of the locations of all readings, if results state it once.
+    std::optional<Location> common_location() const;
     /// Columns and rows of readings that cover an area, u fastest.
     std::optional<std::array<int, 2>> count() const;
     /// The camera; null for other sensors.

@@ -112,12 +112,12 @@ double attained_error(std::span<const Estimate> readings, std::span<const double
     return half_widths.empty() ? 0 : half_widths.back().first;
 }
 
-std::uint64_t next_look(std::uint64_t done, std::uint64_t first) {
-    std::uint64_t look = first;
-    while (2 * look <= done) look *= 2;
-    if (done < look) return look;
-    const std::uint64_t half_more = look + look / 2;
-    return done < half_more ? half_more : 2 * look;
+std::uint64_t next_check(std::uint64_t done, std::uint64_t first) {
+    std::uint64_t check = first;
+    while (2 * check <= done) check *= 2;
+    if (done < check) return check;
+    const std::uint64_t half_more = check + check / 2;
+    return done < half_more ? half_more : 2 * check;
 }
 
 }  // namespace stilb::statistics

@@ -102,6 +102,6 @@ double attained_error(std::span<const Estimate> readings, std::span<const double
 
 /// The number of samples at the next error estimate, after `done`: `first`, then 1.5, 2, 3, 4, 6 ...
 /// times as many, where Sobol' points are at their best and the overshoot is at most a half.
-std::uint64_t next_look(std::uint64_t done, std::uint64_t first);
+std::uint64_t next_check(std::uint64_t done, std::uint64_t first);
 
 }  // namespace stilb::statistics

@@ -41,7 +41,7 @@ class LightSampler {
 
     std::size_t count() const { return emitters_.size(); }
     /// Light from a point source is computed exactly, without sampling.
-    bool is_point(std::size_t light) const { return places_[light] == LightPlace::point; }
+    bool is_point(std::size_t light) const { return locations_[light] == LightLocation::point; }
 
     /// Samples the light of one source; point sources ignore `u`. Nothing where the sample's front faces
     /// away.
@@ -92,7 +92,7 @@ class LightSampler {
     double tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const;
 
     std::vector<lights::Emitter> emitters_;
-    std::vector<LightPlace> places_;
+    std::vector<LightLocation> locations_;
     std::vector<Rgb> flux_lm_;
     math::DiscreteDistribution by_flux_;
     std::vector<Rgb> luminance_of_object_;

@@ -155,8 +155,8 @@ double LightTree::probability(const Cut& cut, std::uint32_t number, const Vec3& 
     for (std::uint32_t at = node_of_[number];; at = nodes_[at].parent) {
         const auto found = std::find(cut.nodes_.begin(), end, at);
         if (found != end) {
-            const auto place = static_cast<std::size_t>(found - cut.nodes_.begin());
-            const double own_lx = cut.sums_lx_[place] - (place == 0 ? 0 : cut.sums_lx_[place - 1]);
+            const auto index = static_cast<std::size_t>(found - cut.nodes_.begin());
+            const double own_lx = cut.sums_lx_[index] - (index == 0 ? 0 : cut.sums_lx_[index - 1]);
             return below * own_lx / cut.total_lx();
         }
         const Node& parent = nodes_[nodes_[at].parent];

@@ -42,12 +42,13 @@ struct VisibleSurfaces {
 /// left.
 std::optional<rays::Hit> first_surface(const Measurand& luminance, const rays::RayCaster& caster);
 /// The unit viewing direction.
-Vec3 looking_direction(const Measurand& luminance);
+Vec3 viewing_direction(const Measurand& luminance);
 
 /// Follows the line of sight of a luminance reading, over at most `max_reflections` interactions with mirrors
 /// and glass. Where glass splits it, it follows both branches.
-VisibleSurfaces look(const Measurand& luminance, const Scene& scene, const rays::RayCaster& caster,
-                     const LightSampler& lights, int max_reflections);
+VisibleSurfaces trace_line_of_sight(const Measurand& luminance, const Scene& scene,
+                                    const rays::RayCaster& caster, const LightSampler& lights,
+                                    int max_reflections);
 
 // Specular branches in the scene.
 

@@ -63,7 +63,7 @@ class PathTracer {
 
     /// Follows a path through mirrors and glass to the next surface that scatters; returns false where it
     /// ends before.
-    bool look_through(Path& path) const;
+    bool follow_to_scattering(Path& path) const;
 
     /// Light from one source at `surface`, shadows included; nothing where none arrives.
     std::optional<IncidentLight> sample_light(const rays::Hit& surface, math::SampleStream& stream) const;

@@ -128,7 +128,7 @@ std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
     std::vector<std::uint32_t> order(receivers.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return codes[a] < codes[b]; });
-    // So that at most one packet has bodies beside other receivers.
+    // Bodies follow all others, so that at most one packet has both.
     std::stable_partition(order.begin(), order.end(), [&](auto i) { return !receivers[i].is_body(); });
     std::vector<Receiver> sorted;
     sorted.reserve(receivers.size());

@@ -199,11 +199,11 @@ VerificationCase invisible_case(const std::string& variant, const Shape& thing, 
     add_object(result.scene, thing, material);
     const double tolerance = largest_error(albedo_error, reflectance);
     const double luminance_cd_m2 = exact::furnace_luminance_cd_m2(kEmitted, reflectance);
-    for (const Vec3& eye : {Vec3{3, 0.8, 1.5}, Vec3{0.4, 3.2, 0.9}}) {
+    for (const Vec3& position : {Vec3{3, 0.8, 1.5}, Vec3{0.4, 3.2, 0.9}}) {
         for (const Vec3& offset : spread_directions(6)) {
             const Vec3 target = kMiddle + 0.9 * kHalfSize * offset;
             result.readings.push_back(
-                {LineOfSight{eye, normalized(target - eye)}, luminance_cd_m2, tolerance});
+                {LineOfSight{position, normalized(target - position)}, luminance_cd_m2, tolerance});
         }
     }
     result.readings.push_back(

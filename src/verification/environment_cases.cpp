@@ -96,8 +96,9 @@ VerificationCase seen_case(const std::string& variant, const Shape& shape, const
     add_object(result.scene, shape, material);
     add_environment(result.scene, kLuminance);
     for (const Vec3& direction : spread_directions(6)) {
-        const Vec3 eye = 2 * direction, target = 0.15 * Vec3{direction.y, direction.z, direction.x};
-        result.readings.push_back({LineOfSight{eye, normalized(target - eye)}, luminance_cd_m2, tolerance});
+        const Vec3 position = 2 * direction, target = 0.15 * Vec3{direction.y, direction.z, direction.x};
+        result.readings.push_back(
+            {LineOfSight{position, normalized(target - position)}, luminance_cd_m2, tolerance});
     }
     result.readings.push_back({LineOfSight{{2, 0, 0}, normalized(Vec3{0.4, 1, 0.2})}, kLuminance});
     return result;

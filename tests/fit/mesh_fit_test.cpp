@@ -100,7 +100,7 @@ TEST(MeshFit, RefusesWhatIsNotStarShaped) {
 
 /// Seen from the middle of its base, each arm of the U hides behind the wall of the gap: directions towards
 /// the far ends of the arms are the worst.
-TEST(MeshFit, TakesTheOutermostSurfaceWhereToldTo) {
+TEST(MeshFit, TakesTheOutermostSurfaceOnRequest) {
     const MeshFit fit = fit_mesh(
         u_prism(), {.degree = 6, .center = Vec3{1.5, 0.5, 0.5}, .otherwise = NotStarShaped::take_outermost},
         "");

@@ -91,8 +91,8 @@ TEST(SceneGoniometer, MeasuresAPlane) {
     const Sensor s = read_text(goniometer("normal = [0, 0, 1]\nplane = 90\nstep = 30")).sensors[0];
     EXPECT_EQ(s.type(), "goniometer");
     ASSERT_EQ(s.size(), 5u);
-    EXPECT_EQ(s.place(0).angles[0].value_deg, -60);
-    EXPECT_EQ(s.place(0).angles[1].value_deg, 90);
+    EXPECT_EQ(s.location(0).angles[0].value_deg, -60);
+    EXPECT_EQ(s.location(0).angles[1].value_deg, 90);
     const auto ray = std::get<EmergentRay>(s.measurand(3));
     EXPECT_EQ(ray.position, (Vec3{2, 2, 0}));
     EXPECT_EQ(ray.normal, (Vec3{0, 0, 1}));

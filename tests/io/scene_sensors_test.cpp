@@ -51,7 +51,7 @@ TEST(SceneBodies, StandAtOnePointOrMany) {
     ASSERT_EQ(one.size(), 1u);
     EXPECT_EQ(body(one, 0).position, (Vec3{1, 2, 3}));
     EXPECT_EQ(body(one, 0).axis, (Vec3{0, 0, 1}));
-    EXPECT_TRUE(one.place(0).directions.empty());
+    EXPECT_TRUE(one.location(0).directions.empty());
     const Sensor two = read_text(sensor("type = \"spherical\"\npoints = [[1, 2, 3], [4, 5, 6]]")).sensors[0];
     EXPECT_EQ(two.quantity().name, "spherical illuminance");
     ASSERT_EQ(two.size(), 2u);
@@ -62,14 +62,14 @@ TEST(SceneBodies, FaceADirectionOrANormal) {
     const SceneFile file =
         read_text(sensor("type = \"semicylindrical\"\nposition = [1, 2, 3]\ndirection = [0, 2, 0]"));
     EXPECT_EQ(body(file.sensors[0], 0).axis, (Vec3{0, 1, 0}));
-    ASSERT_EQ(file.sensors[0].place(0).directions.size(), 1u);
-    EXPECT_EQ(file.sensors[0].place(0).directions[0].name, "direction");
+    ASSERT_EQ(file.sensors[0].location(0).directions.size(), 1u);
+    EXPECT_EQ(file.sensors[0].location(0).directions[0].name, "direction");
     EXPECT_EQ(file.warnings.back(),
               "s.toml:4: sensors.s.direction: the vector has length 2; it is normalised to length 1.");
     const Sensor hemisphere =
         read_text(sensor("type = \"hemispherical\"\nposition = [1, 2, 3]\nnormal = [0, 0, -1]")).sensors[0];
     EXPECT_EQ(body(hemisphere, 0).axis, (Vec3{0, 0, -1}));
-    EXPECT_EQ(hemisphere.place(0).directions[0].name, "normal");
+    EXPECT_EQ(hemisphere.location(0).directions[0].name, "normal");
 }
 
 TEST(SceneBodies, RefuseWrongKeys) {

@@ -136,7 +136,7 @@ std::array<double, 4> means_over_bodies(const auto& lx) {
 
 TEST_P(BodiesBy, ADiskLight) {
     constexpr double luminance = 1000;
-    const exact::DiskPlace disk{{2, 1.5, 2.6}, {0.3, 0.1, -1}, 0.5};
+    const exact::DiskPosition disk{{2, 1.5, 2.6}, {0.3, 0.1, -1}, 0.5};
     const Vec3 at{1, 1.2, 1.1};
     Scene scene;
     add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, Black{});

@@ -16,11 +16,12 @@
 namespace stilb::estimators {
 
 /// Keeps references to its arguments' targets. Immutable.
-class Fan {
+class Connections {
   public:
     /// An infinite k of a tile's receiver gives w = 1 there (plain local estimation). Vertices that path
     /// tracing cannot find (LightVertex::only_by_light) have w = 1 for any k.
-    Fan(const rays::RayCaster& caster, std::span<const PointTile> tiles) : caster_(caster), tiles_(tiles) {}
+    Connections(const rays::RayCaster& caster, std::span<const PointTile> tiles)
+        : caster_(caster), tiles_(tiles) {}
 
     /// Adds the contributions of the vertices to each receiver, and keeps the largest single ones. Counts
     /// rays.

@@ -12,11 +12,11 @@ namespace stilb::estimators {
 namespace {
 
 /// A point y that a ray has met, and the receivers of the ray's packet that may see it. Keeps references.
-class SharedPlace {
+class SharedPoint {
   public:
     /// Light for receivers that are farther from their sensors may have met fewer surfaces: only receivers
     /// with the same count as `own` share.
-    SharedPlace(const rays::Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
+    SharedPoint(const rays::Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
                 const Vec3& center)
         : surface_(material, hit.normal, hit.shading_normal), tile_(tile) {
         // There is at least one reflection, at y.
@@ -141,9 +141,10 @@ class SharedPlace {
 void Gather::collect(const Batch& batch, ReadingSums& sums) const {
     for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
         const math::RandomKey key = batch.key.derived(tile);
-        const std::uint64_t chains = plans_[tile * kPacketWidth].chains_per_ray;
-        for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
-            trace_round(tiles_[tile], key, i, static_cast<double>(chains), sums);
+        const std::uint64_t light_paths = plans_[tile * kPacketWidth].paths_per_ray;
+        for (std::uint64_t i = batch.first / light_paths; i < (batch.first + batch.count) / light_paths;
+             ++i) {
+            trace_round(tiles_[tile], key, i, static_cast<double>(light_paths), sums);
         }
     }
 }
@@ -170,27 +171,27 @@ void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64
 
 void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t own,
                        math::SampleStream& stream, double weight, ReadingSums& sums) const {
-    SharedPlace place(hit, tracer_.material(hit), tile, own, caster_.center());
-    if (!place.reaches(own)) return;
-    const double survival = place.gathered_share();
+    SharedPoint shared(hit, tracer_.material(hit), tile, own, caster_.center());
+    if (!shared.reaches(own)) return;
+    const double survival = shared.gathered_share();
     if (stream.next() >= survival) return;
     weight /= survival;
-    place.test_visibility(caster_, own);
-    const double ray_density = place.ray_density();
+    shared.test_visibility(caster_, own);
+    const double ray_density = shared.ray_density();
     if (const auto light = tracer_.sample_light(hit, stream)) {
         // BRDF samples may hit emitters, too; the balance heuristic weights both techniques.
         const double light_density = light->pdf_per_sr * ray_density;
         const double share = std::isinf(light_density)
                                  ? 1
-                                 : light_density / (light_density + place.beam_density(light->direction));
-        place.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
+                                 : light_density / (light_density + shared.beam_density(light->direction));
+        shared.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
     }
-    if (const auto beam = place.sample_beam(own, stream)) {
+    if (const auto beam = shared.sample_beam(own, stream)) {
         const transport::PreviousVertex previous_vertex{beam->density / ray_density, hit.position,
                                                         hit.normal};
         const Rgb luminance = tracer_.incoming_luminance({hit.lifted, beam->direction}, previous_vertex,
                                                          tile.reflections_left[own] - 1, stream);
-        place.reflect(beam->direction, luminance * (weight * beam->weight / beam->density), sums);
+        shared.reflect(beam->direction, luminance * (weight * beam->weight / beam->density), sums);
     }
 }
 }  // namespace stilb::estimators

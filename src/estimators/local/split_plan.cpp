@@ -37,16 +37,17 @@ struct RaySample {
 /// The model's prediction for a point and a k.
 struct Outcome {
     double k_per_m2 = 0;
-    double fan_variance = 0;     ///< of one light path, relative to the indirect light squared
-    double gather_variance = 0;  ///< of one gathering ray, likewise
-    double gather_cost = 0;      ///< of one gathering ray
+    double connection_variance = 0;  ///< of one light path, relative to the indirect light squared
+    double gather_variance = 0;      ///< of one gathering ray, likewise
+    double gather_cost = 0;          ///< of one gathering ray
 };
 struct Prediction {
     double variance = 0, cost = 0;  ///< of a light path with its share of gathering
 };
-Prediction predict(const Outcome& outcome, std::uint64_t chains_per_ray) {
-    const double chains = static_cast<double>(chains_per_ray);
-    return {outcome.fan_variance + chains * outcome.gather_variance, outcome.gather_cost / chains};
+Prediction predict(const Outcome& outcome, std::uint64_t paths_per_ray) {
+    const double light_paths = static_cast<double>(paths_per_ray);
+    return {outcome.connection_variance + light_paths * outcome.gather_variance,
+            outcome.gather_cost / light_paths};
 }
 
 /// One prediction for each tried k: powers of two times pi nu.
@@ -64,16 +65,17 @@ PointModel model_of(std::span<const RaySample> rays, double density_per_m2) {
     const double largest = kLargestFactorPerRay * static_cast<double>(rays.size());
     for (double factor = kLeastFactor; factor <= largest; factor *= 2) {
         const double k = factor * kPi * density_per_m2;
-        double fan_moment = 0, gathered = 0, gathered_moment = 0;
+        double connection_moment = 0, gathered = 0, gathered_moment = 0;
         for (const auto& [g, l, own_share] : rays) {
             const double rest = transport::GatheredShare{g / k}(1);
             const double w = 1 - rest;
-            if (w > 0) fan_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * density_per_m2));
+            if (w > 0)
+                connection_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * density_per_m2));
             gathered += rest;
             gathered_moment += l * l * rest * own_share;
         }
         const double per_ray = 1 / static_cast<double>(rays.size());
-        model.push_back({k, per_ray * fan_moment / (kPi * density_per_m2),
+        model.push_back({k, per_ray * connection_moment / (kPi * density_per_m2),
                          per_ray * kPathVariance * gathered_moment,
                          kRayCost + kPathCost * per_ray * gathered});
     }
@@ -86,11 +88,11 @@ struct Choice {
 };
 /// The best k for a given number of light paths per ray, when a unit of cost is worth `price` units of
 /// variance.
-Choice best_constant(const PointModel& point, std::uint64_t chains_per_ray, double price) {
+Choice best_constant(const PointModel& point, std::uint64_t paths_per_ray, double price) {
     Choice best;
     double least = std::numeric_limits<double>::infinity();
     for (const Outcome& outcome : point) {
-        const Prediction prediction = predict(outcome, chains_per_ray);
+        const Prediction prediction = predict(outcome, paths_per_ray);
         const double loss = prediction.variance + price * prediction.cost;
         if (loss < least) {
             least = loss;
@@ -105,12 +107,12 @@ Choice best_constant(const PointModel& point, std::uint64_t chains_per_ray, doub
 Prediction plan_packet(std::span<const PointModel> packet, double price, std::span<SplitPlan> plans) {
     Prediction best;
     double least = std::numeric_limits<double>::infinity();
-    for (std::uint64_t chains = 1; chains <= kMostChainsPerRay; chains *= 2) {
+    for (std::uint64_t light_paths = 1; light_paths <= kMostPathsPerRay; light_paths *= 2) {
         std::array<SplitPlan, kPacketWidth> tried;
         Prediction sum;
         for (std::size_t j = 0; j < packet.size(); ++j) {
-            const Choice choice = best_constant(packet[j], chains, price);
-            tried[j] = {choice.k_per_m2, chains};
+            const Choice choice = best_constant(packet[j], light_paths, price);
+            tried[j] = {choice.k_per_m2, light_paths};
             sum.variance += choice.prediction.variance;
             sum.cost += choice.prediction.cost;
         }
@@ -125,7 +127,7 @@ Prediction plan_packet(std::span<const PointModel> packet, double price, std::sp
 }
 
 /// The mean of w over rays.
-double mean_chain_share(std::span<const RaySample> rays, double k_per_m2) {
+double mean_connected_share(std::span<const RaySample> rays, double k_per_m2) {
     double sum = 0;
     for (const RaySample& ray : rays) sum += 1 - transport::GatheredShare{ray.g_per_m2 / k_per_m2}(1);
     return sum / static_cast<double>(rays.size());
@@ -219,7 +221,7 @@ PilotSums collect_pilot(const rays::RayCaster& caster, std::span<const transport
         for (std::size_t i = 0; i < packet.size(); ++i) packet[i].set_reading(static_cast<std::uint32_t>(i));
         const std::vector<PointTile> tile = tiles_of(packet, k, caster, pilot.max_reflections);
         ReadingSums sums(packet.size());
-        Fan(caster, tile).collect(nodes, sums);
+        Connections(caster, tile).collect(nodes, sums);
         std::vector<double> luminous;
         for (const Rgb& sum : sums.sum) luminous.push_back(sum.luminance());
         return luminous;
@@ -234,20 +236,20 @@ std::vector<Survey> survey_packet(const rays::RayCaster& caster, const transport
                                   std::span<const transport::Receiver> receivers, const PilotLight& pilot,
                                   std::span<const transport::LightVertex> units, unsigned rays_per_receiver,
                                   math::RandomKey key) {
-    const double chains = static_cast<double>(pilot.chains);
+    const double light_paths = static_cast<double>(pilot.light_paths);
     const double area_m2 = std::max(pilot.scene_area_m2, std::numeric_limits<double>::min());
-    const double mean_density = (static_cast<double>(pilot.nodes.size()) + 1) / (chains * area_m2);
+    const double mean_density = (static_cast<double>(pilot.nodes.size()) + 1) / (light_paths * area_m2);
     // There are few vertices, and in a corner one may be very near by chance. Bounding kernels to a width
     // above the distance between vertices limits the influence of such a vertex.
     constexpr double nodes_within = 16;
-    const double k_per_m2 = kPi * chains * mean_density / nodes_within;
+    const double k_per_m2 = kPi * light_paths * mean_density / nodes_within;
     const PilotSums sums = collect_pilot(caster, receivers, k_per_m2, pilot, units);
     const std::vector<PointTile> tile =
         tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2), caster, pilot.max_reflections);
     std::vector<Survey> surveys;
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         RaySamples samples = sample_rays(caster, tracer, tile.front(), i, rays_per_receiver, key.derived(i));
-        const double seen = chains * std::max(mean_chain_share(samples.rays, k_per_m2), 0.01);
+        const double seen = light_paths * std::max(mean_connected_share(samples.rays, k_per_m2), 0.01);
         // A glossy sub-point reflects few or no vertices: there rays are more reliable.
         const double indirect = receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
         // Without any light seen, planning cannot gain anything.
@@ -301,7 +303,7 @@ std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
         const double share = values[reading] > 0 ? models[j].indirect / values[reading] : 0;
         weighted.push_back(std::move(models[j].model));
         for (Outcome& outcome : weighted.back()) {
-            outcome.fan_variance *= weights[reading] * share * share;
+            outcome.connection_variance *= weights[reading] * share * share;
             outcome.gather_variance *= weights[reading] * share * share;
         }
     }
@@ -318,21 +320,22 @@ std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transpor
     const std::vector<PointModel> models = weighted_models(
         model_receivers(caster, tracer, receivers, pilot, key, monitor), receivers, weights, pilot.direct);
     // About half of the vertices face a point; all points share the cost of tracing.
-    const double nodes_per_chain =
-        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
+    const double vertices_per_path =
+        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.light_paths);
     const std::size_t lanes = (receivers.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth;
-    const double fan_cost =
-        0.5 * nodes_per_chain * static_cast<double>(lanes) +
-        kSegmentCost * (nodes_per_chain + 1) * static_cast<double>(pilot.chains_per_selected);
+    const double connection_cost =
+        0.5 * vertices_per_path * static_cast<double>(lanes) +
+        kSegmentCost * (vertices_per_path + 1) * static_cast<double>(pilot.paths_per_selected);
     // The worth of a unit of cost: at the best plan, the quotient of variance and cost. Both depend on the
     // plan; after some rounds they change little.
     double price = 0;
-    for (const PointModel& model : models) price += predict(model[model.size() / 2], 16).variance / fan_cost;
+    for (const PointModel& model : models)
+        price += predict(model[model.size() / 2], 16).variance / connection_cost;
     std::vector<SplitPlan> plans(receivers.size());
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
         price = std::max(price, std::numeric_limits<double>::min());  // cost decides where nothing varies
-        Prediction sum{0, fan_cost};
+        Prediction sum{0, connection_cost};
         for (std::size_t first = 0; first < models.size(); first += kPacketWidth) {
             const std::size_t count = std::min<std::size_t>(kPacketWidth, models.size() - first);
             const Prediction packet =
@@ -347,7 +350,7 @@ std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transpor
 
 double plan_constant(const rays::RayCaster& caster, const transport::PathTracer& tracer,
                      std::span<const transport::Receiver> receivers, const PilotLight& pilot,
-                     std::uint64_t chains_per_ray, unsigned rays_per_receiver, math::RandomKey key) {
+                     std::uint64_t paths_per_ray, unsigned rays_per_receiver, math::RandomKey key) {
     const std::vector<Survey> surveys =
         survey_packet(caster, tracer, receivers, pilot, unit_nodes(pilot.nodes), rays_per_receiver, key);
     double density_per_m2 = 0;
@@ -360,20 +363,20 @@ double plan_constant(const rays::RayCaster& caster, const transport::PathTracer&
         sums.resize(model.size());
         for (std::size_t i = 0; i < model.size(); ++i) {
             sums[i].k_per_m2 = model[i].k_per_m2;
-            sums[i].fan_variance += model[i].fan_variance;
+            sums[i].connection_variance += model[i].connection_variance;
             sums[i].gather_variance += model[i].gather_variance;
             sums[i].gather_cost += model[i].gather_cost;
         }
     }
-    const double chains = static_cast<double>(chains_per_ray);
-    const double nodes_per_chain =
-        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
-    const double fan_cost = chains * nodes_per_chain * static_cast<double>(surveys.size());
+    const double light_paths = static_cast<double>(paths_per_ray);
+    const double vertices_per_path =
+        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.light_paths);
+    const double connection_cost = light_paths * vertices_per_path * static_cast<double>(surveys.size());
     Outcome best;
     double least = std::numeric_limits<double>::infinity();
     for (const Outcome& outcome : sums) {
-        const double loss =
-            (outcome.fan_variance / chains + outcome.gather_variance) * (fan_cost + outcome.gather_cost);
+        const double loss = (outcome.connection_variance / light_paths + outcome.gather_variance) *
+                            (connection_cost + outcome.gather_cost);
         if (loss < least) {
             least = loss;
             best = outcome;

@@ -15,20 +15,20 @@ namespace stilb::estimators {
 
 struct SplitPlan {
     double k_per_m2 = 0;
-    std::uint64_t chains_per_ray = 1;  ///< light paths for each gathering ray: a power of two
+    std::uint64_t paths_per_ray = 1;  ///< light paths for each gathering ray: a power of two
 };
 
 /// The upper limit of paths_per_ray.
-inline constexpr std::uint64_t kMostChainsPerRay = 64;
+inline constexpr std::uint64_t kMostPathsPerRay = 64;
 
 /// An estimate of the light before planning, and its sampling.
 struct PilotLight {
     std::span<const transport::LightVertex> nodes;
-    std::uint64_t chains = 1;        ///< that made the vertices
+    std::uint64_t light_paths = 1;   ///< that made the vertices
     std::span<const double> direct;  ///< of each reading: direct light [lx or cd/m2]
     double scene_area_m2 = 1;
     int max_reflections = 0;
-    std::uint64_t chains_per_selected = 1;  ///< light paths for each whose vertices are connected
+    std::uint64_t paths_per_selected = 1;  ///< light paths for each whose vertices are connected
 };
 
 /// Plans, one for each receiver, that about minimise the sum over the readings of weight variance / value^2,
@@ -53,6 +53,6 @@ std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transpor
 /// so many light paths whose vertices are all connected to it: by the same model.
 double plan_constant(const rays::RayCaster& caster, const transport::PathTracer& tracer,
                      std::span<const transport::Receiver> receivers, const PilotLight& pilot,
-                     std::uint64_t chains_per_ray, unsigned rays_per_receiver, math::RandomKey key);
+                     std::uint64_t paths_per_ray, unsigned rays_per_receiver, math::RandomKey key);
 
 }  // namespace stilb::estimators

@@ -88,7 +88,7 @@ class PatchReadings {
 /// mirrors or glass to show them, and then along their normals. Keeps a reference to the transport.
 class VisibleSides {
   public:
-    VisibleSides(const PatchTransport& transport, const Vec3& eye);
+    VisibleSides(const PatchTransport& transport, const Vec3& camera);
 
     /// Adds each side's reflected light to `sums_cd_m2`, without first shot.
     void add(const PatchLight& light, std::vector<FloatRgb>& sums_cd_m2) const;
@@ -103,7 +103,7 @@ class VisibleSides {
 
   private:
     const PatchTransport& transport_;
-    Vec3 eye_;
+    Vec3 camera_;
     bool are_backs_seen_;
     std::vector<FloatRgb> first_;  ///< [cd/m2] by first shot
 };
@@ -119,9 +119,9 @@ void VisibleSides::for_each(const Visit& visit) const {
             visit(back, -normal);
             continue;
         }
-        const Vec3 to_eye = normalized(eye_ - patches.middle(patch));
-        const bool front_is_seen = dot(to_eye, normal) > 0;
-        visit(front_is_seen ? patch : back, to_eye);
+        const Vec3 to_camera = normalized(camera_ - patches.middle(patch));
+        const bool front_is_seen = dot(to_camera, normal) > 0;
+        visit(front_is_seen ? patch : back, to_camera);
         if (are_backs_seen_) visit(front_is_seen ? back : patch, front_is_seen ? -normal : normal);
     }
 }

@@ -112,12 +112,12 @@ class SolutionPicture final : public Estimator {
 
   private:
     void reflect(const TermLayout& layout, const std::vector<std::vector<FloatRgb>>& replicates) {
-        struct Seen {
+        struct VisibleSide {
             std::uint32_t side = 0;
             Vec3 out;
         };
         const VisibleSides sides(transport_, tracing_.view.position());
-        std::vector<Seen> seen;
+        std::vector<VisibleSide> seen;
         sides.for_each([&](std::uint32_t side, const Vec3& out) { seen.push_back({side, out}); });
         std::ranges::fill(replicates_cd_m2_, std::vector<FloatRgb>(sides.count()));
         tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {

@@ -89,7 +89,7 @@ std::vector<std::optional<PatchLocation>> find_patch_locations(const patches::Pa
     // The segment to the hit is free. So is a short stretch beyond it, where rays meet patches that protrude
     // from the true surface by rounding.
     constexpr double stretch = 1e-3;
-    std::vector<std::optional<PatchLocation>> places(points.size());
+    std::vector<std::optional<PatchLocation>> locations(points.size());
     for (std::size_t first = 0; first < points.size(); first += kPacketWidth) {
         const std::size_t count = std::min<std::size_t>(kPacketWidth, points.size() - first);
         RayPacket packet;
@@ -103,10 +103,10 @@ std::vector<std::optional<PatchLocation>> find_patch_locations(const patches::Pa
         const patches::PatchHits hits = caster.closest(packet, lanes, coherence);
         for (std::size_t lane = 0; lane < count; ++lane) {
             if (hits.sides[lane] == patches::kNoSide) continue;
-            places[first + lane] = PatchLocation{hits.sides[lane], hits.place(lane)};
+            locations[first + lane] = PatchLocation{hits.sides[lane], hits.barycentric(lane)};
         }
     }
-    return places;
+    return locations;
 }
 
 }  // namespace stilb::estimators

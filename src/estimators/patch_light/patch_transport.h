@@ -84,7 +84,7 @@ struct PatchTransport : FirstShotPatches {
 
 struct PatchLocation {
     std::uint32_t side = 0;
-    math::Barycentric place;
+    math::Barycentric barycentric;
 };
 
 /// A point of a true surface, seen from the unit direction `outgoing`.

@@ -162,13 +162,13 @@ class PathEstimator final : public Estimator {
             return;
         }
         const transport::VisibleSurfaces seen =
-            look(measurand, scene_, caster_, paths_.lights, max_reflections_);
+            trace_line_of_sight(measurand, scene_, caster_, paths_.lights, max_reflections_);
         sight_ends_[reading] = seen.end;
         if (!seen.first) {
-            known_part_[reading] = paths_.lights.outside_luminance(transport::looking_direction(measurand));
+            known_part_[reading] = paths_.lights.outside_luminance(transport::viewing_direction(measurand));
             return;
         }
-        sights_.push_back({reading, *seen.first, transport::looking_direction(measurand)});
+        sights_.push_back({reading, *seen.first, transport::viewing_direction(measurand)});
         known_part_[reading] = paths_.lights.emitted_luminance(*seen.first);
     }
 

@@ -322,7 +322,7 @@ double HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec
     return (rest * low + share * high) / (rest + share);
 }
 
-HarmonicCells::Place HarmonicCells::place_at(std::size_t number, const Vec3& near_by) const {
+HarmonicCells::Point HarmonicCells::point_at(std::size_t number, const Vec3& near_by) const {
     const Outline& cell = outlines_[number];
     const Span s = spans_[cell.column], t = spans_[cell.row];
     const Vec3 x = CubeFace(cell.face).to_local(near_by);

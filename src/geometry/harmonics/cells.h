@@ -65,19 +65,19 @@ class HarmonicCells {
                     double end) const;
 
     /// The result of crossing(), where single precision suffices for certainty.
-    LaneVerdicts classifications(std::size_t cell, const RayPacket& rays,
-                                 const PacketPlacement& placement) const;
+    LaneClassifications classifications(std::size_t cell, const RayPacket& rays,
+                                        const PacketPlacement& placement) const;
 
     /// By the cell's polynomial: at the default tolerance the normal is within about 3e-5 rad of
     /// HarmonicSurface::normal_at(), mostly within 2e-6.
-    struct Place {
+    struct Point {
         Vec3 position;
         Vec3 normal;  ///< unit, outwards
     };
     /// The surface's point on the line from the origin through `near_by`, which is in or near a cell.
-    Place place_at(std::size_t cell, const Vec3& near_by) const;
+    Point point_at(std::size_t cell, const Vec3& near_by) const;
 
-    struct Element : Place {
+    struct Element : Point {
         double area = 0;  ///< by a and b: of a square in which they change by 1
     };
     /// At a and b from -1 to 1 over a cell.

@@ -129,11 +129,11 @@ HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, con
 }
 
 STILB_FOR_ALL_PROCESSORS
-LaneVerdicts HarmonicCells::classifications(std::size_t number, const RayPacket& rays,
-                                            const PacketPlacement& placement) const {
+LaneClassifications HarmonicCells::classifications(std::size_t number, const RayPacket& rays,
+                                                   const PacketPlacement& placement) const {
     const Outline& outline = outlines_[number];
     const FloatCell cell(outline, spans_[outline.column], spans_[outline.row], placement);
-    LaneVerdicts classifications;
+    LaneClassifications classifications;
     for (std::size_t n = 0; n < kPacketWidth; ++n) {
         classifications[n] = cell.classification(
             {rays.origin_x[n], rays.origin_y[n], rays.origin_z[n]},

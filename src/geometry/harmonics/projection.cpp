@@ -54,12 +54,12 @@ double inner_product(std::span<const double> a, std::span<const double> b) {
 
 /// The mean of the known neighbouring values; none where there are none.
 std::optional<double> mean_of_neighbours(const ParallelGrid& grid, std::span<const double> values,
-                                         std::size_t place) {
-    const std::size_t n = grid.azimuths, parallel = place / n, k = place % n;
-    std::array<std::size_t, 4> neighbours{parallel * n + (k + 1) % n, parallel * n + (k + n - 1) % n, place,
-                                          place};
-    if (parallel > 0) neighbours[2] = place - n;
-    if (parallel + 1 < grid.parallels()) neighbours[3] = place + n;
+                                         std::size_t index) {
+    const std::size_t n = grid.azimuths, parallel = index / n, k = index % n;
+    std::array<std::size_t, 4> neighbours{parallel * n + (k + 1) % n, parallel * n + (k + n - 1) % n, index,
+                                          index};
+    if (parallel > 0) neighbours[2] = index - n;
+    if (parallel + 1 < grid.parallels()) neighbours[3] = index + n;
     double sum = 0;
     int count = 0;
     for (const std::size_t neighbour : neighbours) {
@@ -127,14 +127,14 @@ void fill_holes(const ParallelGrid& grid, std::span<double> values) {
     while (!open.empty()) {
         std::vector<std::size_t> still_open;
         std::vector<std::pair<std::size_t, double>> filled;
-        for (const std::size_t place : open) {
-            const auto mean = mean_of_neighbours(grid, values, place);
+        for (const std::size_t index : open) {
+            const auto mean = mean_of_neighbours(grid, values, index);
             if (mean)
-                filled.emplace_back(place, *mean);
+                filled.emplace_back(index, *mean);
             else
-                still_open.push_back(place);
+                still_open.push_back(index);
         }
-        for (const auto& [place, mean] : filled) values[place] = mean;
+        for (const auto& [index, mean] : filled) values[index] = mean;
         open = std::move(still_open);
     }
 }

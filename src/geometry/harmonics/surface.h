@@ -89,7 +89,7 @@ ParallelGrid even_grid(int parallels);
 /// Immutable.
 class MeridianSeries {
   public:
-    /// Of the planes through axis i, where (i, j, k) are (0, 1, 2), (1, 2, 0) or (2, 0, 1).
+    /// Precomputes the planes through axis i, where (i, j, k) are (0, 1, 2), (1, 2, 0) or (2, 0, 1).
     MeridianSeries(const math::HarmonicSeries<double>& series, std::size_t i);
 
     /// The series' values in the directions of (x_i, x_j, x_k) = (s, t, z), one for each s. z is not 0.

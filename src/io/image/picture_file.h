@@ -24,7 +24,7 @@ std::optional<ToneCurve> write_picture(const Picture& picture, const std::filesy
 /// Whether the file begins as an OpenEXR or Radiance picture does. Throws InputError where it cannot be read.
 bool is_picture_file(const std::filesystem::path& path);
 
-/// Reads an OpenEXR or Radiance picture, whatever its name. Throws InputError where it is neither, damaged or
+/// Reads an OpenEXR or Radiance picture with any file name. Throws InputError where it is neither, damaged or
 /// too large.
 Picture read_picture(const std::filesystem::path& path);
 

@@ -172,7 +172,7 @@ PlyHeader read_ply_header(std::string_view content, const std::string& name) {
 namespace {
 
 /// The position of the reader, for messages.
-struct Place {
+struct Location {
     const std::string& file;
     const PlyElement* element = nullptr;
     std::uint64_t row = 0;
@@ -193,7 +193,8 @@ bool is_index(double value) {
 /// Values as text: each row of an element has a line of its own.
 class TextBody {
   public:
-    TextBody(const PlyHeader& header, Place& place) : lines_(header.body, header.body_line), place_(place) {}
+    TextBody(const PlyHeader& header, Location& location)
+        : lines_(header.body, header.body_line), location_(location) {}
 
     std::string_view rest() const { return lines_.rest(); }
     /// The fewest bytes of a value in a row: a digit and a blank or line end.
@@ -201,22 +202,23 @@ class TextBody {
 
     void begin_row() {
         do {
-            if (!lines_.next()) place_.fail("the file ends too early: it is cut off, or the count is wrong");
+            if (!lines_.next())
+                location_.fail("the file ends too early: it is cut off, or the count is wrong");
             row_ = lines_.line();
-            place_.line = lines_.number();
+            location_.line = lines_.number();
         } while (row_.find_first_not_of(" \t") == row_.npos);
     }
     void end_row() {
         const std::string_view word = next_word(row_);
         if (word.empty()) return;
-        place_.fail(
+        location_.fail(
             fmt::format("{} follows the last value; each row needs a line of its own", in_quotes(word)));
     }
 
     double read(PlyScalar) {
         const std::string_view word = next_value();
         const auto value = parse_number(word);
-        if (!value) place_.fail(fmt::format("{} stands where a finite number must be", in_quotes(word)));
+        if (!value) location_.fail(fmt::format("{} stands where a finite number must be", in_quotes(word)));
         return *value;
     }
     void skip(PlyScalar, std::size_t count) {
@@ -227,19 +229,19 @@ class TextBody {
     std::string_view next_value() {
         const std::string_view word = next_word(row_);
         if (word.empty())
-            place_.fail("the line ends too early; it needs all values that the header declares");
+            location_.fail("the line ends too early; it needs all values that the header declares");
         return word;
     }
 
     TextLines lines_;
-    Place& place_;
+    Location& location_;
     std::string_view row_;  // the unread rest of the row
 };
 
 template <std::endian order>
 class BinaryBody {
   public:
-    BinaryBody(const PlyHeader& header, const Place& place) : rest_(header.body), place_(place) {}
+    BinaryBody(const PlyHeader& header, const Location& location) : rest_(header.body), location_(location) {}
 
     std::string_view rest() const { return rest_; }
     static std::size_t least_size(const PlyProperty& property) {
@@ -277,7 +279,7 @@ class BinaryBody {
 
   private:
     [[noreturn]] void fail_short() const {
-        place_.fail("the file ends too early: it is cut off, or the count is wrong");
+        location_.fail("the file ends too early: it is cut off, or the count is wrong");
     }
 
     template <class Number>
@@ -291,18 +293,18 @@ class BinaryBody {
     }
 
     std::string_view rest_;
-    const Place& place_;
+    const Location& location_;
 };
 
 template <class Body>
 class PlyReader {
   public:
     PlyReader(const PlyHeader& header, const std::string& name)
-        : header_(header), place_{name}, body_(header, place_) {}
+        : header_(header), location_{name}, body_(header, location_) {}
 
     MeshFile read() && {
         for (const PlyElement& element : header_.elements) {
-            place_.element = &element;
+            location_.element = &element;
             check_count(element);
             if (element.name == "vertex") {
                 read_vertices(element);
@@ -317,13 +319,13 @@ class PlyReader {
         }
         check_end();
         return std::move(builder_).finish(
-            place_.file, "a PLY file needs an element vertex and an element face (or tristrips)");
+            location_.file, "a PLY file needs an element vertex and an element face (or tristrips)");
     }
 
   private:
     [[noreturn]] void fail_declaration(const PlyElement& element, const std::string& message) const {
         throw InputError(fmt::format("the element {} {}", element.name, message),
-                         {place_.file, element.line});
+                         {location_.file, element.line});
     }
 
     /// Refuses counts that exceed the file's size, before any allocation or loop.
@@ -349,14 +351,14 @@ class PlyReader {
             fmt::format("{} bytes follow the last row that the header declares; its counts are wrong "
                         "or the file is damaged",
                         rest.size()),
-            {place_.file});
+            {location_.file});
     }
 
     /// `read_property(i)` takes a row's values of property i off the body; `use_row()` is called at the row's
     /// end.
     template <class ReadProperty, class UseRow>
     void read_rows(const PlyElement& element, ReadProperty read_property, UseRow use_row) {
-        for (place_.row = 0; place_.row < element.count; ++place_.row) {
+        for (location_.row = 0; location_.row < element.count; ++location_.row) {
             body_.begin_row();
             for (std::size_t i = 0; i < element.properties.size(); ++i) read_property(i);
             body_.end_row();
@@ -371,8 +373,8 @@ class PlyReader {
     std::size_t read_length(const PlyProperty& list) {
         const double length = body_.read(*list.count_type);
         if (!is_index(length)) {
-            place_.fail(fmt::format("the list {} has the length {}; it must be a whole number, 0 or more",
-                                    list.name, length));
+            location_.fail(fmt::format("the list {} has the length {}; it must be a whole number, 0 or more",
+                                       list.name, length));
         }
         return static_cast<std::size_t>(length);
     }
@@ -405,8 +407,8 @@ class PlyReader {
             if (targets[i] == nullptr) return skip(property);
             const double value = body_.read(property.type);
             if (!is_coordinate(value)) {
-                place_.fail(fmt::format("{} is {}; it must be a finite number, at most 1e30 in size",
-                                        property.name, value));
+                location_.fail(fmt::format("{} is {}; it must be a finite number, at most 1e30 in size",
+                                           property.name, value));
             }
             *targets[i] = value;
         };
@@ -442,7 +444,7 @@ class PlyReader {
 
     void add_face() {
         if (list_.size() < 3)
-            place_.fail(fmt::format("the face has {} corners; it needs three or more", list_.size()));
+            location_.fail(fmt::format("the face has {} corners; it needs three or more", list_.size()));
         corners_.clear();
         for (const double number : list_) corners_.push_back(vertex_index(number));
         builder_.add_polygon(corners_);
@@ -469,13 +471,13 @@ class PlyReader {
     std::uint32_t vertex_index(double number) const {
         const auto last = static_cast<double>(builder_.vertex_count() - 1);
         if (!is_index(number) || number > last)
-            place_.fail(
+            location_.fail(
                 fmt::format("the vertex number is {}; it must be a whole number from 0 to {}", number, last));
         return static_cast<std::uint32_t>(number);
     }
 
     const PlyHeader& header_;
-    Place place_;
+    Location location_;
     Body body_;
     MeshBuilder builder_;
     std::vector<double> list_;

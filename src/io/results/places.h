@@ -12,7 +12,7 @@ namespace stilb::io {
 nlohmann::ordered_json vector_json(const Vec3& v);
 
 /// Position and directions, without the angles.
-nlohmann::ordered_json place_json(const Place& place);
+nlohmann::ordered_json location_json(const Location& location);
 
 /// The surface point whose luminance reading `j` of a sensor is: the end of the line of sight, or the
 /// point of a goniometer. Nothing where the line of sight leaves the scene, or the run did not record it.

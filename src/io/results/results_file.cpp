@@ -21,13 +21,13 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// A JSON value and its path ("sensors[2].count"), which every message states.
 class Node {
   public:
-    Node(const Json& json, std::string place, const std::string& file)
-        : json_(json), place_(std::move(place)), file_(file) {}
+    Node(const Json& json, std::string path, const std::string& file)
+        : json_(json), path_(std::move(path)), file_(file) {}
 
     [[noreturn]] void fail(const std::string& expected) const {
         throw InputError(
             fmt::format("{} is {}, but should be {}. The file must hold measured results as JSON.",
-                        place_.empty() ? "the document" : "'" + place_ + "'", json_.type_name(), expected),
+                        path_.empty() ? "the document" : "'" + path_ + "'", json_.type_name(), expected),
             {file_});
     }
 
@@ -35,13 +35,13 @@ class Node {
 
     Node member(const char* key) const {
         if (!json_.is_object()) fail("an object");
-        const std::string place = place_.empty() ? key : place_ + "." + key;
+        const std::string path = path_.empty() ? key : path_ + "." + key;
         const auto found = json_.find(key);
         if (found == json_.end()) {
             throw InputError(
-                fmt::format("'{}' is missing. The file must hold measured results as JSON.", place), {file_});
+                fmt::format("'{}' is missing. The file must hold measured results as JSON.", path), {file_});
         }
-        return {*found, place, file_};
+        return {*found, path, file_};
     }
 
     std::size_t size() const {
@@ -51,7 +51,7 @@ class Node {
     Node element(std::size_t index) const {
         if (!json_.is_array() || index >= json_.size())
             fail(fmt::format("an array of {} or more", index + 1));
-        return {json_[index], fmt::format("{}[{}]", place_, index), file_};
+        return {json_[index], fmt::format("{}[{}]", path_, index), file_};
     }
 
     std::string text() const {
@@ -73,7 +73,7 @@ class Node {
 
   private:
     const Json& json_;
-    std::string place_;
+    std::string path_;
     const std::string& file_;
 };
 

@@ -77,7 +77,7 @@ std::vector<MeasuringPoint> read_measuring_points(const FieldSource& source);
 std::vector<Measurand> read_sights(const FieldSource& source);
 std::array<int, 2> read_counts(const TomlItem& item, const sensors::CountLimit& limit);
 /// The unit vector from the position to a target.
-Vec3 read_way_to(const TomlItem& target, const Vec3& position);
+Vec3 read_direction_to(const TomlItem& target, const Vec3& position);
 
 // The keys of each kind of field, as messages list them.
 
@@ -141,7 +141,7 @@ template <typename Owner>
 void read_field(const sensors::TargetField<Owner>& field, const FieldSource& source, Owner& owner) {
     const TomlItem item = source.table.at(field.key);
     owner.*field.member = item.vector();
-    read_way_to(item, owner.*field.position);  // fails if both points coincide
+    read_direction_to(item, owner.*field.position);  // fails if both points coincide
 }
 template <typename Owner, typename Value>
 void read_field(const sensors::DirectionField<Owner, Value>& field, const FieldSource& source, Owner& owner) {

@@ -80,10 +80,10 @@ AreaLight read_area(TomlTable& table, const Context& context) {
 /// The surface of luminous spheres reflects nothing; all of them share one material.
 MaterialId black_of_lights(Scene& scene) {
     constexpr std::string_view name = "(luminous spheres)";
-    const auto place = std::find_if(scene.materials.begin(), scene.materials.end(),
+    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
                                     [&](const NamedMaterial& material) { return material.name == name; });
-    const auto index = static_cast<std::uint32_t>(place - scene.materials.begin());
-    if (place == scene.materials.end()) scene.materials.push_back({std::string(name), Black{}});
+    const auto index = static_cast<std::uint32_t>(found - scene.materials.begin());
+    if (found == scene.materials.end()) scene.materials.push_back({std::string(name), Black{}});
     return MaterialId{index};
 }
 
@@ -107,10 +107,10 @@ AreaLight read_sphere(TomlTable& table, const Context& context) {
 SolidId read_solid(const TomlItem& item, const Context& context) {
     std::vector<NamedSolid>& solids = context.file.scene.solids;
     const std::filesystem::path path = item.existing_file(context.directory).lexically_normal();
-    const auto place = std::find_if(solids.begin(), solids.end(),
+    const auto found = std::find_if(solids.begin(), solids.end(),
                                     [&](const NamedSolid& solid) { return solid.file == path.string(); });
-    const auto index = static_cast<std::uint32_t>(place - solids.begin());
-    if (place == solids.end()) {
+    const auto index = static_cast<std::uint32_t>(found - solids.begin());
+    if (found == solids.end()) {
         context.file.sources.push_back(path);
         const PhotometryFile file = read_photometry_file(path);
         const PhotometricSolid solid(file.grid);
@@ -163,7 +163,7 @@ EnvironmentLight read_environment(TomlTable& table, const Context& context) {
     table.expect_keys({"type", "luminance", "file", "up", "rotation", "dimming", "cct", "color"},
                       "type \"environment\"");
     for (const Light& other : context.file.scene.lights) {
-        if (place_of(other) != LightPlace::infinity) continue;
+        if (location_of(other) != LightLocation::infinity) continue;
         table.fail(fmt::format("surrounds the scene, as light {} does. Allowed: one environment.",
                                in_quotes(other.name)));
     }

@@ -235,9 +235,9 @@ class PartMaterials {
 
     static bool assign(const std::vector<std::string>& names, Assigned& assigned, std::string_view part,
                        MaterialId material) {
-        const auto place = std::find(names.begin(), names.end(), part);
-        if (place == names.end()) return false;
-        assigned[static_cast<std::size_t>(place - names.begin())] = material;
+        const auto found = std::find(names.begin(), names.end(), part);
+        if (found == names.end()) return false;
+        assigned[static_cast<std::size_t>(found - names.begin())] = material;
         return true;
     }
 

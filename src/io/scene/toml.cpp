@@ -232,8 +232,8 @@ TomlTable TomlItem::table() const {
 std::size_t TomlItem::index_in(std::span<const std::string_view> names, std::string_view what,
                                std::span<const std::string_view> later) const {
     const std::string& found = text();
-    const auto place = std::find(names.begin(), names.end(), found);
-    if (place != names.end()) return static_cast<std::size_t>(place - names.begin());
+    const auto match = std::find(names.begin(), names.end(), found);
+    if (match != names.end()) return static_cast<std::size_t>(match - names.begin());
     const bool known = std::find(later.begin(), later.end(), found) != later.end();
     if (known)
         fail(fmt::format("{} {} is not supported yet.{}", what, in_quotes(found), suggestion("", names)));

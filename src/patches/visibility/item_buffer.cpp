@@ -28,9 +28,9 @@ double longest_edge_m(const Patches& patches, std::uint32_t patch) {
 
 }  // namespace
 
-Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& place) {
+Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& barycentric) {
     const std::uint32_t patch = patches.patch_of(side);
-    const Vec3 wanted = patches.position(patch, place), middle = patches.middle(patch);
+    const Vec3 wanted = patches.position(patch, barycentric), middle = patches.middle(patch);
     const double longest_m = longest_edge_m(patches, patch);
     const double lift_m = kRelativeLift * std::max(largest_coordinate(wanted - patches.center), longest_m);
     // A third of the least height is how far the middle is from an edge.

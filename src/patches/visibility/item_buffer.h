@@ -32,7 +32,7 @@ struct Viewpoint {
 /// off the surface, and moved inwards from the patch's edges by eight times as much, as RayCaster does
 /// (ray_caster.h gives the reasons): so it sees neither its own plane, nor past a wall that begins at an edge
 /// of the patch. The position may be a corner of the patch.
-Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& place);
+Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& barycentric);
 
 /// In the frame of the viewpoint. Pixel (0, 0) is at the lower left, rows follow one another upwards.
 struct BufferFace {

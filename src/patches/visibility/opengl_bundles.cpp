@@ -21,13 +21,13 @@ namespace {
 
 /// `axes` are the bundle's u, v and w, `corner` is that of the picture; `scale` maps the picture to [0, 1]^3.
 constexpr const char* kVertexShader = R"(#version 450 core
-layout(location = 0) in vec3 place;
+layout(location = 0) in vec3 position;
 layout(location = 0) uniform vec3 corner;
 layout(location = 1) uniform vec3 axes[3];
 layout(location = 4) uniform vec3 scale;
 void main() {
-    vec3 way = place - corner;
-    vec3 seen = scale * vec3(dot(axes[0], way), dot(axes[1], way), dot(axes[2], way));
+    vec3 offset = position - corner;
+    vec3 seen = scale * vec3(dot(axes[0], offset), dot(axes[1], offset), dot(axes[2], offset));
     gl_Position = vec4(2 * seen.xy - 1, seen.z, 1);
 }
 )";
@@ -138,7 +138,7 @@ struct OpenGlBundles::Implementation {
         glClearBufferuiv(GL_COLOR, 0, colour.data());
     }
 
-    void look_at(const LineGrid& grid, const Frame& frame, const Tile& tile) const {
+    void set_view(const LineGrid& grid, const Frame& frame, const Tile& tile) const {
         const double width_m = tile.width * length(grid.step_x), height_m = tile.height * length(grid.step_y);
         const Vec3 to_corner = -0.5 * (grid.step_x + grid.step_y);  // from the middle of a pixel
         set_uniform(kCorner, {grid.origin(tile.x, tile.y) + to_corner});
@@ -170,7 +170,7 @@ struct OpenGlBundles::Implementation {
         const std::scoped_lock alone(in_use);
         const OpenGlContext::Current current(drawing.context());
         provide_pictures(tile.width, tile.height);
-        look_at(grid, frame, tile);
+        set_view(grid, frame, tile);
         return peeled(tile);
     }
 };

@@ -22,15 +22,15 @@ namespace {
 
 /// `axes` are the face's right, up and forward; the window maps the picture's plane to [-1, 1]^2.
 constexpr const char* kVertexShader = R"(#version 450 core
-layout(location = 0) in vec3 place;
-layout(location = 0) uniform vec3 eye;
+layout(location = 0) in vec3 position;
+layout(location = 0) uniform vec3 viewpoint;
 layout(location = 1) uniform vec3 axes[3];
 layout(location = 4) uniform vec2 scale;
 layout(location = 5) uniform vec2 shift;
 layout(location = 6) uniform float near_plane;
 void main() {
-    vec3 way = place - eye;
-    vec3 seen = vec3(dot(axes[0], way), dot(axes[1], way), dot(axes[2], way));
+    vec3 offset = position - viewpoint;
+    vec3 seen = vec3(dot(axes[0], offset), dot(axes[1], offset), dot(axes[2], offset));
     gl_Position = vec4(scale * seen.xy + shift * seen.z, near_plane, seen.z);
 }
 )";
@@ -41,7 +41,7 @@ layout(location = 0) out uint side;
 void main() { side = uint(gl_PrimitiveID) + (gl_FrontFacing ? 0u : count); }
 )";
 
-constexpr GLint kEye = 0, kAxes = 1, kScale = 4, kShift = 5, kNearPlane = 6, kCount = 7;
+constexpr GLint kViewpoint = 0, kAxes = 1, kScale = 4, kShift = 5, kNearPlane = 6, kCount = 7;
 
 }  // namespace
 
@@ -84,7 +84,7 @@ struct OpenGlItemBuffers::Implementation {
 
     void draw(const BufferFace& face, double pixel_size, const Viewpoint& viewpoint) const {
         const auto world = [&](const Vec3& axis) { return viewpoint.frame.to_world(axis); };
-        set_uniform(kEye, {viewpoint.position - drawing.patches().center});
+        set_uniform(kViewpoint, {viewpoint.position - drawing.patches().center});
         set_uniform(kAxes, {world(face.right), world(face.up), world(face.forward)});
         const double width = face.width * pixel_size, height = face.height * pixel_size;
         glUniform2f(kScale, static_cast<float>(2 / width), static_cast<float>(2 / height));

@@ -19,7 +19,7 @@ struct PatchHits {
         sides;                 ///< kNoSide where a ray met nothing, or its lane is not set
     RayPacket::Floats b1, b2;  ///< barycentric coordinates on the patch, for lanes with a hit
 
-    math::Barycentric place(std::size_t lane) const {
+    math::Barycentric barycentric(std::size_t lane) const {
         const double u = b1[lane], v = b2[lane];
         return {1 - u - v, u, v};
     }

@@ -5,9 +5,9 @@
 //
 // P_j are the pixels of an item buffer around sample i in which side j of a patch is seen, I_i is the
 // sample's intensity towards a pixel, dW_p the pixel's solid angle. In a closed scene the sum of e_ij A_j
-// over all sides is the flux that leaves the sample, but for the midpoint rule over pixels. A patch's own
-// e_ij is wrong by its boundary pixels; one that lies between the middles of pixels gets nothing, though it
-// is seen, and its share goes to its neighbours.
+// over all sides is the flux that leaves the sample, except for the error of the midpoint rule over pixels. A
+// patch's own e_ij is wrong by its boundary pixels; one that lies between the middles of pixels gets nothing,
+// though it is seen, and its share goes to its neighbours.
 #pragma once
 
 #include <cstddef>

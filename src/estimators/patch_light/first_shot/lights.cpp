@@ -119,13 +119,13 @@ class Chooser {
     /// Adds the samples of a light, or none where it is not small, with the reason.
     template <lights::LightKind Source>
     std::string shoot_from(const Light& light, const Source& source) {
-        if constexpr (Source::kPlace == LightPlace::point) {
+        if constexpr (Source::kLocation == LightLocation::point) {
             return shoot_from_point(
                 typename Source::Emitter(source, scene::LightSurroundings(scene_), caster_.lift()));
-        } else if constexpr (Source::kPlace == LightPlace::surface) {
+        } else if constexpr (Source::kLocation == LightLocation::surface) {
             return shoot_from_surface(*surface_emission(light));
         } else {
-            static_assert(Source::kPlace == LightPlace::infinity);
+            static_assert(Source::kLocation == LightLocation::infinity);
             return "it surrounds the scene";
         }
     }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 /// Directions whose mean represents a bin.
-constexpr std::array<std::pair<double, double>, 4> kPlaces{
+constexpr std::array<std::pair<double, double>, 4> kBinSamples{
     {{0.25, 0.25}, {0.25, 0.75}, {0.75, 0.25}, {0.75, 0.75}}};
 
 }  // namespace
@@ -36,10 +36,10 @@ std::uint32_t HemisphereBins::bin_of(const Vec3& local) const {
     const double squared_sine = local.x * local.x + local.y * local.y;
     const double angle = std::atan2(local.y, local.x);
     const double turn = angle < 0 ? angle + kTurn : angle;
-    const auto place = [](double share, std::uint32_t count) {
+    const auto index = [](double share, std::uint32_t count) {
         return std::min(static_cast<std::uint32_t>(share * count), count - 1);
     };
-    return place(squared_sine, rings_) * sectors_ + place(turn / kTurn, sectors_);
+    return index(squared_sine, rings_) * sectors_ + index(turn / kTurn, sectors_);
 }
 
 Vec3 HemisphereBins::direction(std::uint32_t bin, double u1, double u2) const {
@@ -71,7 +71,7 @@ void ClassicalFirstShot::store(std::uint32_t side, const IncomingFirstShot& inco
     std::vector<Vec3> outs;
     if (count == 1) outs.push_back(frame.w);
     for (std::uint32_t bin = 0; count > 1 && bin < count; ++bin) {
-        for (const auto& [u1, u2] : kPlaces) outs.push_back(frame.to_world(bins_.direction(bin, u1, u2)));
+        for (const auto& [u1, u2] : kBinSamples) outs.push_back(frame.to_world(bins_.direction(bin, u1, u2)));
     }
     std::vector<Rgb> sums(outs.size());
     incoming.add_reflected(side, {}, {}, outs, sums);

@@ -51,7 +51,7 @@ void IlluminationMap::walk(std::vector<Particle>& particles) {
         std::size_t alive = 0;
         for (std::size_t lane = 0; lane < particles.size(); ++lane) {
             if (hits.sides[lane] == patches::kNoSide ||
-                !land(particles[lane], hits.sides[lane], hits.place(lane)))
+                !land(particles[lane], hits.sides[lane], hits.barycentric(lane)))
                 continue;
             particles[alive++] = particles[lane];
         }
@@ -60,13 +60,13 @@ void IlluminationMap::walk(std::vector<Particle>& particles) {
 }
 
 /// Counts the particle; returns whether it survives.
-bool IlluminationMap::land(Particle& particle, std::uint32_t side, const math::Barycentric& place) {
+bool IlluminationMap::land(Particle& particle, std::uint32_t side, const math::Barycentric& barycentric) {
     add_to(flux_lm_[side], particle.flux_lm);
     const patches::Patches& patches = transport_.patches;
     const Rgb reflectance = std::numbers::pi * to_rgb(transport_.constant_brdf[patches.patch_of(side)]);
     const double survival = transport::survival_probability(particle.flux_lm, reflectance);
     if (particle.stream.next() >= survival) return false;
-    const patches::Viewpoint viewpoint = viewpoint_on(patches, side, place);
+    const patches::Viewpoint viewpoint = viewpoint_on(patches, side, barycentric);
     const auto [u1, u2] = particle.stream.next_two();
     particle.origin = viewpoint.position;
     particle.direction = viewpoint.frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
@@ -90,10 +90,10 @@ namespace {
 
 constexpr std::string_view kName = "particles";
 /// Particles for each evaluation of the map by a reading.
-constexpr std::uint64_t kParticlesPerLook = 64;
+constexpr std::uint64_t kParticlesPerEvaluation = 64;
 constexpr std::uint64_t kLeastParticles = 4096;
 
-enum Purpose : std::uint64_t { kWalks = kPixels + 1, kLooks };
+enum Purpose : std::uint64_t { kWalks = kPixels + 1, kEvaluations };
 
 /// All lights emit particles.
 PatchTransport transport_for(const Problem& problem) {
@@ -115,13 +115,14 @@ class Particles final : public Estimator {
         IlluminationMap map(transport_);
         map.add(batch.key.derived(kWalks), batch.first, batch.count);
         const ReflectedSides light(map.reflected_cd_m2());
-        const std::uint64_t first = batch.first / kParticlesPerLook, looks = batch.count / kParticlesPerLook;
+        const std::uint64_t first = batch.first / kParticlesPerEvaluation,
+                            evaluations = batch.count / kParticlesPerEvaluation;
         ReadingSums seen(sums.sum.size());
-        for (std::uint64_t i = first; i < first + looks; ++i) {
-            readings_.add(light, batch.key.derived(kLooks), i, seen);
+        for (std::uint64_t i = first; i < first + evaluations; ++i) {
+            readings_.add(light, batch.key.derived(kEvaluations), i, seen);
         }
         for (std::size_t j = 0; j < seen.sum.size(); ++j)
-            sums.add(j, seen.sum[j] * double{kParticlesPerLook});
+            sums.add(j, seen.sum[j] * double{kParticlesPerEvaluation});
         sums.invalid += seen.invalid;
         sums.rays += map.rays();
     }
@@ -130,8 +131,8 @@ class Particles final : public Estimator {
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::uint64_t batch_granularity() const override { return kLeastParticles; }
     double rays_per_sample() const override {
-        constexpr double reflections = 5, looks = 2. / kParticlesPerLook;
-        return reflections + looks * static_cast<double>(known_part().size());
+        constexpr double reflections = 5, evaluations = 2. / kParticlesPerEvaluation;
+        return reflections + evaluations * static_cast<double>(known_part().size());
     }
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {

@@ -36,7 +36,7 @@ class IlluminationMap {
 
     Particle leave_light(math::SampleStream stream) const;
     void walk(std::vector<Particle>& particles);
-    bool land(Particle& particle, std::uint32_t side, const math::Barycentric& place);
+    bool land(Particle& particle, std::uint32_t side, const math::Barycentric& barycentric);
 
     const PatchTransport& transport_;
     std::vector<FloatRgb> flux_lm_;  ///< of every side, by all particles

@@ -52,7 +52,7 @@ class Shooting {
     }
 
     RadiositySolution run(const Monitor& monitor) {
-        const double all = look(), enough = kUnshotShare * all;
+        const double all = find_unshot(), enough = kUnshotShare * all;
         const std::uint64_t most = kMostShotsOfASide * unshot_.size();
         double left = all;
         while (left > enough && !monitor.is_time_over()) {
@@ -66,7 +66,7 @@ class Shooting {
             monitor.report("shooting",
                            std::clamp(std::log(all / left) / std::log(1 / kUnshotShare), 0.0, 1.0));
             shoot();
-            left = look();
+            left = find_unshot();
         }
         return {ReflectedSides(std::move(reflected_)), done_, done_ * shots_.rays_per_shot(),
                 left > enough ? left / all : 0};
@@ -80,7 +80,7 @@ class Shooting {
     };
 
     /// Finds the sides with unshot flux; returns its total [lm].
-    double look() {
+    double find_unshot() {
         double sum_lm = 0;
         candidates_.clear();
         for (std::uint32_t side = 0; side < unshot_.size(); ++side) {
