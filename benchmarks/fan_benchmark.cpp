@@ -1,5 +1,5 @@
-// The estimator's inner loop (Fan::collect) against its bound: a bare rtcOccluded16 loop over the same rays,
-// which are ready in memory and of which nothing is made. One thread.
+// The estimator's inner loop (Connections::collect) against its bound: a bare rtcOccluded16 loop over the
+// same rays, which are ready in memory and of which nothing is made. One thread.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ struct PreparedRays {
     std::vector<LaneMask> lanes;
 };
 
-/// The rays that the fan traces, in its order: by packets of points, then nodes.
+/// The shadow rays of the connections, in their order: by packets of points, then vertices.
 PreparedRays prepare_rays(const std::vector<transport::Receiver>& points,
                           const std::vector<transport::LightVertex>& nodes, const Vec3& center) {
     PreparedRays rays;
@@ -94,7 +94,7 @@ void compare(const Scene& scene) {
     const std::vector<double> k(points.size(), 1.0);
     const std::vector<estimators::PointTile> tiles =
         estimators::tiles_of(points, k, caster, transport::kUnlimited);
-    const estimators::Fan fan(caster, tiles);
+    const estimators::Connections connections(caster, tiles);
     PreparedRays rays = prepare_rays(points, nodes, caster.center());
 
     const RTCDevice device = rtcNewDevice(nullptr);
@@ -105,7 +105,7 @@ void compare(const Scene& scene) {
     for (int repetition = 0; repetition < repetitions; ++repetition) {
         estimators::ReadingSums sums(points.size());
         double start = now_s();
-        fan.collect(nodes, sums);
+        connections.collect(nodes, sums);
         best_fan_s = std::min(best_fan_s, now_s() - start);
         traced = sums.rays;
         RTCIntersectContext context;
@@ -130,8 +130,8 @@ void compare(const Scene& scene) {
 }  // namespace stilb
 
 int main() {
-    fmt::print("Fan rays, one thread, best of 15   [million rays / s]\n{:18} {:>10} {:>10} {:>8}\n", "",
-               "fan", "bare", "ratio");
+    fmt::print("Connections, one thread, best of 15   [million rays / s]\n{:18} {:>10} {:>10} {:>8}\n", "",
+               "collect", "bare", "ratio");
     stilb::compare(stilb::make_room(0));
     stilb::compare(stilb::make_room(30));
 }

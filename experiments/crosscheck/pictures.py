@@ -4,7 +4,7 @@
     venv/bin/python experiments/crosscheck/pictures.py experiments/crosscheck/surfaces.toml --programs mitsuba
 
 Each camera of the scene makes a picture for every seed. A block's value is its mean over all of them, and its
-error comes from their spread: neighbouring pixels share light chains, so their own errors do not add up to it.
+error comes from their spread: neighbouring pixels share light paths, so their own errors do not add up to it.
 Blocks that reach beyond a fisheye's circle are left out.
 """
 

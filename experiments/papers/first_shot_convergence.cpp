@@ -24,7 +24,7 @@ std::vector<double> pixels_of_sides(const estimators::PictureTracing& tracing,
     const estimators::PixelBlock all{0, 0, tracing.camera.resolution[0], tracing.camera.resolution[1]};
     std::vector<estimators::ViewedHit> points;
     for (transport::Path& path : tracing.start_paths(pixels_of(all), {math::RandomKey{1}, 0}).paths) {
-        if (tracing.tracer.look_through(path)) points.push_back({path.hit, path.outgoing});
+        if (tracing.tracer.follow_to_scattering(path)) points.push_back({path.hit, path.outgoing});
     }
     for (const auto& seen : find_patch_locations(transport.patch_caster, points)) {
         if (seen) pixels[seen->side] += 1;

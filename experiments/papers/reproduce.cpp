@@ -56,9 +56,7 @@ std::vector<Figure> chosen_figures(const std::string& name) {
         known.push_back(figure.name);
     }
     if (name.empty()) return {kFigures.begin(), kFigures.end()};
-    const std::string nearest = nearest_name(name, known);
-    throw InputError(fmt::format("there is no figure \"{}\".{} Figures: {}.", name,
-                                 nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
+    throw InputError(fmt::format("there is no figure \"{}\".{} Figures: {}.", name, did_you_mean(name, known),
                                  fmt::join(known, ", ")));
 }
 

@@ -25,7 +25,7 @@ constexpr double kSourceRadius_m = 0.1;
 constexpr double kRadius_m = 1;
 constexpr double kStep_deg = 3;
 
-constexpr std::uint64_t kChains = 16384;  // of each run
+constexpr std::uint64_t kLightPaths = 16384;  // of each run
 constexpr int kRuns = 16;
 
 Material phong(double reflectance, double exponent) {
@@ -53,7 +53,7 @@ struct Distribution {
 std::vector<statistics::Estimate> measure(const Scene& scene, const Sensor& sensor) {
     RunOptions options;
     options.method = "double-local";
-    options.paths = kChains;
+    options.paths = kLightPaths;
     options.replicates = 4;
     cli::TerminalProgress progress;
     return multiply_reflected_cd_m2(scene, sensor, options, kRuns, &progress);

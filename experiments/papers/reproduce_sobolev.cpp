@@ -1,8 +1,8 @@
 // Figure 4 of [LocalEstimation]: illuminance over the radius in Sobolev's problem.
 //
 // The paper's curve of double local estimation has a bump that is none of the method's: each of its points
-// has few chains of its own, so that the errors of neighbours are independent. Chains that are common to all
-// points give a smooth curve. Both are drawn, of as many chains for each point.
+// has few light paths (the paper: chains) of its own, so the errors of neighbours are independent. Light
+// paths common to all points give a smooth curve. Both are drawn, with as many light paths for each point.
 #include <numbers>
 #include <string>
 #include <vector>
@@ -20,8 +20,8 @@ namespace {
 constexpr exact::ParallelPlanes kPlanes{0.5, 0.5, 0.5, 0.5, 1};
 constexpr double kLargestRadius = 5;
 constexpr int kRadii = 101;
-constexpr std::uint64_t kFewChains = 2000, kManyChains = 1000000;
-/// The few chains are 80 for each of them.
+constexpr std::uint64_t kFewPaths = 2000, kManyPaths = 1000000;
+/// The few light paths are 80 for each of them.
 constexpr int kReplicates = 25;
 /// From where the plane is looked at, below the source.
 constexpr double kEyeHeight = 0.25;
@@ -45,12 +45,12 @@ std::vector<double> exact_lx(const std::vector<double>& radii) {
     return values;
 }
 
-/// All points from the same chains: the errors of neighbours go together.
+/// All points from the same light paths: the errors of neighbours are correlated.
 std::vector<statistics::Estimate> measure(const Sensor& sensor, const std::string& method,
-                                          std::uint64_t chains, std::uint64_t seed) {
+                                          std::uint64_t light_paths, std::uint64_t seed) {
     RunOptions options;
     options.method = method;
-    options.paths = chains;
+    options.paths = light_paths;
     options.seed = seed;
     options.replicates = kReplicates;
     cli::TerminalProgress progress;
@@ -59,19 +59,18 @@ std::vector<statistics::Estimate> measure(const Sensor& sensor, const std::strin
                             .sensors[0]);
 }
 
-std::vector<statistics::Estimate> local_lx(const std::vector<double>& radii, std::uint64_t chains) {
+std::vector<statistics::Estimate> local_lx(const std::vector<double>& radii, std::uint64_t light_paths) {
     IlluminancePoints points;
     for (const double r : radii)
         points.points.push_back(verification::sobolev_point(kPlanes, exact::Plane::first, r, 0));
-    return measure({"radius", points}, "local", chains, 1);
+    return measure({"radius", points}, "local", light_paths, 1);
 }
 
 /// By the luminance L of the diffuse plane, which is looked at from above: E = pi L / p1.
 std::vector<statistics::Estimate> double_local_lx(const std::vector<double>& radii, std::uint64_t seed) {
     Luminance lines;
     for (const double r : radii) lines.sights.emplace_back(LineOfSight{{r, 0, kEyeHeight}, {0, 0, -1}});
-    std::vector<statistics::Estimate> estimates =
-        measure({"radius", lines}, "double-local", kFewChains, seed);
+    std::vector<statistics::Estimate> estimates = measure({"radius", lines}, "double-local", kFewPaths, seed);
     for (statistics::Estimate& estimate : estimates)
         estimate = scaled(estimate, std::numbers::pi / kPlanes.reflectance_1);
     return estimates;
@@ -86,17 +85,17 @@ std::vector<statistics::Estimate> separate_double_local_lx(const std::vector<dou
     return estimates;
 }
 
-/// Not the seed of `local`: of the same chains both give the same numbers.
+/// Not the seed of `local`: with the same light paths both give the same numbers.
 constexpr std::uint64_t kCommonSeed = 2;
 
 std::vector<Profile> profiles_of(const std::vector<double>& radii) {
-    return {{"local estimation, 2,000 chains for all radii", "local_2000", 50, local_lx(radii, kFewChains)},
+    return {{"local estimation, 2,000 chains for all radii", "local_2000", 50, local_lx(radii, kFewPaths)},
             {"double local estimation, 2,000 chains for each radius", "double_local_each_2000", 50,
              separate_double_local_lx(radii)},
             {"double local estimation, 2,000 chains for all radii", "double_local_2000", 50,
              double_local_lx(radii, kCommonSeed)},
             {"local estimation, 1,000,000 chains for all radii", "local_1000000", 1.5,
-             local_lx(radii, kManyChains)}};
+             local_lx(radii, kManyPaths)}};
 }
 
 plot::Series deviation_series(const Profile& profile, const std::vector<double>& radii,

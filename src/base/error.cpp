@@ -51,4 +51,9 @@ std::string nearest_name(std::string_view found, std::span<const std::string_vie
     return std::string(best);
 }
 
+std::string did_you_mean(std::string_view found, std::span<const std::string_view> allowed) {
+    const std::string nearest = nearest_name(found, allowed);
+    return nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest);
+}
+
 }  // namespace stilb

@@ -1,5 +1,5 @@
 // The parameters of materials, lights and sensors. Each type lists its own once; the scene reader,
-// validate(), `info` and the tables of the documents go by that list.
+// validate(), `info` and the tables of the documents use that list.
 //
 //     struct Mirror {
 //         Rgb reflectance;
@@ -10,8 +10,8 @@
 //         }
 //     };
 //
-// A type whose parameters can contradict each other says how: contradiction() const returns the message, or
-// nothing.
+// A type whose parameters can contradict each other has a member contradiction(), which returns the message,
+// or nothing.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@
 
 namespace stilb {
 
-/// The numbers that a parameter takes, and the words for them in messages: "2 is not {allowed}".
+/// The range of a parameter, and its description for messages: "2 is not allowed. Allowed: {allowed}".
 struct Range {
     double min = 0, max = 0;
     std::string_view allowed;
@@ -34,7 +34,7 @@ struct Range {
 
 inline constexpr Range kAngle{-1e6, 1e6, "an angle from -1e6 to 1e6 degrees"};
 
-/// Whether a key may be missing: then the member keeps the value that it is made with.
+/// Whether a key may be missing: the member then keeps its initial value.
 enum class Presence { required, optional };
 
 /// One parameter of an Owner.
@@ -57,11 +57,11 @@ constexpr void for_each_field(const Visit& visit) {
     std::apply([&](const auto&... field) { (visit(field), ...); }, T::fields());
 }
 
-/// Why a number outside of the range is refused.
+/// The message for a number outside of the range.
 std::string refusal(double value, const Range& range);
 
 /// Throw an InputError that begins with `path`, the full name of the parameter, where the value is outside of
-/// the range (NaN is); of colours and arrays they name the component, unless a colour is grey.
+/// the range (or NaN); for colours and arrays it names the component, unless a colour is grey.
 void expect_inside(double value, const Range& range, const std::string& path);
 void expect_inside(const Rgb& value, const Range& range, const std::string& path);
 void expect_inside(std::span<const double> values, const Range& range, const std::string& path);
@@ -69,7 +69,7 @@ void expect_inside(std::span<const double> values, const Range& range, const std
 /// Throws an InputError: "path: message".
 [[noreturn]] void fail_at(std::string_view path, std::string_view message);
 
-/// How the parameters contradict each other, though each is inside of its range.
+/// The contradiction between parameters that are each inside of their range.
 template <typename T>
 std::optional<std::string> contradiction_in(const T& parameters) {
     if constexpr (requires { parameters.contradiction(); }) {
@@ -79,8 +79,8 @@ std::optional<std::string> contradiction_in(const T& parameters) {
     }
 }
 
-/// Throws an InputError with the words of the scene reader where a parameter is out of its range, or several
-/// contradict each other. `path`: full name of what has the parameters, such as materials.wall.
+/// Throws an InputError in the wording of the scene reader where a parameter is out of its range, or several
+/// contradict each other. `path`: full name of the owner of the parameters, such as materials.wall.
 template <typename T>
 void validate_fields(const T& parameters, std::string_view path) {
     for_each_field<T>([&](const auto& field) {

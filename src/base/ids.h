@@ -1,4 +1,4 @@
-// Typed indices: a MaterialId cannot be passed where an ObjectId is meant.
+// Typed indices: a MaterialId cannot be passed as an ObjectId.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ enum class ObjectId : std::uint32_t {};
 enum class LightId : std::uint32_t {};
 enum class SolidId : std::uint32_t {};
 
-/// The position in the vector that the id belongs to.
+/// The index into the vector of the id's elements.
 template <typename Id>
 constexpr std::uint32_t index_of(Id id) {
     return static_cast<std::uint32_t>(id);

@@ -36,7 +36,7 @@ void Monitor::require_time(std::string_view stage, double share) const {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
     throw Cancelled(
         fmt::format("time limit reached during set-up after {:.2g} s ({}, {:.0f} % done): there is no result "
-                    "yet. Allow more time, or ask for less: larger patches, a lower resolution.",
+                    "yet. Allow more time, or reduce the work: larger patches, a lower resolution.",
                     elapsed_s, stage, 100 * share));
 }
 

@@ -1,4 +1,4 @@
-// Watching over work that gives no result before it is complete: how far it is, and whether it goes on.
+// Progress and cancellation of work that gives no result before it is complete.
 #pragma once
 
 #include <atomic>
@@ -13,29 +13,29 @@
 
 namespace stilb {
 
-/// Takes reports from any thread, and passes on one at a time, some ten in a second. Outlives what it is
-/// given to.
+/// Takes reports from any thread, and passes on one at a time, some ten in a second. Must outlive
+/// its users.
 class Monitor {
   public:
     using Clock = std::chrono::steady_clock;
-    /// `share`: what is done of the stage, from 0 to 1.
+    /// `share`: the completed part of the stage, from 0 to 1.
     using Report = std::function<void(std::string_view stage, double share)>;
 
-    /// Nobody watches: nothing is reported, and nothing cancelled.
+    /// A monitor without an observer: it reports and cancels nothing.
     Monitor() = default;
-    /// `interrupt`: set where the user wants to stop; may be null. `deadline`: when the time is over.
+    /// `interrupt`: set when the user wants to stop; may be null. `deadline`: the time limit.
     Monitor(const std::atomic<bool>* interrupt, std::optional<Clock::time_point> deadline, Report report)
         : interrupt_(interrupt), deadline_(deadline), report_(std::move(report)) {}
     Monitor(const Monitor&) = delete;
     Monitor& operator=(const Monitor&) = delete;
 
-    /// The one that nobody watches by.
+    /// The shared monitor without an observer.
     static const Monitor& none();
 
     bool is_time_over() const { return deadline_ && Clock::now() > *deadline_; }
     /// Throws Cancelled where the user has interrupted.
     void report(std::string_view stage, double share) const;
-    /// Throws Cancelled where the time is over.
+    /// Throws Cancelled where the time limit is reached.
     void require_time(std::string_view stage, double share) const;
 
   private:
@@ -48,13 +48,13 @@ class Monitor {
     mutable Clock::time_point last_report_;
 };
 
-/// A stage of several parts, which may be done in parallel. No result is left where it is cancelled.
+/// A stage of several parts, which may run in parallel. Cancellation leaves no result.
 class Stage {
   public:
-    /// Throws Cancelled, as advance().
+    /// Throws Cancelled as advance() does.
     Stage(const Monitor& monitor, std::string name, std::size_t parts);
 
-    /// One more part is done. Throws Cancelled where the user has interrupted or the time is over.
+    /// Counts one more part. Throws Cancelled where the user has interrupted or the time limit is reached.
     void advance();
 
   private:

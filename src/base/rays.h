@@ -9,7 +9,7 @@
 
 #include "base/vec.h"
 
-// Sanitizers instrument the code that picks, which runs before they are ready.
+// Sanitizers instrument the dispatch code, which runs before they are ready.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
 #define STILB_VECTORIZED __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
@@ -20,10 +20,10 @@ namespace stilb {
 
 inline constexpr int kPacketWidth = 16;
 
-/// Which lanes of a packet take part: -1 yes, 0 no (Embree's convention).
+/// The active lanes of a packet: -1 active, 0 inactive (Embree's convention).
 struct alignas(64) LaneMask : std::array<std::int32_t, kPacketWidth> {};
 
-/// A direction's component as packets have it. Embree 3.13 loses whole coherent packets in which one is
+/// A direction's component for packets. Embree 3.13 loses whole coherent packets with a component
 /// between 1e-18 and 1e-12 (as the cosines of right angles are), with both signs; 0 is safe.
 inline float packet_direction(double component) {
     return std::abs(component) < 1e-11 ? 0 : static_cast<float>(component);
@@ -50,13 +50,13 @@ struct alignas(64) RayPacket {
     }
 };
 
-/// What single precision tells for certain of a ray and a part of a surface.
+/// The certain results in single precision for a ray and a part of a surface.
 enum class Classification : std::int32_t {
     unclear,
     misses,  ///< the part
     meets,   ///< the surface, there or next to the part
 };
-struct alignas(64) LaneVerdicts : std::array<Classification, kPacketWidth> {};
+struct alignas(64) LaneClassifications : std::array<Classification, kPacketWidth> {};
 
 /// Takes packets to the axes and units of a body: x goes to axes (x - center).
 struct PacketPlacement {
@@ -64,19 +64,19 @@ struct PacketPlacement {
     std::array<float, 3> center{};
 };
 
-// How far points are lifted off their surfaces, so that rays from there do not meet these again.
+// Lifting of points off their surfaces, so that rays from there do not meet these again.
 
 /// Ray queries work in single precision on coordinates relative to a centre: 2^-19 of the largest number
 /// involved is some 30 times the rounding error.
 class Lift {
   public:
     Lift() = default;
-    /// Of a scene with this centre of its bounding box, and half of the box's longest edge.
+    /// The rule for a scene with this centre of its bounding box, and half of the box's longest edge.
     Lift(const Vec3& center, double half_extent_m) : center_(center), half_extent_m_(half_extent_m) {}
 
     const Vec3& center() const { return center_; }
     double half_extent_m() const { return half_extent_m_; }
-    /// How far a point near `position` on something of size `size_m` is lifted.
+    /// The distance by which a point near `position` on something of size `size_m` is lifted.
     double offset_m(const Vec3& position, double size_m) const {
         return relative_offset_m(position - center_, size_m);
     }

@@ -1,5 +1,5 @@
 // Bands: three linear Rec. 709 channels, each carrying its share of a photometric quantity. Luminance (and
-// illuminance, flux ...) is the fixed dot product luminance(). A grey quantity q is Spectrum::grey(q).
+// illuminance, flux ...) is the fixed dot product luminance(). A grey quantity q is Rgb::grey(q).
 #pragma once
 
 #include <algorithm>

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 namespace stilb {
+
+inline constexpr double kPi = std::numbers::pi;
 
 struct Vec3 {
     double x = 0, y = 0, z = 0;
@@ -30,12 +33,12 @@ constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 constexpr double squared_length(const Vec3& a) { return dot(a, a); }
 inline double length(const Vec3& a) { return std::sqrt(squared_length(a)); }
-/// a / |a|; the caller makes sure that a is not zero.
+/// a / |a|; precondition: a is not zero.
 inline Vec3 normalized(const Vec3& a) { return a / length(a); }
 inline bool is_finite(const Vec3& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
-/// `direction` mirrored at a plane with unit normal `normal`; both point away from the surface.
+/// `direction` reflected at a plane with unit normal `normal`; both point away from the surface.
 constexpr Vec3 reflected(const Vec3& direction, const Vec3& normal) {
     return 2 * dot(direction, normal) * normal - direction;
 }
@@ -53,8 +56,8 @@ struct Frame {
                 {b, sign + unit_w.y * unit_w.y * a, -unit_w.y},
                 unit_w};
     }
-    /// The frame of a surface, for materials that know directions on it: u is horizontal and, seen from the
-    /// normal's side, points to the right of the surface's way up, v; where the normal is vertical (within
+    /// The frame of a surface for anisotropic materials: u is horizontal and, seen from the
+    /// normal's side, points to the right of the upward direction v; where the normal is vertical (within
     /// 1e-5), u is the x axis.
     static Frame of_surface(const Vec3& unit_normal) {
         const Vec3& n = unit_normal;

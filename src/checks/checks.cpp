@@ -6,7 +6,7 @@ namespace stilb::checks {
 
 std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaster& caster,
                                         const Enclosures& enclosures, std::span<const Sensor> sensors) {
-    std::vector<std::string> warnings = hole_warnings(scene, enclosures.shells());
+    std::vector<std::string> warnings = hole_warnings(scene, enclosures.components());
     const auto add = [&](const std::vector<std::string>& more) {
         warnings.insert(warnings.end(), more.begin(), more.end());
     };

@@ -1,4 +1,4 @@
-// What is odd about a scene: holes, overlaps, sensors and lights behind walls, objects without light.
+// Warnings about a scene: holes, overlaps, sensors and lights behind walls, objects without light.
 #pragma once
 
 #include <compare>
@@ -14,21 +14,21 @@
 
 namespace stilb::checks {
 
-// The closed spaces of a scene, and which of them light is in: surfaces let no light through.
+// The enclosures of a scene, and those that contain lights: surfaces block light.
 
-/// A closed shell of an object.
+/// A closed connected component of an object.
 struct ComponentId {
     ObjectId object{};
-    std::uint32_t shell = 0;
+    std::uint32_t component = 0;
 
     auto operator<=>(const ComponentId&) const = default;
 };
 
-/// The closed shells that a point lies in, sorted. Two points with different ones have a surface between them
-/// on every way.
+/// The closed components that enclose a point, sorted. Where they differ for two points, every path between
+/// the points crosses a surface.
 using Enclosure = std::vector<ComponentId>;
 
-/// A point (lifted off whatever it lies on) and a direction into the open from there.
+/// A point (lifted off its surface, if any) and a direction into the open from there.
 struct ProbeRay {
     Vec3 position, direction;
 };
@@ -38,22 +38,22 @@ class Enclosures {
   public:
     Enclosures(const Scene& scene, const rays::RayCaster& caster);
 
-    /// The space of a light that the point sees; or else by the parity of the hits along three rays into the
-    /// hemisphere of the outlook's direction, of which two decide.
+    /// The enclosure of a light that the point sees; else by the parity of the hits along three rays into the
+    /// hemisphere of the probe's direction, by majority.
     Enclosure enclosure_of(const ProbeRay& probe_ray) const;
-    /// Per light, the spaces that its rays start in: one for points, one for every shell of an emitting
-    /// object, what no shell encloses for light from infinity.
+    /// The enclosures where each light's rays start: one for points, one for every component of an emitting
+    /// object, the outside of all components for light from infinity.
     const std::vector<std::vector<Enclosure>>& of_lights() const { return of_lights_; }
-    /// Some light starts there.
-    bool is_lit(const Enclosure& space) const;
+    /// Whether a light's rays start there.
+    bool is_lit(const Enclosure& enclosure) const;
 
-    /// Of every object.
-    const std::vector<geometry::ConnectedComponents>& shells() const { return shells_; }
+    /// The connected components of every object.
+    const std::vector<geometry::ConnectedComponents>& components() const { return components_; }
 
   private:
-    struct LightPlace {
+    struct LightLocation {
         Vec3 position;
-        Enclosure space;
+        Enclosure enclosure;
     };
 
     std::vector<ProbeRay> probe_rays_of(const Light& light) const;
@@ -62,26 +62,26 @@ class Enclosures {
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
-    std::vector<geometry::ConnectedComponents> shells_;
+    std::vector<geometry::ConnectedComponents> components_;
     std::vector<std::vector<Enclosure>> of_lights_;
-    std::vector<LightPlace> tried_;  ///< the lights that a point is tried to see
+    std::vector<LightLocation> tried_;  ///< the lights whose visibility from a point is tested
 };
 
 // Surfaces that were probably meant to be closed.
 
-/// A sentence for each object with shells that are open but nearly enclose a space: light goes through their
-/// holes. And one for emitters whose triangles do not all face the same side. `shells` are those of every
+/// A sentence for each object with components that are open but nearly closed: light passes through their
+/// holes. And one for emitters whose triangles do not all face the same side. `components`: those of every
 /// object.
 std::vector<std::string> hole_warnings(const Scene& scene,
-                                       const std::vector<geometry::ConnectedComponents>& shells);
+                                       const std::vector<geometry::ConnectedComponents>& components);
 
-// Surfaces that lie in one another.
+// Overlapping surfaces.
 
-/// Two triangles that lie over each other in one plane and do not look alike: rounding decides which of them
+/// Two triangles that overlap in one plane and have different materials: rounding decides which of them
 /// a ray meets.
 struct Overlap {
     ObjectId first{}, second{};
-    Vec3 position, normal;  ///< the middle of what they share; unit normal of the plane
+    Vec3 position, normal;  ///< the middle of the overlap; unit normal of the plane
 };
 
 /// Pairs of triangles in the same plane (to a few parts in a million of the scene's size) that share more
@@ -90,15 +90,15 @@ struct Overlap {
 std::vector<Overlap> find_overlaps(const Scene& scene);
 inline constexpr std::size_t kMostOverlaps = 1000;
 
-/// A sentence for each pair of objects that overlap where light comes: not for the bottom of a cabinet in the
-/// floor.
+/// A sentence for each pair of objects that overlap where light arrives: not for the bottom of a cabinet on
+/// the floor.
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                          const Enclosures& spaces);
+                                          const Enclosures& enclosures);
 
-// Mistakes in where sensors and lights stand: closed surfaces between them.
+// Misplaced sensors and lights: closed surfaces between them.
 
-/// A sentence for every sensor with points that no light can reach, because a closed surface lies around the
-/// point and no light in it (or around all lights and not the point), and for every light that likewise
+/// A sentence for every sensor with points that no light can reach, because a closed surface separates
+/// them from all lights, and for every light that likewise
 /// reaches no point of any sensor. And for every sensor with bodies that lie on surfaces.
 std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,
                                             std::span<const Sensor> sensors);
@@ -106,8 +106,8 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
 // Objects that no light reaches.
 
 /// The objects that no light reaches, in the order of the scene; emitters are never among them. Light
-/// particles are traced over some diffuse reflections; what they do not hit is looked at from where they
-/// were. An object may be named wrongly only where almost no light gets to it.
+/// particles are traced over some diffuse reflections; surfaces that they do not hit are then connected to
+/// the positions of the particles. A lit object can be listed only where almost no light reaches it.
 std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& caster);
 
 // All of it.

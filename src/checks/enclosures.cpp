@@ -10,26 +10,27 @@ namespace {
 /// Unit vectors in general position: along no axis, diagonal or symmetry that rooms have.
 constexpr std::array<Vec3, 3> kDirections{
     {{0.2673, 0.5345, 0.8018}, {-0.6851, 0.2114, 0.6971}, {0.4412, -0.7727, 0.4565}}};
-/// Rays through more surfaces than this say nothing.
+/// Rays through more surfaces than this are ignored.
 constexpr int kMostCrossings = 10'000;
-/// Lights that a point is tried to see before its space is found out.
+/// Lights whose visibility is tested before the enclosure of a point is determined.
 constexpr std::size_t kMostLightsTried = 8;
 
-/// Off the surface at `position` on the side of the unit vector `normal`.
+/// A probe lifted off the surface at `position` to the side of the unit vector `normal`.
 ProbeRay probe_ray_off(const Vec3& position, const Vec3& normal, double size_m,
                        const rays::RayCaster& caster) {
     return {position + caster.offset_m(position, size_m) * normal, normal};
 }
 
-/// One from every shell, off its front.
+/// One probe from every component, off its front.
 struct ProbeRaysOfShape {
-    const geometry::ConnectedComponents& shells;
+    const geometry::ConnectedComponents& components;
     const rays::RayCaster& caster;
 
     std::vector<ProbeRay> operator()(const Mesh& mesh) const {
         std::vector<ProbeRay> probe_rays;
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-            if (shells.of_triangle[t] != probe_rays.size()) continue;  // numbered by their first triangles
+            if (components.of_triangle[t] != probe_rays.size())
+                continue;  // components are numbered by their first triangles
             const auto [i, j, k] = mesh.triangles[t];
             const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
             const Vec3 normal = normalized(cross(b - a, c - a));
@@ -58,13 +59,14 @@ struct ProbeRaysOfShape {
 }  // namespace
 
 Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scene_(scene), caster_(caster) {
-    for (const Object& object : scene.objects) shells_.push_back(find_components(object.shape));
+    for (const Object& object : scene.objects) components_.push_back(find_components(object.shape));
     for (const Light& light : scene.lights) {
-        std::vector<Enclosure>& spaces = of_lights_.emplace_back();
-        if (place_of(light) == stilb::LightPlace::infinity) spaces.push_back({});  // outside of all shells
+        std::vector<Enclosure>& enclosures = of_lights_.emplace_back();
+        if (location_of(light) == stilb::LightLocation::infinity)
+            enclosures.push_back({});  // outside of all components
         for (const ProbeRay& probe_ray : probe_rays_of(light)) {
-            spaces.push_back(voted_enclosure(probe_ray));
-            if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, spaces.back()});
+            enclosures.push_back(voted_enclosure(probe_ray));
+            if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, enclosures.back()});
         }
     }
 }
@@ -75,7 +77,7 @@ std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
         return {probe_ray_off(origin->position, *origin->axis, caster_.half_extent_m(), caster_)};
     }
     if (const auto surface = lights::surface_emission(light)) {
-        return std::visit(ProbeRaysOfShape{shells_[index_of(surface->object)], caster_},
+        return std::visit(ProbeRaysOfShape{components_[index_of(surface->object)], caster_},
                           scene_.object(surface->object).shape);
     }
     return {};
@@ -87,9 +89,9 @@ Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const V
     for (int i = 0; i < kMostCrossings; ++i) {
         const auto hit = caster_.closest(from, direction);
         if (!hit) break;
-        const geometry::ConnectedComponents& shells = shells_[index_of(hit->object)];
-        const std::uint32_t shell = shells.of_triangle[hit->triangle];
-        if (shells.is_closed(shell)) crossed.push_back({hit->object, shell});
+        const geometry::ConnectedComponents& components = components_[index_of(hit->object)];
+        const std::uint32_t component = components.of_triangle[hit->triangle];
+        if (components.is_closed(component)) crossed.push_back({hit->object, component});
         from = hit->position - (hit->lifted - hit->position);  // just behind the surface
     }
     std::sort(crossed.begin(), crossed.end());
@@ -109,28 +111,28 @@ Enclosure Enclosures::voted_enclosure(const ProbeRay& probe_ray) const {
         const bool is_outwards = dot(d, probe_ray.direction) > 0;
         votes[i] = crossed_an_odd_number_of_times(probe_ray.position, is_outwards ? d : -d);
     }
-    Enclosure space;
+    Enclosure enclosure;
     const auto add_common = [&](const Enclosure& a, const Enclosure& b) {
-        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(space));
+        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(enclosure));
     };
     add_common(votes[0], votes[1]);
     add_common(votes[0], votes[2]);
     add_common(votes[1], votes[2]);
-    std::sort(space.begin(), space.end());
-    space.erase(std::unique(space.begin(), space.end()), space.end());
-    return space;
+    std::sort(enclosure.begin(), enclosure.end());
+    enclosure.erase(std::unique(enclosure.begin(), enclosure.end()), enclosure.end());
+    return enclosure;
 }
 
 Enclosure Enclosures::enclosure_of(const ProbeRay& probe_ray) const {
-    const auto seen = std::find_if(tried_.begin(), tried_.end(), [&](const LightPlace& light) {
+    const auto seen = std::find_if(tried_.begin(), tried_.end(), [&](const LightLocation& light) {
         return !caster_.occluded(probe_ray.position, light.position);
     });
-    return seen != tried_.end() ? seen->space : voted_enclosure(probe_ray);
+    return seen != tried_.end() ? seen->enclosure : voted_enclosure(probe_ray);
 }
 
-bool Enclosures::is_lit(const Enclosure& space) const {
-    return std::any_of(of_lights_.begin(), of_lights_.end(), [&](const std::vector<Enclosure>& spaces) {
-        return std::find(spaces.begin(), spaces.end(), space) != spaces.end();
+bool Enclosures::is_lit(const Enclosure& enclosure) const {
+    return std::any_of(of_lights_.begin(), of_lights_.end(), [&](const std::vector<Enclosure>& enclosures) {
+        return std::find(enclosures.begin(), enclosures.end(), enclosure) != enclosures.end();
     });
 }
 

@@ -11,35 +11,36 @@ namespace {
 
 using EnclosureList = std::vector<Enclosure>;
 
-bool contains(const EnclosureList& spaces, const Enclosure& space) {
-    return std::find(spaces.begin(), spaces.end(), space) != spaces.end();
+bool contains(const EnclosureList& enclosures, const Enclosure& enclosure) {
+    return std::find(enclosures.begin(), enclosures.end(), enclosure) != enclosures.end();
 }
 
-/// A shell that the point of `space` lies in and nothing in the `others` does.
-std::optional<ComponentId> only_around(const Enclosure& space, const EnclosureList& others) {
-    const auto place = std::find_if(space.begin(), space.end(), [&](const ComponentId& shell) {
+/// A component that encloses the point of `enclosure` and none of the `others`.
+std::optional<ComponentId> only_around(const Enclosure& enclosure, const EnclosureList& others) {
+    const auto found = std::find_if(enclosure.begin(), enclosure.end(), [&](const ComponentId& component) {
         return std::none_of(others.begin(), others.end(), [&](const Enclosure& other) {
-            return std::binary_search(other.begin(), other.end(), shell);
+            return std::binary_search(other.begin(), other.end(), component);
         });
     });
-    return place != space.end() ? std::optional{*place} : std::nullopt;
+    return found != enclosure.end() ? std::optional{*found} : std::nullopt;
 }
 
-/// Where a point without light lies, next to where the lights are.
+/// The position of a point without light, relative to the lights.
 std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const Scene& scene) {
-    if (const auto shell = only_around(dark, lit))
-        return fmt::format("inside object \"{}\", where no light is", scene.object(shell->object).name);
-    if (const auto shell = only_around(lit.front(), {dark}))
+    if (const auto component = only_around(dark, lit))
+        return fmt::format("inside object \"{}\", which contains no light",
+                           scene.object(component->object).name);
+    if (const auto component = only_around(lit.front(), {dark}))
         return fmt::format("outside object \"{}\", which encloses the light",
-                           scene.object(shell->object).name);
-    return "in a closed space without a light";
+                           scene.object(component->object).name);
+    return "in an enclosure without a light";
 }
 
-/// Rays to where the light of the readings comes from.
+/// Rays along which the light of the readings arrives.
 std::vector<ProbeRay> rays_of(const Sensor& sensor, const rays::RayCaster& caster) {
     if (const Camera* camera = sensor.camera()) {
-        const MeasuringPoint eye{camera->position, sensors::CameraView(*camera).forward()};
-        return {{lifted_position(eye, caster), eye.normal}};
+        const MeasuringPoint viewpoint{camera->position, sensors::CameraView(*camera).forward()};
+        return {{lifted_position(viewpoint, caster), viewpoint.normal}};
     }
     std::vector<ProbeRay> rays;
     for (const Measurand& measurand : sensor.measurands()) {
@@ -51,7 +52,7 @@ std::vector<ProbeRay> rays_of(const Sensor& sensor, const rays::RayCaster& caste
     return rays;
 }
 
-/// Bodies stand free; one on a surface is probably meant to.
+/// Bodies are meant to stand free; one on a surface is probably a mistake.
 std::optional<std::string> body_warning(const Sensor& sensor, const rays::RayCaster& caster) {
     std::size_t on_surfaces = 0;
     for (const Measurand& measurand : sensor.measurands()) {
@@ -71,16 +72,16 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosu
                                     const EnclosureList& lit, const Scene& scene) {
     std::size_t dark_points = 0, points = 0;
     const Enclosure* most = nullptr;
-    for (const auto& [space, count] : counts) {
+    for (const auto& [enclosure, count] : counts) {
         points += count;
-        if (contains(lit, space)) continue;
-        if (most == nullptr || count > counts.at(*most)) most = &space;
+        if (contains(lit, enclosure)) continue;
+        if (most == nullptr || count > counts.at(*most)) most = &enclosure;
         dark_points += count;
     }
     if (most == nullptr) return std::nullopt;
     const std::string which =
         points == 1 ? "it lies" : fmt::format("{} of {} points lie", dark_points, points);
-    return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} into the lit space.",
+    return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} to where light is.",
                        sensor.name, which, whereabouts(*most, lit, scene),
                        points == 1 ? "it reads" : "they read", sensor.quantity().unit,
                        points == 1 ? "it" : "them");
@@ -88,31 +89,32 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosu
 
 std::optional<std::string> fault_of(const Light& light, const EnclosureList& of_light,
                                     const EnclosureList& of_sensors, const Scene& scene) {
-    const bool is_measured = std::any_of(of_light.begin(), of_light.end(),
-                                         [&](const Enclosure& space) { return contains(of_sensors, space); });
+    const bool is_measured = std::any_of(of_light.begin(), of_light.end(), [&](const Enclosure& enclosure) {
+        return contains(of_sensors, enclosure);
+    });
     if (is_measured) return std::nullopt;
-    if (place_of(light) == LightPlace::infinity) {
+    if (location_of(light) == LightLocation::infinity) {
         return fmt::format(
-            "light \"{}\" surrounds the scene, and closed surfaces lie around all sensors: its light cannot "
+            "light \"{}\" surrounds the scene, but closed surfaces enclose all sensors: its light cannot "
             "get in. "
             "Open a window, or remove the light.",
             light.name);
     }
-    const auto shell = only_around(of_light.front(), of_sensors);
-    if (!shell) return std::nullopt;
+    const auto component = only_around(of_light.front(), of_sensors);
+    if (!component) return std::nullopt;
     return fmt::format(
         "light \"{}\" is inside object \"{}\": its light cannot get out to any sensor. Move it, or open the "
         "object.",
-        light.name, scene.object(shell->object).name);
+        light.name, scene.object(component->object).name);
 }
 
 }  // namespace
 
 std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,
                                             std::span<const Sensor> sensors) {
-    const Enclosures spaces(scene, caster);
+    const Enclosures enclosures(scene, caster);
     EnclosureList lit, of_sensors;
-    for (const EnclosureList& of_light : spaces.of_lights())
+    for (const EnclosureList& of_light : enclosures.of_lights())
         lit.insert(lit.end(), of_light.begin(), of_light.end());
     std::vector<std::string> warnings;
     for (const Sensor& sensor : sensors) {
@@ -122,15 +124,16 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
 
     for (const Sensor& sensor : sensors) {
         std::map<Enclosure, std::size_t> counts;
-        for (const ProbeRay& ray : rays_of(sensor, caster)) ++counts[spaces.enclosure_of(ray)];
-        for (const auto& [space, count] : counts) of_sensors.push_back(space);
+        for (const ProbeRay& ray : rays_of(sensor, caster)) ++counts[enclosures.enclosure_of(ray)];
+        for (const auto& [enclosure, count] : counts) of_sensors.push_back(enclosure);
         if (auto fault = fault_of(sensor, counts, lit, scene)) warnings.push_back(std::move(*fault));
     }
-    const bool some_are_lit = std::any_of(of_sensors.begin(), of_sensors.end(),
-                                          [&](const Enclosure& space) { return contains(lit, space); });
-    if (!some_are_lit) return warnings;  // one mistake, one message
+    const bool some_are_lit =
+        std::any_of(of_sensors.begin(), of_sensors.end(),
+                    [&](const Enclosure& enclosure) { return contains(lit, enclosure); });
+    if (!some_are_lit) return warnings;  // one message for one mistake
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        if (auto fault = fault_of(scene.lights[i], spaces.of_lights()[i], of_sensors, scene))
+        if (auto fault = fault_of(scene.lights[i], enclosures.of_lights()[i], of_sensors, scene))
             warnings.push_back(std::move(*fault));
     }
     return warnings;

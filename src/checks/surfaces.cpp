@@ -15,28 +15,29 @@ namespace stilb::checks {
 
 namespace {
 
-/// The vector area of a closed surface is 0; that of an open one is as large as its holes, seen flat. A box
-/// without a lid (0.2 of its area, or more for a flat one) is meant so.
+/// The largest vector area, as a share of the area, of a nearly closed surface. The vector area of a closed
+/// surface is 0; that of an open one is the area of its holes, if flat. A box without a lid (0.2 of its area,
+/// or more for a flat one) is open on purpose.
 constexpr double kLargestHole = 0.05;
 
 struct Hole {
-    std::size_t shells = 0, edges = 0;
+    std::size_t components = 0, edges = 0;
 };
 
-Hole holes_of(const Mesh& mesh, const geometry::ConnectedComponents& shells) {
-    std::vector<Vec3> vector_area(shells.count());
-    std::vector<double> area(shells.count());
+Hole holes_of(const Mesh& mesh, const geometry::ConnectedComponents& components) {
+    std::vector<Vec3> vector_area(components.count());
+    std::vector<double> area(components.count());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto [a, b, c] = mesh.triangles[t];
         const Vec3 doubled = cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
-        vector_area[shells.of_triangle[t]] += doubled;
-        area[shells.of_triangle[t]] += length(doubled);
+        vector_area[components.of_triangle[t]] += doubled;
+        area[components.of_triangle[t]] += length(doubled);
     }
     Hole hole;
-    for (std::uint32_t s = 0; s < shells.count(); ++s) {
-        if (shells.is_closed(s) || length(vector_area[s]) > kLargestHole * area[s]) continue;
-        ++hole.shells;
-        hole.edges += shells.open_edges[s];
+    for (std::uint32_t s = 0; s < components.count(); ++s) {
+        if (components.is_closed(s) || length(vector_area[s]) > kLargestHole * area[s]) continue;
+        ++hole.components;
+        hole.edges += components.open_edges[s];
     }
     return hole;
 }
@@ -44,39 +45,42 @@ Hole holes_of(const Mesh& mesh, const geometry::ConnectedComponents& shells) {
 }  // namespace
 
 std::vector<std::string> hole_warnings(const Scene& scene,
-                                       const std::vector<geometry::ConnectedComponents>& shells) {
+                                       const std::vector<geometry::ConnectedComponents>& components) {
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         const auto* mesh = std::get_if<Mesh>(&object.shape);
         if (mesh == nullptr) continue;
-        const Hole hole = holes_of(*mesh, shells[i]);
-        if (hole.shells == 0) continue;
-        const std::string which = shells[i].count() == 1 ? "it nearly closes"
-                                                         : fmt::format("{} of its {} parts nearly close",
-                                                                       hole.shells, shells[i].count());
-        warnings.push_back(
-            fmt::format("object \"{}\": {}, but for {} open edges: light goes through the holes. Close them, "
-                        "or leave them "
-                        "if they are meant.",
-                        object.name, which, hole.edges));
+        const Hole hole = holes_of(*mesh, components[i]);
+        if (hole.components == 0) continue;
+        const std::string which =
+            components[i].count() == 1
+                ? "it nearly closes"
+                : fmt::format("{} of its {} parts nearly close", hole.components, components[i].count());
+        warnings.push_back(fmt::format(
+            "object \"{}\": {}, except for {} open edges: light passes through the holes. Close them, "
+            "or leave them "
+            "if they are meant.",
+            object.name, which, hole.edges));
     }
     for (const Light& light : scene.lights) {
         const auto surface = lights::surface_emission(light);
-        if (!surface || shells[index_of(surface->object)].turned_edges == 0) continue;
+        if (!surface || components[index_of(surface->object)].turned_edges == 0) continue;
         warnings.push_back(fmt::format(
-            "light \"{}\": at {} edges of object \"{}\" the front changes sides, and only fronts shine. Turn "
+            "light \"{}\": at {} edges of object \"{}\" the front changes sides, but only fronts emit light. "
+            "Turn "
             "its triangles to one side.",
-            light.name, shells[index_of(surface->object)].turned_edges, scene.object(surface->object).name));
+            light.name, components[index_of(surface->object)].turned_edges,
+            scene.object(surface->object).name));
     }
     return warnings;
 }
 
 namespace {
 
-/// Shared area that counts, as a part of the smaller triangle's.
+/// The smallest overlap that counts, as a share of the smaller triangle.
 constexpr double kLeastShare = 1e-3;
-/// Steps in which normals and (times the scene's size) distances of planes are told apart.
+/// Quantisation steps of normals and (times the scene's size) distances of planes.
 constexpr double kPlaneStep = 4e-6;
 
 struct Point2 {
@@ -88,19 +92,19 @@ double doubled_area(const Point2& a, const Point2& b, const Point2& c) {
     return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-/// A triangle in its plane, as seen along the axis that the plane faces most.
+/// A triangle in its plane, projected along the axis that the plane faces most.
 struct FlatTriangle {
     std::array<std::int64_t, 4> plane{};  ///< quantised normal and distance from the origin
     ObjectId object{};
     MaterialId material{};
-    bool shines = false;
+    bool is_emitter = false;
     std::size_t axis = 0;
     Vec3 normal, vertex;
     std::array<Point2, 3> corners{};  ///< counterclockwise
     Point2 min, max;
 
     bool looks_like(const FlatTriangle& other) const {
-        const bool same_emission = shines == other.shines && (!shines || object == other.object);
+        const bool same_emission = is_emitter == other.is_emitter && (!is_emitter || object == other.object);
         return material == other.material && same_emission;
     }
 };
@@ -114,7 +118,7 @@ FlatTriangle flattened(const std::array<Vec3, 3>& corners, double size_m) {
     FlatTriangle flat;
     flat.normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
     flat.axis = dominant_axis(flat.normal);
-    if (flat.normal[flat.axis] < 0) flat.normal = -flat.normal;  // one for both sides
+    if (flat.normal[flat.axis] < 0) flat.normal = -flat.normal;  // the same for both sides
     flat.vertex = corners[0];
     const auto quantised = [](double value) { return std::llround(value / kPlaneStep); };
     flat.plane = {quantised(flat.normal.x), quantised(flat.normal.y), quantised(flat.normal.z),
@@ -128,7 +132,7 @@ FlatTriangle flattened(const std::array<Vec3, 3>& corners, double size_m) {
     return flat;
 }
 
-/// Triangles of flat shapes; curved ones and disks are left out.
+/// Triangles of flat shapes except disks; curved shapes are left out.
 Mesh mesh_of(const Shape& shape) {
     if (const auto* mesh = std::get_if<Mesh>(&shape)) return *mesh;
     if (const auto* rectangle = std::get_if<Rectangle>(&shape)) return triangulated(*rectangle);
@@ -136,11 +140,12 @@ Mesh mesh_of(const Shape& shape) {
     return {};
 }
 
-/// All of the scene's, those in one plane one after another, from left to right.
+/// All triangles of the scene, grouped by plane, from left to right.
 std::vector<FlatTriangle> flat_triangles(const Scene& scene) {
-    std::vector<bool> shines(scene.objects.size());
+    std::vector<bool> is_emitter(scene.objects.size());
     for (const Light& light : scene.lights) {
-        if (const auto surface = lights::surface_emission(light)) shines[index_of(surface->object)] = true;
+        if (const auto surface = lights::surface_emission(light))
+            is_emitter[index_of(surface->object)] = true;
     }
     std::vector<Mesh> meshes;
     Bounds bounds;
@@ -159,7 +164,7 @@ std::vector<FlatTriangle> flat_triangles(const Scene& scene) {
                 triangles.emplace_back(flattened({vertices[a], vertices[b], vertices[c]}, size_m));
             flat.object = ObjectId{i};
             flat.material = materials.size() == 1 ? materials[0] : materials[t];
-            flat.shines = shines[i];
+            flat.is_emitter = is_emitter[i];
         }
     }
     std::sort(triangles.begin(), triangles.end(), [](const FlatTriangle& a, const FlatTriangle& b) {
@@ -183,7 +188,7 @@ Polygon2 clipped(const Polygon2& polygon, const Point2& a, const Point2& b) {
     return result;
 }
 
-/// A point within what both triangles cover, in the plane of the first.
+/// A point in the overlap of both triangles, in the plane of the first.
 std::optional<Vec3> shared_point(const FlatTriangle& first, const FlatTriangle& second) {
     const auto& [a, b, c] = second.corners;
     const Polygon2 whole(first.corners.begin(), first.corners.end());
@@ -216,10 +221,10 @@ std::vector<Overlap> find_overlaps(const Scene& scene) {
             if (second->plane != first->plane || second->min.u >= first->max.u) break;
             if (second->min.v >= first->max.v || second->max.v <= first->min.v) continue;
             if (first->looks_like(*second)) continue;
-            const auto place = shared_point(*first, *second);
-            if (!place) continue;
+            const auto shared = shared_point(*first, *second);
+            if (!shared) continue;
             const auto [a, b] = std::minmax(first->object, second->object);
-            overlaps.push_back({a, b, *place, first->normal});
+            overlaps.push_back({a, b, *shared, first->normal});
             if (overlaps.size() == kMostOverlaps) return overlaps;
         }
     }
@@ -227,11 +232,11 @@ std::vector<Overlap> find_overlaps(const Scene& scene) {
 }
 
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                          const Enclosures& spaces) {
+                                          const Enclosures& enclosures) {
     const auto is_lit = [&](const Overlap& overlap) {
         const Vec3 offset = 2 * caster.offset_m(overlap.position, caster.half_extent_m()) * overlap.normal;
-        return spaces.is_lit(spaces.enclosure_of({overlap.position + offset, overlap.normal})) ||
-               spaces.is_lit(spaces.enclosure_of({overlap.position - offset, -overlap.normal}));
+        return enclosures.is_lit(enclosures.enclosure_of({overlap.position + offset, overlap.normal})) ||
+               enclosures.is_lit(enclosures.enclosure_of({overlap.position - offset, -overlap.normal}));
     };
     struct Found {
         std::size_t count = 0;
@@ -249,13 +254,14 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCas
     for (const auto& [objects, pair] : found) {
         const std::string& first = scene.object(objects.first).name;
         const std::string& second = scene.object(objects.second).name;
-        const std::string who = first == second ? fmt::format("object \"{}\": parts of it", first)
-                                                : fmt::format("objects \"{}\" and \"{}\"", first, second);
+        const std::string named = first == second ? fmt::format("object \"{}\": parts of it", first)
+                                                  : fmt::format("objects \"{}\" and \"{}\"", first, second);
         warnings.push_back(fmt::format(
             "{} overlap in one plane ({}{} pair{} of triangles, one at ({:.4g}, {:.4g}, {:.4g})): rounding "
             "decides "
-            "which of them light meets. Move one by a millimetre.",
-            who, at_least, pair.count, pair.count == 1 ? "" : "s", pair.where.x, pair.where.y, pair.where.z));
+            "which of them light meets. Move one of them by a millimetre.",
+            named, at_least, pair.count, pair.count == 1 ? "" : "s", pair.where.x, pair.where.y,
+            pair.where.z));
     }
     return warnings;
 }

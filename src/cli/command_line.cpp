@@ -11,16 +11,15 @@
 namespace stilb::cli {
 namespace {
 
-/// No command, or an unknown one.
+/// The message where a command is missing or unknown.
 InputError no_command(const CLI::App& app) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-    const std::string all = fmt::format("Commands: {}. stilb --help says more.", fmt::join(names, ", "));
+    const std::string all = fmt::format("Commands: {}. See stilb --help.", fmt::join(names, ", "));
     const std::vector<std::string> extras = app.remaining();
     if (extras.empty()) return InputError("a command is missing. " + all);
-    const std::string nearest =
-        nearest_name(extras[0], std::vector<std::string_view>(names.begin(), names.end()));
-    const std::string question = nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest);
+    const std::string question =
+        did_you_mean(extras[0], std::vector<std::string_view>(names.begin(), names.end()));
     return InputError(fmt::format("there is no command \"{}\".{} {}", extras[0], question, all));
 }
 
@@ -96,11 +95,11 @@ void Command::run(std::function<int()> command) {
 }
 
 CommandLine::CommandLine()
-    : app_(std::make_unique<CLI::App>("Stilb: illuminance and luminance with an error bar on every number")) {
+    : app_(std::make_unique<CLI::App>("Stilb: illuminance and luminance, each value with its error bar")) {
     app_->name("stilb");
     app_->set_version_flag("--version", STILB_VERSION);
     app_->require_subcommand(0, 1);
-    app_->allow_extras();  // for an unknown command's own message; the commands take none
+    app_->allow_extras();  // so that an unknown command gets a message of its own; no command takes extras
 }
 
 CommandLine::~CommandLine() = default;

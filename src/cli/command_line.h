@@ -1,4 +1,4 @@
-// Commands and their flags. CLI11 is behind it, and nothing else includes it: each file that does takes
+// Commands and their flags. Only this module's source includes CLI11, because each file that does takes
 // seconds to compile.
 #pragma once
 
@@ -19,36 +19,36 @@ namespace stilb::cli {
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitCheckFailed = 1;
 inline constexpr int kExitWrongInput = 2;
-inline constexpr int kExitStoppedEarly = 3;  ///< also before there was any result
+inline constexpr int kExitStoppedEarly = 3;  ///< also where the run ended before its first result
 
-/// A flag or argument of a command, to say more of it.
+/// A flag or argument of a command. Its members add to the declaration.
 class Flag {
   public:
     explicit Flag(CLI::Option& option) : option_(&option) {}
 
     Flag& required();
-    /// What stands for the value in --help, such as "FILE".
+    /// The placeholder of the value in --help, such as "FILE".
     Flag& value_name(const std::string& name);
-    /// The heading in --help that it stands under.
+    /// The heading of the flag in --help.
     Flag& heading(const std::string& text);
     Flag& description(const std::string& text);
     Flag& from_to(std::int64_t least, std::int64_t greatest);
     Flag& above_zero();
-    /// Takes one value each time it is given, and may be repeated.
+    /// The flag takes one value each time it is given, and may be repeated.
     Flag& repeatable();
-    /// --help shows the value that the variable has now.
+    /// --help shows the present value of the variable as the default.
     Flag& show_default();
 
   private:
     CLI::Option* option_;
 };
 
-/// One command. The variables outlive the parsing of the command line.
+/// One command. The bound variables must outlive the parsing of the command line.
 class Command {
   public:
     explicit Command(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}
 
-    /// Examples, one a line, which --help prints before everything else.
+    /// Sets examples, one a line, which --help prints first.
     void set_examples(const std::string& examples);
     /// An argument ("SCENE") or a flag with a value ("-o,--output"). T: bool for a flag without a value,
     /// std::string, int, double, std::uint64_t, std::optional of these, std::vector<std::string>.
@@ -56,9 +56,9 @@ class Command {
     Flag add(const std::string& names, T& value, const std::string& description);
     /// A flag without a value that calls `set`.
     void add_switch(const std::string& names, std::function<void()> set, const std::string& description);
-    /// One that was added before.
+    /// Finds a flag that was added before.
     Flag find(const std::string& name);
-    /// Runs when the command was chosen; returns the exit code.
+    /// Sets the function that runs when the command is chosen. It returns the exit code.
     void run(std::function<int()> command);
 
   private:
@@ -76,9 +76,9 @@ class CommandLine {
 
     Command add_command(const std::string& name, const std::string& summary);
     /// Parses the arguments and runs the chosen command; returns the program's exit code. Throws InputError
-    /// where there is no such command, and whatever the command throws.
+    /// where there is no such command, and passes on the command's exceptions.
     int run(int argument_count, const char* const* arguments);
-    /// As typed, for the headers of files.
+    /// The command line as typed, for the headers of files.
     const std::string& text() const { return text_; }
 
   private:

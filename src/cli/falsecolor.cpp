@@ -29,10 +29,9 @@ void keep_only(const std::vector<std::string>& wanted, io::ResultsFile& results,
     for (const io::MeasuredGrid& grid : results.grids) names.push_back(grid.name);
     for (const std::string& name : wanted) {
         if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-        const std::string nearest = nearest_name(name, names);
-        const std::string advice = nearest.empty() ? fmt::format("Its grids: {}.", fmt::join(names, ", "))
-                                                   : fmt::format("Did you mean '{}'?", nearest);
-        throw InputError(fmt::format("no grid '{}' among the results. {}", name, advice), {file});
+        throw InputError(fmt::format("--sensor {}: the results have no such grid.{} Grids: {}.", name,
+                                     did_you_mean(name, names), fmt::join(names, ", ")),
+                         {file});
     }
     std::erase_if(results.grids, [&](const io::MeasuredGrid& grid) {
         return std::find(wanted.begin(), wanted.end(), grid.name) == wanted.end();
@@ -41,7 +40,7 @@ void keep_only(const std::vector<std::string>& wanted, io::ResultsFile& results,
 
 void draw_picture(const FalseColourRequest& request) {
     if (!request.sensors.empty()) {
-        throw InputError("--sensor chooses among measured grids, and a picture has none. Leave it out.",
+        throw InputError("--sensor selects measured grids, but this input is a picture. Leave --sensor out.",
                          {request.input});
     }
     const io::Picture picture = io::read_picture(request.input);
@@ -78,18 +77,19 @@ void add_falsecolor(CommandLine& line) {
     auto request = std::make_shared<FalseColourRequest>();
     plot::FalseColourOptions& options = request->options;
     command
-        .add("IN", request->input, "Results of 'stilb measure --json', or a picture: OpenEXR or Radiance HDR")
+        .add("IN", request->input,
+             "Results of 'stilb measure --json', or a luminance picture (OpenEXR or Radiance HDR)")
         .required();
     command.add("-o,--output", request->output, "Picture to write: .png or .svg").required();
-    command.add("--sensor", request->sensors, "Of results, draw this grid only (may be repeated)")
+    command.add("--sensor", request->sensors, "Draw only this grid of the results (may be repeated)")
         .repeatable();
     command.add_switch(
         "--log", [&options] { options.scale = plot::ScaleType::logarithmic; }, "Logarithmic scale");
-    command.add("--min", options.minimum, "Lower end of the scale; a round number by default");
-    command.add("--max", options.maximum, "Upper end of the scale");
-    command.add("--isolines", options.isolines, "Lines of equal value, labelled");
+    command.add("--min", options.minimum, "Lower end of the scale (default: a round number)");
+    command.add("--max", options.maximum, "Upper end of the scale (default: a round number)");
+    command.add("--isolines", options.isolines, "Draw labelled lines of equal value");
     command.add("--numbers", options.numbers,
-                "Values: in cells that are large enough, on a coarse grid over pictures");
+                "Write the values: into cells that are large enough, or on a coarse grid over a picture");
     command.run([request] { return run_falsecolor(*request); });
 }
 

@@ -1,4 +1,4 @@
-// stilb fit: a star-shaped mesh as a surface by spherical harmonics.
+// stilb fit: fits a surface by spherical harmonics to a star-shaped mesh.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -38,15 +38,14 @@ std::optional<Vec3> center_of(const FitRequest& request) {
         if (x && y && z) return Vec3{*x, *y, *z};
     }
     throw InputError(
-        fmt::format("--center {} is no point. Write x,y,z (0.1,0,2.5), or auto to have it searched.",
-                    io::in_quotes(text)));
+        fmt::format("--center {}: expected x,y,z (such as 0.1,0,2.5) or auto", io::in_quotes(text)));
 }
 
 double tolerance_of(const FitRequest& request) {
     if (request.tolerance == "0") return 0;
     if (const auto share = run::parse_relative_error(request.tolerance)) return *share;
     throw InputError(
-        fmt::format("--tolerance {} is no share of directions. Write 0.5% or 0.005; it is below 1.",
+        fmt::format("--tolerance {}: expected a share of the directions below 1, such as 0.5% or 0.005",
                     io::in_quotes(request.tolerance)));
 }
 
@@ -60,7 +59,8 @@ void check_outputs(const FitRequest& request) {
     if (request.plot.empty()) return;
     plot::require_picture_path(request.plot);
     if (request.degree == 0)
-        throw InputError("--plot shows errors from degree 1 on, and this is --degree 0. Leave it out.");
+        throw InputError(
+            "--plot draws errors from degree 1 on, but --degree is 0. Leave --plot out, or raise --degree.");
 }
 
 int run_fit(const FitRequest& request) {
@@ -94,8 +94,7 @@ int run_fit(const FitRequest& request) {
 }  // namespace
 
 void add_fit(CommandLine& line) {
-    Command command =
-        line.add_command("fit", "A star-shaped mesh as a surface by spherical harmonics, in a small file");
+    Command command = line.add_command("fit", "Fit a surface by spherical harmonics to a star-shaped mesh");
     command.set_examples(
         "  stilb fit head.ply -o head.json --degree 32\n"
         "  stilb fit head.ply -o head.json --degree 64 --plot error.svg\n"
@@ -103,24 +102,25 @@ void add_fit(CommandLine& line) {
         "  stilb fit monkey.obj -o monkey.json --degree 32 --force\n");
     auto request = std::make_shared<FitRequest>();
     command.add("MESH", request->mesh, "Mesh (.obj, .ply)").required();
-    command.add("-o,--output", request->output, "Series to write (JSON)").required().value_name("FILE");
-    command.add("--degree", request->degree, "Of the harmonics: (degree + 1)^2 coefficients")
+    command.add("-o,--output", request->output, "Surface to write (JSON)").required().value_name("FILE");
+    command.add("--degree", request->degree, "Degree of the series, which has (degree + 1)^2 coefficients")
         .required()
         .from_to(0, math::kMostHarmonicDegree)
         .value_name("N");
     command
         .add("--center", request->center,
-             "Point that the radius counts from: x,y,z; auto (default) searches one that all of the "
-             "surface is seen from")
+             "Origin of the radius: x,y,z; auto (default) searches for a point from which all of the "
+             "surface is seen")
         .value_name("X,Y,Z");
     command
         .add("--tolerance", request->tolerance,
-             "Refuse the mesh if it is not met exactly once in more than this share of the directions "
+             "Refuse the mesh if rays do not meet it exactly once in more than this share of the directions "
              "from the centre: 0.5% (default) or 0.005")
         .value_name("SHARE");
     command.add("--force", request->force,
-                "Do not refuse: take the outermost surface, close holes by what is next to them");
-    command.add("--plot", request->plot, "Draw errors over degrees: .svg or .png").value_name("FILE");
+                "Accept a mesh that is not star-shaped: take its outermost surface, and close holes by "
+                "interpolation");
+    command.add("--plot", request->plot, "Draw the error over the degree (.svg, .png)").value_name("FILE");
     command.add("--json", request->json, "One JSON document instead of the table (docs/fit.md)");
     command.add("--quiet", request->quiet, "No warnings on stderr");
     command.run([request] { return run_fit(*request); });

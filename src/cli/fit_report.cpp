@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// 4, 8, 16 ... and the fit's own.
+/// The degrees in the table: 4, 8, 16 ... and the fit's own.
 std::vector<int> degrees_of(const FitReport& report) {
     std::vector<int> degrees;
     for (int degree = 4; degree < report.degree(); degree *= 2) degrees.push_back(degree);
@@ -29,7 +29,9 @@ std::string center_text(const fit::MeshFit& fit) {
         return text + fmt::format("all faces are seen from their front, with {:.2g} % of the size to spare",
                                   100 * *fit.margin / fit.size);
     }
-    return text + "searched for the fewest crossings too many, as no point sees all faces from their front";
+    return text +
+           "found by search for the fewest surplus crossings, because no point sees all faces from their "
+           "front";
 }
 
 std::string star_text(const fit::MeshFit& fit) {
@@ -85,25 +87,25 @@ std::vector<std::string> warnings_of(const FitReport& report) {
     std::vector<std::string> warnings;
     if (fit.turned > 0) {
         warnings.push_back(fmt::format(
-            "{} of {} faces were turned to have their front outside, for the search of the centre.",
+            "{} of {} faces were reversed so that their front is outside, for the search of the centre.",
             fit.turned, report.faces));
     }
     if (fit.open_edges > 0) {
         warnings.push_back(fmt::format(
-            "the mesh is not closed: in {} edges there meet one or more than two faces.", fit.open_edges));
+            "the mesh is not closed: {} edges belong to one face or to more than two.", fit.open_edges));
     }
     if (survey.folded_share > 0) {
         const double deepest = survey.worst_folds.front().depth / fit.size;
-        warnings.push_back(
-            fmt::format("in {:.3f} % of the directions the outermost of several surfaces is taken; what is "
-                        "below it is lost, up to {:.2g} % of the size deep.",
-                        100 * survey.folded_share, 100 * deepest));
+        warnings.push_back(fmt::format(
+            "in {:.3f} % of the directions the outermost of several surfaces is taken; the surfaces "
+            "below it, down to {:.2g} % of the size, are lost.",
+            100 * survey.folded_share, 100 * deepest));
     }
     if (survey.missed_share > 0) {
-        warnings.push_back(
-            fmt::format("in {:.3f} % of the directions there is no surface: holes are closed by means of "
-                        "what is next to them, and errors do not count there.",
-                        100 * survey.missed_share));
+        warnings.push_back(fmt::format(
+            "in {:.3f} % of the directions there is no surface: the holes are closed by interpolation, "
+            "and the stated errors leave them out.",
+            100 * survey.missed_share));
     }
     return warnings;
 }

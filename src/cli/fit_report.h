@@ -1,4 +1,4 @@
-// What `stilb fit` says of a fit: for people, as JSON, as a plot.
+// The report of `stilb fit`: as text, as JSON and as a plot.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@
 namespace stilb::cli {
 
 struct FitReport {
-    std::string mesh, output;  ///< files as typed
+    std::string mesh, output;  ///< file names as typed
     std::size_t faces = 0, vertices = 0;
     std::uintmax_t mesh_bytes = 0, output_bytes = 0;
     double tolerated_share = 0;
-    double elapsed_s = 0;  ///< from the mesh that is read to its series
+    double elapsed_s = 0;  ///< from the mesh in memory to its series
     fit::MeshFit fit;
 
     int degree() const { return static_cast<int>(fit.errors.size()) - 1; }
-    /// As single-precision coordinates and 32-bit corners.
+    /// Size of the mesh with single-precision coordinates and 32-bit indices.
     std::uintmax_t bare_mesh_bytes() const { return 12 * vertices + 12 * faces; }
-    /// Of the series if it ends with a degree, as shares of the size.
+    /// Errors of the series truncated at a degree, as shares of the size.
     double rms_error(int of_degree) const { return error(of_degree).rms / fit.size; }
     double largest_error(int of_degree) const { return error(of_degree).maximum / fit.size; }
-    /// Of the mesh's bare bytes to the coefficients' up to a degree.
+    /// Ratio of the bare mesh's bytes to the bytes of the coefficients up to a degree.
     double bare_ratio(int of_degree) const {
         return static_cast<double>(bare_mesh_bytes()) / static_cast<double>(bare_bytes(of_degree));
     }
-    /// In single precision.
+    /// Size of the coefficients in single precision.
     static std::uintmax_t bare_bytes(int degree) { return 4 * math::harmonic_count(degree); }
 
   private:
@@ -38,13 +38,13 @@ struct FitReport {
     }
 };
 
-/// What was found odd and what is lost, a sentence each.
+/// Warnings about the mesh and about lost detail, a sentence each.
 std::vector<std::string> warnings_of(const FitReport& report);
 
 std::string to_text(const FitReport& report);
-/// docs/fit.md has the keys.
+/// The document that docs/fit.md describes.
 std::string to_json(const FitReport& report);
-/// Errors over degrees 1 to the fit's, which is 1 or more.
+/// The errors over degrees 1 to the fit's degree, which must be 1 or more.
 plot::Plot error_plot(const FitReport& report);
 
 }  // namespace stilb::cli

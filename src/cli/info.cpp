@@ -1,4 +1,4 @@
-// stilb info: what a scene, a luminaire file or a mesh file holds, and what is odd about it.
+// stilb info: the contents of a scene, a luminaire file or a mesh file, with warnings.
 
 #include <fmt/format.h>
 
@@ -37,7 +37,8 @@ InfoReport report_file(const std::string& file) {
 }  // namespace
 
 void add_info(CommandLine& line) {
-    Command command = line.add_command("info", "What a scene, luminaire or mesh file holds, with warnings");
+    Command command =
+        line.add_command("info", "Show the contents of a scene, luminaire or mesh file, with warnings");
     command.set_examples(
         "  stilb info office.toml\n"
         "  stilb info downlight.ies\n"
@@ -45,10 +46,11 @@ void add_info(CommandLine& line) {
     auto request = std::make_shared<InfoRequest>();
     command.add("FILE", request->file, "Scene (TOML), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
         .required();
-    command.add("--json", request->json,
-                "One JSON document instead: {\"file\", \"materials\", \"objects\", \"lights\", "
-                "\"total_flux_lm\", \"luminaires\", \"sensors\", \"run\", \"warnings\", \"memory\"}, those "
-                "that the file has; units are in the keys");
+    command.add(
+        "--json", request->json,
+        "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
+        "\"total_flux_lm\", \"luminaires\", \"sensors\", \"run\", \"warnings\", \"memory\"}, as far as "
+        "the file has them; units are in the keys");
     command.run([request] {
         const InfoReport report = report_file(request->file);
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
@@ -56,7 +58,7 @@ void add_info(CommandLine& line) {
     });
 }
 
-// The report of `stilb info` for people.
+// The report of `stilb info` as text.
 
 namespace {
 
@@ -85,7 +87,7 @@ std::string extent_text(const Json& extent) {
     return fmt::format("from {} to {}", point_text(extent[0]), point_text(extent[1]));
 }
 
-/// A share to three digits, other numbers to four; of an array "0.1 x 0.2".
+/// A share to three digits, another number to four; an array as "0.1 x 0.2".
 std::string parameter_text(const Json& value) {
     if (value.is_array()) {
         std::string text;
@@ -124,7 +126,7 @@ std::string object_text(const Json& object) {
     const Json& materials = object.at("materials");
     line += fmt::format("{}{}", materials.size() > 1 ? "\n    materials: " : ", ", joined(materials));
     if (object.contains("groups")) {
-        line += fmt::format("\n    groups: {}\n    triangles of no area, left out: {}",
+        line += fmt::format("\n    groups: {}\n    triangles without area, left out: {}",
                             joined(object.at("groups")), count(object, "degenerate_triangles_left_out"));
     }
     return line;
@@ -189,7 +191,7 @@ std::string sensor_text(const Json& sensor) {
     const std::string what = sensor.contains("resolution")
                                  ? camera_text(sensor)
                                  : readings_text(sensor) + ", " + extent_text(sensor.at("extent"));
-    return fmt::format("{:16} {:12} {}", text(sensor, "name"), text(sensor, "type"), what);
+    return fmt::format("{:16} {:15} {}", text(sensor, "name"), text(sensor, "type"), what);
 }
 
 std::string run_text(const Json& run) {

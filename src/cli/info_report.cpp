@@ -72,19 +72,20 @@ struct ShapeReport {
     }
 };
 
-Json shape_json(const std::string& name, const Shape& shape, const geometry::ConnectedComponents& shells) {
+Json shape_json(const std::string& name, const Shape& shape,
+                const geometry::ConnectedComponents& components) {
     Json json{{"name", name}};
     json.update(std::visit(ShapeReport{}, shape));
     json["extent"] = extent_json(bounds_of(shape));
     json["area_m2"] = area_m2(shape);
-    json["parts"] = shells.count();
-    json["open_edges"] = shells.total_open_edges();
-    json["closed"] = shells.total_open_edges() == 0;
+    json["parts"] = components.count();
+    json["open_edges"] = components.total_open_edges();
+    json["closed"] = components.total_open_edges() == 0;
     return json;
 }
 
-Json object_json(const Object& object, const geometry::ConnectedComponents& shells, const Scene& scene) {
-    Json json = shape_json(object.name, object.shape, shells);
+Json object_json(const Object& object, const geometry::ConnectedComponents& components, const Scene& scene) {
+    Json json = shape_json(object.name, object.shape, components);
     std::vector<bool> is_used(scene.materials.size());
     for (const MaterialId material : object.materials) is_used[index_of(material)] = true;
     Json& names = json["materials"] = Json::array();
@@ -99,7 +100,7 @@ Json light_json(const Light& light, const Scene& scene) {
     for (const auto& [key, value] : details_of(light, scene::LightSurroundings(scene))) {
         std::visit([&](const auto& is) { json[std::string(key)] = is; }, value);
     }
-    if (place_of(light) != LightPlace::infinity) json["flux_lm"] = flux_lm(scene, light).luminance();
+    if (location_of(light) != LightLocation::infinity) json["flux_lm"] = flux_lm(scene, light).luminance();
     return json;
 }
 
@@ -184,23 +185,23 @@ std::vector<std::string> warnings_of(const io::SceneFile& file, const rays::RayC
 InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     const Scene& scene = file.scene;
     const rays::RayCaster caster(scene);
-    const checks::Enclosures spaces(scene, caster);
+    const checks::Enclosures enclosures(scene, caster);
     double total_flux_lm = 0;
     for (const Light& light : scene.lights) {
-        if (place_of(light) != LightPlace::infinity) total_flux_lm += flux_lm(scene, light).luminance();
+        if (location_of(light) != LightLocation::infinity) total_flux_lm += flux_lm(scene, light).luminance();
     }
 
     Json json{{"stilb", STILB_VERSION}, {"file", name}, {"name", scene.name}};
     json["materials"] = list_json(scene.materials, material_json);
     json["objects"] = Json::array();
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
-        json["objects"].push_back(object_json(scene.objects[i], spaces.shells()[i], scene));
+        json["objects"].push_back(object_json(scene.objects[i], enclosures.components()[i], scene));
     json["lights"] = list_json(scene.lights, [&](const Light& light) { return light_json(light, scene); });
     json["total_flux_lm"] = total_flux_lm;
     json["luminaires"] = list_json(scene.solids, luminaire_json);
     json["sensors"] = list_json(file.sensors, sensor_json);
     json["run"] = run_json(file.run);
-    json["warnings"] = warnings_of(file, caster, spaces);
+    json["warnings"] = warnings_of(file, caster, enclosures);
     json["memory"] = {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}};
     return json;
 }

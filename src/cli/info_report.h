@@ -1,4 +1,4 @@
-// What files hold, as a JSON document and as text for people.
+// The contents of files, as a JSON document and as text.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,14 @@
 
 namespace stilb::cli {
 
-/// The sections materials, objects, lights, luminaires, sensors, run, memory and warnings; those that do not
-/// apply are left out. Keys carry their units; `stilb info --help` names them.
+/// The sections materials, objects, lights, luminaires, sensors, run, memory and warnings; sections that do
+/// not apply are left out. Keys carry their units; `stilb info --help` names them.
 using InfoReport = nlohmann::ordered_json;
 
-/// Everything that the scene file holds, checked as one (open edges, overlaps, unlit objects, placement).
+/// The contents of the scene file, and the warnings of all checks of a scene (open edges, overlaps, unlit
+/// objects, placement).
 InfoReport report_scene(const io::SceneFile& file, const std::string& name);
-/// A luminaire file (IES or EULUMDAT) or a mesh file (OBJ or PLY) on its own.
+/// The contents of a luminaire file (IES or EULUMDAT) or of a mesh file (OBJ or PLY).
 InfoReport report_luminaire(const std::filesystem::path& path);
 InfoReport report_mesh(const std::filesystem::path& path);
 

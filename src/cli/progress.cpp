@@ -10,7 +10,7 @@
 namespace stilb::cli {
 namespace {
 
-std::atomic<bool> interrupted{false};  // a signal handler can reach nothing else
+std::atomic<bool> interrupted{false};  // global, because a signal handler has no arguments for it
 
 void on_interrupt(int signal_number) {
     interrupted = true;
@@ -35,7 +35,7 @@ void TerminalProgress::report_set_up(const SetUp& set_up) {
     line_.show(set_up.elapsed_s, fmt::format("set-up: {}, {:.0f} %", set_up.stage, 100 * set_up.share));
 }
 
-/// What is infinite is left out.
+/// Error and remaining time; infinite values are left out.
 void TerminalProgress::report(const Progress& progress) {
     const std::string error = std::isfinite(progress.attained_error)
                                   ? fmt::format("  error {:.2g} %", 100 * progress.attained_error)

@@ -9,7 +9,7 @@
 
 namespace stilb::cli {
 
-/// Rewrites one line of stderr; shows nothing where stderr is no terminal, and clears the line at the end.
+/// Rewrites one line of stderr and clears it at the end. Shows nothing where stderr is not a terminal.
 class ProgressLine {
   public:
     ProgressLine();
@@ -22,10 +22,10 @@ class ProgressLine {
     bool is_terminal_;
 };
 
-/// Of any run; asks for no unfinished pictures.
+/// Progress of any run. Requests no unfinished pictures.
 class TerminalProgress : public PictureSink {
   public:
-    /// `samples`: what the run's samples are called.
+    /// `samples`: the name of the run's samples.
     explicit TerminalProgress(std::string samples = "paths") : samples_(std::move(samples)) {}
     void report_set_up(const SetUp& set_up) override;
     void report(const Progress& progress) override;
@@ -37,7 +37,7 @@ class TerminalProgress : public PictureSink {
     ProgressLine line_;
 };
 
-/// Set by the first Ctrl-C after the call; a second one ends the program at once.
+/// The flag that the first Ctrl-C after this call sets; a second Ctrl-C ends the program at once.
 const std::atomic<bool>& watch_for_interrupt();
 
 }  // namespace stilb::cli

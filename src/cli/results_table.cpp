@@ -10,15 +10,15 @@ namespace stilb::cli {
 
 namespace {
 
-/// Columns and rows up to which a grid's values are printed one by one.
+/// The largest numbers of columns and rows of a grid whose values are printed one by one.
 constexpr int kMostColumns = 20;
 constexpr int kMostRows = 40;
-/// Readings of a list that are printed one by one.
+/// The largest number of readings of a list that are printed one by one.
 constexpr std::size_t kMostReadings = 40;
 
 double half_width(const statistics::Estimate& e) { return (e.upper - e.lower) / 2; }
 
-/// Two digits of the error, at most six of the value.
+/// Two digits of the error, and at most six of the value.
 int decimals_for(const statistics::Estimate& e) {
     const double error = half_width(e);
     if (!(error > 0) || !std::isfinite(error)) return std::abs(e.value) >= 1000 ? 1 : 2;
@@ -29,25 +29,25 @@ std::string unit_of(const Sensor& sensor) {
     return sensor.measures_luminance() ? "cd/m²" : std::string(sensor.quantity().unit);
 }
 
-/// What a line of sight ends at: nothing where the run did not tell.
+/// The end of a line of sight; empty where it is not known.
 std::string end_text(const SensorResult& result, std::size_t j) {
     if (result.sub_points.empty()) return "";
     const auto& hit = result.sub_points[j];
-    return hit ? ", meets " + place_text(*hit) : ", leaves the scene";
+    return hit ? ", meets " + location_text(*hit) : ", leaves the scene";
 }
 
 std::string reading_text(const SensorResult& result, const Sensor& sensor, std::size_t j) {
     const std::string value = fmt::format("{} {}", with_error(result.readings[j].estimate), unit_of(sensor));
-    const Place place = sensor.place(j);
-    if (place.angles.empty())
-        return fmt::format("{}   {}{}\n", value, place_text(place), end_text(result, j));
-    return fmt::format("{}   {}\n", angles_text(place), value);
+    const Location location = sensor.location(j);
+    if (location.angles.empty())
+        return fmt::format("{}   {}{}\n", value, location_text(location), end_text(result, j));
+    return fmt::format("{}   {}\n", angles_text(location), value);
 }
 
 std::string grid_values(const SensorResult& result, const std::array<int, 2>& count) {
     const auto columns = static_cast<std::size_t>(count[0]);
     std::string text;
-    for (auto v = static_cast<std::size_t>(count[1]); v-- > 0;) {  // as on a plan: v upwards
+    for (auto v = static_cast<std::size_t>(count[1]); v-- > 0;) {  // v points upwards, as on a plan
         text += "   ";
         for (std::size_t u = 0; u < columns; ++u) {
             text += fmt::format(" {:5.0f}", result.readings[v * columns + u].estimate.value);
@@ -61,8 +61,8 @@ std::string size_text(const Sensor& sensor) {
     if (const auto count = sensor.count()) return fmt::format("{} x {} grid", (*count)[0], (*count)[1]);
     const std::string readings =
         fmt::format("{} {}", sensor.size(), sensors::readings_of_type(sensor.type()).many);
-    const auto place = sensor.common_place();
-    return place ? fmt::format("{} {}", readings, place_text(*place)) : readings;
+    const auto location = sensor.common_location();
+    return location ? fmt::format("{} {}", readings, location_text(*location)) : readings;
 }
 
 std::string summary_text(const statistics::GridSummary& summary, const Sensor& sensor) {
@@ -103,14 +103,14 @@ std::string title_of(const std::vector<SensorResult>& sensors) {
     return luminances < std::ssize(sensors) ? "Illuminance and luminance" : "Luminance";
 }
 
-/// Not where chance has no part in the method, whether it came to its end or not.
+/// True unless the method is deterministic; its readings have no intervals, whether it finished or not.
 bool has_intervals(const RunResult& result) {
     return result.stop_reason != StopReason::solved && result.replicates != 1;
 }
 
 std::string ending_with_error(const RunResult& result) {
     const std::string ended = ending(result.stop_reason, "paths");
-    if (!has_intervals(result)) return ended + "; the error by the size of the patches is not known";
+    if (!has_intervals(result)) return ended + "; the discretisation error of the patches is unknown";
     const std::string attained = fmt::format("{:.2g} %", 100 * result.attained_error);
     if (result.stop_reason == StopReason::target_reached) return fmt::format("{} ({})", ended, attained);
     return fmt::format("{}; error {}", ended, attained);
@@ -135,21 +135,21 @@ std::string to_table(const RunResult& result) {
     return result.patches ? text + patch_text(*result.patches) : text;
 }
 
-std::string place_text(const Vec3& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z); }
+std::string location_text(const Vec3& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z); }
 std::string direction_text(const Vec3& d) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x, d.y, d.z); }
 
-std::string place_text(const Place& place) {
-    std::string text = fmt::format("{} {}", place.preposition, place_text(place.position));
-    for (const Place::Direction& direction : place.directions) {
+std::string location_text(const Location& location) {
+    std::string text = fmt::format("{} {}", location.preposition, location_text(location.position));
+    for (const Location::Direction& direction : location.directions) {
         if (!direction.preposition.empty())
             text += fmt::format(" {} {}", direction.preposition, direction_text(direction.value));
     }
     return text;
 }
 
-std::string angles_text(const Place& place) {
+std::string angles_text(const Location& location) {
     std::string text;
-    for (const Place::Angle& angle : place.angles)
+    for (const Location::Angle& angle : location.angles)
         text += fmt::format("{}{} {:5.5g}°", text.empty() ? "" : "  ", angle.name, angle.value_deg);
     return text;
 }
@@ -158,8 +158,9 @@ std::string detail_text(std::span<const run::LevelOfDetail> levels) {
     std::string text;
     for (const run::LevelOfDetail& level : levels) {
         if (level.degree == level.full_degree) {
-            text += fmt::format("{}: all {} degrees; fewer would show by more than {:.2g} mm\n", level.object,
-                                level.full_degree, 1e3 * level.allowed_m);
+            text += fmt::format(
+                "{}: all {} degrees; with fewer the surface would deviate by more than {:.2g} mm\n",
+                level.object, level.full_degree, 1e3 * level.allowed_m);
         } else {
             text += fmt::format(
                 "{}: degree {} of {}, within {:.2g} mm of the full series ({:.2g} mm allowed)\n",
@@ -172,7 +173,7 @@ std::string detail_text(std::span<const run::LevelOfDetail> levels) {
 std::string ending(StopReason reason, std::string_view all) {
     switch (reason) {
         case StopReason::target_reached:
-            return "the error asked for is reached";
+            return "the requested error is reached";
         case StopReason::paths_done:
             return fmt::format("all {} done", all);
         case StopReason::time_over:
@@ -187,7 +188,7 @@ std::string ending(StopReason reason, std::string_view all) {
 
 namespace {
 
-/// Of those that are not replaced, the ones that are named.
+/// The largest number of lights that are listed as not replaced.
 constexpr std::size_t kMostNames = 3;
 
 std::string first_shot_text(const estimators::PatchReport& report) {
@@ -206,7 +207,7 @@ std::string left_lights(const estimators::PatchReport& report) {
     std::size_t left = 0;
     for (const estimators::FirstShotLight& light : report.lights) {
         if (light.is_replaced || ++left > kMostNames) continue;
-        text += fmt::format("{}{} ({})", left > 1 ? ", " : "lights that stay: ", light.name, light.why);
+        text += fmt::format("{}{} ({})", left > 1 ? ", " : "lights not replaced: ", light.name, light.why);
     }
     if (left > kMostNames) text += fmt::format(" and {} more", left - kMostNames);
     return text.empty() ? text : text + '\n';

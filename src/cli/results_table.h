@@ -1,4 +1,4 @@
-// Results as text for people.
+// Results as text.
 #pragma once
 
 #include <span>
@@ -11,33 +11,34 @@
 
 namespace stilb::cli {
 
-/// A table with every sensor's summary, small grids' values, and how the run ended.
+/// A table with the summary of every sensor, the values of small grids, and the end of the run.
 std::string to_table(const RunResult& result);
 
-/// A value with its interval's half-width, both with the digits that the interval leaves: "498.2 +- 1.1".
+/// "498.2 +- 1.1": a value with the half-width of its interval, both with the digits that the interval
+/// leaves.
 std::string with_error(const statistics::Estimate& estimate);
 
-// Places and directions in words.
+// Positions and directions as text.
 
-std::string place_text(const Vec3& position);
+std::string location_text(const Vec3& position);
 std::string direction_text(const Vec3& direction);
 
-/// Where a reading is made and which way it looks: "at ... facing ...".
-std::string place_text(const Place& place);
-/// "theta 30°  phi 0°"; empty where a place has no angles.
-std::string angles_text(const Place& place);
+/// Position and direction of a reading: "at ... facing ...".
+std::string location_text(const Location& location);
+/// "theta 30°  phi 0°"; empty where a location has no angles.
+std::string angles_text(const Location& location);
 
-// Which objects were given fewer harmonics than they have, as text for people.
+// The objects by harmonics whose series were truncated, as text.
 
-/// A line for each.
+/// One line per object.
 std::string detail_text(std::span<const run::LevelOfDetail> levels);
 
-// How a run ended, for people.
+// The end of a run as text.
 
-/// `all`: what was done where a number of it was asked for, such as "passes".
+/// `all`: what is complete where a number was requested, such as "passes".
 std::string ending(StopReason reason, std::string_view all);
 
-// What became of surfaces and lights where patches stand for them, as text for people.
+// Patches and first shot as text.
 
 /// A line on patches and first shot, and one on the lights that are not replaced, if there are any.
 std::string patch_text(const estimators::PatchReport& report);

@@ -19,19 +19,19 @@ namespace stilb::cli {
 
 namespace {
 
-/// As in scene files.
+/// Limits as in scene files.
 constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
 constexpr std::int64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
 void RunFlags::add_to(Command& command) {
-    std::string methods = "How to compute (default: auto)";
+    std::string methods = "Method of computation (default: auto)";
     for (const estimators::EstimatorEntry& entry : estimators::estimator_list()) {
         methods += fmt::format("\n  {:12} {}", entry.name, entry.summary);
     }
     command.add("--method", method, methods).value_name("NAME");
-    command.add("--bounces", bounces, "At most this many reflections (default: no limit, without bias)")
+    command.add("--bounces", bounces, "Limit the number of reflections (default: no limit, no bias)")
         .value_name("N");
     add_those_of_one_method(command);
 }
@@ -39,11 +39,14 @@ void RunFlags::add_to(Command& command) {
 void RunFlags::add_those_of_one_method(Command& command) {
     command
         .add("--error", error,
-             "Stop when 95 % of each sensor's readings have a 95 % interval within this share of their "
+             "Stop when 95 % of the readings of each sensor have a 95 % interval within this share of their "
              "value: 1% or 0.01")
         .value_name("SHARE");
     command.add("--time", time_s, "Stop after this many seconds").value_name("S");
-    command.add("--paths", paths, "Stop after this many light chains (method path: paths per reading)")
+    command
+        .add("--paths", paths,
+             "Stop after this many samples: light paths (auto, local, double-local), paths per reading "
+             "(path), steps (ray-bundle), particles (particles); pictures: passes")
         .from_to(1, kMostPaths)
         .value_name("N");
     command.add("--seed", seed, "Another seed gives an independent result")
@@ -51,7 +54,7 @@ void RunFlags::add_those_of_one_method(Command& command) {
         .value_name("N");
     command.add("--threads", threads, "Processor threads (default: all); the result does not depend on it")
         .value_name("N");
-    command.add("--quiet", quiet, "No progress, no warnings on stderr");
+    command.add("--quiet", quiet, "Print no progress and no warnings");
     patches.add_to(command);
 }
 
@@ -81,7 +84,7 @@ RunOptions RunFlags::over(RunOptions options) const {
         options.error = run::parse_relative_error(*error);
         if (!options.error) {
             throw InputError(
-                fmt::format("--error {}: a share between 0 and 1 is needed, such as 0.01 or 1%", *error));
+                fmt::format("--error {}: expected a share between 0 and 1, such as 0.01 or 1%", *error));
         }
     }
     if (time_s) options.time_s = *time_s;
@@ -96,17 +99,15 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kWindowNames{"cube", "hemicube", "tetrahedron"};
 
-/// The value of `flag`, by its place among the names; nothing where it was not typed.
+/// The value of `flag`, an enumerator with the index of its name; nothing where the flag was not typed.
 template <typename Enum>
 std::optional<Enum> read(const char* flag, const std::optional<std::string>& typed,
                          std::span<const std::string_view> names) {
     if (!typed) return std::nullopt;
     const auto found = std::ranges::find(names, *typed);
     if (found == names.end()) {
-        const std::string nearest = nearest_name(*typed, names);
         throw InputError(fmt::format("{} {}: there is no such value.{} Allowed: {}.", flag, *typed,
-                                     nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
-                                     fmt::join(names, ", ")));
+                                     did_you_mean(*typed, names), fmt::join(names, ", ")));
     }
     return static_cast<Enum>(found - names.begin());
 }
@@ -115,23 +116,27 @@ std::optional<Enum> read(const char* flag, const std::optional<std::string>& typ
 
 void PatchFlags::add_to(Command& command) {
     const std::string group =
-        "Patches and first shot (ray-bundle, radiosity; path with --first-shot; particles: --patch only)";
+        "Patches and first shot (ray-bundle, radiosity; path with --first-shot; particles: only --patch)";
     const auto add = [&](const char* name, auto& value, const std::string& text, const char* type) {
         command.add(name, value, text).value_name(type).heading(group);
     };
     add("--patch", patch_m, "Longest edge of a patch [m] (default: about 10,000 patches)", "SIZE");
     add("--first-shot", first_shot,
-        "What stands for small lights: auto, none, classical, diffuse, incoming, on-the-fly (default: auto, "
+        "First shot that replaces small lights: auto, none, classical, diffuse, incoming, on-the-fly "
+        "(default: auto, "
         "which is incoming; path: none)",
         "NAME");
     add("--window", window,
-        "Item buffers on area lights, and on patches of radiosity: cube (its rear half carries nothing), "
-        "hemicube (default) or tetrahedron; points have cubes",
+        "Shape of item buffers on area lights, and on patches of radiosity: cube (its rear half is empty), "
+        "hemicube (default) or tetrahedron; point lights always have cubes",
         "NAME");
     add("--resolution", resolution,
-        "Pixels along an edge of item buffers (default: by the patches; 64 on patches of radiosity)", "R");
+        "Pixels along an edge of item buffers (default: by the number of patches; 64 on patches of "
+        "radiosity)",
+        "R");
     add("--visibility", visibility, "Visibility backend: rays (default) or opengl", "NAME");
-    add("--directions", directions, "ray-bundle: bundles of a step, single, pair or frame (default)", "NAME");
+    add("--directions", directions,
+        "Directions of the bundles in a step of ray-bundle: single, pair or frame (default)", "NAME");
 }
 
 std::vector<std::string_view> PatchFlags::given() const {
@@ -158,12 +163,12 @@ void PatchFlags::require_known_to(const estimators::EstimatorEntry& method) cons
         for (const estimators::EstimatorEntry& entry : estimators::estimator_list()) {
             if (goes_by(entry, flag)) methods.push_back(entry.name);
         }
-        throw InputError(fmt::format("{} means nothing to method {}. It is for {}.", flag, method.name,
+        throw InputError(fmt::format("{} has no effect with method {}. It belongs to: {}.", flag, method.name,
                                      fmt::join(methods, ", ")));
     }
     if (!method.lights_patches && !given().empty() && !first_shot) {
-        throw InputError(
-            fmt::format("{} means nothing to method {} without --first-shot.", given().front(), method.name));
+        throw InputError(fmt::format("{} has no effect with method {} unless --first-shot is given.",
+                                     given().front(), method.name));
     }
 }
 

@@ -1,4 +1,4 @@
-// The flags that all commands which compute have in common.
+// The flags that all computing commands share.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct EstimatorEntry;
 
 namespace stilb::cli {
 
-// The flags of methods that light patches.
+// The flags of patches and first shot.
 
 struct PatchFlags {
     std::optional<double> patch_m;
@@ -24,16 +24,16 @@ struct PatchFlags {
     std::optional<int> resolution;
 
     void add_to(Command& command);
-    /// Throws InputError where one of them is given that means nothing to the method, or has no such value.
+    /// Throws InputError where a given flag does not apply to the method, or has no such value.
     estimators::PatchOptions options_for(const std::string& method) const;
-    /// What was typed.
+    /// The names of the flags that were typed.
     std::vector<std::string_view> given() const;
 
   private:
     void require_known_to(const estimators::EstimatorEntry& method) const;
 };
 
-/// What was typed; each flag replaces the same key of the scene's [run].
+/// The flags as typed; each replaces the same key of the scene's [run].
 struct RunFlags {
     std::optional<std::string> method, error;
     std::optional<double> time_s;
@@ -43,11 +43,12 @@ struct RunFlags {
     PatchFlags patches;
 
     void add_to(Command& command);
-    /// All but --method and --bounces.
+    /// Adds all flags except --method and --bounces.
     void add_those_of_one_method(Command& command);
-    /// What was typed of all but --threads and --quiet.
+    /// The names of the typed flags, except --threads and --quiet.
     std::vector<std::string_view> given() const;
-    /// --paths alone drops the file's error and time: so many paths are done, no fewer.
+    /// The options with the typed flags applied. --paths alone drops the file's error and time: exactly so
+    /// many paths are done.
     RunOptions over(RunOptions options) const;
 };
 

@@ -1,4 +1,4 @@
-// stilb verify: every method against the exact solutions.
+// stilb verify: compares every method with exact solutions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ constexpr const char* kTableHeader =
     "case                variant                            method          exact   measured  unit      ± %"
     "      z   time s\n";
 
-/// A row that shows the reading farthest from its exact value, and the widest interval of all.
+/// A row with the reading farthest from its exact value, and the widest interval of all.
 std::string row(const verification::Verification& v) {
     const verification::CheckedReading& worst = v.worst();
     return fmt::format("{:19} {:34} {:12} {:8.5g} {:10.5g}  {:5} {:7.2g} {:6.2f} {:8.2f}\n", v.name,
@@ -46,7 +46,7 @@ std::string reading_rows(const verification::Verification& v) {
     std::string text;
     for (const verification::CheckedReading& reading : v.readings) {
         text += fmt::format("    {:63} {:8.5g} {:10.5g}  {:5} {:7.2g} {:6.2f}\n",
-                            place_text(place_of(reading.exact.measurand)), reading.exact.value,
+                            location_text(location_of(reading.exact.measurand)), reading.exact.value,
                             reading.measured.value, v.unit, 100 * relative_half_width(reading.measured),
                             reading.z);
     }
@@ -57,7 +57,7 @@ nlohmann::ordered_json to_json(const verification::Verification& v) {
     nlohmann::ordered_json readings = nlohmann::ordered_json::array();
     for (const verification::CheckedReading& reading : v.readings) {
         const statistics::Estimate& measured = reading.measured;
-        nlohmann::ordered_json json = io::place_json(place_of(reading.exact.measurand));
+        nlohmann::ordered_json json = io::location_json(location_of(reading.exact.measurand));
         json["exact"] = reading.exact.value;
         json["tolerance"] = reading.exact.tolerance;
         json["value"] = measured.value;
@@ -83,14 +83,12 @@ void require_known(const std::vector<std::string>& names,
     }
     for (const std::string& name : names) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const std::string nearest = nearest_name(name, known);
         throw InputError(fmt::format("--case \"{}\": there is no such case.{} Cases: {}.", name,
-                                     nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
-                                     fmt::join(known, ", ")));
+                                     did_you_mean(name, known), fmt::join(known, ", ")));
     }
 }
 
-/// Those of these names (empty: of all) that one of the methods is for.
+/// The cases of these names (all, if empty) to which one of the methods applies.
 std::vector<verification::VerificationCase> chosen_cases(
     const std::vector<std::string>& names, const std::vector<estimators::EstimatorEntry>& methods) {
     std::vector<verification::VerificationCase> cases = verification::verification_cases();
@@ -103,7 +101,8 @@ std::vector<verification::VerificationCase> chosen_cases(
     });
     if (cases.empty()) {
         throw InputError(
-            "--method: nothing to do: local is held against illuminances, double-local against luminances");
+            "--method: no chosen case applies to the chosen methods: local is checked on illuminances, "
+            "double-local on luminances");
     }
     return cases;
 }
@@ -114,7 +113,8 @@ std::vector<estimators::EstimatorEntry> chosen_methods(const std::vector<std::st
     for (const std::string& name : names) {
         methods.push_back(estimators::find_estimator(name));
         if (methods.back().is_deterministic) {
-            throw InputError(fmt::format("--method {}: it knows no errors to judge its readings by.", name));
+            throw InputError(fmt::format(
+                "--method {}: this method is deterministic and has no standard error to test against", name));
         }
     }
     return methods;
@@ -125,7 +125,7 @@ RunOptions run_options(const VerifyRequest& request) {
     options.error = run::parse_relative_error(request.error);
     if (!options.error) {
         throw InputError(
-            fmt::format("--error {}: a share between 0 and 1 is needed, such as 0.01 or 1%", request.error));
+            fmt::format("--error {}: expected a share between 0 and 1, such as 0.01 or 1%", request.error));
     }
     options.time_s = request.time_s;
     options.seed = request.seed;
@@ -133,15 +133,15 @@ RunOptions run_options(const VerifyRequest& request) {
     return options;
 }
 
-/// What is wrong with the results; empty where nothing is.
+/// Contradictions and missed targets among the results; empty where there are none.
 std::string complaints(const std::vector<verification::Verification>& results, double error) {
     std::string text;
     for (const verification::Verification& v : results) {
-        const std::string who = fmt::format("{}, {}, {}", v.name, v.variant, v.method);
-        if (v.contradicts()) text += fmt::format("CONTRADICTION: {}: z = {:.2f}\n", who, v.worst().z);
+        const std::string named = fmt::format("{}, {}, {}", v.name, v.variant, v.method);
+        if (v.contradicts()) text += fmt::format("CONTRADICTION: {}: z = {:.2f}\n", named, v.worst().z);
         if (!(v.widest_interval() <= error)) {
-            text +=
-                fmt::format("NOT REACHED: {}: an interval of ± {:.2g} %\n", who, 100 * v.widest_interval());
+            text += fmt::format("NOT REACHED: {}: the widest interval is ± {:.2g} %\n", named,
+                                100 * v.widest_interval());
         }
     }
     return text;
@@ -165,7 +165,7 @@ std::string closing_words(const std::vector<verification::Verification>& results
     return fmt::format(
         "\nEach row shows its reading with the largest |z| and its widest 95 % interval. {} readings; if "
         "all\n"
-        "methods are right, one of them has |z| > {:g} with a chance of {:.2g} %.\n{}\n{}",
+        "methods are right, the chance that any of them has |z| > {:g} is {:.2g} %.\n{}\n{}",
         readings, verification::kContradictionZ, 100 * verification::false_alarm_chance(readings),
         notes(cases),
         wrong.empty()
@@ -173,7 +173,7 @@ std::string closing_words(const std::vector<verification::Verification>& results
             : wrong);
 }
 
-/// Shows every row as soon as it is known.
+/// Verifies all cases, and prints each row as soon as it is complete.
 std::vector<verification::Verification> verify_all(const VerifyRequest& request,
                                                    const std::vector<verification::VerificationCase>& cases,
                                                    const std::vector<estimators::EstimatorEntry>& methods,
@@ -215,23 +215,27 @@ int run_verify(const VerifyRequest& request) {
 }  // namespace
 
 void add_verify(CommandLine& line) {
-    Command command = line.add_command("verify", "Hold every method against the exact solutions");
+    Command command = line.add_command("verify", "Compare every method with exact solutions");
     command.set_examples(
         "  stilb verify\n"
         "  stilb verify --error 0.2%\n"
         "  stilb verify --case \"photometric sphere\" --method auto --all\n");
     auto request = std::make_shared<VerifyRequest>();
-    command.add("--case", request->cases, "Only this exact solution (may be repeated)")
+    command.add("--case", request->cases, "Check only this exact solution (may be repeated)")
         .value_name("NAME")
         .repeatable();
-    command.add("--method", request->methods, "Only this method (may be repeated)")
+    command.add("--method", request->methods, "Check only this method (may be repeated)")
         .value_name("NAME")
         .repeatable();
-    command.add("--error", request->error, "How wide the 95 % interval of a reading may be: 1% or 0.01")
+    command
+        .add("--error", request->error,
+             "Largest half-width of the 95 % interval of a reading, as a share of its value: 1% or 0.01")
         .value_name("SHARE")
         .show_default();
-    command.add("--time", request->time_s, "At most this many seconds for a case and method").value_name("S");
-    command.add("--seed", request->seed, "Another seed gives an independent result").value_name("N");
+    command.add("--time", request->time_s, "Time limit for each case and method, in seconds").value_name("S");
+    command
+        .add("--seed", request->seed, "Seed of the random numbers: another seed gives an independent result")
+        .value_name("N");
     command.add("--threads", request->threads, "Processor threads (default: all)").value_name("N");
     command.add("--all", request->all, "Show all readings, not only the worst of each row");
     command.add("--json", request->json, "One JSON document on stdout instead of the table");

@@ -7,8 +7,8 @@
 namespace stilb::estimators {
 namespace {
 
-/// The numbers of a pixel's sample. Sobol' points for the place in the pixel and the first light and
-/// direction.
+/// The random numbers of a pixel's sample: Sobol' points for the position in the pixel and for the first
+/// light and direction.
 math::SampleStream stream_of(const Pixel& pixel, int width, const Pass& pass) {
     constexpr unsigned sobol_dimensions = 8;
     const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(width) +
@@ -16,7 +16,7 @@ math::SampleStream stream_of(const Pixel& pixel, int width, const Pass& pass) {
     return {pass.key.derived(kPixels).derived(number), pass.index, sobol_dimensions};
 }
 
-/// The unit direction that a sample of a pixel looks along; nothing beside what the camera shows.
+/// The unit direction of a pixel's sample; nothing outside of the camera's field.
 std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pixel,
                                  math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();

@@ -1,4 +1,4 @@
-// What the methods have in common that trace pictures from the camera.
+// Camera paths, the common part of the methods that trace pictures from the camera.
 #pragma once
 
 #include <span>
@@ -9,36 +9,36 @@
 
 namespace stilb::estimators {
 
-/// What of a pass's key the pixels' own numbers are derived by; other purposes take other numbers.
+/// The part of a pass's key for the pixels' own numbers; other purposes take other numbers.
 inline constexpr std::uint64_t kPixels = 1;
 
 struct Pixel {
     int x = 0, y = 0;
 };
 
-/// Paths that stand on what pixels see. The emission that is seen is in their luminances.
+/// Camera paths at their first hit. The emission seen there is part of their luminances.
 struct CameraPaths {
     std::vector<transport::Path> paths;
-    std::vector<std::size_t> pixels;  ///< of each path: which of the pixels asked for
-    /// Pixels that look out of the scene, and the light that comes from there.
+    std::vector<std::size_t> pixels;  ///< of each path: the index of its pixel among the requested ones
+    /// Pixels whose ray leaves the scene, and the light that comes from there.
     struct Outside {
         std::size_t pixel = 0;
         Rgb luminance_cd_m2;
     };
     std::vector<Outside> outside;
 
-    /// Writes what the paths have gathered and what comes from outside, and 0 for the others of
-    /// `luminances_cd_m2`, one for each pixel asked for. Returns the number that were not finite: these are
-    /// 0.
+    /// Writes the luminances of the paths and the light from outside, and 0 for the other elements of
+    /// `luminances_cd_m2`, one for each requested pixel. Returns the number of non-finite values: these are
+    /// set to 0.
     std::uint64_t write_to(std::span<Rgb> luminances_cd_m2) const;
 };
 
 /// Keeps references to the scene, its ray caster and the lights. Immutable.
 struct PictureTracing {
-    /// Of the problem's camera. `lights`: all that shine on what is seen.
+    /// For the problem's camera. `lights`: all lights that illuminate the first hits.
     PictureTracing(const Problem& problem, const transport::LightSampler& lights);
 
-    /// One path for each pixel that sees something, along a ray drawn by the camera's filter.
+    /// One path for each pixel with a first hit, along a ray drawn by the camera's filter.
     CameraPaths start_paths(std::span<const Pixel> pixels, const Pass& pass) const;
 
     const Scene& scene;

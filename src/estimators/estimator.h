@@ -1,6 +1,6 @@
-// How readings and pictures are estimated. An estimator is made for a problem, and does nothing of files,
-// progress or stopping: it adds batches of samples to sums of readings, and passes to pictures, and a run
-// makes values with intervals of them. Only making one may use several threads.
+// Estimation of readings and pictures. An estimator is constructed for a problem, and handles no files,
+// progress or stopping: it adds batches of samples to sums of readings, and passes to pictures; a run
+// turns them into values with intervals. Only its construction may use several threads.
 #pragma once
 
 #include <algorithm>
@@ -21,38 +21,38 @@
 
 namespace stilb::estimators {
 
-/// What every estimator is made for: readings of the measurands, a picture of the camera, or both. The
+/// The problem of an estimator: readings of the measurands, a picture of the camera, or both. The
 /// estimator keeps references to scene, caster and monitor, and copies the rest.
 struct Problem {
     const Scene& scene;
     const rays::RayCaster& caster;
     int max_reflections;
-    /// For decisions that are taken before sampling starts; independent of the keys of batches and passes.
+    /// For decisions before sampling starts; independent of the keys of batches and passes.
     math::RandomKey preparation_key;
     std::span<const Measurand> measurands = {};
-    /// How much the relative variance of each measurand matters beside the others'. Empty: all alike.
+    /// The weight of each measurand's relative variance. Empty: all equal.
     std::span<const double> weights = {};
     std::optional<Camera> camera = {};
-    /// For methods that light patches, and first shot.
+    /// Options of methods on patches, and of first shot.
     PatchOptions patches = {};
-    /// Of the set-up.
+    /// Monitors the set-up.
     const Monitor& monitor = Monitor::none();
 };
 
-/// The unit of work for readings: samples first ... first + count - 1 of the replicate that `key` stands for.
-/// What a batch adds depends on these alone.
+/// The unit of work for readings: samples first ... first + count - 1 of the replicate that `key` identifies.
+/// The contribution of a batch depends on these alone.
 struct Batch {
     math::RandomKey key;
     std::uint64_t first = 0;
     std::uint64_t count = 0;
 };
 
-/// What batches of one replicate add up to. The value of a reading is known part + sum / samples.
+/// The sums of the batches of one replicate. The value of a reading is known part + sum / samples.
 struct ReadingSums {
     std::vector<Rgb> sum;         ///< one for each reading [lx or cd/m2, x samples]
     std::vector<double> largest;  ///< largest single contribution to each reading, before division
     std::uint64_t rays = 0;
-    std::uint64_t invalid = 0;  ///< contributions that were not finite, left out
+    std::uint64_t invalid = 0;  ///< non-finite contributions, which are left out
 
     explicit ReadingSums(std::size_t readings) : sum(readings), largest(readings) {}
 
@@ -67,7 +67,7 @@ struct ReadingSums {
     }
 };
 
-/// A part of the picture that is worked on at a time.
+/// A block of the picture, the unit of parallel work.
 struct PixelBlock {
     int left = 0, top = 0, width = 0, height = 0;
 };
@@ -75,25 +75,25 @@ struct PixelBlock {
 /// Edge of the largest blocks.
 inline constexpr int kBlockSize = 16;
 
-/// The blocks of a picture, row by row; the first reaches down to `offset` (each from 1 to kBlockSize).
+/// The blocks of a picture, row by row; the first one extends to `offset` (each from 1 to kBlockSize).
 std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution,
                                   const std::array<int, 2>& offset = {kBlockSize, kBlockSize});
 
-/// The unit of work for pictures: sample `index` of the replicate that `key` stands for. What a pass makes of
+/// The unit of work for pictures: sample `index` of the replicate that `key` identifies. A pass over
 /// a block depends on these and the block alone.
 struct Pass {
     math::RandomKey key;
     std::uint64_t index = 0;
-    std::uint64_t replicate = 0;  ///< its number, for what was computed before
+    std::uint64_t replicate = 0;  ///< its number, for light that was computed before
 };
 
-/// A pass with what its blocks have in common.
+/// A pass with the data that its blocks share.
 class PicturePass {
   public:
     virtual ~PicturePass() = default;
 
-    /// One unbiased sample of every pixel's luminance [cd/m2] of a block, row by row; returns the number of
-    /// samples that were not finite: these are 0. Blocks may run in parallel.
+    /// Writes one unbiased sample of every pixel's luminance [cd/m2] of a block, row by row; returns the
+    /// number of non-finite samples: these are set to 0. Blocks may run in parallel.
     virtual std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const = 0;
 };
 
@@ -103,22 +103,22 @@ class Estimator {
 
     /// Adds a batch of the problem's measurands. Batches may run in parallel on different sums.
     virtual void run_batch(const Batch& batch, ReadingSums& sums) const = 0;
-    /// The part of each reading that is known without sampling [lx or cd/m2].
+    /// The part of each reading that is computed without sampling [lx or cd/m2].
     virtual std::span<const Rgb> known_part() const = 0;
-    /// Where the line of sight of each luminance reading ends; nothing where it leaves the scene. Of
-    /// illuminances: nothing.
+    /// The end of the line of sight of each luminance reading; nothing where it leaves the scene, and nothing
+    /// for illuminances.
     virtual std::span<const std::optional<Vec3>> sight_ends() const = 0;
     /// The number of samples of a batch is a multiple of this.
     virtual std::uint64_t batch_granularity() const = 0;
-    /// Rays that one sample costs, roughly, over all readings: batches are made long or short by it.
+    /// The approximate number of rays of one sample, over all readings: it determines the length of batches.
     virtual double rays_per_sample() const = 0;
 
     /// A pass over the picture of the problem's camera. Keeps a reference to the estimator.
     virtual std::unique_ptr<const PicturePass> start(const Pass& pass) const = 0;
 
-    /// What the method cannot make in this scene, for the user; empty where nothing is missing.
+    /// Light that the method cannot compute in this scene, as sentences for the user; empty if there is none.
     virtual std::vector<std::string> warnings() const = 0;
-    /// Where patches stand for surfaces.
+    /// The report on patches, for methods that use them.
     virtual std::optional<PatchReport> patch_report() const { return std::nullopt; }
     /// Whether the time limit ended the set-up before all light was found: warnings() then says what is
     /// missing.

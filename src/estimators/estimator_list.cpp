@@ -26,22 +26,24 @@ std::span<const EstimatorEntry> estimator_list() {
         EstimatorEntry{
             .name = "auto",
             .summary =
-                "local estimation and path tracing, balanced at every point: unbiased, finite variance",
+                "local estimation and path tracing, weighted at every point: unbiased, finite variance",
             .make = make_auto},
-        EstimatorEntry{.name = "local",
-                       .summary = "local estimation as published: fast, but of infinite variance in corners",
-                       .make = make_local,
-                       .measures_luminance = false,
-                       .has_heavy_tails = true},
+        EstimatorEntry{
+            .name = "local",
+            .summary = "local estimation as published: fast, but with infinite variance in corners",
+            .make = make_local,
+            .measures_luminance = false,
+            .has_heavy_tails = true},
         EstimatorEntry{.name = "double-local",
-                       .summary = "the same for luminance, of the surfaces that are seen; no light that "
-                                  "leaves a point source, meets mirror or glass first and comes to them by "
-                                  "mirror or glass",
+                       .summary =
+                           "local estimation of luminance at the surfaces seen; without light that "
+                           "leaves a point source, meets a mirror or glass first and reaches them by a "
+                           "mirror or glass",
                        .make = make_local,
                        .has_heavy_tails = true},
         EstimatorEntry{.name = "path",
-                       .summary = "path tracing from every point with next-event estimation: the naive "
-                                  "reference; unbiased unless small lights are left to first shot",
+                       .summary = "path tracing from every point with next-event estimation: the reference "
+                                  "method; unbiased unless first shot replaces small lights",
                        .make = make_path,
                        .patch_options = kFirstShotOptions},
         EstimatorEntry{.name = "ray-bundle",
@@ -51,7 +53,7 @@ std::span<const EstimatorEntry> estimator_list() {
                        .lights_patches = true,
                        .patch_options = kBundleOptions},
         EstimatorEntry{.name = "radiosity",
-                       .summary = "progressive shooting between patches until nothing is left, for diffuse "
+                       .summary = "progressive shooting between patches until convergence, for diffuse "
                                   "scenes: a baseline, without standard errors and biased by the size of "
                                   "the patches",
                        .make = make_radiosity,
@@ -59,7 +61,7 @@ std::span<const EstimatorEntry> estimator_list() {
                        .is_deterministic = true,
                        .patch_options = kFirstShotOptions},
         EstimatorEntry{.name = "particles",
-                       .summary = "particles of light counted in patches, for diffuse scenes: a baseline, "
+                       .summary = "light particles counted on patches, for diffuse scenes: a baseline, "
                                   "biased by the size of the patches",
                        .make = make_particles,
                        .lights_patches = true,
@@ -89,9 +91,7 @@ const EstimatorEntry& find_estimator(std::string_view name) {
         if (entry.name == name) return entry;
         names.push_back(entry.name);
     }
-    const std::string nearest = nearest_name(name, names);
-    throw InputError(fmt::format("unknown method \"{}\".{} Methods: {}.", name,
-                                 nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
+    throw InputError(fmt::format("unknown method \"{}\".{} Methods: {}.", name, did_you_mean(name, names),
                                  fmt::join(names, ", ")));
 }
 

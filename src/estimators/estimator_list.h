@@ -1,4 +1,4 @@
-// The one table of all estimators: --help, verify, the agreement tests and the scene reader go by it.
+// The table of all estimators, for --help, verify, the agreement tests and the scene reader.
 #pragma once
 
 #include <memory>
@@ -13,35 +13,36 @@ namespace stilb::estimators {
 class Estimator;
 struct Problem;
 
-/// One method. estimator.h says what it is made for and what it does.
+/// One method. estimator.h describes its input and its result.
 struct EstimatorEntry {
     std::string_view name;
     std::string_view summary;
     std::unique_ptr<Estimator> (*make)(const Problem& problem) = nullptr;
-    /// Readings of luminance, and pictures.
+    /// Measures luminance and renders pictures.
     bool measures_luminance = true;
-    /// Whether the variance is infinite in some scenes: then single contributions are watched.
+    /// Whether the variance is infinite in some scenes: then single contributions are monitored.
     bool has_heavy_tails = false;
-    /// Whether it always lights patches: then it is biased by their size.
+    /// Whether the method always computes light on patches, which biases it by their size.
     bool lights_patches = false;
-    /// Whether chance has no part in it: Estimator::known_part() is then all there is, and the error unknown.
+    /// Whether the method is deterministic: Estimator::known_part() is then the whole result, and the error
+    /// unknown.
     bool is_deterministic = false;
-    /// The names of what it goes by of PatchOptions: "patch", "first-shot" ...
+    /// The names of the members of PatchOptions that it uses: "patch", "first-shot" ...
     std::span<const std::string_view> patch_options = {};
 };
 
 std::span<const EstimatorEntry> estimator_list();
 
-/// Those without patches (unless they are asked for), which all have the same expectations: the exact ones.
+/// The methods without patches (unless requested), which all have the same expectation: the exact value.
 std::vector<EstimatorEntry> unbiased_estimators();
 
-/// For messages.
+/// The names of the methods for luminance, for messages.
 std::vector<std::string_view> luminance_methods();
 
 /// Throws InputError, with the nearest name, where there is no such method.
 const EstimatorEntry& find_estimator(std::string_view name);
 
-// The methods, each in the file of its name: estimator_list.cpp has one entry for each.
+// The constructors, each in the file of its method: estimator_list.cpp has one entry for each.
 
 /// Local estimation balanced with path tracing, and as published: local/local_estimation.cpp.
 std::unique_ptr<Estimator> make_auto(const Problem& problem);

@@ -13,12 +13,12 @@ namespace {
 
 std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what) {
     const bool point_like = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-        return place_of(light) == LightPlace::point;
+        return location_of(light) == LightLocation::point;
     });
     if (!point_like || !has_specular_surfaces(scene)) return {};
     return {
-        fmt::format("{}: that light is missing from the readings. Area lights and spheres of a size that "
-                    "can be seen have no such limit.",
+        fmt::format("{}: that light is missing from the readings. Area lights and luminous spheres "
+                    "have no such limit.",
                     what)};
 }
 
@@ -33,14 +33,14 @@ bool has_specular_surfaces(const Scene& scene) {
 
 std::vector<std::string> path_warnings(const Scene& scene) {
     return specular_warnings(scene,
-                             "path tracing cannot make light that leaves a point or photometry light and is "
+                             "path tracing cannot find light that leaves a point or photometry light and is "
                              "reflected by a mirror or pane or meets solid glass before anything else");
 }
 
 std::vector<std::string> patch_warnings(const Scene& scene, std::string_view method) {
     if (!has_specular_surfaces(scene)) return {};
     return {
-        fmt::format("method {}: mirrors and glass reflect and transmit only what sensors see in them: light "
+        fmt::format("method {}: mirrors and glass act only on the lines of sight of sensors: light "
                     "that they cast on other surfaces is missing.",
                     method)};
 }
@@ -54,7 +54,7 @@ void require_diffuse(const Scene& scene, std::string_view method) {
                 continue;
             }
             throw InputError(fmt::format(
-                "object \"{}\": its material \"{}\" is neither diffuse nor black, and method {} knows one "
+                "object \"{}\": its material \"{}\" is neither diffuse nor black, but method {} computes one "
                 "luminance for all directions of a surface. Use method auto or ray-bundle.",
                 object.name, used.name, method));
         }
@@ -64,9 +64,9 @@ void require_diffuse(const Scene& scene, std::string_view method) {
 void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::string_view method) {
     if (has_first_shot) return;
     for (const Light& light : scene.lights) {
-        if (place_of(light) != LightPlace::point) continue;
+        if (location_of(light) != LightLocation::point) continue;
         throw InputError(fmt::format(
-            "method {} needs a first shot here: light \"{}\" is no surface, and would light nothing "
+            "method {} needs a first shot here: light \"{}\" is not a surface, and would light nothing "
             "without one. Use first shot \"incoming\".",
             method, light.name));
     }
@@ -74,9 +74,9 @@ void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::
 
 void require_no_light_from_outside(const Scene& scene, std::string_view method) {
     for (const Light& light : scene.lights) {
-        if (place_of(light) != LightPlace::infinity) continue;
+        if (location_of(light) != LightLocation::infinity) continue;
         throw InputError(fmt::format(
-            "light \"{}\" surrounds the scene, and method {} shoots light between surfaces only. Use "
+            "light \"{}\" surrounds the scene, but method {} transports light between surfaces only. Use "
             "method auto, local, double-local, path, ray-bundle or particles.",
             light.name, method));
     }
@@ -85,16 +85,16 @@ void require_no_light_from_outside(const Scene& scene, std::string_view method) 
 void require_all_reflections(int max_reflections, std::string_view method) {
     if (max_reflections == transport::kUnlimited) return;
     throw InputError(
-        fmt::format("method {} does not support a limit on reflections (bounces): it makes all of them at "
-                    "once.",
+        fmt::format("method {} does not support a limit on reflections (bounces): it computes all of them "
+                    "together.",
                     method));
 }
 
 std::vector<std::string> local_warnings(const Scene& scene) {
     return specular_warnings(scene,
-                             "local estimation cannot make light that leaves a point or photometry light, is "
+                             "local estimation cannot find light that leaves a point or photometry light, is "
                              "reflected by a mirror "
-                             "or pane or meets solid glass first, and comes to the point (for luminance: the "
+                             "or pane or meets solid glass first, and reaches the point (for luminance: the "
                              "surface that is seen) "
                              "by a mirror or glass last");
 }

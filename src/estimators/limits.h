@@ -1,4 +1,4 @@
-// What estimators cannot make, said to the user rather than left out silently.
+// Limitations of estimators, reported to the user as warnings or errors.
 #pragma once
 
 #include <string>
@@ -11,22 +11,22 @@ namespace stilb::estimators {
 
 bool has_specular_surfaces(const Scene& scene);
 
-/// Warnings of what path tracing and local estimation leave out, where the scene has mirrors or glass, and
-/// point or photometry lights; empty elsewhere.
+/// Warnings of light that path tracing and local estimation leave out, where the scene has mirrors or glass
+/// and point or photometry lights; empty elsewhere.
 std::vector<std::string> path_warnings(const Scene& scene);
 std::vector<std::string> local_warnings(const Scene& scene);
-/// Of methods that light patches, where the scene has mirrors or glass.
+/// For methods on patches, where the scene has mirrors or glass.
 std::vector<std::string> patch_warnings(const Scene& scene, std::string_view method);
 
-/// Throws InputError, which names object and material, where something reflects neither diffusely nor not at
-/// all.
+/// Throws InputError, with object and material, where a material is neither diffuse nor
+/// black.
 void require_diffuse(const Scene& scene, std::string_view method);
-/// Throws InputError where there are lights that are no surfaces and no first shot: nothing else brings them
-/// to patches.
+/// Throws InputError where there are lights other than surfaces but no first shot: nothing else brings their
+/// light to patches.
 void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::string_view method);
 /// Throws InputError where light comes from infinity.
 void require_no_light_from_outside(const Scene& scene, std::string_view method);
-/// Throws InputError where reflections are limited.
+/// Throws InputError where the number of reflections is limited.
 void require_all_reflections(int max_reflections, std::string_view method);
 
 }  // namespace stilb::estimators

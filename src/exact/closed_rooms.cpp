@@ -85,8 +85,8 @@ namespace {
 
 double square(double x) { return x * x; }
 
-/// The shares of every way through: `face` is the reflectance of a face, `passage` the transmittance of the
-/// inside.
+/// The transmitted share, summed over internal reflections: `face` is the reflectance of a face, `passage`
+/// the transmittance of the inside.
 double sum_of_passages(double face, double passage) {
     double term = square(1 - face) * passage, sum = 0;
     while (term > 1e-17 * sum) {

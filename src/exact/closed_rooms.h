@@ -7,9 +7,9 @@
 
 namespace stilb::exact {
 
-/// The luminance of every wall point in every direction where all walls emit `emitted_cd_m2` in all
+/// The luminance of every wall point in every direction, if all walls emit `emitted_cd_m2` in all
 /// directions and have a BRDF of albedo `reflectance` (0 to less than 1, the same for all directions of
-/// incidence), whatever the enclosure's shape. Throws std::domain_error on arguments out of range.
+/// incidence), for any shape of the enclosure. Throws std::domain_error on arguments out of range.
 double furnace_luminance_cd_m2(double emitted_cd_m2, double reflectance);
 
 /// The illuminance in that enclosure, at any point and for any normal.
@@ -51,8 +51,8 @@ struct DiffuseSurface {
     double reflectance = 0;    ///< 0 to 1
 };
 
-/// The mean illuminance of each surface with all reflections between the two; the rest of the world is black.
-/// Exact where every point of a surface is lit alike (concentric spheres) and, for the illuminance that comes
+/// The mean illuminance of each surface with all reflections between the two; the surroundings are black.
+/// Exact where a surface is uniformly lit (concentric spheres) and, for the illuminance that comes
 /// straight from uniformly emitting surfaces, without reflection; otherwise (disks) it is the radiosity
 /// approximation, in which each surface reflects as if it were lit uniformly. Throws std::domain_error on
 /// arguments out of range or where no light is ever absorbed.
@@ -67,9 +67,10 @@ struct PaneOptics {
     double internal_transmittance = 1;  ///< of one passage along the normal, without the faces; 0 to 1
 };
 
-/// Of unpolarised light at `angle_rad` to the normal, with all reflections between the faces: by Fresnel's
-/// formulas in sines and tangents [Born, Wolf 1999, 1.5.2 (21a)] and the series of the passages. Relative
-/// error below 1e-12. Throws std::domain_error on arguments out of range and on angles of 90 degrees or more.
+/// The transmittance for unpolarised light at `angle_rad` to the normal, with all reflections between the
+/// faces: by Fresnel's formulas in sines and tangents [Born, Wolf 1999, 1.5.2 (21a)] and the series of the
+/// passages. Relative error below 1e-12. Throws std::domain_error on arguments out of range and on angles of
+/// 90 degrees or more.
 double pane_transmittance(const PaneOptics& pane, double angle_rad);
 
 }  // namespace stilb::exact

@@ -160,7 +160,7 @@ double illuminance_by_rectangle_lx(const Receiver& receiver, const Vec3& corner,
     return illuminance_by_polygon_lx(receiver, vertices, luminance_cd_m2);
 }
 
-double illuminance_by_disk_lx(const Receiver& receiver, const DiskPlace& disk, double luminance_cd_m2) {
+double illuminance_by_disk_lx(const Receiver& receiver, const DiskPosition& disk, double luminance_cd_m2) {
     const Vec3 normal = require_receiver(receiver);
     require_luminance(luminance_cd_m2);
     require_positive(disk.radius_m, "disk: the radius is not positive and finite");

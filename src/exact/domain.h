@@ -1,4 +1,4 @@
-// One way of refusing arguments outside a solution's domain.
+// Checks of arguments against a solution's domain.
 #pragma once
 
 #include <cmath>

@@ -61,7 +61,8 @@ double indirect_illuminance(const View& view, double radius) {
 }
 
 /// A bound of the probability that this many diffuse flights between the planes lead farther than `distance`
-/// from where they start, in units of the separation: one of them has to be longer than its share of the way.
+/// from where they start, in units of the separation: one of them has to be longer than its share of the
+/// distance.
 double share_beyond(double distance, int flights) {
     const double length = distance / flights;
     return flights / (1 + length * length);

@@ -17,7 +17,7 @@ enum class Plane { first, second };
 /// Every function throws std::domain_error on a negative or infinite radius.
 class SobolevProblem {
   public:
-    /// With (distance_1_m + distance_2_m) as the unit, radii up to this one are served.
+    /// The largest served radius, in units of distance_1_m + distance_2_m.
     static constexpr double kLargestRelativeRadius = 100;
 
     /// Throws std::domain_error where a value of `planes` is outside its range. At a product of 1 of the

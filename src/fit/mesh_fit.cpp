@@ -30,26 +30,25 @@ void require_star_shape(const MeshFit& fit, const MeshFitOptions& options, const
     const StarSurvey& survey = fit.survey;
     const Vec3& c = fit.center;
     if (survey.missed_share > 0.999) {
-        throw InputError(fmt::format("rays from ({:.4g}, {:.4g}, {:.4g}) meet nothing of the mesh. Give a "
-                                     "--center that is inside.",
+        throw InputError(fmt::format("rays from ({:.4g}, {:.4g}, {:.4g}) do not meet the mesh. Give a "
+                                     "center inside the mesh.",
                                      c.x, c.y, c.z),
                          {name});
     }
     if (survey.share() <= options.tolerated_share || options.otherwise == NotStarShaped::take_outermost)
         return;
-    const char* advice = options.center
-                             ? "Leave out --center to have one searched"
-                             : "Give another --center, if you know one from which all of the surface is seen";
-    // --tolerance is a share below 1.
+    const char* advice = options.center ? "Leave the center out to have one searched for"
+                                        : "Give another center from which all of the surface is seen";
+    // The tolerance is a share below 1.
     const double enough_percent = std::ceil(1000 * survey.share()) / 10;
     const std::string tolerance =
-        enough_percent < 100 ? fmt::format(", or by --tolerance {:.1f}%,", enough_percent) : "";
+        enough_percent < 100 ? fmt::format(" or tolerance {:.1f}%", enough_percent) : "";
     throw InputError(
         fmt::format("not star-shaped about ({:.4g}, {:.4g}, {:.4g}): {:.2f} % of the directions meet the "
                     "surface more than once and {:.2f} % do not meet it, where {:.2g} % are tolerated. A "
                     "series has one radius for each direction. The worst directions:{}\n  {}; cut the mesh "
-                    "into star-shaped parts; or accept by --force{} that the outermost "
-                    "surface is taken and what is below it is lost.",
+                    "into star-shaped parts; or accept the outermost surface by "
+                    "the option force{}, which loses all surfaces below it.",
                     c.x, c.y, c.z, 100 * survey.folded_share, 100 * survey.missed_share,
                     100 * options.tolerated_share, worst_text(survey, fit.size), advice, tolerance),
         {name});
@@ -60,8 +59,8 @@ void require_positive_radius(const MeshFit& fit, const std::string& name) {
         const geometry::HarmonicSurface surface{math::HarmonicSeries<double>(fit.coefficients)};
     } catch (const InputError& error) {
         throw InputError(
-            fmt::format("the series of degree {} about ({:.4g}, {:.4g}, {:.4g}) is no surface: {}. Give a "
-                        "--center farther from the mesh, or another --degree (a lower one swings less).",
+            fmt::format("the series of degree {} about ({:.4g}, {:.4g}, {:.4g}) is not a surface: {}. Give "
+                        "a center farther from the mesh, or a lower degree, which oscillates less.",
                         math::HarmonicSeries<double>(fit.coefficients).degree(), fit.center.x, fit.center.y,
                         fit.center.z, error.what()),
             {name});

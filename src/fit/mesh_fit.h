@@ -1,4 +1,4 @@
-// A mesh as a star-shaped surface by spherical harmonics.
+// Fitting a star-shaped surface by spherical harmonics to a mesh.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace stilb::fit {
 
-/// What to do with a mesh that is not star-shaped in more directions than are tolerated.
+/// The treatment of a mesh that is not star-shaped in more directions than tolerated.
 enum class NotStarShaped { refuse, take_outermost };
 
 struct MeshFitOptions {
@@ -29,13 +29,13 @@ struct MeshFit {
     int parallels = 0;                                  ///< of the fit's gauss_grid()
     StarSurvey survey;
     std::vector<double> coefficients;  ///< rounded to single precision
-    /// Distances along rays from the centre, per degree that the series might end with, in the directions of
+    /// Distances along rays from the centre, for the series truncated at each degree, in the directions of
     /// the survey that meet the mesh.
     std::vector<geometry::DegreeError> errors;
 };
 
-/// Gauss-Legendre parallels for a degree: four times what is needed, so that of the mesh's higher degrees
-/// only those beyond seven times the degree (and beyond 220) are mistaken for lower ones.
+/// The number of Gauss-Legendre parallels for a degree: four times the necessary number, so that of the
+/// mesh's higher degrees only those beyond seven times the degree (and beyond 220) alias into lower ones.
 int parallels_for(int degree);
 
 /// Throws InputError with `name` where the mesh is not star-shaped enough, meets no ray from the centre, or

@@ -9,7 +9,7 @@
 namespace stilb::fit {
 namespace {
 
-/// Per triangle, those beyond its edges, and whether their fronts lie on different sides.
+/// For each triangle, its neighbours across edges, and whether their fronts lie on different sides.
 struct Neighbour {
     std::uint32_t triangle;
     bool is_turned;
@@ -28,13 +28,13 @@ Neighbours neighbours_of(const std::vector<geometry::EdgeUse>& uses, std::size_t
     return neighbours;
 }
 
-/// Walks a part and gives its triangles one side, that of the first.
+/// Traverses a part and orients its triangles like the first one.
 class Turner {
   public:
     explicit Turner(const Neighbours& neighbours)
         : neighbours_(neighbours), seen_(neighbours.size()), turned_(neighbours.size()) {}
 
-    /// The triangles of the part that `first` belongs to; none where they were walked before.
+    /// The triangles of the part that contains `first`; none where they were visited before.
     std::vector<std::uint32_t> part_of(std::uint32_t first) {
         std::vector<std::uint32_t> part;
         add(first, part);
@@ -51,7 +51,7 @@ class Turner {
     bool is_turned(std::uint32_t triangle) const { return turned_[triangle]; }
 
   private:
-    /// False where it was seen before.
+    /// False where it was visited before.
     bool add(std::uint32_t triangle, std::vector<std::uint32_t>& part) {
         if (seen_[triangle]) return false;
         seen_[triangle] = true;

@@ -15,18 +15,18 @@ namespace stilb::fit {
 
 namespace {
 
-/// Steps of the search, as parts of the size.
+/// Steps of the search, as shares of the size.
 constexpr double kFirstStep = 0.25, kLastStep = 0.002;
-/// What the centre should be away from the surface, as a part of the size.
+/// The least distance of the centre from the surface, as a share of the size.
 constexpr double kClearance = 0.1;
-/// Superfluous crossings that do not matter: where there are no more, the centre that is farthest from the
-/// surface is best, as the radius varies least about it.
+/// The average number of surplus crossings that is negligible: below it, the centre farthest from the
+/// surface is best, because the radius varies least about it.
 constexpr double kFewCrossings = 1e-3;
 
 constexpr std::array<Vec3, 6> kAxes{Vec3{1, 0, 0},  Vec3{-1, 0, 0}, Vec3{0, 1, 0},
                                     Vec3{0, -1, 0}, Vec3{0, 0, 1},  Vec3{0, 0, -1}};
 
-/// The planes of all faces, and those of the bounding box, which hold where a mesh is open; relative to
+/// The planes of all faces, and those of the bounding box, which bound an open mesh; relative to
 /// `origin`.
 std::vector<HalfSpace> walls_of(const Mesh& mesh, const Bounds& bounds, const Vec3& origin) {
     std::vector<HalfSpace> walls;
@@ -64,7 +64,7 @@ struct Candidate {
     double cost = 0;
 };
 
-/// Along the axes, by steps that are halved where none of them is better.
+/// A search along the axes, with steps that are halved where none improves.
 class Search {
   public:
     Search(const Mesh& mesh, const RadialCaster& caster, const Bounds& bounds)
@@ -91,8 +91,8 @@ class Search {
   private:
     static constexpr int kParallels = 24;
 
-    /// Outside the box the search would go on without end. Close to the surface there are few crossings
-    /// behind it, and a radius that comes to nearly 0.
+    /// Outside of the box the search would not end. Close to the surface there are few crossings
+    /// behind it, but a radius of nearly 0.
     double cost_at(const Vec3& center) const {
         Bounds extended = bounds_;
         extended.include(center);
@@ -128,8 +128,8 @@ double superfluous_crossings(const Mesh& mesh, const Vec3& from) {
     std::vector<Vec3> directions;
     directions.reserve(mesh.vertices.size());
     for (const Vec3& vertex : mesh.vertices) {
-        const Vec3 way = vertex - from;
-        directions.push_back(way / std::max(length(way), 1e-300));
+        const Vec3 offset = vertex - from;
+        directions.push_back(offset / std::max(length(offset), 1e-300));
     }
     double all = 0, behind = 0;
     for (const auto& [ia, ib, ic] : mesh.triangles) {
@@ -155,24 +155,24 @@ StarCenter find_star_center(const Mesh& mesh, const RadialCaster& caster) {
 }
 
 // The simplex method on the dual programme: minimise the sum of l_i offset_i where the l_i >= 0 of the walls
-// have sum of l_i = 1 and sum of l_i normal_i = 0. Its basis are four walls that hold a ball between them;
-// each step exchanges one for the wall that the ball breaks through farthest, and the ball shrinks. It begins
-// with a tetrahedron round everything. [Chvatal 1983, Linear programming, chapters 7 and 8]
+// have sum of l_i = 1 and sum of l_i normal_i = 0. Its basis are four planes that enclose a ball;
+// each step exchanges one for the plane that the ball exceeds most, and the ball shrinks. It begins
+// with a tetrahedron around everything. [Chvatal 1983, Linear programming, chapters 7 and 8]
 
 namespace {
 
 using Four = std::array<double, 4>;
 using Basis = std::array<HalfSpace, 4>;
 
-/// Instead of 0 for the sum of l_i normal_i: pairs of parallel walls, which boxes are made of, would make
-/// steps without an end. It prefers a direction so little that the radius changes by 1e-7 of a move.
+/// Replaces 0 for the sum of l_i normal_i: pairs of parallel planes, as in boxes, would lead to
+/// endless steps. It prefers a direction so little that the radius changes by 1e-7 of a move.
 constexpr Four kAim{1.1e-7, 0.7e-7, -0.9e-7, 1};
 
 constexpr int kMostSteps = 20'000;  // a few dozen are usual
-/// Of the reach: by so much walls may be broken through in the end.
+/// The final tolerance of the planes, as a share of the reach.
 constexpr double kSlack = 1e-12;
 
-/// Gaussian elimination with pivots; a singular matrix gives what is not finite.
+/// Gaussian elimination with pivots; a singular matrix gives non-finite values.
 Four solve(std::array<Four, 4> rows, Four right) {
     for (std::size_t i = 0; i < 4; ++i) {
         std::size_t pivot = i;
@@ -196,7 +196,7 @@ Four solve(std::array<Four, 4> rows, Four right) {
 
 Four column_of(const HalfSpace& wall) { return {wall.normal.x, wall.normal.y, wall.normal.z, 1}; }
 
-/// The ball that touches all four.
+/// The ball that touches all four planes.
 InnerBall ball_of(const Basis& basis) {
     std::array<Four, 4> rows;
     Four offsets;
@@ -205,7 +205,7 @@ InnerBall ball_of(const Basis& basis) {
     return {{x[0], x[1], x[2]}, x[3]};
 }
 
-/// The parts of the four that make up a vector.
+/// The coefficients of a vector in terms of the four.
 Four parts_of(const Basis& basis, const Four& vector) {
     std::array<Four, 4> rows;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -215,7 +215,7 @@ Four parts_of(const Basis& basis, const Four& vector) {
     return solve(rows, vector);
 }
 
-/// The room that the ball's centre has up to the wall where it has least; nullptr where there are no walls.
+/// The plane that is nearest to the ball's centre, with the distance; nullptr where there are no planes.
 std::pair<const HalfSpace*, double> nearest_wall(std::span<const HalfSpace> walls, const Vec3& center) {
     const HalfSpace* nearest = nullptr;
     double least = INFINITY;
@@ -226,8 +226,8 @@ std::pair<const HalfSpace*, double> nearest_wall(std::span<const HalfSpace> wall
     return {nearest, least};
 }
 
-/// Which of the four leaves, so that none of their l_i becomes negative. One has a positive part always, as
-/// the parts' sum is 1.
+/// The index of the plane that leaves the basis, so that no l_i becomes negative. One coefficient is always
+/// positive, because their sum is 1.
 std::size_t leaving(const Basis& basis, const HalfSpace& entering) {
     const Four l = parts_of(basis, kAim), parts = parts_of(basis, column_of(entering));
     std::size_t leaves = 0;

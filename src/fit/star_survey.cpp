@@ -39,7 +39,7 @@ std::vector<double> RadialCaster::innermost(const Vec3& center, std::span<const 
     return distances(center, directions, rays);
 }
 
-/// Rays from outside may go on through the centre to the other side: then they met nothing.
+/// Rays from outside may continue through the centre to the other side: then they met nothing.
 std::vector<double> RadialCaster::distances(const Vec3& center, std::span<const Vec3> directions,
                                             std::span<const rays::Ray> rays) const {
     std::vector<std::optional<rays::Hit>> hits(rays.size());
@@ -58,12 +58,12 @@ std::vector<double> RadialCaster::distances(const Vec3& center, std::span<const 
 namespace {
 
 constexpr int kParallels = 317;
-constexpr double kSamePlace = 1e-5;  ///< of the size
+constexpr double kSamePosition = 1e-5;  ///< of the size
 const double kCosineApart = std::cos(10 * std::numbers::pi / 180);
 
 bool is_apart(const Vec3& direction, const Vec3& other) { return dot(direction, other) < kCosineApart; }
 
-/// The first ones that are apart from each other.
+/// The first ones that are separated from each other.
 std::vector<Fold> separate(const std::vector<Fold>& folds) {
     std::vector<Fold> chosen;
     for (const Fold& fold : folds) {
@@ -90,7 +90,7 @@ StarSurvey survey(const RadialCaster& caster, const Vec3& center, double size) {
         if (std::isnan(depth)) {
             survey.missed_share += share;
             misses.push_back({directions[i], 0});
-        } else if (depth > kSamePlace * size) {
+        } else if (depth > kSamePosition * size) {
             survey.folded_share += share;
             folds.push_back({directions[i], depth});
         }

@@ -1,4 +1,4 @@
-// In which directions from a centre a mesh is not star-shaped.
+// Survey of the directions from a centre in which a mesh is not star-shaped.
 #pragma once
 
 #include <limits>
@@ -11,9 +11,9 @@
 
 namespace stilb::fit {
 
-// A mesh as seen from points inside: how far its outermost and its innermost surface are.
+// Radial distances of a mesh from points inside: to its outermost and its innermost surface.
 
-/// Where a direction meets nothing.
+/// The distance in a direction without a surface.
 inline constexpr double kNoSurface = std::numeric_limits<double>::quiet_NaN();
 
 class RadialCaster {
@@ -21,7 +21,7 @@ class RadialCaster {
     /// Throws std::runtime_error as RayCaster does.
     explicit RadialCaster(const Mesh& mesh);
 
-    /// Distances from a centre, in the (unit) directions' order; kNoSurface where nothing is met.
+    /// Distances from a centre, in the order of the (unit) directions; kNoSurface where there is none.
     std::vector<double> outermost(const Vec3& center, std::span<const Vec3> directions) const;
     std::vector<double> innermost(const Vec3& center, std::span<const Vec3> directions) const;
 
@@ -44,9 +44,9 @@ struct StarSurvey {
     std::vector<double> outermost;  ///< distances on the grid; kNoSurface where nothing is met
     /// Shares of all directions.
     double folded_share = 0, missed_share = 0;
-    /// The deepest first; at most kMostNamed, 10 degrees or more apart from each other.
+    /// The deepest folds first; at most kMostNamed, 10 degrees or more apart from each other.
     std::vector<Fold> worst_folds;
-    /// Likewise, directions that meet nothing.
+    /// Directions without a surface, in the same selection.
     std::vector<Vec3> misses;
 
     double share() const { return folded_share + missed_share; }
@@ -54,11 +54,11 @@ struct StarSurvey {
 
 inline constexpr std::size_t kMostNamed = 3;
 
-/// Looks in some 200,000 directions, none of them on a gauss_grid(). A direction counts as folded where
-/// outermost and innermost surface are more than 1e-5 of `size` apart, so that doubled faces do not.
+/// Surveys some 200,000 directions, none of them on a gauss_grid(). A direction counts as folded where
+/// outermost and innermost surface are more than 1e-5 of `size` apart, so that doubled faces do not count.
 StarSurvey survey(const RadialCaster& caster, const Vec3& center, double size);
 
-/// Of a unit vector.
+/// The angles of a unit vector.
 struct Angles {
     double theta_deg = 0, phi_deg = 0;  ///< from +z, 0 to 180; from +x, 0 to 360
 };

@@ -12,13 +12,15 @@ namespace stilb::geometry {
 std::vector<std::uint32_t> welded(std::span<const Vec3> vertices) {
     std::vector<std::uint32_t> order(vertices.size());
     std::iota(order.begin(), order.end(), 0u);
-    const auto place = [&](std::uint32_t i) { return std::tie(vertices[i].x, vertices[i].y, vertices[i].z); };
+    const auto position = [&](std::uint32_t i) {
+        return std::tie(vertices[i].x, vertices[i].y, vertices[i].z);
+    };
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return place(a) != place(b) ? place(a) < place(b) : a < b;
+        return position(a) != position(b) ? position(a) < position(b) : a < b;
     });
     std::vector<std::uint32_t> first(vertices.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool is_repeated = i > 0 && place(order[i]) == place(order[i - 1]);
+        const bool is_repeated = i > 0 && position(order[i]) == position(order[i - 1]);
         first[order[i]] = is_repeated ? first[order[i - 1]] : order[i];
     }
     return first;
@@ -52,13 +54,13 @@ ConnectedComponents find_components(const Mesh& mesh) {
         for (auto use = first + 1; use != last; ++use) groups.join(first->triangle, use->triangle);
     });
     auto [of_triangle, count] = groups.numbered();
-    ConnectedComponents shells{std::move(of_triangle), std::vector<std::size_t>(count), 0};
+    ConnectedComponents components{std::move(of_triangle), std::vector<std::size_t>(count), 0};
     for_each_edge(uses, [&](auto first, auto last) {
         const auto times = last - first;
-        if (times % 2 != 0) ++shells.open_edges[shells.of_triangle[first->triangle]];
-        if (times == 2 && first->upwards == (first + 1)->upwards) ++shells.turned_edges;
+        if (times % 2 != 0) ++components.open_edges[components.of_triangle[first->triangle]];
+        if (times == 2 && first->upwards == (first + 1)->upwards) ++components.turned_edges;
     });
-    return shells;
+    return components;
 }
 
 ConnectedComponents find_components(const Shape& shape) {

@@ -1,4 +1,4 @@
-// Which triangles of a mesh meet in which edge.
+// Topology of meshes: triangles that share edges.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 
 namespace stilb::geometry {
 
-/// Per vertex, the first of those at the same place: files often repeat them.
+/// For each vertex, the first vertex at the same position, because files often repeat vertices.
 std::vector<std::uint32_t> welded(std::span<const Vec3> vertices);
 
-/// An edge as one of its triangles has it: between vertices low < high, run along from low to high or not.
+/// An edge as used by one of its triangles: between vertices low < high, traversed from low to high or not.
 struct EdgeUse {
     std::uint32_t low, high, triangle;
     bool upwards;
@@ -23,7 +23,7 @@ struct EdgeUse {
 };
 
 /// All uses of all edges, those of the same edge one after another in the order of triangles. `vertex_at` is
-/// what welded() says.
+/// the result of welded().
 std::vector<EdgeUse> edge_uses(std::span<const Triangle> triangles, std::span<const std::uint32_t> vertex_at);
 
 /// Calls `visit(first, last)` for the uses of every edge.
@@ -37,26 +37,26 @@ void for_each_edge(const std::vector<EdgeUse>& uses, const Visitor& visit) {
     }
 }
 
-// The parts of a shape that hang together, and which of them enclose a space.
+// The connected components of a shape, and which of them are closed.
 
-/// The shells of a shape: triangles that hang together along edges. Vertices at the same place are one
-/// vertex, as files often repeat them.
+/// The connected components of a shape: triangles connected along edges. Vertices at the same position count
+/// as one vertex, because files often repeat them.
 struct ConnectedComponents {
-    /// Per triangle (Hit::triangle), the shell that it belongs to.
+    /// For each triangle (Hit::triangle), its component.
     std::vector<std::uint32_t> of_triangle;
-    /// Per shell, the edges in which an odd number of triangles meet. 0: the shell is closed, every ray from
-    /// inside of it meets it an odd number of times.
+    /// For each component, the number of edges with an odd number of triangles. 0: the component is closed,
+    /// every ray from inside of it meets it an odd number of times.
     std::vector<std::size_t> open_edges;
     /// Edges of two triangles whose fronts lie on different sides of the surface.
     std::size_t turned_edges = 0;
 
     std::size_t count() const { return open_edges.size(); }
-    bool is_closed(std::uint32_t shell) const { return open_edges[shell] == 0; }
+    bool is_closed(std::uint32_t component) const { return open_edges[component] == 0; }
     std::size_t total_open_edges() const;
 };
 
 ConnectedComponents find_components(const Mesh& mesh);
-/// Spheres are one closed shell, disks an open one (their rim counts as one edge).
+/// Spheres are one closed component, disks an open one (their rim counts as one edge).
 ConnectedComponents find_components(const Shape& shape);
 
 }  // namespace stilb::geometry

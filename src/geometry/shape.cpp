@@ -52,7 +52,7 @@ Bounds bounds(const Disk& d) {
     return {d.center - e, d.center + e};
 }
 
-/// Of points so close together that it is little smaller than the true one.
+/// The extent of sample points, so dense that it is little smaller than the true one.
 Bounds bounds(const Harmonics& h) {
     constexpr int count = 4096;
     Bounds all;

@@ -1,4 +1,4 @@
-// Shapes: what surfaces are made of. Plain values in metres, in world coordinates.
+// Shapes of surfaces. Plain values in metres, in world coordinates.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Mesh {
     std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
-    /// Unit vectors on the front's side, of the surface that the triangles stand for; empty where they stand
-    /// for themselves. Zero: of no use.
+    /// Unit vectors on the front's side, normal to the surface that the triangles approximate; empty for
+    /// flat triangles. Zero vectors are ignored.
     std::vector<Vec3> normals{};
     /// Indices into `normals` of the corners of each triangle, or kNoNormal; empty where they are the indices
     /// of the vertices.
@@ -57,7 +57,7 @@ struct Disk {
     double radius = 1;
 };
 
-/// How rays find a surface by harmonics.
+/// The method of ray intersection with a surface by harmonics.
 enum class HarmonicMethod {
     cells,  ///< polynomials in small cells: harmonic_cells.h
     roots,  ///< the roots of a trigonometric polynomial: HarmonicSurface::first_crossing
@@ -74,7 +74,7 @@ struct Harmonics {
     double scale = 1;
     Frame axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     HarmonicMethod method = HarmonicMethod::cells;
-    /// Whether fewer harmonics may do where the object is small in a picture (run/level_of_detail.h).
+    /// Whether fewer harmonics suffice where the object is small in a picture (run/level_of_detail.h).
     bool has_levels_of_detail = false;
 
     Vec3 to_world(const Vec3& own) const { return center + scale * axes.to_world(own); }
@@ -87,18 +87,18 @@ struct Harmonics {
     Vec3 normal_towards(const Vec3& direction) const;
 };
 
-/// The normal of the surface that a mesh stands for, interpolated between a triangle's corners by barycentric
-/// coordinates: unit, on the side of the unit vector `geometric`, the triangle's own. That one where there is
-/// no other, or one that leans away from it by more than 84 degrees.
+/// The normal of the surface that a mesh approximates, interpolated between a triangle's corners by
+/// barycentric coordinates: unit, on the side of the unit vector `geometric`, the triangle's own normal. The
+/// latter is returned where there is no other, or one that deviates from it by more than 84 degrees.
 Vec3 shading_normal(const Mesh& mesh, std::uint32_t triangle, const Vec3& barycentric, const Vec3& geometric);
-/// Makes the other side of a triangle its front.
+/// Swaps the front and the back of a triangle.
 void turn_over(Mesh& mesh, std::uint32_t triangle);
 
 using Shape = std::variant<Mesh, Rectangle, Box, Sphere, Disk, Harmonics>;
 
-/// Axis-parallel.
+/// The axis-parallel bounding box.
 Bounds bounds_of(const Shape& shape);
-/// m2, one side.
+/// The area of one side [m2].
 double area_m2(const Shape& shape);
 /// Two triangles with the rectangle's front.
 Mesh triangulated(const Rectangle& rectangle);

@@ -8,7 +8,7 @@
 namespace stilb::geometry {
 namespace {
 
-/// What a similarity multiplies lengths by.
+/// The factor by which a similarity multiplies lengths.
 double similarity_scale(const Transform& t) { return std::cbrt(std::abs(t.determinant())); }
 
 bool keeps_axes(const Transform& t) {
@@ -71,7 +71,7 @@ Transform Transform::rotation(const Vec3& unit_axis, double angle_deg) {
 }
 
 Vec3 Transform::normal(const Vec3& n) const {
-    // By the inverse transpose but for a positive factor: the cofactors, whose sign is the determinant's.
+    // By the inverse transpose, up to a positive factor: the cofactors, whose sign is the determinant's.
     const Vec3 moved =
         n.x * cross(y_axis, z_axis) + n.y * cross(z_axis, x_axis) + n.z * cross(x_axis, y_axis);
     const double size = length(moved);

@@ -17,22 +17,22 @@ struct Transform {
     static Transform rotation(const Vec3& unit_axis, double angle_deg);
 
     Vec3 direction(const Vec3& d) const { return d.x * x_axis + d.y * y_axis + d.z * z_axis; }
-    /// A unit normal of what is transformed, on the same side of it; zero stays zero.
+    /// The unit normal of the transformed surface, on the same side of it; zero stays zero.
     Vec3 normal(const Vec3& n) const;
     Vec3 point(const Vec3& p) const { return direction(p) + translation; }
     /// Volumes are multiplied by this; negative for mirrored transforms.
     double determinant() const { return dot(x_axis, cross(y_axis, z_axis)); }
-    /// |determinant| over the product of the axes' lengths, 0 to 1; 0 where space is squashed flat.
+    /// |determinant| over the product of the axes' lengths, 0 to 1; 0 for a singular transform.
     double regularity() const;
-    /// Angles and ratios of lengths stay as they are.
+    /// Whether angles and ratios of lengths are preserved.
     bool is_similarity() const;
 };
 
 /// First `first`, then `second`.
 Transform compose(const Transform& second, const Transform& first);
 
-/// The transformed shape; mirrored transforms keep fronts in front. Boxes become meshes unless their axes
-/// stay put. For spheres, disks and harmonics the caller makes sure that the transform is a similarity.
+/// The transformed shape; fronts stay fronts under mirrored transforms. Boxes become meshes unless their axes
+/// stay axis-parallel. Precondition for spheres, disks and harmonics: the transform is a similarity.
 Shape transformed(const Shape& shape, const Transform& transform);
 
 }  // namespace stilb::geometry

@@ -1,4 +1,4 @@
-// Objects that shine: one-sided diffuse emitters on the front of an object. A luminous sphere is one on a
+// Area lights: one-sided diffuse emitters on the front of an object. A luminous sphere is one on a
 // sphere.
 #pragma once
 
@@ -15,7 +15,7 @@ struct AreaLight {
     Rgb luminance_cd_m2;
 
     static constexpr std::string_view kType = "area";
-    static constexpr LightPlace kPlace = LightPlace::surface;
+    static constexpr LightLocation kLocation = LightLocation::surface;
     using Emitter = AreaEmitter;
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;

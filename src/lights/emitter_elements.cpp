@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "geometry/harmonics/cells.h"
 #include "geometry/harmonics/surface.h"
@@ -13,7 +12,6 @@
 namespace stilb::lights {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Corners = std::array<Vec3, 3>;
 
 double size(const Rectangle& r) { return std::max(length(r.edge_u), length(r.edge_v)); }
@@ -32,7 +30,7 @@ Vec3 front_normal(const Rectangle& r) { return normalized(cross(r.edge_u, r.edge
 Vec3 front_normal(const Corners& t) { return normalized(cross(t[1] - t[0], t[2] - t[0])); }
 Vec3 front_normal(const Disk& d) { return d.normal; }
 
-// Those of flat elements leave the normal out: the element has it.
+// Points of flat elements leave the normal out, because the element has it.
 EmitterPoint by_area(const Rectangle& r, const std::array<double, 2>& u) {
     return {r.corner + u[0] * r.edge_u + u[1] * r.edge_v, {}};
 }
@@ -60,7 +58,7 @@ EmitterElement element_of(const Flat& shape) {
     const double size_m = size(shape);
     return {shape, middle(shape), front_normal(shape), size_m, area(shape), 9 * size_m * size_m};
 }
-/// Seen from anywhere, a quarter of its surface counts.
+/// From every direction, the projected area is a quarter of the surface.
 EmitterElement element_of(const Sphere& sphere) {
     return {sphere,        sphere.center,       std::nullopt,
             sphere.radius, area_m2(sphere) / 4, std::numeric_limits<double>::infinity()};
@@ -83,12 +81,12 @@ std::vector<EmitterElement> elements_of(const Other& shape) {
 }
 
 /// The density of the direction to a point that is drawn by area.
-double area_pdf_per_sr(const EmitterElement& element, const Vec3& way, const Vec3& normal) {
-    const double squared_distance = squared_length(way);
-    return squared_distance * std::sqrt(squared_distance) / (std::abs(dot(way, normal)) * element.area_m2);
+double area_pdf_per_sr(const EmitterElement& element, const Vec3& offset, const Vec3& normal) {
+    const double squared_distance = squared_length(offset);
+    return squared_distance * std::sqrt(squared_distance) / (std::abs(dot(offset, normal)) * element.area_m2);
 }
 
-/// Nothing of surfaces by harmonics, which are sampled by area.
+/// Empty for surfaces by harmonics, which are sampled by area.
 struct SolidAngleSampler {
     const Vec3& from;
     const std::array<double, 2>& u;
@@ -132,7 +130,7 @@ double rough_pdf_per_sr(const EmitterElement& element, const Vec3& position, con
     if (squared_distance > element.squared_far_m2) return area_pdf_per_sr(element, position - from, normal);
     double cosine = 1;
     if (element.normal) {
-        // Edge-on this is far from the truth, as it is from close by; it must only be the same for all.
+        // Edge-on and close by this is inaccurate; it only has to be consistent for all callers.
         constexpr double least = 0.05;
         cosine = std::max(std::abs(dot(towards, *element.normal)) / std::sqrt(squared_distance), least);
     }

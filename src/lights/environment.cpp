@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "lights/luminaire.h"
 #include "math/sampling.h"
@@ -12,15 +11,13 @@
 namespace stilb::lights {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vec3 with_components(std::size_t first_axis, double first, double second, double third) {
     std::array<double, 3> v{};
     v[first_axis] = first, v[(first_axis + 1) % 3] = second, v[(first_axis + 2) % 3] = third;
     return {v[0], v[1], v[2]};
 }
 
-/// The scene's bounding box with room for rays to start from its faces, which surfaces often lie in.
+/// The scene's bounding box, enlarged so that rays can start from its faces, in which surfaces often lie.
 Bounds enlarged(const Bounds& bounds) {
     constexpr double share = 1e-3, least_m = 1e-6;
     const double margin = std::max(share * bounds.half_extent(), least_m);
@@ -28,13 +25,13 @@ Bounds enlarged(const Bounds& bounds) {
     return {bounds.min - room, bounds.max + room};
 }
 
-/// Of the faces across x, y and z.
+/// The areas of the faces across x, y and z.
 std::array<double, 3> face_areas_m2(const Bounds& box) {
     const Vec3 e = box.max - box.min;
     return {e.y * e.z, e.z * e.x, e.x * e.y};
 }
 
-/// Of the box as it is seen along a unit direction, face by face: one of each pair.
+/// The projected areas of the box along a unit direction, face by face: one of each pair.
 std::array<double, 3> projected_areas_m2(const Bounds& box, const Vec3& direction) {
     std::array<double, 3> areas = face_areas_m2(box);
     for (std::size_t axis = 0; axis < 3; ++axis) areas[axis] *= std::abs(direction[axis]);

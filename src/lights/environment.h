@@ -1,4 +1,4 @@
-// Light from infinity, around the whole scene: the same luminance from all directions, or that of a panorama.
+// Light from infinity around the whole scene: constant luminance, or that of a panorama.
 #pragma once
 
 #include <memory>
@@ -16,16 +16,16 @@ struct EnvironmentLight {
     Frame axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< of the panorama in the scene
 
     static constexpr std::string_view kType = "environment";
-    static constexpr LightPlace kPlace = LightPlace::infinity;
+    static constexpr LightLocation kLocation = LightLocation::infinity;
     using Emitter = EnvironmentEmitter;
-    /// What enters the scene's bounding box.
+    /// The flux that enters the scene's bounding box.
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
 };
 
-/// The axes of a panorama whose top is `unit_up`. With +z on top the picture's middle looks along +x, turned
-/// by `rotation_deg` counterclockwise seen from above; other directions are reached by the shortest turn from
-/// there.
+/// The axes of a panorama with the top `unit_up`. With +z as the top the picture's middle looks along +x,
+/// rotated by `rotation_deg` counterclockwise seen from above; other directions are reached by the shortest
+/// rotation from there.
 Frame panorama_axes(const Vec3& unit_up, double rotation_deg);
 
 /// Particles enter through the faces of the scene's bounding box, a little enlarged, in proportion to the
@@ -36,7 +36,7 @@ class EnvironmentEmitter {
     EnvironmentEmitter(const EnvironmentLight& light, const Surroundings& surroundings, const Lift& lift);
 
     Emission emit(math::SampleStream& stream) const;
-    /// Constant luminance: by the cosine at the receiver.
+    /// Constant luminance: sampled by the cosine at the receiver.
     std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
                                                  const std::array<double, 2>& u) const;
     double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;

@@ -10,8 +10,8 @@ Emitter make_emitter(const Light& light, const Surroundings& surroundings, const
         light.source);
 }
 
-LightPlace place_of(const Light& light) {
-    return std::visit([]<LightKind L>(const L&) { return L::kPlace; }, light.source);
+LightLocation location_of(const Light& light) {
+    return std::visit([]<LightKind L>(const L&) { return L::kLocation; }, light.source);
 }
 
 std::string_view type_of(const Light& light) {
@@ -29,7 +29,7 @@ std::vector<LightDetail> details_of(const Light& light, const Surroundings& surr
 std::optional<SurfaceEmission> surface_emission(const Light& light) {
     return std::visit(
         []<LightKind L>(const L& source) -> std::optional<SurfaceEmission> {
-            if constexpr (L::kPlace == LightPlace::surface) {
+            if constexpr (L::kLocation == LightLocation::surface) {
                 return SurfaceEmission{source.object, source.luminance_cd_m2};
             }
             return std::nullopt;
@@ -40,7 +40,7 @@ std::optional<SurfaceEmission> surface_emission(const Light& light) {
 std::optional<LightOrigin> point_origin(const Light& light) {
     return std::visit(
         []<LightKind L>(const L& source) -> std::optional<LightOrigin> {
-            if constexpr (L::kPlace == LightPlace::point) return source.origin();
+            if constexpr (L::kLocation == LightLocation::point) return source.origin();
             return std::nullopt;
         },
         light.source);

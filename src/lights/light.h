@@ -13,7 +13,7 @@
 
 namespace stilb::lights {
 
-/// All kinds of light: here a new one is added.
+/// All kinds of light: a new kind is added here.
 using LightSource = std::variant<PointLight, Luminaire, AreaLight, EnvironmentLight>;
 
 struct Light {
@@ -27,28 +27,28 @@ template <LightKind... Kinds>
 struct EmittersOf<std::variant<Kinds...>> {
     using type = std::variant<typename Kinds::Emitter...>;
 };
-/// Of any kind, in the order of LightSource.
+/// The functions for a light of any kind, in the order of LightSource.
 using Emitter = EmittersOf<LightSource>::type;
 
 Emitter make_emitter(const Light& light, const Surroundings& surroundings, const Lift& lift);
-LightPlace place_of(const Light& light);
-/// In the words of the scene file; luminous spheres are area lights.
+LightLocation location_of(const Light& light);
+/// The type in scene files; luminous spheres are area lights.
 std::string_view type_of(const Light& light);
 Rgb flux_lm(const Light& light, const Surroundings& surroundings);
 std::vector<LightDetail> details_of(const Light& light, const Surroundings& surroundings);
 
-/// What a light on a surface gives off; nothing of other lights.
+/// The emission of a light on a surface; nothing for other lights.
 struct SurfaceEmission {
     ObjectId object{};
     Rgb luminance_cd_m2;
 };
 std::optional<SurfaceEmission> surface_emission(const Light& light);
-/// Of a light that is a point; nothing of other lights.
+/// The emitter of a point light; nothing for other lights.
 std::optional<LightOrigin> point_origin(const Light& light);
 
 }  // namespace stilb::lights
 
 namespace stilb {
 using lights::Light;
-using lights::LightPlace;
+using lights::LightLocation;
 }  // namespace stilb

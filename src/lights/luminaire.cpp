@@ -10,7 +10,7 @@ namespace stilb::lights {
 
 namespace {
 
-/// What leaves a luminaire against `direction`, in the frame of its solid.
+/// The direction of light that leaves the luminaire opposite to `direction`, in the frame of its solid.
 Vec3 in_solid(const Luminaire& luminaire, const Vec3& direction) {
     return {-dot(direction, luminaire.c0), -dot(direction, luminaire.c90), -dot(direction, luminaire.nadir)};
 }

@@ -8,7 +8,7 @@ namespace stilb::lights {
 
 class LuminaireEmitter;
 
-/// Small against its distance from everything.
+/// A luminaire that is small against its distance from every receiver.
 struct Luminaire {
     Vec3 position;
     SolidId solid{};
@@ -18,7 +18,7 @@ struct Luminaire {
     Rgb factor;
 
     static constexpr std::string_view kType = "photometry";
-    static constexpr LightPlace kPlace = LightPlace::point;
+    static constexpr LightLocation kLocation = LightLocation::point;
     using Emitter = LuminaireEmitter;
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
@@ -26,7 +26,7 @@ struct Luminaire {
 };
 
 /// Keeps a reference to the solid. Its rays start and end lifted along the nadir, so that a luminaire may be
-/// placed in the very plane of a ceiling.
+/// placed exactly in the plane of a ceiling.
 class LuminaireEmitter {
   public:
     LuminaireEmitter(const Luminaire& light, const Surroundings& surroundings, const Lift& lift);
@@ -47,16 +47,17 @@ class LuminaireEmitter {
     Vec3 lifted_;
 };
 
-// How a luminaire hangs in the scene.
+// Orientation of luminaires in the scene.
 
 /// Unit vectors of a luminaire's (left-handed) frame in the scene: towards C0, C90 and the nadir.
 struct LuminaireFrame {
     Vec3 c0, c90, nadir;
 };
 
-/// A luminaire that hangs straight down (nadir -z, C0 +x, C90 +y) is first turned about its vertical axis by
-/// `spin_deg`, counterclockwise seen from behind, which is from above; then its nadir is turned to `unit_aim`
-/// on the shortest way. For an aim of exactly +z that way is a half turn about the x axis.
+/// The frame of a luminaire that first hangs straight down (nadir -z, C0 +x, C90 +y), is rotated about its
+/// vertical axis by `spin_deg`, counterclockwise seen from behind, which is from above, and then tilted by
+/// the shortest rotation of its nadir to `unit_aim`. For an aim of exactly +z that is a half turn about the x
+/// axis.
 LuminaireFrame aim_luminaire(const Vec3& unit_aim, double spin_deg);
 
 }  // namespace stilb::lights

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "math/sampling.h"
@@ -13,7 +12,6 @@
 namespace stilb::lights {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// cd/m2: squares and sums stay far from overflow.
 constexpr float kLargest = 1e15F;
 constexpr int kMostPartsAcross = 64;
@@ -23,7 +21,8 @@ constexpr int kMostPartsAcross = 64;
 Panorama::Panorama(Image image) : image_(std::move(image)) {
     check();
     add_up();
-    if (!(total_luminous_lx_ > 0)) throw InputError("the panorama is black. Needed: some light.");
+    if (!(total_luminous_lx_ > 0))
+        throw InputError("the panorama is black. Needed: a pixel with luminance above 0.");
     divide();
 }
 
@@ -96,8 +95,8 @@ Vec3 Panorama::direction_at(double column, double z) const {
 std::size_t Panorama::pixel_towards(const Vec3& direction) const {
     const double azimuth = std::atan2(direction.y, direction.x);
     const double polar = std::atan2(std::hypot(direction.x, direction.y), direction.z);
-    const auto inside = [](double place, int count) {
-        return static_cast<std::size_t>(std::clamp(place * count, 0.0, count - 1.0));
+    const auto inside = [](double position, int count) {
+        return static_cast<std::size_t>(std::clamp(position * count, 0.0, count - 1.0));
     };
     return inside(polar / kPi, image_.height) * static_cast<std::size_t>(image_.width) +
            inside(0.5 - azimuth / (2 * kPi), image_.width);

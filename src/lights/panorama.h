@@ -1,4 +1,4 @@
-// Equirectangular pictures of what surrounds a scene: luminance by direction, and sampling in proportion to
+// Equirectangular pictures of a scene's surroundings: luminance by direction, and sampling in proportion to
 // it.
 #pragma once
 
@@ -28,7 +28,7 @@ class Panorama {
     Rgb luminance_cd_m2(const Vec3& direction) const { return rgb_of(pixel_towards(direction)); }
     /// Integral of the luminance over the sphere [lx]: 4 pi times its mean.
     const Rgb& total_lx() const { return total_lx_; }
-    /// Of a plane with this unit normal that nothing shades, to about a pixel's size.
+    /// The illuminance of an unshaded plane with this unit normal, accurate to about a pixel's size.
     Rgb illuminance_lx(const Vec3& normal) const;
 
     /// Drawn with density luminance / total by inversion of two numbers in [0, 1): u1 gives the row, u2 the
@@ -43,12 +43,12 @@ class Panorama {
         return luminance_cd_m2(direction).luminance() / total_luminous_lx_;
     }
 
-    /// A part of the picture: what it adds to the illuminance of a surface across it.
+    /// A part of the picture, with its illuminance on a perpendicular surface.
     struct Part {
         Vec3 direction;  ///< to its middle
         Rgb normal_illuminance_lx;
     };
-    /// All of it in at most 64 x 32 parts, for rough sums.
+    /// The whole picture in at most 64 x 32 parts, for rough sums.
     const std::vector<Part>& parts() const { return parts_; }
 
   private:

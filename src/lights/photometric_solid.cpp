@@ -13,10 +13,10 @@ namespace stilb::lights {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-/// How far outside the grid a direction may fall by rounding and still count as on its border.
+/// The tolerance by which rounding may move a direction out of the grid.
 constexpr double kBorderRad = 1e-10;
 
-/// The two angles' axes; orthonormal, left-handed for type A, whose planes turn the other way.
+/// The frame of the two angles; orthonormal, left-handed for type A, whose planes turn the other way.
 Frame axes_of(PhotometryType type) {
     const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     switch (type) {
@@ -30,7 +30,7 @@ Frame axes_of(PhotometryType type) {
     return {x, y, z};
 }
 
-/// What polar_deg is at the pole that polar angles are counted from.
+/// The value of polar_deg at the pole that polar angles start from.
 double pole_deg(PhotometryType type) { return type == PhotometryType::C ? 0 : -90; }
 
 void check_angles(const std::vector<double>& angles, const char* what, double least, double greatest) {
@@ -40,24 +40,25 @@ void check_angles(const std::vector<double>& angles, const char* what, double le
                                          least, greatest));
         }
         if (i > 0 && angles[i] - angles[i - 1] < PhotometricSolid::kSmallestStepDeg) {
-            throw InputError(fmt::format("{} {} follows {}: angles must increase strictly", what, angles[i],
-                                         angles[i - 1]));
+            throw InputError(
+                fmt::format("{} {} follows {}: angles must increase", what, angles[i], angles[i - 1]));
         }
     }
 }
 
 void check_planes(const PhotometricSolid::Grid& grid) {
     if (grid.type != PhotometryType::C) {
-        if (grid.planes_deg.size() < 2) throw InputError("a grid of type A or B needs at least two planes");
+        if (grid.planes_deg.size() < 2)
+            throw InputError("the grid has fewer than two planes, but type A or B needs at least two");
         check_angles(grid.planes_deg, "plane angle", -180, 180);
         return;
     }
-    if (grid.planes_deg.empty()) throw InputError("a grid of type C needs at least one plane");
+    if (grid.planes_deg.empty()) throw InputError("the grid has no plane, but type C needs at least one");
     check_angles(grid.planes_deg, "C angle", -360, 720);
     const double turn = grid.planes_deg.back() - grid.planes_deg.front();
     if (grid.planes_deg.size() > 1 && std::abs(turn - 360) > PhotometricSolid::kSmallestStepDeg) {
-        throw InputError(
-            fmt::format("the C planes span {} degrees: they must make a full turn, or be one", turn));
+        throw InputError(fmt::format(
+            "the C planes span {} degrees: they must cover a full turn, or be a single plane", turn));
     }
 }
 
@@ -73,7 +74,7 @@ void check(const PhotometricSolid::Grid& grid) {
     for (const double intensity : grid.intensity_cd) {
         if (!(intensity >= 0) || !std::isfinite(intensity)) {
             throw InputError(
-                fmt::format("intensity {} cd: intensities are finite and not negative", intensity));
+                fmt::format("intensity {} cd: intensities must be finite and not negative", intensity));
         }
     }
 }
@@ -85,7 +86,7 @@ double sine_minus_chord(double h, double sine, double cosine) {
     return h * q * (1. / 3 - q * (1. / 30 - q * (1. / 840 - q * (1. / 45360 - q / 3991680))));
 }
 
-/// Over an interval of the polar angle: the integrals of sin and of (angle - start) sin; sin at its end.
+/// Integrals over an interval of the polar angle: of sin, and of (angle - start) sin; and sin at its end.
 struct SineMoments {
     double zeroth, first, sine_at_end;
 };
@@ -105,13 +106,14 @@ std::size_t interval_of(std::span<const double> bounds, double value) {
     return static_cast<std::size_t>(above - bounds.begin()) - 1;
 }
 
-/// A share inside (0, 1) by more than rounding: a sample on the edge of a cell could have zero density.
+/// A share inside (0, 1) by more than rounding, because a sample on the edge of a cell could have zero
+/// density.
 double inner_share(double share) {
     constexpr double kMargin = 0x1p-44;
     return std::clamp(share, kMargin, 1 - kMargin);
 }
 
-/// Where on [0, 1] a linear density from a to b has the given share of its mass below.
+/// The point on [0, 1] below which a linear density from a to b has the given share of its mass.
 double invert_linear(double a, double b, double share) {
     const double denominator = a + std::sqrt((1 - share) * a * a + share * b * b);
     return denominator > 0 ? std::min(share * (a + b) / denominator, 1.0) : share;
@@ -131,7 +133,7 @@ struct PolarDensity {
     }
 };
 
-/// Where the given share of the mass lies below: Newton's iteration, kept inside a shrinking bracket.
+/// The point below which the given share of the mass lies: Newton's iteration within a shrinking bracket.
 double invert_polar(const PolarDensity& polar, double share) {
     constexpr int kMostIterations = 60;
     const PolarDensity::Value end = polar.at(polar.width);

@@ -9,7 +9,7 @@
 
 namespace stilb::lights {
 
-/// The axis that the planes of a photometric file turn about: A and C the vertical, B a horizontal one.
+/// The axis of the planes of a photometric file: vertical for A and C, horizontal for B.
 enum class PhotometryType { A, B, C };
 
 /// Intensity [cd], bilinear in the two angles of its grid, zero outside the range of the angles.
@@ -19,7 +19,7 @@ enum class PhotometryType { A, B, C };
 /// docs/photometry.md.
 class PhotometricSolid {
   public:
-    /// The grid of a file after its symmetry was unfolded. Angles in degrees, each list increasing by
+    /// The grid of a file with its symmetry expanded. Angles in degrees, each list increasing by
     /// kSmallestStepDeg or more. With H and V the horizontal and vertical angles of LM-63, H clockwise seen
     /// from above, and (plane, polar) in the frame:
     /// - C: planes C, a full turn or one for all; polar gamma in [0, 180]. (0, 90) is x, (90, 90) is y.
@@ -38,9 +38,10 @@ class PhotometricSolid {
     explicit PhotometricSolid(const Grid& grid);
 
     double intensity_cd(const Vec3& direction) const;
-    /// Never less than intensity_cd(direction), and fast: the largest intensity at about its polar angle.
+    /// An upper bound of intensity_cd(direction), fast to compute: the largest intensity at about its polar
+    /// angle.
     double intensity_bound_cd(const Vec3& direction) const;
-    /// Integral of the interpolated intensity over the sphere: exact, not a sum over the grid.
+    /// Integral of the interpolated intensity over the sphere: exact, not a sum over grid points.
     double flux_lm() const { return flux_lm_; }
     double peak_cd() const { return peak_cd_; }
 

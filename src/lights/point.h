@@ -15,7 +15,7 @@ struct PointLight {
     Rgb intensity_cd;
 
     static constexpr std::string_view kType = "point";
-    static constexpr LightPlace kPlace = LightPlace::point;
+    static constexpr LightLocation kLocation = LightLocation::point;
     using Emitter = PointEmitter;
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
@@ -40,7 +40,7 @@ class PointEmitter {
     PointLight light_;
 };
 
-/// What arrives at a point from a source at `position` whose rays end at `lifted`. `intensity_cd` is called
+/// The light at a point from a source at `position` whose rays end at `lifted`. `intensity_cd` is called
 /// with the unit direction towards the source.
 template <typename Intensity>
 std::optional<IncidentLight> incident_from_point(const Vec3& position, const Vec3& lifted, const Vec3& from,

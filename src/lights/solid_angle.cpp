@@ -1,20 +1,18 @@
 // Sampling of emitters by the solid angle that they subtend at a point.
 //
 // Where the solid angle is too small for the spherical formulas to be exact in double precision, points are
-// drawn uniformly in area instead; the density of their direction is then d^2 / (cos A). Both ways are
-// unbiased.
+// are sampled uniformly by area instead; the density of their direction is then d^2 / (cos A). Both
+// techniques are unbiased.
 #include "lights/solid_angle.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace stilb::lights {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-/// A point nearer to an emitter's plane than this share of its distance sees it edge-on: rounding decides on
-/// which side the point lies.
+/// The threshold of edge-on views: a point nearer to an emitter's plane than this share of its distance
+/// counts as in the plane, because rounding decides on its side.
 constexpr double kEdgeOn = 1e-12;
 /// Edges count as right-angled up to this cosine.
 constexpr double kRightAngle = 1e-9;
@@ -105,8 +103,8 @@ class SphericalTriangle {
                2 * adjacent * opposite / squares * tangent;
     }
 
-    /// Where `direction` meets the triangle, by barycentric coordinates: rounding cannot lead out of the
-    /// triangle.
+    /// The point where `direction` meets the triangle, by barycentric coordinates: rounding cannot move it
+    /// out of the triangle.
     Vec3 projected(const Vec3& direction) const {
         const double side = std::copysign(1.0, determinant_);
         const double at_a = std::max(0.0, side * dot(direction, cross(b_, ac_ - ab_)));

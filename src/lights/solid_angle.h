@@ -17,7 +17,8 @@ struct SolidAngleSample {
     double pdf_per_sr = 0;
 };
 
-/// Cone of tangents; nothing where `from` lies in or on the sphere. [LocalEstimation (11)-(14)]
+/// Sampling of the cone of tangents; nothing where `from` lies in or on the sphere. [LocalEstimation
+/// (11)-(14)]
 std::optional<SolidAngleSample> sample_by_solid_angle(const Sphere& sphere, const Vec3& from, double u1,
                                                       double u2);
 /// Spherical rectangle [Urena et al. 2013] for right angles, otherwise two spherical triangles.

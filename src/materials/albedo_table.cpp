@@ -35,17 +35,19 @@ AlbedoTable::AlbedoTable(double alpha, const std::function<double(double)>& albe
     }
 }
 
-double AlbedoTable::cosine_at(double place) const { return alpha_ * std::expm1(place / cells_per_log_); }
+double AlbedoTable::cosine_at(double position) const {
+    return alpha_ * std::expm1(position / cells_per_log_);
+}
 
-AlbedoTable::Place AlbedoTable::place_of(double cosine) const {
-    const double place = std::clamp(std::log1p(cosine / alpha_) * cells_per_log_, 0.0, double{kCells});
-    const std::size_t cell = std::min(static_cast<std::size_t>(place), kCells - 1);
-    return {cell, place - static_cast<double>(cell)};
+AlbedoTable::CellPosition AlbedoTable::position_of(double cosine) const {
+    const double position = std::clamp(std::log1p(cosine / alpha_) * cells_per_log_, 0.0, double{kCells});
+    const std::size_t cell = std::min(static_cast<std::size_t>(position), kCells - 1);
+    return {cell, position - static_cast<double>(cell)};
 }
 
 double AlbedoTable::at(double cosine) const {
-    const Place place = place_of(cosine);
-    return values_[place.cell] + place.fraction * (values_[place.cell + 1] - values_[place.cell]);
+    const CellPosition position = position_of(cosine);
+    return values_[position.cell] + position.fraction * (values_[position.cell + 1] - values_[position.cell]);
 }
 
 double AlbedoTable::sample_cosine(double u) const {
@@ -59,7 +61,7 @@ double AlbedoTable::sample_cosine(double u) const {
 }
 
 double AlbedoTable::pdf_of_cosine(double cosine) const {
-    const std::size_t cell = place_of(cosine).cell;
+    const std::size_t cell = position_of(cosine).cell;
     const double low = cosine_at(static_cast<double>(cell)), high = cosine_at(static_cast<double>(cell + 1));
     return (cumulative_[cell + 1] - cumulative_[cell]) * 2 * cosine / (high * high - low * low);
 }

@@ -1,4 +1,4 @@
-// A directional albedo as a function of the cosine: tabulated once, interpolated, integrated and sampled.
+// A directional albedo as a function of the cosine: tabulated, interpolated, integrated and sampled.
 #pragma once
 
 #include <array>
@@ -7,30 +7,30 @@
 
 namespace stilb::materials {
 
-/// Piecewise linear in log(1 + cosine / alpha), so that what happens at cosines near alpha, where facets hide
-/// each other, is resolved as well for alpha = 0.001 as for 1.
+/// Piecewise linear in log(1 + cosine / alpha), which resolves cosines near alpha, where facets shadow
+/// each other, as well for alpha = 0.001 as for 1.
 class AlbedoTable {
   public:
-    /// Of a function of the cosine in [0, 1], not negative.
+    /// Tabulates a non-negative function of the cosine in [0, 1].
     AlbedoTable(double alpha, const std::function<double(double)>& albedo);
 
     double at(double cosine) const;
-    /// Integral of at(c) 2 c dc: the albedo under light from everywhere.
+    /// Integral of at(c) 2 c dc: the albedo under uniform illumination.
     double average() const { return average_; }
 
-    /// A cosine with a density near that of at(c) 2 c / average().
+    /// Samples a cosine with a density near at(c) 2 c / average().
     double sample_cosine(double u) const;
     /// The density of sample_cosine(), per unit of the cosine; 0 where the average is 0.
     double pdf_of_cosine(double cosine) const;
 
   private:
     static constexpr std::size_t kCells = 128;
-    struct Place {
+    struct CellPosition {
         std::size_t cell = 0;
         double fraction = 0;
     };
-    Place place_of(double cosine) const;
-    double cosine_at(double place) const;
+    CellPosition position_of(double cosine) const;
+    double cosine_at(double position) const;
 
     double alpha_;
     double cells_per_log_;

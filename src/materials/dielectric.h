@@ -1,4 +1,4 @@
-// What a smooth surface between two transparent media does to light, and glass, the solid that has it.
+// Smooth interfaces between two transparent media, and glass, the solid bounded by them.
 #pragma once
 
 #include <algorithm>
@@ -16,16 +16,16 @@ struct FresnelReflectance {
     double unpolarised() const { return (s + p) / 2; }
 };
 
-/// Cosine of the refracted ray's angle to the normal, of light that arrives at the angle of `cosine` >= 0; 0
-/// where all is reflected. `ior` is that of the far side over that of the near one.
+/// Cosine of the refracted ray's angle to the normal, for light that arrives at an angle of `cosine` >= 0; 0
+/// for total reflection. `ior` is that of the far side over that of the near one.
 double refracted_cosine(double cosine, double ior);
 
 /// Fresnel's equations [Born, Wolf 1999, Principles of optics, 1.5.2 (21)]. 1 beyond the angle of total
 /// reflection.
 FresnelReflectance fresnel_reflectance(double cosine, double ior);
 
-/// The surface of a clear solid that stands in air: light is divided by Fresnel's equations for unpolarised
-/// light and refracted by Snell's law. What a solid absorbs on the way is not handled.
+/// The surface of a clear solid in air: light is divided by Fresnel's equations for unpolarised
+/// light and refracted by Snell's law. Absorption inside of the solid is not handled.
 struct Dielectric {
     double ior = 1.5;  ///< of the solid
 

@@ -35,16 +35,16 @@ class Ggx {
     double brdf_per_sr(const Vec3& in, const Vec3& out, const Vec3& half) const {
         return distribution_per_sr(half) / (2 * (out.z * stretched(in) + in.z * stretched(out)));
     }
-    /// Density of `out` where the facet is drawn from those visible from `in`: D G1(in) / (4 in.z).
+    /// Density of `out` if the facet is sampled from those visible from `in`: D G1(in) / (4 in.z).
     double pdf_per_sr(const Vec3& in, const Vec3& half) const {
         return distribution_per_sr(half) / (2 * (in.z + stretched(in)));
     }
-    /// Light that reaches a visible facet goes on to `out` with this chance: G2 / G1(in).
+    /// The probability G2 / G1(in) that light which meets a visible facet leaves towards `out`.
     double passing(const Vec3& in, const Vec3& out) const {
         return out.z * (in.z + stretched(in)) / (out.z * stretched(in) + in.z * stretched(out));
     }
-    /// A normal of those visible from `in`, with their density where the point is uniform over the unit disk
-    /// [Heitz 2018, Sampling the GGX distribution of visible normals].
+    /// Samples a normal of those visible from `in`, with their density if the point is uniform over the unit
+    /// disk [Heitz 2018, Sampling the GGX distribution of visible normals].
     Vec3 visible_normal(const Vec3& in, const math::DiskPoint& point) const;
 
   private:
@@ -57,8 +57,8 @@ class Ggx {
 };
 
 /// The mean of f(in, normal) over the normals that are visible under this cosine, in = (sine, 0, cosine), for
-/// an f that is even in y. By the midpoint rule on the disk of visible_normal(), closer near its rim, where
-/// the few steep facets are that smooth surfaces lose light by.
+/// an f that is even in y. By the midpoint rule on the disk of visible_normal(), denser near its rim, where
+/// the few steep facets are by which smooth surfaces lose light.
 template <typename Function>
 double mean_over_visible_normals(const Ggx& facets, double cosine, const Function& f) {
     constexpr int kRings = 64, kRays = 64;

@@ -1,8 +1,8 @@
 #include "materials/material.h"
 
-#include <type_traits>
-
 #include <fmt/format.h>
+
+#include <type_traits>
 
 namespace stilb::materials {
 namespace {

@@ -1,7 +1,7 @@
-// Materials: how a surface reflects. Every material is two-sided: both sides reflect alike.
+// Materials: the reflection models of surfaces. Every material is two-sided: both sides reflect equally.
 //
-// One more model is two new files, with what the concept Model of model.h asks for, and its name in the list
-// here. Directions are as model.h has them. Formulas and limits: docs/materials.md.
+// A new model is two new files with the members of the concept Model of model.h, and its name in the list
+// here. Directions are those of model.h. Formulas and limits: docs/materials.md.
 #pragma once
 
 #include <string_view>
@@ -37,8 +37,8 @@ void for_each_model(const Visit& visit) {
 /// Names of the models in scene files.
 std::vector<std::string_view> type_names();
 
-/// BRDF [1/sr]; 0 for directions below the surface and for specular materials. Reciprocal. For one model too,
-/// so that a loop over many directions can pick the model outside.
+/// BRDF [1/sr]; 0 for directions below the surface and for specular materials. Reciprocal. Available for one
+/// model too, so that a loop over many directions can select the model outside.
 template <Model M>
 Rgb evaluate_brdf_per_sr([[maybe_unused]] const M& model, [[maybe_unused]] const Vec3& in,
                          [[maybe_unused]] const Vec3& out) {
@@ -52,37 +52,38 @@ inline Rgb evaluate_brdf_per_sr(const Material& material, const Vec3& in, const 
     return std::visit([&](const auto& model) { return evaluate_brdf_per_sr(model, in, out); }, material);
 }
 
-/// Direction drawn from the material's own density, by two numbers in [0, 1); nothing where light is
-/// absorbed and for specular materials, which specular_branches() has the directions of.
+/// Samples a direction from the material's own density, by two numbers in [0, 1); nothing where light is
+/// absorbed and for specular materials, whose directions specular_branches() gives.
 std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& in, double u1, double u2);
-/// The density that sample_brdf() draws from. Its integral falls short of 1 by the probability of absorption.
+/// The density of sample_brdf(). Its integral falls short of 1 by the probability of absorption.
 double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out);
-/// evaluate_brdf_per_sr(material, in, out) and pdf_per_sr(material, out, in), to the last bit, at the price
+/// evaluate_brdf_per_sr(material, in, out) and pdf_per_sr(material, out, in), bit by bit, for the cost
 /// of one.
 ScatterValue evaluate_and_pdf(const Material& material, const Vec3& in, const Vec3& out);
 
-/// Mirror, glass, pane: no connection to such a surface is possible.
+/// True for mirror, glass and pane: no connection to such a surface is possible.
 bool is_specular(const Material& material);
-/// Where light that comes to the surface from `in` goes on from a specular surface; nowhere from others.
+/// The branches in which light from `in` leaves a specular surface; none for other materials.
 SpecularBranches specular_branches(const Material& material, LightSide side, const Vec3& in);
-/// Whether light goes straight on through the surface, which shadow rays then do as well: panes.
+/// Whether light passes straight through the surface, as shadow rays then do: panes.
 bool passes_straight(const Material& material);
-/// Its share of the flux, at an angle of this cosine to the normal; 0 where nothing does.
+/// Its share of the flux, at an angle of this cosine to the normal; 0 for other materials.
 Rgb straight_transmittance(const Material& material, double cosine);
 
-/// pi f / albedo, averaged over the reflected light, roughly: 1 on diffuse surfaces, large where a lobe
+/// The mean of pi f / albedo over the reflected light, roughly: 1 on diffuse surfaces, large where a lobe
 /// dominates; 0 for specular materials and where nothing is reflected.
 double mean_concentration(const Material& material);
-/// Largest share of arriving light that is reflected or goes on, per band (a bound over directions); but for
-/// plastic, whose share rises to 1 along the surface, that of light from everywhere.
+/// Largest share of arriving light that is reflected or transmitted, per band (a bound over directions); for
+/// plastic, whose share rises to 1 at grazing angles, that of uniform illumination.
 Rgb reflectance_bound(const Material& material);
-/// What reports state: the bound, but of specular materials what they reflect at normal incidence.
+/// The reflectance in reports: the bound, except for specular materials, whose value is that at normal
+/// incidence.
 Rgb stated_reflectance(const Material& material);
 
-/// Throws an InputError with the words of the scene reader where a parameter is out of its range, or several
+/// Throws an InputError in the wording of the scene reader where a parameter is out of its range, or several
 /// contradict each other. `path`: such as materials.wall.
 void validate(const Material& material, std::string_view path);
-/// The model of these parameters, which are checked first: a table made of wrong ones would be nonsense.
+/// Constructs the model from these parameters after checking them, because its tables depend on them.
 template <Model M>
 M make(const ParametersOf<M>& parameters, std::string_view path) {
     validate_fields(parameters, path);

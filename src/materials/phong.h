@@ -1,4 +1,4 @@
-// Gloss as a power of the cosine, over a diffuse part.
+// Gloss as a power of the cosine, with a diffuse part.
 #pragma once
 
 #include <algorithm>
@@ -34,9 +34,9 @@ struct Phong {
         return {brdf_of_lobe_per_sr(value), pdf_of_lobe_per_sr(value, in)};
     }
     std::optional<ScatterSample> sample(const Vec3& in, double u1, double u2) const;
-    /// Exact for grey ones at normal incidence, where pi f of the lobe is (n+2)/2 cos^n and its own light
-    /// sees (n+2)^2 / (4 (n+1)) of it on average; what the lobe sees of the diffuse part, and the reverse,
-    /// is 1.
+    /// Exact for grey materials at normal incidence, where pi f of the lobe is (n+2)/2 cos^n, whose mean over
+    /// the lobe's own light is (n+2)^2 / (4 (n+1)); the mean of the diffuse part over the lobe, and the
+    /// reverse, is 1.
     double concentration() const;
     Rgb reflectance_bound() const { return diffuse + specular; }
 
@@ -53,7 +53,7 @@ struct Phong {
         return diffuse * std::numbers::inv_pi + specular * lobe_per_sr;
     }
     double pdf_of_lobe_per_sr(double lobe, const Vec3& out) const;
-    /// Probability of drawing from the diffuse part; nothing where the material reflects nothing. In
+    /// Probability of sampling the diffuse part; nothing where the material reflects nothing. In
     /// proportion to luminance, so that the luminance of a weighted sample stays near the albedo.
     std::optional<double> diffuse_probability() const;
 };

@@ -8,8 +8,6 @@
 namespace stilb::materials {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double transmission_at(const Ggx& facets, double ior, double cosine) {
     const double reflectance =
         mean_over_visible_normals(facets, cosine, [&](const Vec3& in, const Vec3& normal) {

@@ -8,9 +8,9 @@
 namespace stilb::materials {
 
 /// f = F D G2 / (4 cos cos) + diffuse T(in) T(out) / (pi n^2 (1 - diffuse F_in)), where T = 1 - (the albedo
-/// of the first term), n = ior, and F_in = 1 - T_avg / n^2 is what the coat sends back to the base of diffuse
-/// light from within: Saunderson's correction (1942) with rough transmissions, made reciprocal. Light that
-/// the coat's facets keep among themselves counts as let through. A white base loses nothing.
+/// of the first term), n = ior, and F_in = 1 - T_avg / n^2 is the share of diffuse light from within that the
+/// coat reflects back to the base: Saunderson's correction (1942) with rough transmissions, made reciprocal.
+/// Light that is reflected between the coat's facets counts as transmitted. A white base loses nothing.
 class Plastic {
   public:
     struct Parameters {
@@ -32,7 +32,7 @@ class Plastic {
 
     const Parameters& parameters() const { return parameters_; }
     double concentration() const { return concentration_; }
-    /// The albedo under light from everywhere.
+    /// The albedo under uniform illumination.
     Rgb mean_reflectance() const;
     Rgb reflectance_bound() const { return mean_reflectance(); }
 
@@ -45,7 +45,7 @@ class Plastic {
     /// `through_in` and `through_out`: T under both directions.
     Rgb brdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half, double through_in,
                              double through_out) const;
-    /// Of drawing from the coat's lobe: its share of the luminance.
+    /// The probability of sampling the coat's lobe: its share of the luminance.
     double coat_probability(double through) const;
     double pdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half,
                                double coat_probability) const;
@@ -53,7 +53,7 @@ class Plastic {
     Parameters parameters_;
     Ggx facets_;
     AlbedoTable transmission_;  ///< T
-    /// What comes out again, of light that the coat has let through.
+    /// The share of the light transmitted by the coat that leaves it again.
     Rgb base_;
     double concentration_ = 0;
 };

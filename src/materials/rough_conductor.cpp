@@ -5,9 +5,7 @@
 namespace stilb::materials {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// Share of the light from this direction that white facets keep among themselves at the first reflection.
+/// Share of the light from this direction that remains between white facets after the first reflection.
 double loss_at(const Ggx& facets, double cosine) {
     return mean_over_visible_normals(facets, cosine, [&](const Vec3& in, const Vec3& normal) {
         const Vec3 out = reflected(in, normal);

@@ -1,5 +1,5 @@
-// Rough metal: GGX facets that reflect every colour by a constant share, with the light that facets reflect
-// more than once.
+// Rough metal: GGX facets with a constant reflectance, including multiple reflection between
+// facets.
 #pragma once
 
 #include "materials/albedo_table.h"
@@ -8,11 +8,10 @@
 
 namespace stilb::materials {
 
-/// f = R D G2 / (4 cos cos) + M (1 - E(in)) (1 - E(out)) / (pi (1 - E_avg)), with E the albedo of white
-/// facets that light meets once, and M = R^2 E_avg / (1 - R (1 - E_avg)): [Kulla, Conty 2017, Revisiting
-/// physically based shading at Imageworks, p. 11 to 23], the colour of the second term by the geometric
-/// series of [Turquin 2019 (11)]. Reciprocal; a white one reflects all light but for the error of the table
-/// of E.
+/// f = R D G2 / (4 cos cos) + M (1 - E(in)) (1 - E(out)) / (pi (1 - E_avg)), with E the single-scattering
+/// albedo of white facets, and M = R^2 E_avg / (1 - R (1 - E_avg)): [Kulla, Conty 2017, Revisiting physically
+/// based shading at Imageworks, p. 11 to 23], the colour of the second term by the geometric series of
+/// [Turquin 2019 (11)]. Reciprocal; a white one reflects all light except for the error of the table of E.
 class RoughConductor {
   public:
     struct Parameters {
@@ -40,9 +39,8 @@ class RoughConductor {
     std::optional<ScatterSample> sample(const Vec3& in, double u1, double u2) const;
 
   private:
-    /// `loss_in` and `loss_out`: of the table, under both directions. That of the direction that light comes
-    /// from is the probability of drawing from the light that is reflected more than once, whose share of a
-    /// white one's albedo it is.
+    /// `loss_in` and `loss_out`: values of the table for both directions. `loss_in` is the probability of
+    /// sampling the multiply reflected light, because it is its share of the albedo of a white material.
     Rgb brdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half, double loss_in,
                              double loss_out) const;
     double pdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half, double loss_in) const;

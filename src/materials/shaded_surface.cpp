@@ -7,13 +7,13 @@
 namespace stilb::materials {
 namespace {
 
-/// How often particles are scattered by the cosine to the geometric normal. Directions along the shading
-/// surface, which materials hardly ever draw, may stand well above the triangle.
+/// Attempts to scatter particles by the cosine to the geometric normal. Directions at grazing angles to the
+/// shading surface, which materials hardly ever sample, may be far above the triangle.
 constexpr double kCosineShare = 0.25;
 
 Vec3 behind(const Vec3& v) { return {v.x, v.y, -v.z}; }
 
-/// Share of the flux that is reflected at a specular surface, `in` being in front.
+/// Share of the flux reflected at a specular surface, with `in` in front.
 Rgb reflected_share(const Material& material, LightSide side, const Vec3& in) {
     const SpecularBranches branches = specular_branches(material, side, in);
     for (const SpecularBranch& branch : branches.list()) {
@@ -56,7 +56,8 @@ std::optional<ScatterSample> ShadedSurface::sample_incoming(const Vec3& out, dou
 
 std::optional<Vec3> ShadedSurface::bent_outgoing(const Vec3& shaded_in, double u1, double u2) const {
     if (u1 < kCosineShare) return math::sample_cosine_hemisphere(u1 / kCosineShare, u2).direction;
-    // The eye may stand on either side of the shading surface; where both are above the triangle, either one.
+    // The viewing direction may be on either side of the shading surface, or on both if both are above the
+    // triangle.
     const double u = 2 * (u1 - kCosineShare) / (1 - kCosineShare);
     const bool prefers_front = u < 1;
     const auto drawn =
@@ -92,11 +93,12 @@ SpecularBranches ShadedSurface::branches(LightSide side, const Vec3& from, Carri
     if (!is_bent_ || passes_straight(*material_)) return specular_branches(*material_, side, from);
     if (from.z <= 0) return {};
     return carried == Carried::luminance ? bent_branches_to_light(side, from)
-                                         : bent_branches_to_eye(side, from);
+                                         : bent_branches_to_camera(side, from);
 }
 
 // Particles whose flux is multiplied by J = cos_s(in) cos_g(out) / (cos_g(in) cos_s(out)) [Veach 1997, 5.3.2]
-// make what paths from the eye make that keep all luminance. Both are cut where J is above kMostBrightening.
+// carry the same light as camera paths that keep all luminance. Both are cut where J is above
+// kMostBrightening.
 
 SpecularBranches ShadedSurface::bent_branches_to_light(LightSide side, const Vec3& from) const {
     const Vec3 shaded = shading_.to_local(from);
@@ -118,9 +120,9 @@ SpecularBranches ShadedSurface::bent_branches_to_light(LightSide side, const Vec
     return result;
 }
 
-SpecularBranches ShadedSurface::bent_branches_to_eye(LightSide side, const Vec3& from) const {
+SpecularBranches ShadedSurface::bent_branches_to_camera(LightSide side, const Vec3& from) const {
     SpecularBranches result;
-    // Reflected light may come from a mirrored direction that was turned up, or from one that was not.
+    // Reflected light may come from a mirrored direction that was turned upwards, or from one that was not.
     for (const Vec3& mirrored_out : {from, behind(from)}) {
         const Vec3 out = reflected(mirrored_out, shading_.w);
         if (out.z <= 0) continue;

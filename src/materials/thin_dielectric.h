@@ -8,12 +8,12 @@
 
 namespace stilb::materials {
 
-/// A thin plane sheet with parallel faces in air. What passes goes straight on; what the sheet shifts it
-/// sideways is left out.
+/// A thin plane sheet with parallel faces in air. Transmitted light continues straight; its lateral shift
+/// is ignored.
 struct ThinDielectric {
     double ior = 1.52;
-    /// Share of the light that is left after one passage through the sheet along its normal, without what the
-    /// faces do.
+    /// Share of the light that remains after one passage through the sheet along its normal, without the
+    /// effect of the faces.
     Rgb internal_transmittance = Rgb::grey(1);
 
     static constexpr std::string_view kType = "pane";
@@ -24,13 +24,13 @@ struct ThinDielectric {
                   "share of the light that one passage along the normal leaves, without the faces"}};
     }
 
-    /// Shares of the flux that the sheet reflects and lets pass.
+    /// Shares of the flux that the sheet reflects and transmits.
     struct Shares {
         Rgb reflectance, transmittance;
     };
-    /// Of unpolarised light at an angle of this cosine to the normal, with all inter-reflections: the mean of
-    /// both polarisations, each with r of a face and a = internal_transmittance^(1/cos inside) having T =
-    /// (1-r)^2 a / (1 - r^2 a^2) and R = r + r a T.
+    /// Shares of unpolarised light at an angle of this cosine to the normal, with all inter-reflections: the
+    /// mean of both polarisations, each with r of a face and a = internal_transmittance^(1/cos inside) having
+    /// T = (1-r)^2 a / (1 - r^2 a^2) and R = r + r a T.
     Shares shares(double cosine) const {
         const FresnelReflectance face = fresnel_reflectance(cosine, ior);
         const double length = 1 / refracted_cosine(cosine, ior);
@@ -59,8 +59,8 @@ struct ThinDielectric {
     struct OfOnePolarisation {
         double reflectance = 0, transmittance = 0;
     };
-    /// `face` reflects this share, a passage leaves `inside`. Where a face reflects everything, so does the
-    /// sheet.
+    /// `face`: reflectance of a face, `inside`: transmittance of a passage. If a face reflects everything, so
+    /// does the sheet.
     static OfOnePolarisation with_inter_reflections(double face, double inside) {
         if (face >= 1) return {1, 0};
         const double transmittance = (1 - face) * (1 - face) * inside / (1 - face * face * inside * inside);

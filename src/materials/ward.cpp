@@ -6,12 +6,6 @@
 #include "math/sampling.h"
 
 namespace stilb::materials {
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-}  // namespace
-
 Ward::Ward(const Parameters& parameters)
     : parameters_(parameters),
       cos_rotation_(std::cos(parameters.rotation_deg * kPi / 180)),

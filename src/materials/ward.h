@@ -1,4 +1,4 @@
-// Ward's anisotropic gloss, in the form whose albedo is bounded.
+// Ward's anisotropic gloss, in the form with bounded albedo.
 #pragma once
 
 #include "materials/model.h"
@@ -50,7 +50,7 @@ class Ward {
     std::optional<ScatterSample> sample(const Vec3& in, double u1, double u2) const;
 
   private:
-    /// The lobe for specular = 1, and the density of drawing from it: f cos(out) / pdf = 2 out.z / h.z.
+    /// The lobe for specular = 1, and its density: f cos(out) / pdf = 2 out.z / h.z.
     struct Lobe {
         double brdf_per_sr = 0, pdf_per_sr = 0;
     };

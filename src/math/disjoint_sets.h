@@ -1,4 +1,4 @@
-// Sets without common members, joined step by step.
+// Disjoint sets, joined step by step.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace stilb::math {
 
-/// At first every member 0 ... count - 1 is a set of its own.
+/// Initially every member 0 ... count - 1 is a set of its own.
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t count) : parent_(count) {
@@ -18,7 +18,8 @@ class DisjointSets {
 
     void join(std::uint32_t a, std::uint32_t b) { parent_[root(b)] = root(a); }
 
-    /// Per member the number of its set, in the order of the sets' first members; and how many there are.
+    /// For each member the number of its set, in the order of the sets' first members; and the number of
+    /// sets.
     std::pair<std::vector<std::uint32_t>, std::size_t> numbered() {
         constexpr std::uint32_t none = ~0u;
         std::vector<std::uint32_t> number_of_root(parent_.size(), none), numbers(parent_.size());

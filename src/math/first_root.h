@@ -1,5 +1,5 @@
-// Roots of functions on intervals, for certain. `f(x)` gives value and slope as a pair; a root is where the
-// sign changes.
+// Guaranteed roots of functions on intervals. `f(x)` gives value and slope as a pair; a root is a change
+// of sign.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,10 @@
 
 namespace stilb::math {
 
-/// Of a monotone function between `low` and `high`, where the signs differ; `guess` lies there, too. By
-/// Newton's steps, or halves where those lead out or hardly on. The last of Newton's steps is at most 1e-9 of
-/// the interval, or leaves 1e-12 of it at most, as a second derivative of `curvature` at most tells.
+/// The root of a monotone function between `low` and `high`, where the signs differ; `guess` is between them,
+/// too. By Newton's steps, or bisection where those leave the interval or hardly progress. The last of
+/// Newton's steps is at most 1e-9 of the interval, or leaves an error of at most 1e-12 of it for a second
+/// derivative of at most `curvature`.
 template <typename Function>
 double root_between(const Function& f, double curvature, double low, double high, bool is_negative_at_low,
                     double guess) {
@@ -22,8 +23,8 @@ double root_between(const Function& f, double curvature, double low, double high
         if (value == 0) return x;
         ((value < 0) == is_negative_at_low ? low : high) = x;
         const double step = -value / slope, middle = 0.5 * (low + high);
-        // Newton's error is below curvature / (2 slope) times the square of what was left; 4, as what was
-        // left may be twice the step, and the slope on the way there half of this one.
+        // Newton's error is below curvature / (2 slope) times the square of the previous error; 4, because
+        // the previous error may be twice the step, and the slope in between half of this one.
         const bool is_last = 4 * curvature * step * step <= exact * std::abs(slope);
         if (std::abs(step) <= enough || is_last || middle == low || middle == high) {
             return std::clamp(x + step, low, high);
@@ -44,10 +45,10 @@ std::optional<double> root_of_monotone(const Function& f, double low, double hig
     return root_between(f, unknown, low, high, is_negative, 0.5 * (low + high));
 }
 
-/// The first change of sign between `low`, where it is known, and `high`, of a function whose second
-/// derivative is nowhere larger than `curvature`. Intervals narrower than 2 `narrowest` count by their ends
-/// alone: a pair of roots in one, where the function touches 0, is left out. Rounding loses no change: where
-/// a sign is not what the last one leads to expect, the change is there.
+/// The first change of sign after `low`, where the sign is known, up to `high`, of a function whose second
+/// derivative is nowhere larger than `curvature`. Intervals narrower than 2 `narrowest` are judged by their
+/// ends alone: a pair of roots in one, where the function touches 0, is ignored. Rounding loses no change:
+/// where a sign contradicts the previous one, the change is there.
 template <typename Function>
 std::optional<double> first_root(const Function& f, double curvature, double narrowest, double low,
                                  double high, bool is_negative_at_low) {

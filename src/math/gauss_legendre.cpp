@@ -21,7 +21,7 @@ struct Legendre {
     }
 };
 
-/// Newton's iteration from Tricomi's approximation, which is so close that it ends after a few steps.
+/// Newton's iteration from Tricomi's approximation, which is so accurate that it ends after a few steps.
 double zero_of(int n, int index) {
     double x = std::cos(std::numbers::pi * (index + 0.75) / (n + 0.5));
     for (int step = 0; step < 10; ++step) {

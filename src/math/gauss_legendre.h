@@ -5,13 +5,13 @@
 
 namespace stilb::math {
 
-/// For integrals over [-1, 1]: exact for polynomials up to degree 2 n - 1.
+/// Nodes and weights for integrals over [-1, 1]: exact for polynomials up to degree 2 n - 1.
 struct GaussLegendre {
     std::vector<double> nodes;  ///< ascending
     std::vector<double> weights;
 };
 
-/// n nodes, 1 or more; time goes with n^2.
+/// n nodes, 1 or more; the time is proportional to n^2.
 GaussLegendre gauss_legendre(int n);
 
 }  // namespace stilb::math

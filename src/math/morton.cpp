@@ -8,7 +8,7 @@
 namespace stilb::math {
 namespace {
 
-/// The lowest 21 bits, moved to every third place.
+/// The lowest 21 bits, moved to every third bit.
 std::uint64_t spread_bits(std::uint64_t x) {
     x = (x | x << 32) & 0x1f00000000ffffull;
     x = (x | x << 16) & 0x1f0000ff0000ffull;

@@ -1,4 +1,4 @@
-// A space-filling curve: what is near along it is near in space.
+// A space-filling curve: neighbours along it are neighbours in space.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace stilb::math {
 
-/// Places of points on the Morton curve through the cube about their bounding box: 63-bit codes.
+/// Positions of points on the Morton curve through the cube about their bounding box: 63-bit codes.
 std::vector<std::uint64_t> morton_codes(std::span<const Vec3> points);
 
 }  // namespace stilb::math

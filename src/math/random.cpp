@@ -26,7 +26,7 @@ RandomKey RandomKey::derived(std::uint64_t part) const {
 namespace {
 
 constexpr unsigned kBits = 32;
-/// direction_numbers[dimension][k] is what bit k of the index contributes.
+/// direction_numbers[dimension][k] is the contribution of bit k of the index.
 using DirectionNumbers = std::array<std::array<std::uint32_t, kBits>, kSobolDimensions>;
 
 /// The recurrence of Bratley and Fox 1988 on the primitive polynomials and initial numbers of Joe and Kuo.

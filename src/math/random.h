@@ -1,5 +1,5 @@
-// Counter-based random numbers: what is drawn depends on (key, index, position) alone, never on who drew
-// before.
+// Counter-based random numbers: a number depends on (key, index, position) alone, not on earlier
+// draws.
 #pragma once
 
 #include <array>
@@ -7,11 +7,11 @@
 
 namespace stilb::math {
 
-/// Names an independent family of random numbers; made from the run's seed by derived().
+/// The identifier of an independent family of random numbers; made from the run's seed by derived().
 struct RandomKey {
     std::uint64_t value = 0;
 
-    /// A key for a part (replicate, sensor, purpose ...) of what this key stands for.
+    /// The key of a part (replicate, sensor, purpose ...) of this key's work.
     RandomKey derived(std::uint64_t part) const;
 };
 
@@ -21,8 +21,8 @@ std::array<std::uint32_t, 4> random_block(RandomKey key, std::uint64_t index, st
 /// A number in [0, 1) on the grid of 2^-32.
 constexpr double unit_interval(std::uint32_t word) { return word * 0x1p-32; }
 
-// The numbers that one sample (a chain, a path, a direction) is made from: scrambled Sobol' points in the
-// first dimensions, where smoothness pays, and counter-based random numbers behind them.
+// The numbers of one sample (a light path, a camera path, a direction): scrambled Sobol' points in the
+// first dimensions, where the integrand is smooth, followed by counter-based random numbers.
 
 /// Coordinate `dimension` of Sobol' point `index` [Joe and Kuo 2008], scrambled after Owen by hashing under
 /// `scramble` [Laine and Karras 2011; Burley 2020], as a 32-bit fraction. Every point by itself is uniform.
@@ -31,20 +31,20 @@ std::uint32_t scrambled_sobol(std::uint32_t index, unsigned dimension, std::uint
 /// Unscrambled coordinate, as a 32-bit fraction.
 std::uint32_t sobol(std::uint32_t index, unsigned dimension);
 
-/// Dimensions that come from Sobol' points; later ones are random.
+/// The number of dimensions from Sobol' points; later ones are random.
 inline constexpr unsigned kSobolDimensions = 32;
 
 /// The coordinates of point `index`, one after another. Streams of different keys are independent; the points
 /// of one key, index 0, 1, 2 ..., are a scrambled low-discrepancy sequence.
 class SampleStream {
   public:
-    /// Fewer Sobol' dimensions where points are too few for the later ones to matter, and time counts.
+    /// Uses fewer Sobol' dimensions: saves time where there are too few points for the later ones to matter.
     SampleStream(RandomKey key, std::uint64_t index, unsigned sobol_dimensions = kSobolDimensions)
         : key_(key), index_(index), sobol_dimensions_(sobol_dimensions) {}
 
-    /// What comes after the dimensions drawn so far, under another key: for points that share their first
-    /// dimensions. (A new stream of the same index would repeat the point's first dimensions, not independent
-    /// of these.)
+    /// A stream for the dimensions after those drawn so far, under another key: for points that share their
+    /// first dimensions. (A new stream of the same index would repeat the point's first dimensions, not
+    /// independent of these.)
     SampleStream continued(RandomKey key) const;
 
     /// Uniform in [0, 1).
@@ -61,7 +61,7 @@ class SampleStream {
     }
 
   private:
-    /// Of four dimensions.
+    /// Words of four dimensions.
     std::array<std::uint32_t, 4> words_from(unsigned dimension) const;
 
     RandomKey key_;

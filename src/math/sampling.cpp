@@ -9,8 +9,6 @@ namespace stilb::math {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vec3 from_polar(double sin_theta, double cos_theta, double phi) {
     return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
 }
@@ -66,7 +64,7 @@ DiscreteDistribution::DiscreteDistribution(std::span<const double> weights) : cu
 DiscreteChoice choose_by_sums(std::span<const double> sums, double u) {
     if (sums.size() == 1) return {0, 1, u};
     const double total = sums.back(), target = u * total;
-    // upper_bound passes over entries of weight zero: it finds the first sum that is greater.
+    // upper_bound skips entries of weight zero: it finds the first sum that is greater.
     auto found = std::upper_bound(sums.begin(), sums.end(), target);
     if (found == sums.end()) found = std::lower_bound(sums.begin(), sums.end(), total);
     const double below = found == sums.begin() ? 0 : *(found - 1);

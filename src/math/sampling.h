@@ -1,4 +1,4 @@
-// Directions and points drawn from two numbers in [0, 1), each with its density next to it.
+// Sampling of directions and points from two numbers in [0, 1), each with its density.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace stilb::math {
 
-/// The largest number below 1: what rounding may not carry a number in [0, 1) beyond.
+/// The largest number below 1: rounding must not move a number in [0, 1) beyond it.
 inline constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
 struct DirectionSample {
@@ -54,15 +54,15 @@ struct DiscreteChoice {
     double remainder = 0;  ///< uniform in [0, 1), independent of the choice
 };
 
-/// Draws an index by running sums of weights, as DiscreteDistribution; the last sum is above 0.
+/// Samples an index by running sums of weights, as DiscreteDistribution; the last sum is above 0.
 DiscreteChoice choose_by_sums(std::span<const double> sums, double u);
 
-/// Draws indices in proportion to fixed weights, by inversion: neighbouring numbers give neighbouring
-/// indices, and what is left of the number can be used again.
+/// Samples indices in proportion to fixed weights, by inversion: neighbouring numbers give neighbouring
+/// indices, and the remainder of the number can be used again.
 class DiscreteDistribution {
   public:
     DiscreteDistribution() = default;
-    /// Weights are finite, none is negative, at least one is positive.
+    /// Preconditions: weights are finite, none is negative, at least one is positive.
     explicit DiscreteDistribution(std::span<const double> weights);
 
     DiscreteChoice choose(double u) const { return choose_by_sums(cumulative_, u); }

@@ -9,7 +9,7 @@
 namespace stilb::math {
 namespace {
 
-/// q_l+1 = a z q_l - b q_l-1, for one m: what is left of normalised Legendre functions without sin^m(theta).
+/// q_l+1 = a z q_l - b q_l-1, for one m: normalised Legendre functions without the factor sin^m(theta).
 struct Step {
     double a = 0, b = 0;
 };
@@ -57,7 +57,7 @@ int degree_of(std::size_t count) {
     for (int degree = 0; degree <= kMostHarmonicDegree; ++degree) {
         if (harmonic_count(degree) == count) return degree;
     }
-    throw std::invalid_argument("not the number of spherical harmonics of a degree");
+    throw std::invalid_argument("the number of coefficients belongs to no degree of spherical harmonics");
 }
 
 }  // namespace
@@ -191,7 +191,7 @@ typename HarmonicSeries<T>::Value HarmonicSeries<T>::with_gradient(const Vec3& d
 template class HarmonicSeries<float>;
 template class HarmonicSeries<double>;
 
-/// Along any great circle f'' is at most L^2 max |f| [Bernstein], and where f is largest or least f' = 0: so
+/// Along any great circle f'' is at most L^2 max |f| [Bernstein], and f' = 0 where f is largest or least: so
 /// a point of a grid that is no farther than e has a value that differs by L^2 e^2 max |f| / 2 at most.
 HarmonicRange range_of(const HarmonicSeries<double>& series) {
     constexpr double part = 0.03;

@@ -31,7 +31,7 @@ constexpr std::size_t harmonic_number(int l, int m) {
 /// kMostHarmonicDegree.
 void evaluate_harmonics(const Vec3& direction, int degree, std::span<double> values);
 
-/// f = sum of a_lm Y_lm. T is float or double: of the coefficients and the arithmetic.
+/// f = sum of a_lm Y_lm. T: float or double, for the coefficients and the arithmetic.
 template <typename T>
 class HarmonicSeries {
   public:
@@ -45,13 +45,13 @@ class HarmonicSeries {
 
     struct Value {
         T value = 0;
-        /// Tangential to the sphere: the change of the value per radian.
+        /// The gradient tangential to the sphere: the change of the value per radian.
         Vec3 gradient;
     };
-    /// At unit directions.
+    /// The values at unit directions.
     T at(const Vec3& direction) const;
     Value with_gradient(const Vec3& direction) const;
-    /// On the parallel z = cos(theta), at phi = 2 pi k / count, k = 0, 1 ... count - 1.
+    /// The values on the parallel z = cos(theta), at phi = 2 pi k / count, k = 0, 1 ... count - 1.
     std::vector<T> on_parallel(double z, std::size_t count) const;
 
   private:
@@ -72,7 +72,7 @@ class HarmonicSeries {
 extern template class HarmonicSeries<float>;
 extern template class HarmonicSeries<double>;
 
-/// Bounds of a series over the sphere: safe ones, off by 4 % of the largest magnitude at most.
+/// Guaranteed bounds of a series over the sphere, off by 4 % of the largest magnitude at most.
 struct HarmonicRange {
     double least = 0, greatest = 0;
 };

@@ -1,4 +1,4 @@
-// Functions over the directions of a hemisphere, as polynomials on the disk that it projects to.
+// Functions over the directions of a hemisphere, as polynomials on the unit disk of its projection.
 //
 // A unit direction (x, y, z), z >= 0, lies above the point (x, y) of the unit disk, and the area there is the
 // projected solid angle cos(theta) dw [Nusselt]. Zernike's polynomials are orthogonal on the disk [Born and
@@ -23,7 +23,7 @@ class ZernikeBasis {
     static constexpr int kMostDegree = 12;
     static constexpr std::size_t kMostCount = (kMostDegree + 1) * (kMostDegree + 2) / 2;
 
-    /// Of all polynomials up to `degree`, from 0 to kMostDegree.
+    /// The basis of all polynomials up to `degree`, from 0 to kMostDegree.
     explicit ZernikeBasis(int degree);
 
     int degree() const { return degree_; }
@@ -36,7 +36,7 @@ class ZernikeBasis {
     void evaluate(const Vec3& direction, std::span<double> values) const;
 
   private:
-    /// Of radial polynomials of one m: p_k+1 = (a t + b) p_k - c p_k-1, t = 2 r^2 - 1.
+    /// The recurrence of radial polynomials of one m: p_k+1 = (a t + b) p_k - c p_k-1, t = 2 r^2 - 1.
     struct Recurrence {
         double a = 0, b = 0, c = 0;
     };

@@ -19,11 +19,11 @@ namespace stilb::patches {
 
 namespace {
 
-/// The area of a patch in squares of the longest edge, about: halving leaves edges anywhere between half of
-/// it and all of it.
+/// The area of a patch in squares of the longest edge, approximately: halving leaves edges between half of
+/// the limit and the limit.
 constexpr double kMeanArea = 0.2;
 
-/// How a shape is divided: from what, how finely at most, and where new vertices go.
+/// The division of a shape: its starting mesh, the limit of its edges, and the positions of new vertices.
 struct Division {
     Mesh coarse;
     double longest_edge_m;
@@ -80,15 +80,15 @@ Division division_of(const Disk& disk, double longest_edge_m) {
 void check_size(const Scene& scene, double longest_edge_m) {
     if (!(longest_edge_m > 0) || !std::isfinite(longest_edge_m)) {
         throw InputError(
-            fmt::format("the patch size is {} m: edges of patches have a length. It must be above 0; "
-                        "about {:.2g} m makes 10,000 patches here.",
+            fmt::format("the patch size is {} m, but must be above 0; "
+                        "about {:.2g} m gives 10,000 patches here.",
                         longest_edge_m, patch_size_m(scene)));
     }
     const double about = surface_area_m2(scene) / (kMeanArea * longest_edge_m * longest_edge_m);
     if (about > static_cast<double>(kMostPatches)) {
         throw InputError(fmt::format(
-            "a patch size of {} m would make about {:.1g} patches, more than the {} that "
-            "there may be. Take {:.2g} m or more.",
+            "a patch size of {} m would give about {:.1g} patches, more than the limit of {}. "
+            "Use {:.2g} m or more.",
             longest_edge_m, about, kMostPatches, patch_size_m(scene, static_cast<double>(kMostPatches))));
     }
 }
@@ -148,10 +148,10 @@ ObjectId Patches::object_of(std::uint32_t patch) const {
     return ObjectId{static_cast<std::uint32_t>(after - first_of_object.begin() - 1)};
 }
 
-Vec3 Patches::position(std::uint32_t patch, const math::Barycentric& place) const {
+Vec3 Patches::position(std::uint32_t patch, const math::Barycentric& barycentric) const {
     const auto& [a, b, c] = corners[patch];
-    return center + place.b0 * Vec3(vertices[a]) + place.b1 * Vec3(vertices[b]) +
-           place.b2 * Vec3(vertices[c]);
+    return center + barycentric.b0 * Vec3(vertices[a]) + barycentric.b1 * Vec3(vertices[b]) +
+           barycentric.b2 * Vec3(vertices[c]);
 }
 
 Vec3 Patches::middle(std::uint32_t patch) const { return position(patch, {1. / 3, 1. / 3, 1. / 3}); }
@@ -194,10 +194,10 @@ double patch_size_m(const Scene& scene, double count) {
 namespace {
 
 constexpr std::uint32_t kNone = ~0u;
-/// So that edges of exactly the length asked for stay whole, however they are rounded.
+/// A tolerance, so that edges of exactly the limit are not divided because of rounding.
 constexpr double kRounding = 1 + 1e-9;
 
-/// The vertices in the middle of edges, each made when it is first asked for.
+/// The vertices in the middle of edges, each created on first use.
 class Middles {
   public:
     Middles(std::vector<Vec3>& vertices, const MiddleOf& middle_of, std::size_t about)
@@ -218,7 +218,7 @@ class Middles {
     std::unordered_map<std::uint64_t, std::uint32_t> of_edge_;
 };
 
-/// A triangle turned so that its longest edge comes first; edge i runs from corner i to corner i + 1.
+/// A triangle rotated so that its longest edge comes first; edge i runs from corner i to corner i + 1.
 struct TurnedTriangle {
     Triangle corners;
     std::array<double, 3> squared_lengths;
@@ -236,7 +236,7 @@ TurnedTriangle longest_first(const Triangle& t, const std::vector<Vec3>& vertice
     return turned;
 }
 
-/// One round: all edges longer than the limit are halved once.
+/// One round: all edges above the limit are halved once.
 class Halving {
   public:
     Halving(RefinedMesh& coarse, double longest_edge_m, const MiddleOf& middle_of)
@@ -244,7 +244,7 @@ class Halving {
           squared_limit_(longest_edge_m * longest_edge_m * kRounding),
           middles_(coarse.mesh.vertices, middle_of, coarse.mesh.triangles.size()) {}
 
-    /// False where nothing was left to do.
+    /// Returns false where no edge was left to halve.
     bool run() {
         const std::size_t count = coarse_.mesh.triangles.size();
         finer_.reserve(2 * count);
@@ -278,7 +278,7 @@ class Halving {
     }
 
     /// The half whose corners `from` and `to` are the ends of an edge of the whole, with that edge's middle
-    /// where it has one.
+    /// if it has one.
     void divide_half(std::uint32_t from, std::uint32_t ab, std::uint32_t to, std::uint32_t middle) {
         if (middle == kNone) {
             finer_.push_back({from, ab, to});

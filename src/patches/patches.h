@@ -1,14 +1,15 @@
-// The surfaces of a scene as small triangles, for everything that keeps a value for each part of a surface.
+// The surfaces of a scene as small triangles (patches), for methods that store a value for each part of a
+// surface.
 //
 // All shapes become triangles: spheres an inscribed polyhedron, disks a polygon, both with every vertex on
 // the true shape, so that their areas fall short by a share in proportion to (edge / radius)^2 (2 % at the
 // coarsest, see kLongestCurvedEdge). Edges are halved until none is longer than the patch size
-// (refinement.h). Patches on lights, mirrors and glass are like others.
+// (refinement.h). Patches on lights, mirrors and glass are treated like others.
 //
 // A patch has two sides, as materials reflect on both. Sides are numbered: the front of patch p is p, its
 // back p + count(), so that the fronts' values come first in arrays of 2 count() values, and those of the
 // backs after them. The front is the side from which the vertices run counterclockwise; only fronts of area
-// lights shine.
+// lights emit.
 #pragma once
 
 #include <cstddef>
@@ -25,34 +26,35 @@
 
 namespace stilb::patches {
 
-/// Single precision, for what there is much of.
+/// Single precision, for large arrays.
 struct Float3 {
     float x = 0, y = 0, z = 0;
 
     explicit operator Vec3() const { return {x, y, z}; }
 };
 
-/// Where a side is looked for and there is none.
+/// The side index that stands for no side.
 inline constexpr std::uint32_t kNoSide = ~0u;
 
-/// In the order of the scene's objects and, in a mesh, of its triangles; so neighbours in number are
-/// neighbours in space. About 40 bytes for each.
+/// In the order of the scene's objects and, in a mesh, of its triangles, so that neighbours in number are
+/// neighbours in space. About 40 bytes each.
 struct Patches {
-    Vec3 center;                    ///< what `vertices` are relative to: the middle of the bounding box
-    std::vector<Float3> vertices;   ///< [m], divided at creases (smooth_vertices.h): places occur repeatedly
-    std::vector<Triangle> corners;  ///< per patch, of `vertices`
-    std::vector<Float3> normals;    ///< per patch: geometric, unit, on the front
-    std::vector<float> areas_m2;    ///< per patch, one side
+    Vec3 center;  ///< the origin of `vertices`: the middle of the bounding box
+    std::vector<Float3>
+        vertices;  ///< [m], divided at creases (smooth_vertices.h), so positions occur repeatedly
+    std::vector<Triangle> corners;                  ///< per patch, of `vertices`
+    std::vector<Float3> normals;                    ///< per patch: geometric, unit, on the front
+    std::vector<float> areas_m2;                    ///< per patch, one side
     std::vector<MaterialId> materials;              ///< per patch
     std::vector<std::uint32_t> first_of_object{0};  ///< per object, and the number of patches at the end
 
     std::size_t count() const { return corners.size(); }
     ObjectId object_of(std::uint32_t patch) const;
     /// In world coordinates [m], rounded to 2^-24 of the scene's size.
-    Vec3 position(std::uint32_t patch, const math::Barycentric& place) const;
+    Vec3 position(std::uint32_t patch, const math::Barycentric& barycentric) const;
     Vec3 middle(std::uint32_t patch) const;
 
-    /// Of sides that are some, not kNoSide.
+    /// Precondition: side != kNoSide.
     std::uint32_t patch_of(std::uint32_t side) const { return is_front(side) ? side : other_side(side); }
     bool is_front(std::uint32_t side) const { return side < count(); }
     std::uint32_t other_side(std::uint32_t side) const {
@@ -63,7 +65,7 @@ struct Patches {
     Vec3 normal_of(std::uint32_t side) const;
 };
 
-/// No edge of a sphere or of a disk's rim is longer than this times the radius, however large the patch size.
+/// The longest edge of a sphere or of a disk's rim, over the radius, for any patch size.
 inline constexpr double kLongestCurvedEdge = 0.4;
 inline constexpr std::size_t kMostPatches = 100'000'000;
 
@@ -71,7 +73,7 @@ inline constexpr std::size_t kMostPatches = 100'000'000;
 /// InputError where the size is not above 0, and where there would be more than about kMostPatches; Cancelled
 /// as the monitor says.
 Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor = Monitor::none());
-/// Of all vertices, relative to Patches::center [m].
+/// Bounds of all vertices, relative to Patches::center [m].
 Bounds bounds_of(const Patches& patches);
 /// The longest edge with which the scene has about `count` patches (within a factor of two where its surfaces
 /// are large against that).
@@ -79,22 +81,22 @@ double patch_size_m(const Scene& scene, double count = 10'000);
 
 // Meshes made finer, without T-junctions.
 //
-// Every edge that is too long is halved, whatever triangles meet in it, until none is. Whether an edge is
-// halved, and where, thus depends on its two ends alone: neighbours always agree, also those of other objects
-// along edges that they share. A triangle is halved at its longest edge first, which keeps its angles from
-// becoming small [Rivara 1984, Algorithms for refining triangular grids].
+// Every edge above the limit is halved, in all triangles that share it, until none is left. Whether an edge
+// is halved, and where, thus depends on its two ends alone: neighbours always agree, also those of other
+// objects along edges that they share. A triangle is halved at its longest edge first, which keeps its angles
+// from becoming small [Rivara 1984, Algorithms for refining triangular grids].
 
-/// The place of a new vertex between two others; the same for (a, b) and (b, a).
+/// The position of a new vertex between two others; the same for (a, b) and (b, a).
 using MiddleOf = std::function<Vec3(const Vec3& a, const Vec3& b)>;
 
 struct RefinedMesh {
     Mesh mesh;
-    /// Per triangle, the one of the coarse mesh that it is part of. Those of the same parent follow one
-    /// another, and the parents stand in their order.
+    /// For each triangle, its parent in the coarse mesh. Triangles of the same parent follow one
+    /// another, in the order of the parents.
     std::vector<std::uint32_t> parents;
 };
 
-/// `coarse` with all edges halved until none is longer than `longest_edge_m` (but for rounding). Triangles
+/// `coarse` with all edges halved until none is longer than `longest_edge_m` (up to rounding). Triangles
 /// keep their front.
 RefinedMesh refined(Mesh coarse, double longest_edge_m, const MiddleOf& middle_of);
 

@@ -14,18 +14,18 @@ namespace stilb::patches {
 
 namespace {
 
-/// Sums over the patches around a vertex; d is the way from the vertex to a patch's middle.
+/// Sums over the patches around a vertex; d is the vector from the vertex to a patch's middle.
 struct Surroundings {
     double count = 0;
     Vec3 normal;                 ///< sum of the unit normals
     Vec3 d;                      ///< sum of d
     std::array<Vec3, 3> d_by_d;  ///< sums of d.x d, d.y d, d.z d
 
-    void add(const Vec3& patch_normal, const Vec3& way) {
+    void add(const Vec3& patch_normal, const Vec3& offset) {
         count += 1;
         normal += patch_normal;
-        d += way;
-        for (std::size_t axis = 0; axis < 3; ++axis) d_by_d[axis] += way[axis] * way;
+        d += offset;
+        for (std::size_t axis = 0; axis < 3; ++axis) d_by_d[axis] += offset[axis] * offset;
     }
     double sum_of_products(const Vec3& u, const Vec3& v) const {
         return u.x * dot(d_by_d[0], v) + u.y * dot(d_by_d[1], v) + u.z * dot(d_by_d[2], v);
@@ -40,8 +40,8 @@ struct Weighting {
 
 Weighting plain_mean(double count) { return {1 / count, {}}; }
 
-/// Of the fitted plane's value at the vertex: the weights with sum w = 1 and sum w d = 0 (along the surface)
-/// whose squares have the smallest sum.
+/// The weights of the fitted plane's value at the vertex: those with sum w = 1 and sum w d = 0 (along the
+/// surface) whose squares have the smallest sum.
 Weighting fitted_plane(const Surroundings& around) {
     const Frame frame = Frame::around(normalized(around.normal));
     const double n = around.count, u = dot(frame.u, around.d), v = dot(frame.v, around.d);
@@ -54,8 +54,8 @@ Weighting fitted_plane(const Surroundings& around) {
     return {minor / determinant, (by_u / determinant) * frame.u + (by_v / determinant) * frame.v};
 }
 
-/// Calls `visit(patch, corner, vertex, way)` for all corners of all patches; the way leads from the corner to
-/// the patch's middle.
+/// Calls `visit(patch, corner, vertex, offset)` for all corners of all patches; the offset is the vector from
+/// the corner to the patch's middle.
 template <typename Visitor>
 void for_each_corner(const Patches& patches, const Visitor& visit) {
     for (std::uint32_t p = 0; p < patches.count(); ++p) {
@@ -70,23 +70,23 @@ void for_each_corner(const Patches& patches, const Visitor& visit) {
 }  // namespace
 
 std::vector<std::vector<VertexInterpolation::Share>> VertexInterpolation::shares_of(
-    std::span<const Place> places) const {
+    std::span<const PatchPoint> points) const {
     struct User {
-        std::size_t place;
+        std::size_t index;
         double weight;  ///< of the vertex
     };
     std::unordered_multimap<std::uint32_t, User> users;  // by vertex
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto& [a, b, c] = patches_.corners[places[i].patch];
-        const auto& [b0, b1, b2] = places[i].place;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& [a, b, c] = patches_.corners[points[i].patch];
+        const auto& [b0, b1, b2] = points[i].barycentric;
         users.insert({{a, {i, b0}}, {b, {i, b1}}, {c, {i, b2}}});
     }
-    std::vector<std::vector<Share>> shares(places.size());
+    std::vector<std::vector<Share>> shares(points.size());
     for (std::uint32_t p = 0; p < patches_.count(); ++p) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const auto [first, last] = users.equal_range(patches_.corners[p][corner]);
             for (auto user = first; user != last; ++user) {
-                shares[user->second.place].push_back({p, user->second.weight * double{weights_[p][corner]}});
+                shares[user->second.index].push_back({p, user->second.weight * double{weights_[p][corner]}});
             }
         }
     }
@@ -96,29 +96,30 @@ std::vector<std::vector<VertexInterpolation::Share>> VertexInterpolation::shares
 VertexInterpolation::VertexInterpolation(const Patches& patches)
     : patches_(patches), weights_(patches.count()) {
     std::vector<Surroundings> around(patches.vertices.size());
-    for_each_corner(patches, [&](std::uint32_t patch, std::size_t, std::uint32_t vertex, const Vec3& way) {
-        around[vertex].add(Vec3(patches.normals[patch]), way);
+    for_each_corner(patches, [&](std::uint32_t patch, std::size_t, std::uint32_t vertex, const Vec3& offset) {
+        around[vertex].add(Vec3(patches.normals[patch]), offset);
     });
     std::vector<Weighting> weightings(around.size());
     std::ranges::transform(around, weightings.begin(), fitted_plane);
-    const auto weight_of = [&](std::uint32_t vertex, const Vec3& way) {
-        return weightings[vertex].constant + dot(weightings[vertex].slope, way);
+    const auto weight_of = [&](std::uint32_t vertex, const Vec3& offset) {
+        return weightings[vertex].constant + dot(weightings[vertex].slope, offset);
     };
     std::vector<bool> extrapolates(around.size());
-    for_each_corner(patches, [&](std::uint32_t, std::size_t, std::uint32_t vertex, const Vec3& way) {
-        if (weight_of(vertex, way) < 0) extrapolates[vertex] = true;
+    for_each_corner(patches, [&](std::uint32_t, std::size_t, std::uint32_t vertex, const Vec3& offset) {
+        if (weight_of(vertex, offset) < 0) extrapolates[vertex] = true;
     });
     for (std::size_t v = 0; v < around.size(); ++v) {
         if (extrapolates[v]) weightings[v] = plain_mean(around[v].count);
     }
-    for_each_corner(patches, [&](std::uint32_t patch, std::size_t i, std::uint32_t vertex, const Vec3& way) {
-        weights_[patch][i] = static_cast<float>(weight_of(vertex, way));
-    });
+    for_each_corner(patches,
+                    [&](std::uint32_t patch, std::size_t i, std::uint32_t vertex, const Vec3& offset) {
+                        weights_[patch][i] = static_cast<float>(weight_of(vertex, offset));
+                    });
 }
 
 namespace {
 
-/// Corners of triangles are numbered 3 triangle + place.
+/// Corners of triangles are numbered 3 triangle + index.
 std::uint32_t corner_at(std::span<const Triangle> triangles, std::uint32_t triangle, std::uint32_t vertex) {
     const Triangle& corners = triangles[triangle];
     return 3 * triangle + static_cast<std::uint32_t>(std::ranges::find(corners, vertex) - corners.begin());

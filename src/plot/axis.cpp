@@ -14,7 +14,8 @@ namespace stilb::plot {
 
 namespace {
 
-/// Absorbs rounding where a tick falls on an end of the scale; a share of the distance between ticks.
+/// The tolerance for rounding where a tick falls on an end of the scale; a share of the distance between
+/// ticks.
 constexpr double kSlack = 1e-6;
 
 constexpr std::array<double, 3> kRound{1, 2, 5};
@@ -155,10 +156,11 @@ Scale::Scale(ScaleType type, AxisRange range) : type_(type), range_(range) {
                                      range.low, range.high));
     }
     if (type == ScaleType::logarithmic && range.low <= 0) {
-        throw InputError(fmt::format(
-            "a logarithmic scale cannot start at {} (only numbers above 0 have a logarithm). Give a minimum "
-            "above 0 or use a linear scale.",
-            range.low));
+        throw InputError(
+            fmt::format("a logarithmic scale cannot start at {}, because only numbers above 0 have a "
+                        "logarithm. Give a minimum "
+                        "above 0 or use a linear scale.",
+                        range.low));
     }
 }
 

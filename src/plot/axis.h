@@ -51,13 +51,13 @@ Ticks nice_ticks(const Scale& scale, int most);
 /// or 1 to 10, where there are none.
 AxisRange nice_range(ScaleType type, std::span<const double> values);
 
-/// A number as a reader likes it: a true minus sign, thousands set apart from 10 000 on, `decimals` places.
+/// A number in readable form: a true minus sign, thousands separated from 10 000 on, `decimals` places.
 std::string number_text(double value, int decimals);
 
-/// Places after the point that give `value` at least three significant digits.
+/// Decimal places that give `value` at least three significant digits.
 int three_digit_decimals(double value);
 
-// Axes as drawn: ticks, their labels and what the axis is called. Shared by all figures.
+// Axes as drawn: ticks, their labels and the axis label. Shared by all figures.
 
 inline constexpr double kAxisTextSize = 10;
 inline constexpr io::Colour kInk = io::grey(0.15);
@@ -66,13 +66,13 @@ inline constexpr io::Colour kFaintInk = io::grey(0.4);
 /// The side of the frame that the axis runs along.
 enum class Side { left, right, bottom };
 
-/// Where values lie along that side: left and right axes grow upwards.
+/// The range of values along that side: left and right axes grow upwards.
 double position_along(const Scale& scale, Side side, const PageRectangle& frame, double value);
 
 /// Draws ticks outwards from the frame, with labels.
 void draw_axis(Canvas& canvas, const Scale& scale, const Ticks& ticks, Side side, const PageRectangle& frame);
 
-/// Room that ticks and labels take beyond the frame, away from it.
+/// The space of ticks and labels outside of the frame.
 double axis_extent(const Ticks& ticks, Side side);
 
 }  // namespace stilb::plot

@@ -36,7 +36,7 @@ void require_success(cairo_status_t status) {
     if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(cairo_status_to_string(status));
 }
 
-/// Cairo's sink: `closure` is the std::string that collects the file.
+/// The output function of Cairo: `closure` is the std::string that collects the file.
 cairo_status_t append(void* closure, const unsigned char* data, unsigned int length) {
     static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
     return CAIRO_STATUS_SUCCESS;
@@ -72,7 +72,7 @@ void set_stroke(cairo_t* context, const Stroke& stroke) {
     cairo_set_dash(context, stroke.dashes.data(), static_cast<int>(stroke.dashes.size()), 0);
 }
 
-/// The extension in lower case; InputError where no picture can have it.
+/// The extension in lower case. Throws InputError where no picture can have it.
 std::string picture_extension(const std::filesystem::path& path) {
     std::string extension = io::extension_of(path);
     if (extension != ".png" && extension != ".svg") {
@@ -90,8 +90,8 @@ void require_picture_path(const std::filesystem::path& path) {
 }
 
 struct Canvas::Cairo {
-    /// The SVG's text as it grows; Cairo writes to it until the surface is finished, hence before the
-    /// surface.
+    /// The growing text of the SVG. It precedes the surface, because Cairo writes to it until the surface is
+    /// finished.
     std::string svg;
     Surface surface;
     Context context;
@@ -132,10 +132,10 @@ void Canvas::image(const PageRectangle& place, const PixelImage& image) {
     unsigned char* row = cairo_image_surface_get_data(surface.get());
     auto pixel = image.pixels.begin();
     for (int y = 0; y < image.height; ++y, row += cairo_image_surface_get_stride(surface.get())) {
-        unsigned char* place_in_row = row;
-        for (int x = 0; x < image.width; ++x, ++pixel, place_in_row += 4) {
+        unsigned char* position_in_row = row;
+        for (int x = 0; x < image.width; ++x, ++pixel, position_in_row += 4) {
             const std::uint32_t argb = *pixel == PixelImage::kTransparent ? 0 : 0xff000000 | *pixel;
-            std::memcpy(place_in_row, &argb, 4);
+            std::memcpy(position_in_row, &argb, 4);
         }
     }
     cairo_surface_mark_dirty(surface.get());

@@ -1,5 +1,5 @@
-// A sheet to draw on, saved as PNG or SVG: the same calls give the same picture in both. The only file that
-// sees Cairo.
+// A sheet to draw on, saved as PNG or SVG: the same calls give the same picture in both. Only this
+// implementation includes Cairo.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct Stroke {
 };
 
 enum class Weight { regular, bold };
-/// Which part of the text lies at the given point.
+/// The part of the text that lies at the given point.
 enum class HorizontalPart { left, center, right };
 enum class VerticalPart { top, middle, baseline };
 
@@ -60,34 +60,34 @@ struct PixelImage {
 
 inline constexpr double kUpwards = -std::numbers::pi / 2;
 
-/// Advance of one line of text.
+/// Advance width of one line of text.
 double text_width(const std::string& text, double size, Weight weight = Weight::regular);
 
 /// Throws InputError where no picture can be written to `path`: another extension than .png or .svg (any
-/// case), or a folder that does not exist. For a look before a long computation.
+/// case), or a folder that does not exist. For a check before a long computation.
 void require_picture_path(const std::filesystem::path& path);
 
 class Canvas {
   public:
-    /// A white sheet. The extension of `path` says what it becomes: .png or .svg (any case); InputError
-    /// otherwise.
+    /// A white sheet. The extension of `path` selects the format: .png or .svg (any case); InputError
+    /// for others.
     Canvas(std::filesystem::path path, double width, double height);
     ~Canvas();
     Canvas(Canvas&&) noexcept;
     Canvas& operator=(Canvas&&) noexcept;
 
-    /// With hard edges, so that neighbours leave no seam.
+    /// A rectangle with hard edges, so that neighbours leave no seam.
     void fill_rectangle(const PageRectangle& rectangle, const io::Colour& colour);
-    /// Pixels stay sharp, however large they are drawn.
+    /// An image whose pixels stay sharp at any magnification.
     void image(const PageRectangle& place, const PixelImage& image);
     void stroke_rectangle(const PageRectangle& rectangle, const Stroke& stroke);
     void line(const Point& from, const Point& to, const Stroke& stroke);
-    /// Open and with round joins.
+    /// An open line with round joins.
     void polyline(std::span<const Point> points, const Stroke& stroke);
     void fill_polygon(std::span<const Point> points, const io::Colour& colour);
     void fill_circle(const Point& center, double radius, const io::Colour& colour);
     void text(const Point& at, const std::string& text, const TextStyle& style);
-    /// What `draw` draws shows only inside the rectangle.
+    /// Clips the drawing of `draw` to the rectangle.
     void clipped(const PageRectangle& rectangle, const std::function<void()>& draw);
 
     /// Writes the file; nothing may be drawn afterwards. Throws InputError where it cannot be written.

@@ -23,9 +23,9 @@ namespace {
 constexpr double kNameGap = 12;
 constexpr double kColumnGap = 32;
 constexpr double kRowGap = 24;
-/// Rows fill this width unless they got too high by it.
+/// The width that rows fill, unless they would become too high.
 constexpr double kContentWidth = 860;
-/// Of all rows together.
+/// The height of all rows together.
 constexpr double kMostHeight = 600;
 constexpr double kLeastRowHeight = 100;
 constexpr std::size_t kMostColumns = 6;
@@ -55,7 +55,7 @@ Ticks length_ticks(double length_m, double drawn) {
 
 double header_height(const FalseColourPanel& panel) { return panel.subtitle.empty() ? 20 : 36; }
 
-/// A panel's place: the frame holds the cells, the box also the header and the axes.
+/// The layout of a panel: the frame holds the cells, the box also the header and the axes.
 struct Tile {
     PageRectangle frame;
     PageRectangle box;
@@ -131,7 +131,7 @@ Layout lay_out(Panels panels, std::size_t columns) {
     return layout;
 }
 
-/// With as many columns as bring the whole nearest to a pleasant shape.
+/// Chooses the number of columns that gives the whole sheet the best proportions.
 Layout lay_out(Panels panels) {
     Layout best;
     double least = std::numeric_limits<double>::infinity();
@@ -160,7 +160,7 @@ int decimals_of(const FalseColourPanel& panel) {
     return three_digit_decimals(largest);
 }
 
-/// The size at which every number fits its cell; 0 where that would be too small to read.
+/// The font size at which every number fits its cell; 0 where that would be too small to read.
 double number_size(const FalseColourPanel& panel, const PageRectangle& frame) {
     constexpr double kLeast = 6;
     constexpr double kMost = 13;
@@ -178,7 +178,7 @@ double number_size(const FalseColourPanel& panel, const PageRectangle& frame) {
     return size < kLeast ? 0 : size;
 }
 
-/// Draws one panel after the other; holds what they share.
+/// Draws one panel after the other, with their common data.
 class PanelPainter {
   public:
     PanelPainter(Canvas& canvas, FalseColourPainter& painter, const FalseColourOptions& options)
@@ -231,7 +231,7 @@ class PanelPainter {
 };
 
 void require_consistency(const FalseColour& picture) {
-    if (picture.panels.empty()) throw std::invalid_argument("a false-colour picture without panels");
+    if (picture.panels.empty()) throw std::invalid_argument("the false-colour picture has no panels");
     for (const FalseColourPanel& panel : picture.panels) {
         const bool counts_fit =
             panel.nu > 0 && panel.nv > 0 &&
@@ -279,7 +279,7 @@ struct Knot {
     double lightness, chroma, hue_degrees;
 };
 
-/// What the curve passes through: hues in one direction, chroma as strong as sRGB has it at that lightness.
+/// The knots of the curve: hues in one direction, chroma as strong as sRGB has it at that lightness.
 constexpr std::array<Knot, 5> kKnots{{
     {0.13, 0.035, 280},
     {0.34, 0.155, 290},

@@ -33,12 +33,12 @@ struct FalseColour {
 
 struct FalseColourOptions {
     ScaleType scale = ScaleType::linear;
-    /// Ends of the scale, common to all panels; round numbers about the data where absent (on a logarithmic
+    /// Ends of the scale, common to all panels; absent: round numbers about the data (on a logarithmic
     /// scale at most four decades). Values beyond get the end's colour.
     std::optional<double> minimum, maximum;
-    /// Lines at the labelled values inside the colour bar. They carry the value unless cells do.
+    /// Lines at the labelled values inside the colour bar. They are labelled unless cells show their values.
     bool isolines = false;
-    /// The value in each cell, where all of a panel's cells have room for it.
+    /// The value in each cell, where it fits into all of a panel's cells.
     bool numbers = false;
 };
 
@@ -49,17 +49,18 @@ void draw_false_colour(const FalseColour& picture, const FalseColourOptions& opt
 
 // The colours of a false-colour picture.
 
-/// From almost black over blue, magenta and orange to pale yellow. Lightness grows all the way, so that the
-/// order survives grey print and colour blindness, and equal steps of the argument are equal steps in OKLab.
+/// From almost black over blue, magenta and orange to pale yellow. Lightness increases monotonically, so that
+/// the order survives grey print and colour blindness, and equal steps of the argument are equal steps in
+/// OKLab.
 class ColourMap {
   public:
     ColourMap();
 
-    /// The colour at 0 (least) to 1 (most); what lies outside gets the end's colour.
+    /// The colour at 0 (least) to 1 (most); values outside get the end's colour.
     io::Colour at(double fraction) const;
 
   private:
-    /// At equal distances along the curve, both ends included.
+    /// Colours at equal distances along the curve, both ends included.
     std::vector<io::Oklab> samples_;
 };
 

@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kMostDecades = 4;
 constexpr int kBarTicks = 9;
-/// More cells are drawn as one image: as many rectangles would be slow, and an SVG of them huge.
+/// The number of cells from which they are drawn as one image: many rectangles would be slow, and an SVG of
+/// them huge.
 constexpr std::size_t kMostRectangles = 20'000;
 
 double length_of(std::span<const Point> line) {
@@ -109,7 +110,7 @@ std::vector<Isoline> FalseColourPainter::draw_isolines(const FalseColourPanel& p
     std::vector<Isoline> isolines;
     for (const Tick& tick : ticks_.major) {
         const double level = scale_.fraction_of(tick.value);
-        if (level <= 0 || level >= 1) continue;  // what lies at the ends has one colour with what is beyond
+        if (level <= 0 || level >= 1) continue;  // a level at an end has the colour of all values beyond it
         for (std::vector<Point> line : find_isolines(fractions, panel.nu, panel.nv, level)) {
             for (Point& point : line) {
                 point = {frame.left + point.x / panel.nu * frame.width,

@@ -1,4 +1,4 @@
-// What false-colour pictures of all kinds are drawn with.
+// The common painter of all false-colour pictures.
 #pragma once
 
 #include <span>
@@ -18,13 +18,13 @@ inline constexpr double kBarWidth = 18;
 inline constexpr double kBarGap = 30;
 inline constexpr double kLeastBarHeight = 180;
 
-/// The scale that the options ask for, chosen from all the values where they leave it open.
+/// The scale of the options; open ends are chosen from all the values.
 Scale choose_scale(std::span<const double> values, const FalseColourOptions& options);
 
 /// Width of the colour bar with its labels.
 double bar_extent(const Scale& scale);
 
-/// Of one value of the panel.
+/// The colour of one value of the panel.
 PageRectangle cell_in(const PageRectangle& frame, const FalseColourPanel& panel, int u, int v);
 
 struct Isoline {
@@ -38,11 +38,11 @@ class FalseColourPainter {
     FalseColourPainter(Canvas& canvas, const Scale& scale);
 
     void draw_cells(const FalseColourPanel& panel, const PageRectangle& frame);
-    /// At the bar's labelled values but its ends. Specks, which are shorter than a label is high, are left
-    /// out.
+    /// Isolines at the bar's labelled values except its ends. Specks, shorter than the height of a label, are
+    /// left out.
     std::vector<Isoline> draw_isolines(const FalseColourPanel& panel, const PageRectangle& frame);
     void label_isolines(std::span<const Isoline> isolines, const PageRectangle& frame);
-    /// In the middle of a cell of that value.
+    /// The text in the middle of a cell of that value.
     void draw_number(const Point& center, double value, int decimals, double size);
     void draw_bar(const PageRectangle& bar, const std::string& unit);
 

@@ -25,7 +25,7 @@ constexpr int kIsolineColumns = 160;
 constexpr double kNumberWidth = 70, kNumberHeight = 44;
 constexpr double kHeaderHeight = 38;
 
-/// Rows from the bottom, as panels have them.
+/// Rows from the bottom, as in panels.
 FalseColourPanel panel_of(const io::Picture& picture) {
     std::optional<sensors::CameraView> view;
     if (picture.camera) view.emplace(*picture.camera);
@@ -57,7 +57,7 @@ Stretch stretch(int count, int n, int i, double share) {
     return {begin, std::clamp(static_cast<int>(std::lround(middle + half)), begin + 1, count)};
 }
 
-/// The mean; NaN where half of the values or more are that.
+/// The mean; NaN where half of the values or more are NaN.
 double mean_of(const FalseColourPanel& panel, const Stretch& u, const Stretch& v) {
     double sum = 0;
     int count = 0;
@@ -232,14 +232,14 @@ FalseColour picture_of(const RunResult& result, const std::string& scene) {
 FalseColour picture_of(const io::ResultsFile& results) {
     if (results.grids.empty()) {
         throw InputError(
-            "no grid among the results (only grids can be drawn). Measure a sensor of type \"grid\".");
+            "the results contain no grid, and only grids can be drawn. Measure a sensor of type \"grid\".");
     }
     const io::MeasuredGrid& first = results.grids.front();
     FalseColour picture{capitalized(first.quantity) + ", " + results.scene, first.unit, {}};
     for (const io::MeasuredGrid& grid : results.grids) {
         if (grid.unit != first.unit) {
             throw InputError(
-                fmt::format("'{}' is in {} and '{}' in {} (one scale cannot hold both). Choose sensors of "
+                fmt::format("'{}' is in {} and '{}' in {}, but one scale cannot show both. Choose sensors of "
                             "one quantity.",
                             first.name, first.unit, grid.name, grid.unit));
         }

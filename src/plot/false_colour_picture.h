@@ -22,9 +22,9 @@ void draw_false_colour(const io::Picture& picture, const std::string& title,
 // Measured grids as a false-colour picture.
 
 /// A panel for each grid, with mean, minimum and uniformity. Throws InputError where there is no grid or
-/// their units differ: one scale cannot hold them.
+/// their units differ, because they have one common scale.
 FalseColour picture_of(const io::ResultsFile& results);
-/// The same of the grids among the results of a run; `scene` is what its file is called.
+/// The same for the grids among the results of a run; `scene` is the name of its file.
 FalseColour picture_of(const RunResult& result, const std::string& scene);
 
 }  // namespace stilb::plot

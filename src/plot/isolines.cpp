@@ -54,12 +54,12 @@ class Nodes {
     static double beyond(double border, double inner) {
         return std::isfinite(inner) ? 1.5 * border - 0.5 * inner : border;
     }
-    /// The value in column i of nodes and row v of cells.
+    /// The value at column i of nodes and row v of cells.
     double along_u(int i, int v) const {
         if (i == 0 || i > nu_) return beyond(cell(i == 0 ? 0 : nu_ - 1, v), cell(i == 0 ? 1 : nu_ - 2, v));
         return cell(i - 1, v);
     }
-    /// A grid of one column or row has the same value beside it.
+    /// A grid of one column or row is extended with the same value.
     double cell(int u, int v) const {
         return values_[static_cast<std::size_t>(std::clamp(v, 0, nv_ - 1)) * static_cast<std::size_t>(nu_) +
                        static_cast<std::size_t>(std::clamp(u, 0, nu_ - 1))];
@@ -83,7 +83,7 @@ void add_segments(const Nodes& nodes, int i, int j, double level, std::vector<Se
     }
     if (count == 2) segments.push_back({crossed[0], crossed[1]});
     if (count == 4) {
-        // A saddle: the mean decides which two corners hang together.
+        // A saddle: the mean decides which two corners are connected.
         const bool center_below = (corner[0] + corner[1] + corner[2] + corner[3]) / 4 < level;
         const std::size_t first = (corner[0] < level) == center_below ? 0 : 1;
         segments.push_back({crossed[first], crossed[first + 1]});
@@ -91,10 +91,11 @@ void add_segments(const Nodes& nodes, int i, int j, double level, std::vector<Se
     }
 }
 
-/// Joins segments that share an edge to chains of edges.
-class Chains {
+/// Joins segments that share an edge to polylines of edges.
+class Polylines {
   public:
-    explicit Chains(std::span<const Segment> segments) : segments_(segments), used_(segments.size(), false) {
+    explicit Polylines(std::span<const Segment> segments)
+        : segments_(segments), used_(segments.size(), false) {
         for (std::size_t s = 0; s < segments.size(); ++s) {
             touching_[segments[s].from].push_back(s);
             touching_[segments[s].to].push_back(s);
@@ -102,27 +103,28 @@ class Chains {
     }
 
     std::vector<std::vector<EdgeId>> join() {
-        std::vector<std::vector<EdgeId>> chains;
+        std::vector<std::vector<EdgeId>> polylines;
         for (std::size_t s = 0; s < segments_.size(); ++s) {
             if (used_[s]) continue;
             used_[s] = true;
-            std::vector<EdgeId> chain{segments_[s].from, segments_[s].to};
-            extend(chain);
-            std::reverse(chain.begin(), chain.end());
-            extend(chain);
-            chains.push_back(std::move(chain));
+            std::vector<EdgeId> polyline{segments_[s].from, segments_[s].to};
+            extend(polyline);
+            std::reverse(polyline.begin(), polyline.end());
+            extend(polyline);
+            polylines.push_back(std::move(polyline));
         }
-        return chains;
+        return polylines;
     }
 
   private:
-    void extend(std::vector<EdgeId>& chain) {
+    void extend(std::vector<EdgeId>& polyline) {
         for (bool grown = true; grown;) {
             grown = false;
-            for (const std::size_t s : touching_[chain.back()]) {
+            for (const std::size_t s : touching_[polyline.back()]) {
                 if (used_[s]) continue;
                 used_[s] = grown = true;
-                chain.push_back(segments_[s].from == chain.back() ? segments_[s].to : segments_[s].from);
+                polyline.push_back(segments_[s].from == polyline.back() ? segments_[s].to
+                                                                        : segments_[s].from);
                 break;
             }
         }
@@ -142,9 +144,9 @@ std::vector<std::vector<Point>> find_isolines(std::span<const double> values, in
         for (int i = 0; i + 1 < nodes.columns(); ++i) add_segments(nodes, i, j, level, segments);
     }
     std::vector<std::vector<Point>> lines;
-    for (const std::vector<EdgeId>& chain : Chains(segments).join()) {
+    for (const std::vector<EdgeId>& polyline : Polylines(segments).join()) {
         std::vector<Point>& line = lines.emplace_back();
-        for (const EdgeId edge : chain) line.push_back(nodes.crossing(edge, level));
+        for (const EdgeId edge : polyline) line.push_back(nodes.crossing(edge, level));
     }
     return lines;
 }
@@ -157,7 +159,7 @@ constexpr double kClearance = 3;
 
 double distance_between(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-/// Points by the distance walked along the line.
+/// Points by the distance along the line.
 class Walk {
   public:
     explicit Walk(std::span<const Point> line) : line_(line), walked_(line.size(), 0) {
@@ -197,7 +199,7 @@ std::optional<LabelPlace> LabelPlacer::place(std::span<const Point> line, double
         const Point start = walk.at(from);
         const Point end = walk.at(from + label_width);
         const Point center = walk.at(from + label_width / 2);
-        // Of equally straight stretches the one nearest to the line's middle.
+        // Among equally straight stretches, the one nearest to the line's middle.
         const double straightness =
             distance_between(start, end) / label_width - 0.02 * std::abs(2.0 * i / kCandidates - 1);
         if (straightness <= straightest || !is_free(center, radius)) continue;

@@ -14,7 +14,7 @@ namespace stilb::plot {
 /// border cells reach to the grid's edge. Closed lines repeat their first point.
 std::vector<std::vector<Point>> find_isolines(std::span<const double> values, int nu, int nv, double level);
 
-// Where along a line its label stands.
+// Positions of labels along lines.
 
 struct LabelPlace {
     Point center;
@@ -26,8 +26,8 @@ class LabelPlacer {
   public:
     explicit LabelPlacer(const PageRectangle& frame) : frame_(frame) {}
 
-    /// On the straightest stretch that is free; nothing where the line is too short, too crooked or has no
-    /// room.
+    /// The position on the straightest free stretch; nothing where the line is too short, too crooked or has
+    /// no room. room.
     std::optional<LabelPlace> place(std::span<const Point> line, double label_width);
 
   private:

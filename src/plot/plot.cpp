@@ -22,8 +22,8 @@ constexpr double kWidth = 620;  // of the frames
 constexpr double kPanelGap = 16;
 /// Rounding of a point on the frame's edge.
 constexpr double kEdgeSlack = 1e-6;
-/// Off-scale points are moved to at most this many frame heights away, which Cairo's fixed point numbers
-/// hold.
+/// The limit of off-scale points, in frame heights, which Cairo's fixed point numbers can
+/// represent.
 constexpr double kFarthest = 8;
 
 Scale make_scale(const PlotAxis& axis, const std::vector<double>& values) {
@@ -52,11 +52,11 @@ Scale y_scale_of(const PlotPanel& panel) {
 }
 
 void require_consistency(const Plot& plot) {
-    if (plot.panels.empty()) throw std::invalid_argument("a plot without panels");
+    if (plot.panels.empty()) throw std::invalid_argument("the plot has no panels");
     for (const PlotPanel& panel : plot.panels) require_consistency(panel.series);
 }
 
-/// One panel's ready-made scales and place.
+/// The scales and the position of one panel.
 struct Frame {
     Scale x, y;
     Ticks x_ticks, y_ticks;
@@ -69,7 +69,7 @@ struct Frame {
           y_ticks(nice_ticks(y, std::max(4, static_cast<int>(height / 38)))),
           place{0, 0, kWidth, height} {}
 
-    /// NaN where the value has no place at all.
+    /// NaN where the value has no position on the axis.
     Point at(double x_value, double y_value) const {
         const double u = x.fraction_of(x_value);
         const double v = y.fraction_of(y_value);
@@ -78,7 +78,7 @@ struct Frame {
             std::isfinite(v) ? place.bottom() - std::clamp(v, -kFarthest, kFarthest) * place.height : NAN};
     }
 
-    /// Whether the place lies within the frame's width.
+    /// Whether the position lies within the frame's width.
     bool has_column(const Point& point) const {
         return point.x >= place.left - kEdgeSlack && point.x <= place.right() + kEdgeSlack;
     }
@@ -101,7 +101,7 @@ void draw_grid_lines(Canvas& canvas, const Frame& frame) {
     }
 }
 
-/// In the corner of the frame where the legend hides least.
+/// The corner of the frame where the legend hides least.
 PageRectangle place_legend(std::span<const PlacedSeries> all, const PageRectangle& frame) {
     constexpr double kInset = 10;
     const PageRectangle box = legend_box(all);
@@ -201,8 +201,8 @@ void require_angles(const std::vector<Series>& all) {
     for (const Series& series : all) {
         for (const double theta_deg : series.x) {
             if (std::abs(theta_deg) <= 90) continue;
-            throw std::invalid_argument(
-                fmt::format("series '{}': theta = {}, not within 90 degrees", series.name, theta_deg));
+            throw std::invalid_argument(fmt::format("series '{}': theta = {} is outside of -90 to 90 degrees",
+                                                    series.name, theta_deg));
         }
     }
 }
@@ -221,7 +221,7 @@ struct PolarFrame {
         return around(centre, theta_deg, kRadius * std::max(0.0, scale.fraction_of(value)));
     }
     double low_end(double value) const { return value; }
-    /// The right half's, which the scale runs below.
+    /// The axis of the right half, below which the scale is drawn.
     PageRectangle right_half() const { return {centre.x, centre.y - kRadius, kRadius, kRadius}; }
 };
 

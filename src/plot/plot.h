@@ -12,7 +12,7 @@
 
 namespace stilb::plot {
 
-// Series: what plots show, as curves, measured points and intervals.
+// Series: data of plots, drawn as curves, measured points and intervals.
 
 enum class LineStyle { none, solid, dashed };
 enum class MarkerStyle { none, circle, square };
@@ -27,17 +27,17 @@ struct Series {
     LineStyle line = LineStyle::solid;
     MarkerStyle marker = MarkerStyle::none;
     IntervalStyle interval = IntervalStyle::band;
-    /// Otherwise the palette's next, by position in the plot or panel.
+    /// Absent: the palette's next colour, by index in the plot or panel.
     std::optional<io::Colour> colour{};
 };
 
-/// The palette's colours, told apart by colour-blind readers too [Okabe and Ito 2008]; repeats after seven.
+/// The palette, also distinguishable by colour-blind readers [Okabe and Ito 2008]; repeats after seven.
 io::Colour palette_colour(std::size_t index);
 
 struct PlotAxis {
     std::string label;
     ScaleType scale = ScaleType::linear;
-    /// Round numbers about the data where absent.
+    /// Absent: round numbers about the data.
     std::optional<double> minimum{}, maximum{};
 };
 

@@ -18,13 +18,13 @@ constexpr double kMarkerRadius = 3.2;
 constexpr double kLineWidth = 1.7;
 constexpr double kBandAlpha = 0.25;
 
-/// Calls visit(points) for each stretch of points that all have a place.
+/// Calls visit(points) for each stretch of points that all have a position.
 template <typename Visit>
 void for_each_stretch(const std::vector<Point>& points, Visit visit) {
     auto from = points.begin();
     while (from != points.end()) {
-        from = std::find_if(from, points.end(), has_place);
-        const auto to = std::find_if_not(from, points.end(), has_place);
+        from = std::find_if(from, points.end(), has_position);
+        const auto to = std::find_if_not(from, points.end(), has_position);
         if (from != to) visit(std::span<const Point>(&*from, static_cast<std::size_t>(to - from)));
         from = to;
     }
@@ -36,7 +36,7 @@ Stroke line_stroke(LineStyle style, const io::Colour& colour) {
 }
 
 void draw_marker(Canvas& canvas, MarkerStyle style, const Point& at, const io::Colour& colour) {
-    // The white rim sets neighbours and the curve behind apart.
+    // The white rim separates neighbours and the curve behind.
     const auto draw = [&](double radius, const io::Colour& fill) {
         if (style == MarkerStyle::circle) canvas.fill_circle(at, radius, fill);
         if (style == MarkerStyle::square) {
@@ -53,7 +53,7 @@ void draw_marker(Canvas& canvas, MarkerStyle style, const Point& at, const io::C
     draw(kMarkerRadius, colour);
 }
 
-/// With caps across it, whichever way it runs.
+/// An interval with caps at its ends, in any orientation.
 void draw_bar(Canvas& canvas, const Point& low, const Point& high, const io::Colour& colour) {
     constexpr double kCap = 3;
     const Stroke stroke{colour, 1.1};
@@ -94,7 +94,7 @@ void draw_swatch(Canvas& canvas, const PlacedSeries& placed, const Point& left) 
 
 }  // namespace
 
-bool has_place(const Point& point) { return std::isfinite(point.x) && std::isfinite(point.y); }
+bool has_position(const Point& point) { return std::isfinite(point.x) && std::isfinite(point.y); }
 
 void require_consistency(std::span<const Series> all) {
     for (const Series& series : all) {
@@ -119,13 +119,13 @@ void draw_points(Canvas& canvas, const PlacedSeries& placed,
                  const std::function<bool(const Point&)>& is_within) {
     if (placed.series.interval == IntervalStyle::bars) {
         for (std::size_t i = 0; i < placed.low.size(); ++i) {
-            if (!has_place(placed.low[i]) || !is_within(placed.low[i])) continue;
+            if (!has_position(placed.low[i]) || !is_within(placed.low[i])) continue;
             draw_bar(canvas, placed.low[i], placed.high[i], placed.colour);
         }
     }
     if (placed.series.marker == MarkerStyle::none) return;
     for (const Point& point : placed.points) {
-        if (!has_place(point) || !is_within(point)) continue;
+        if (!has_position(point) || !is_within(point)) continue;
         draw_marker(canvas, placed.series.marker, point, placed.colour);
     }
 }

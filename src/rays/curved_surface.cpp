@@ -128,12 +128,12 @@ class HarmonicsInCells final : public CurvedSurface {
         return cells_.crossing(part, to_own_.to_local(ray.origin - shape_.center),
                                to_own_.to_local(ray.direction), ray.start, ray.end);
     }
-    bool has_verdicts() const override { return true; }
-    LaneVerdicts classifications(std::size_t part, const RayPacket& rays) const override {
+    bool has_classifications() const override { return true; }
+    LaneClassifications classifications(std::size_t part, const RayPacket& rays) const override {
         return cells_.classifications(part, rays, in_packets_);
     }
     SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const override {
-        const auto [position, normal] = cells_.place_at(part, shape_.to_own(near_by));
+        const auto [position, normal] = cells_.point_at(part, shape_.to_own(near_by));
         return {shape_.to_world(position), shape_.axes.to_world(normal), shape_.scale * length(position)};
     }
 

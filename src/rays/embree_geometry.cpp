@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What the callbacks of a curved surface share for N rays, of which lane i is looked at.
+/// The common data of a curved surface's callbacks for N rays, at lane i.
 RayInterval interval_of(RTCRayN* rays, unsigned width, unsigned lane) {
     return {{RTCRayN_org_x(rays, width, lane), RTCRayN_org_y(rays, width, lane),
              RTCRayN_org_z(rays, width, lane)},
@@ -52,9 +52,10 @@ RayPacket packet_of(RTCRayN* rays, unsigned width) {
     return packet;
 }
 
-/// Unclear for single rays, which are quicker without.
-LaneVerdicts verdicts_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays, unsigned width) {
-    if (width == 1 || !surface.has_verdicts()) return {};
+/// Unclear for single rays, which are faster without classification.
+LaneClassifications classifications_of(const CurvedSurface& surface, unsigned part, RTCRayN* rays,
+                                       unsigned width) {
+    if (width == 1 || !surface.has_classifications()) return {};
     return surface.classifications(part, packet_of(rays, width));
 }
 
@@ -63,7 +64,7 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
-    const LaneVerdicts classifications = verdicts_of(surface, args->primID, rays, args->N);
+    const LaneClassifications classifications = classifications_of(surface, args->primID, rays, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0 || classifications[lane] == Classification::misses) continue;
         const double t = surface.intersect(args->primID, interval_of(rays, args->N, lane));
@@ -77,7 +78,7 @@ void curved_intersect(const RTCIntersectFunctionNArguments* args) {
 
 void curved_occluded(const RTCOccludedFunctionNArguments* args) {
     const CurvedSurface& surface = surface_of(args->geometryUserPtr);
-    const LaneVerdicts classifications = verdicts_of(surface, args->primID, args->ray, args->N);
+    const LaneClassifications classifications = classifications_of(surface, args->primID, args->ray, args->N);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0 || classifications[lane] == Classification::misses) continue;
         if (classifications[lane] == Classification::meets ||

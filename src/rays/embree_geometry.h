@@ -28,18 +28,18 @@ struct SurfacePoint {
     double size_m = 0;
 };
 
-/// In parts that have bounds each. Immutable.
+/// A surface in parts, each with bounds. Immutable.
 class CurvedSurface {
   public:
     virtual ~CurvedSurface() = default;
     virtual std::size_t part_count() const = 0;
     virtual Bounds bounds_of(std::size_t part) const = 0;
-    /// Smallest t in the interval at which the ray meets the part, from either side; infinite where it does
-    /// not.
+    /// Smallest t in the interval at which the ray meets the part, from either side; infinite where it misses
+    /// it.
     virtual double intersect(std::size_t part, const RayInterval& ray) const = 0;
-    virtual bool has_verdicts() const { return false; }
-    /// What intersect() would find, as far as a surface can tell that sooner.
-    virtual LaneVerdicts classifications(std::size_t, const RayPacket&) const { return {}; }
+    virtual bool has_classifications() const { return false; }
+    /// The result of intersect(), as far as it can be classified faster.
+    virtual LaneClassifications classifications(std::size_t, const RayPacket&) const { return {}; }
     /// `near_by` (a hit with the rounding error of single precision) projected onto the part.
     virtual SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
 };
@@ -47,7 +47,7 @@ class CurvedSurface {
 /// The surface of a shape relative to `origin`; null where it is made of triangles.
 std::unique_ptr<CurvedSurface> curved_surface(const Shape& shape, const Vec3& origin);
 
-/// What rays that met a geometry need to know of it: a mesh in single precision, or a curved surface.
+/// The data of a geometry for rays that met it: a mesh in single precision, or a curved surface.
 struct EmbreeGeometry {
     const std::array<float, 3>* vertices = nullptr;  ///< owned by Embree, as are the triangles; or null
     const Triangle* triangles = nullptr;
@@ -59,7 +59,7 @@ struct EmbreeGeometry {
 /// where it is. A curved surface's parts are the geometry's primitives.
 RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origin, EmbreeGeometry& kept);
 
-// What Embree is told of rays, for the files that see Embree.
+// Data of rays for Embree, for the files that include Embree.
 
 inline RTCIntersectContext context_for(Coherence coherence) {
     RTCIntersectContext context;

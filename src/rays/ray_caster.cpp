@@ -20,8 +20,8 @@ static_assert(offsetof(RayPacket, direction_x) == offsetof(RTCRay16, dir_x));
 static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
 static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
 
-/// Hits are moved so many offsets away from edges: lifting stays on this side of neighbours at up to 7
-/// degrees.
+/// Hits are moved away from edges by so many offsets: lifted points stay on this side of neighbours at up to
+/// 7 degrees.
 constexpr double kEdgeMargin = 8;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -108,7 +108,7 @@ struct RayCaster::Implementation {
                                        [&](MaterialId id) { return passes_straight(scene.material(id)); });
         });
         device = rtcNewDevice(nullptr);
-        if (device == nullptr) throw std::runtime_error("Embree: no device could be made");
+        if (device == nullptr) throw std::runtime_error("Embree: no device could be created");
         rtcSetDeviceErrorFunction(device, throw_error, nullptr);
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) packet_width = 8;
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) packet_width = 16;
@@ -143,7 +143,7 @@ struct RayCaster::Implementation {
         Hit hit;
         double size = 0;
         bool at_edge = false;
-        Vec3 inner_position;  // away from edges: where lifted points stand
+        Vec3 inner_position;  // away from edges: the base of lifted points
         if (geometry.vertices != nullptr) {
             const Triangle& t = geometry.triangles[met.primID];
             std::array<Vec3, 3> p;
@@ -176,9 +176,9 @@ struct RayCaster::Implementation {
         hit.lift_m = offset(inner_position, size);
         const Vec3 lift = hit.lift_m * hit.normal;
         hit.lifted = inner_position + lift;
-        // At an edge where the mesh folds towards the ray, rounding may have picked the face behind the fold,
-        // whose side towards the ray is outside. Then the ray's origin sees the other side instead or, where
-        // the fold is sharp, neither: what it does see is the ray's own last stretch.
+        // At an edge where the mesh folds towards the ray, rounding may have selected the face behind the
+        // fold, whose side towards the ray is outside. Then the other side faces the ray's origin or, where
+        // the fold is sharp, neither: the last stretch of the ray itself decides.
         if (at_edge && occluded(origin, hit.lifted)) {
             if (!occluded(origin, inner_position - lift)) {
                 hit.lifted = inner_position - lift;
@@ -207,7 +207,7 @@ struct RayCaster::Implementation {
     }
 
     bool is_pane(const Hit& hit) const { return passes_straight(scene.material(hit.material)); }
-    /// Of light that comes along `direction`.
+    /// The transmittance for light along `direction`.
     Rgb transmittance_of_pane(const Hit& hit, const Vec3& direction) const {
         return straight_transmittance(scene.material(hit.material), -dot(direction, hit.normal));
     }
@@ -229,7 +229,7 @@ struct RayCaster::Implementation {
         return ray;
     }
 
-    /// Up to `width` rays as one packet of Embree's; EmbreeRayHits: RTCRayHit16 or its smaller kin.
+    /// Up to `width` rays as one packet of Embree's; EmbreeRayHits: RTCRayHit16 or its smaller variants.
     template <int width, typename EmbreeRayHits, typename Intersect>
     void closest_of_packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits,
                            Intersect intersect) const {
@@ -360,8 +360,8 @@ Rgb RayCaster::transmittance_of_panes(const Segment& segment) const {
     return left;
 }
 
-RayCaster::Seen RayCaster::seen(const Ray& ray) const {
-    Seen seen;
+RayCaster::FirstHit RayCaster::seen(const Ray& ray) const {
+    FirstHit seen;
     Vec3 origin = ray.origin;
     for (;;) {
         const auto hit = closest(origin, ray.direction);

@@ -1,5 +1,5 @@
-// Ray queries: closest hit, occlusion, and packets of both. Embree is behind it, and behind
-// patches/patch_caster.h; nothing else sees it.
+// Ray queries: closest hit, occlusion, and packets of both. Only this implementation, and that of
+// patches/patch_caster.h, includes Embree.
 //
 // Offsets. Embree works in single precision on coordinates relative to the scene's centre. Rays start from,
 // and connections end at, points that are lifted off their surface along its geometric normal by offset_m() =
@@ -24,22 +24,22 @@
 
 namespace stilb::rays {
 
-/// Where a ray met a surface.
+/// A hit of a ray on a surface.
 struct Hit {
     Vec3 position;
     Vec3 normal;  ///< geometric, unit, on the side that the ray came from
-    /// Of the surface that a mesh with vertex normals stands for, unit, less than a right angle from
-    /// `normal`; else `normal`. Materials are seen by it, and nothing else (materials/shaded_surface.h).
+    /// The normal of the smooth surface that a mesh with vertex normals approximates, unit, less than a right
+    /// angle from `normal`; else `normal`. Only materials use it (materials/shaded_surface.h).
     Vec3 shading_normal;
     Vec3 lifted;        ///< the position, lifted off the surface on that side: rays start and end here
-    double lift_m = 0;  ///< how far
+    double lift_m = 0;  ///< distance of `lifted` from `position`
     double distance_m = 0;
     ObjectId object{};
     MaterialId material{};
     std::uint32_t triangle = 0;  ///< of the mesh, or of the triangulated() rectangle or box; else 0
     bool on_front = true;
 
-    /// As `lifted`, on the other side.
+    /// The counterpart of `lifted` on the other side.
     Vec3 lifted_behind() const { return lifted - 2 * lift_m * normal; }
 };
 
@@ -53,8 +53,8 @@ struct Segment {
     Vec3 from, to;
 };
 
-/// Whether neighbouring rays of many go nearly the same way: then they are fastest together, else by
-/// themselves.
+/// Whether neighbouring rays of many have similar directions: then they are fastest together, else
+/// one by one.
 enum class Coherence { coherent, scattered };
 
 /// Immutable after construction; all queries may run in parallel. Keeps a reference to the scene.
@@ -71,37 +71,37 @@ class RayCaster {
     /// The same of many rays, into as many hits.
     void closest(std::span<const Ray> rays, Coherence coherence, std::span<std::optional<Hit>> hits) const;
 
-    /// True where something lies between two (lifted) points.
+    /// True where a surface lies between two (lifted) points.
     bool occluded(const Vec3& from, const Vec3& to) const;
-    /// What is left of light that goes straight: 0 where something lies in between, the panes' transmittance
-    /// where it is nothing but panes.
+    /// The transmittance along a straight segment: 0 where a surface lies in between, the panes'
+    /// transmittance where there is nothing but panes.
     Rgb transmittance(const Segment& segment) const;
     /// The same of many segments.
     void transmittances(std::span<const Segment> segments, Coherence coherence,
                         std::span<Rgb> transmittances) const;
 
-    /// The first surface but panes that light along a ray comes straight from, none where it leaves the
-    /// scene, and what panes leave of it.
-    struct Seen {
+    /// The first surface other than panes along a ray, none where the ray leaves the
+    /// scene, and the transmittance of the panes before it.
+    struct FirstHit {
         std::optional<Hit> hit;
         Rgb transmittance = Rgb::grey(1);
     };
-    Seen seen(const Ray& ray) const;
+    FirstHit seen(const Ray& ray) const;
 
-    /// For lanes that are set: `end` becomes negative where something is met between `start` and `end`.
+    /// For lanes that are set: `end` becomes negative where a surface is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;
 
     /// The origin of packet coordinates: the middle of the scene's bounding box.
     const Vec3& center() const;
     /// Half of the longest edge of the scene's bounding box [m]; lights and surfaces, not sensors.
     double half_extent_m() const;
-    /// The rule by which points are lifted off surfaces.
+    /// The rule for lifting points off surfaces.
     Lift lift() const;
-    /// How far a point near `position` on something of size `size_m` is lifted off its surface.
+    /// The distance by which a point near `position` on something of size `size_m` is lifted off its surface.
     double offset_m(const Vec3& position, double size_m) const;
 
   private:
-    /// Of a segment that meets something.
+    /// The transmittance of a segment that meets something.
     Rgb transmittance_of_panes(const Segment& segment) const;
 
     struct Implementation;

@@ -11,8 +11,9 @@ namespace stilb::run {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFootprint_rad = 1e-3;  ///< of sensors that are no camera
-/// The surface stays far from its centre, where the series would end.
+constexpr double kFootprint_rad = 1e-3;  ///< of sensors other than cameras
+/// The least R, as a share of the largest, that the truncated surface may have: the surface must not reach
+/// its centre.
 constexpr double kMostOfRadius = 0.3;
 
 double pixel_rad(const Camera& camera) {
@@ -21,7 +22,7 @@ double pixel_rad(const Camera& camera) {
     return std::acos(std::min(1.0, dot(*view.direction_at(x, y), *view.direction_at(x + 1, y))));
 }
 
-/// Half the smallest footprint at the object; 0 where a sensor is in it or next to it.
+/// Half the smallest footprint at the object; 0 where a sensor is in it or close to it.
 double allowed_m(const Harmonics& object, std::span<const Sensor> sensors) {
     const double radius_m = object.scale * object.surface->greatest_radius();
     double allowed = kInfinity;
@@ -37,14 +38,14 @@ double allowed_m(const Harmonics& object, std::span<const Sensor> sensors) {
     return allowed;
 }
 
-/// Bound of what the degrees above `degree` make of R.
+/// An upper bound of the degrees above `degree` in R.
 double remainder_of(const math::HarmonicSeries<double>& radius, int degree) {
     if (degree == radius.degree()) return 0;
     const math::HarmonicRange range = range_of(radius.part(degree + 1, radius.degree()));
     return std::max(std::abs(range.least), std::abs(range.greatest));
 }
 
-/// The lowest degree from which on the bound is kept.
+/// The lowest degree at which the bound is met, and at all higher ones.
 int least_degree(const math::HarmonicSeries<double>& radius, double allowed) {
     int degree = radius.degree();
     while (degree > 0 && remainder_of(radius, degree - 1) <= allowed) --degree;
@@ -53,7 +54,7 @@ int least_degree(const math::HarmonicSeries<double>& radius, double allowed) {
 
 LevelOfDetail reduce(Object& object, std::span<const Sensor> sensors) {
     auto& harmonics = std::get<Harmonics>(object.shape);
-    harmonics.has_levels_of_detail = false;  // done, once and for all
+    harmonics.has_levels_of_detail = false;  // so that it is not done again
     const math::HarmonicSeries<double>& radius = harmonics.surface->radius();
     LevelOfDetail level{object.name, radius.degree(), radius.degree(), 0, allowed_m(harmonics, sensors)};
     const double allowed =

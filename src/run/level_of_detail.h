@@ -1,11 +1,11 @@
-// Objects by harmonics with as many as their sensors can tell.
+// Objects by harmonics, truncated to the degree that their sensors can resolve.
 //
 // A surface of degree d instead of L lies within max |R - R_d| of the full one, for which there is a safe
 // bound (range_of()). The degree is the lowest for which that is half a footprint at most, at the least
 // distance from any sensor to the object: the footprint of a camera is a pixel in the middle of its picture,
-// that of other sensors 1 mrad. So outlines, and shadows on the object itself, stay where they are but for
-// half a footprint. Normals are those of the smoother surface; mirrors and lamps near the object may show
-// more.
+// that of other sensors 1 mrad. So outlines, and shadows on the object itself, move by at most half a
+// footprint. Normals are those of the smoother surface; mirror images and lamps close to the object may show
+// larger differences.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ namespace stilb::run {
 
 struct DetailedScene {
     Scene scene;
-    std::vector<LevelOfDetail> levels;  ///< of the objects that ask for it
+    std::vector<LevelOfDetail> levels;  ///< of the objects that request it
 };
 
 bool has_levels_of_detail(const Scene& scene);

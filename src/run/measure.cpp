@@ -20,19 +20,19 @@ namespace stilb::run {
 namespace {
 
 constexpr double kConfidence = 0.95;
-/// Rays of a batch over all replicates: about a second of work, so that an interruption is answered soon.
+/// Rays of a batch over all replicates: about a second of work, so that an interruption is answered quickly.
 constexpr double kRaysPerRound = 3e7;
 constexpr std::uint64_t kLongestBatch = 1 << 16;
-/// Of a replicate: Sobol' indices have 32 bits.
+/// Samples of a replicate: Sobol' indices have 32 bits.
 constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
-/// Granules before the first look: an error that is estimated from fewer may be far too small.
-constexpr std::uint64_t kLeastLook = 4;
-/// Contributions that may fail to be finite before the run does.
+/// Granules before the first error estimate: an estimate from fewer may be far too small.
+constexpr std::uint64_t kLeastCheck = 4;
+/// The number of non-finite contributions that ends a run.
 constexpr double kInvalidRate = 1e-6;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 enum Purpose : std::uint64_t { kPreparation, kReplicates };
 
-/// The replicates' sums, and how far they are.
+/// The sums of all replicates, and their progress.
 class Campaign final : public Work {
   public:
     Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, std::size_t readings,
@@ -58,12 +58,13 @@ class Campaign final : public Work {
         return std::min(divided_up(each, granularity_) * granularity_, kMostSamples);
     }
     std::uint64_t most_samples() const override { return kMostSamples; }
-    std::uint64_t next_look() const override {
-        return statistics::next_look(samples_, kLeastLook * granularity_);
+    std::uint64_t next_check() const override {
+        return statistics::next_check(samples_, kLeastCheck * granularity_);
     }
     std::uint64_t most_at_once() const override { return batch_; }
 
-    /// The same next samples of every replicate. Each replicate's sums are its task's own: nothing depends on
+    /// The same next samples of every replicate. Each replicate's sums belong to one task: nothing depends on
+    /// threads.
     /// threads.
     bool advance(std::uint64_t count, const std::atomic<bool>*) override {
         parallel_for(sums_.size(), [&](std::size_t r) {
@@ -73,7 +74,7 @@ class Campaign final : public Work {
         return true;
     }
 
-    /// The worst sensor's.
+    /// The error of the worst sensor.
     double attained_error() const override {
         double worst = 0;
         std::size_t first = 0;
@@ -99,13 +100,13 @@ class Campaign final : public Work {
         const double all = static_cast<double>(samples_in_all()) * static_cast<double>(sums_[0].sum.size());
         if (static_cast<double>(invalid) > kInvalidRate * all) {
             throw std::runtime_error(
-                fmt::format("{} of {} contributions are not finite numbers: this is a defect of stilb, "
+                fmt::format("{} of {} contributions are not finite: this is a defect of Stilb, "
                             "please report the scene",
                             invalid, all));
         }
     }
 
-    /// Replicates x readings (those of one sensor), luminance-weighted [lx].
+    /// Replicates x readings of one sensor, luminance-weighted [lx].
     std::vector<double> replicate_means(std::size_t first, std::size_t count) const {
         std::vector<double> means;
         means.reserve(sums_.size() * count);
@@ -153,7 +154,7 @@ void require_measurable(std::span<const Sensor> sensors, const estimators::Estim
     }
 }
 
-/// A goniometer that stands on nothing has nothing to measure.
+/// Refuses goniometers that are on no surface.
 void require_surfaces(std::span<const Sensor> sensors, const rays::RayCaster& caster) {
     for (const Sensor& sensor : sensors) {
         for (const Measurand& measurand : sensor.measurands()) {
@@ -161,15 +162,15 @@ void require_surfaces(std::span<const Sensor> sensors, const rays::RayCaster& ca
             if (!ray || transport::first_surface(measurand, caster)) continue;
             const Vec3& p = ray->position;
             throw InputError(fmt::format(
-                "sensor \"{}\": its point ({}, {}, {}) lies on no surface. A goniometer needs a point on a "
+                "sensor \"{}\": its point ({}, {}, {}) is not on a surface. A goniometer needs a point on a "
                 "surface, and a normal that points away from it.",
                 sensor.name, p.x, p.y, p.z));
         }
     }
 }
 
-/// With the default of a run that was asked for nothing in particular; a method without chance does what
-/// there is to do, once.
+/// The options with defaults for a run without targets. A deterministic method computes its result
+/// once.
 RunOptions with_target(RunOptions options, const estimators::EstimatorEntry& method) {
     if (method.is_deterministic) {
         options.error.reset();
@@ -217,8 +218,8 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
         for (std::size_t j = 0; j < sensor.size(); ++j) heavy += campaign.is_heavy_tailed(first + j);
         if (heavy > 0) {
             warnings.push_back(fmt::format(
-                "sensor \"{}\": in {} of {} readings a single contribution is more than {:.2g} % of the sum; "
-                "the variance is probably infinite there (a corner) and the interval may not hold. Use "
+                "sensor \"{}\": in {} of {} readings a single contribution exceeds {:.2g} % of the sum; "
+                "the variance is probably infinite there (a corner) and the interval unreliable. Use "
                 "method auto.",
                 sensor.name, heavy, sensor.size(),
                 100 * statistics::heavy_tail_share(campaign.samples_in_all())));
@@ -228,7 +229,8 @@ std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span
     return warnings;
 }
 
-/// Of all sensors, with the weights of a run that stops when each sensor as a whole is exact enough.
+/// The measurands of all sensors, with the weights for a run that stops when each sensor as a whole is exact
+/// enough.
 struct Wanted {
     explicit Wanted(std::span<const Sensor> sensors) {
         for (const Sensor& sensor : sensors) {
@@ -252,7 +254,7 @@ void add_warnings(const Campaign& campaign, std::span<const Sensor> sensors, con
     };
     if (method.is_deterministic && (asked.error || asked.paths)) {
         warnings.push_back(fmt::format(
-            "method {} is deterministic and ends by itself: targets for error and paths have no effect.",
+            "method {} is deterministic and ends by itself: limits on error and paths have no effect.",
             method.name));
     }
     append(checks::placement_warnings(scene, caster, sensors));
@@ -295,7 +297,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     session.describe(*estimator, result);
     result.replicates = options.replicates;
     result.rays = campaign.rays();
-    // A run that stopped by its own error stops sooner where that happens to be too small
+    // A run that stopped by its own error estimate stops sooner where the estimate happens to be too small
     // (docs/statistics.md).
     const double confidence = options.error ? statistics::kStoppedConfidence : kConfidence;
     std::size_t first = 0;

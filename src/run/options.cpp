@@ -12,15 +12,15 @@ namespace stilb::run {
 void require_valid(const RunOptions& options) {
     const auto positive = [](const char* name, double value) {
         if (!(value > 0) || !std::isfinite(value)) {
-            throw InputError(fmt::format("{} = {}: a positive number is needed", name, value));
+            throw InputError(fmt::format("{} = {}: expected a number above 0", name, value));
         }
     };
     if (options.error) positive("error", *options.error);
     if (options.time_s) positive("time", *options.time_s);
     if (options.paths) positive("paths", static_cast<double>(*options.paths));
-    if (options.bounces && *options.bounces < 0) throw InputError("bounces: 0 or more is needed");
-    if (options.threads < 0) throw InputError("threads: 0 (all) or more is needed");
-    if (options.replicates < 2) throw InputError("replicates: at least 2 are needed");
+    if (options.bounces && *options.bounces < 0) throw InputError("bounces: expected 0 or more");
+    if (options.threads < 0) throw InputError("threads: expected 0 (all) or more");
+    if (options.replicates < 2) throw InputError("replicates: expected 2 or more");
 }
 
 std::optional<double> parse_relative_error(std::string_view text) {

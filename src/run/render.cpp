@@ -23,12 +23,12 @@
 namespace stilb::run {
 namespace {
 
-/// Fewer than for readings: a pixel's error matters less than memory for them all.
+/// Fewer replicates than for readings: a pixel's error matters less than the memory for all of them.
 constexpr std::uint64_t kReplicates = 16;
 constexpr double kDefaultTime_s = 60;
-/// For smooth edges.
+/// Passes for smooth edges.
 constexpr std::uint64_t kSmoothingPasses = 16;
-/// Samples that may fail to be finite before the run does.
+/// The number of non-finite samples that ends a run.
 constexpr double kInvalidRate = 1e-6;
 enum Purpose : std::uint64_t { kPreparation, kSamples, kOffset };
 
@@ -37,7 +37,7 @@ constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 /// Sums of passes. Pass p is of replicate p mod `replicates`, so that all replicates grow together.
 class PictureSums {
   public:
-    /// One replicate: no errors are wanted.
+    /// One replicate: no errors are estimated.
     PictureSums(std::size_t pixels, std::uint64_t replicates)
         : replicates_(replicates), rgb_(pixels), luminance_(pixels * replicates) {}
 
@@ -60,8 +60,8 @@ class PictureSums {
         return sum / static_cast<double>(passes_);
     }
 
-    /// From the replicates' means, each weighted by its passes (which differ by one at most); infinite with
-    /// a single one.
+    /// The standard error from the replicates' means, each weighted by its passes (which differ by one at
+    /// most); infinite for a single replicate.
     double standard_error_cd_m2(std::size_t pixel) const {
         const std::uint64_t used = replicates();
         if (used < 2) return std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ class PictureSums {
     std::uint64_t passes_ = 0;
 };
 
-/// Pixels that the camera shows nothing in.
+/// The number of pixels outside of the camera's field.
 std::vector<bool> blind_pixels(const Camera& camera) {
     const sensors::CameraView view(camera);
     std::vector<bool> blind;
@@ -118,12 +118,12 @@ double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
     return statistics::attained_error_of(std::move(half_widths));
 }
 
-/// The number of passes at the next look at the error: 1, 2, 3, 4, 6, 8, 12 ... of each replicate.
+/// The number of passes at the next error estimate: 1, 2, 3, 4, 6, 8, 12 ... of each replicate.
 std::uint64_t next_checkpoint(std::uint64_t passes) {
-    return kReplicates * statistics::next_look(passes / kReplicates, 1);
+    return kReplicates * statistics::next_check(passes / kReplicates, 1);
 }
 
-/// A picture that grows by one pass after another over all blocks.
+/// A picture that accumulates one pass after another over all blocks.
 class Passes final : public Work {
   public:
     /// `sink` may be null.
@@ -145,9 +145,9 @@ class Passes final : public Work {
     std::uint64_t samples_in_all() const override { return sums_.passes(); }
     std::uint64_t samples_for(std::uint64_t paths) const override { return paths; }
     std::uint64_t most_samples() const override { return std::numeric_limits<std::uint64_t>::max(); }
-    /// No error without two.
+    /// There is no error without two replicates.
     std::uint64_t least_samples() const override { return 2; }
-    std::uint64_t next_look() const override { return next_checkpoint(sums_.passes()); }
+    std::uint64_t next_check() const override { return next_checkpoint(sums_.passes()); }
     std::uint64_t most_at_once() const override { return 1; }
     double attained_error() const override { return run::attained_error(sums_, blind_); }
     void show() override {
@@ -168,14 +168,14 @@ class Passes final : public Work {
         const double all = static_cast<double>(sums_.passes()) * static_cast<double>(pixels_.size());
         if (static_cast<double>(invalid_) > kInvalidRate * all) {
             throw std::runtime_error(fmt::format(
-                "{} of {} samples are not finite numbers: this is a defect of stilb, please report the scene",
+                "{} of {} samples are not finite: this is a defect of Stilb, please report the scene",
                 invalid_, all));
         }
         return true;
     }
 
   private:
-    /// Blocks lie elsewhere in every pass, for their edges not to show.
+    /// Blocks have another offset in every pass, so that their edges do not show.
     std::array<int, 2> offset_of(std::uint64_t pass) const {
         const auto [u, v] = math::SampleStream(offset_key_, pass).next_two();
         return {1 + static_cast<int>(u * estimators::kBlockSize),
@@ -244,8 +244,8 @@ void add_means(const PictureSums& sums, const std::vector<bool>& blind, RenderRe
     result.mean_standard_error_cd_m2 = error / pixels;
 }
 
-/// With the default of a picture that was asked for nothing in particular. Passes of a method without chance
-/// differ only by where they look in the pixels.
+/// The options with defaults for a picture without targets. Passes of a deterministic method
+/// differ only by their sample positions in the pixels.
 RunOptions with_target(RunOptions options, const estimators::EstimatorEntry& method) {
     if (method.is_deterministic) options.error.reset();
     if (!options.error && !options.time_s && !options.paths) {
@@ -261,7 +261,7 @@ RunOptions with_target(RunOptions options, const estimators::EstimatorEntry& met
 
 using MakeEstimator = std::function<std::unique_ptr<estimators::Estimator>(const estimators::Problem&)>;
 
-/// Renders with the estimator that is made; 1 replicate: without errors. `options`: `asked` with defaults.
+/// Renders with a given estimator; 1 replicate: without errors. `options`: `asked` with defaults.
 RenderResult render_by(const MakeEstimator& make, std::uint64_t replicates, const Scene& scene,
                        const Sensor& sensor, const RunOptions& asked, const RunOptions& options,
                        PictureSink* sink, const std::atomic<bool>* interrupt) {
@@ -308,14 +308,15 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
     RenderResult result = render_by(method.make, method.is_deterministic ? 1 : kReplicates, scene, camera,
                                     asked_options, options, sink, interrupt);
     if (method.has_heavy_tails) {
-        result.warnings.push_back(fmt::format(
-            "method {} has infinite variance in corners: errors of pixels there do not hold. Use method "
-            "auto.",
-            method.name));
+        result.warnings.push_back(
+            fmt::format("method {} has infinite variance in corners: the standard errors of pixels there are "
+                        "unreliable. Use method "
+                        "auto.",
+                        method.name));
     }
     if (method.is_deterministic && asked_options.error) {
         result.warnings.push_back(
-            fmt::format("method {} is deterministic: a target for the error has no effect.", method.name));
+            fmt::format("method {} is deterministic: a limit on the error has no effect.", method.name));
     }
     return result;
 }

@@ -1,4 +1,4 @@
-// What runs give: plain values, which can be kept, written and combined without the scene.
+// Results of runs: plain values, which can be kept, written and combined without the scene.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace stilb::run {
 
-/// `solved`: there is nothing more to do, as a method without chance is done.
+/// `solved`: the computation is complete, as that of a deterministic method.
 enum class StopReason { target_reached, paths_done, time_over, interrupted, solved };
 
-/// How many degrees of its series an object was given (level_of_detail.h).
+/// The truncation of the series of an object (level_of_detail.h).
 struct LevelOfDetail {
     std::string object;
     int degree = 0, full_degree = 0;
@@ -27,50 +27,52 @@ struct LevelOfDetail {
     double allowed_m = 0;  ///< half the footprint
 };
 
-/// What all kinds of runs tell.
+/// The common part of all results.
 struct RunSummary {
     std::string method;
     std::uint64_t seed = 0;
-    /// In all: light chains; of method `path` paths per reading; of pictures passes (samples of each pixel);
-    /// of solutions steps of all walks, without the first ones of each.
+    /// The total number of samples: light paths; for method `path` paths per reading; for pictures passes
+    /// (samples of each pixel); for solutions steps of all walks, without the first ones of each.
     std::uint64_t samples = 0;
-    /// Independent repetitions; 1 where there are no errors: after a single pass, and without chance.
+    /// Independent repetitions; 1 where there are no errors: after a single pass, and for deterministic
+    /// methods.
     int replicates = 0;
     double elapsed_s = 0;
     StopReason stop_reason = StopReason::paths_done;
-    /// False where an error was asked for and is not met, and where the run ended before it had all light.
+    /// False where a requested error is not met, and where the run ended before all light was found.
     bool converged = true;
-    /// Relative half-width that 95 % keep: of the readings of the worst sensor, of the pixels, or of the
+    /// Relative half-width that 95 % meet: of the readings of the worst sensor, of the pixels, or of the
     /// light on the sides of patches.
     double attained_error = 0;
-    std::optional<estimators::PatchReport> patches;  ///< where the method lights patches
+    std::optional<estimators::PatchReport> patches;  ///< for methods on patches
     std::vector<LevelOfDetail> levels_of_detail;
     std::vector<std::string> warnings;
 };
 
 struct Reading {
-    statistics::Estimate estimate;  ///< [lx] or [cd/m2]; the errors are NaN where they are not known
+    statistics::Estimate estimate;  ///< [lx] or [cd/m2]; the errors are NaN where they are unknown
     Rgb rgb;
 };
 
 struct SensorResult {
     Sensor sensor;
     std::vector<Reading> readings;  ///< in the order of the sensor's measurands
-    /// Luminance sensors: where each line of sight ends; nothing where it leaves the scene. Empty: not known.
+    /// Luminance sensors: the end of each line of sight; nothing where it leaves the scene. Empty: not
+    /// recorded.
     std::vector<std::optional<Vec3>> sub_points;
     statistics::GridSummary summary;
-    double attained_error = 0;  ///< relative half-width that 95 % of the readings keep
-    /// Replicates x readings, luminance-weighted [lx or cd/m2]: what the estimates are made from. Means of
+    double attained_error = 0;  ///< relative half-width that 95 % of the readings meet
+    /// Replicates x readings, luminance-weighted [lx or cd/m2]: the basis of the estimates. Means of
     /// runs with other seeds can be combined with them.
     std::vector<double> replicate_means{};
 };
 
 struct RunResult : RunSummary {
-    std::uint64_t rays = 0;             ///< of the fans
-    std::vector<SensorResult> sensors;  ///< in the order asked for
+    std::uint64_t rays = 0;             ///< of the connections to receivers
+    std::vector<SensorResult> sensors;  ///< in the order requested
 };
 
-/// Pixels row by row from the top, NaN where the camera shows nothing.
+/// Pixels row by row from the top, NaN outside of the camera's field.
 struct Pixels {
     std::vector<std::array<float, 3>> rgb_cd_m2;  ///< linear Rec. 709
     std::vector<float> standard_error_cd_m2;      ///< of the luminance; empty with one replicate

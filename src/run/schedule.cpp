@@ -12,7 +12,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::optional<Monitor::Clock::time_point> deadline_of(const RunOptions& asked) {
     if (!asked.time_s) return std::nullopt;
-    // So long that the clock could not hold it is for ever.
+    // Durations beyond the range of the clock count as unlimited.
     constexpr double longest_s = 1e9;
     const std::chrono::duration<double> time(std::min(*asked.time_s, longest_s));
     return Monitor::Clock::now() + std::chrono::duration_cast<Monitor::Clock::duration>(time);
@@ -31,29 +31,29 @@ Schedule::Ending Schedule::run(Work& work) const {
     const std::uint64_t last = options_.paths ? work.samples_for(*options_.paths) : work.most_samples();
     double error = kInfinity;
     for (;;) {
-        const std::uint64_t look = std::min(last, work.next_look());
-        if (const auto reason = advance_to(look, last, work, error)) return {*reason, work.attained_error()};
+        const std::uint64_t check = std::min(last, work.next_check());
+        if (const auto reason = advance_to(check, last, work, error)) return {*reason, work.attained_error()};
         if (options_.error && error <= *options_.error) return {StopReason::target_reached, error};
-        if (look == last) return {StopReason::paths_done, error};
+        if (check == last) return {StopReason::paths_done, error};
     }
 }
 
-std::optional<StopReason> Schedule::advance_to(std::uint64_t look, std::uint64_t last, Work& work,
+std::optional<StopReason> Schedule::advance_to(std::uint64_t check, std::uint64_t last, Work& work,
                                                double& error) const {
-    while (work.samples() < look) {
+    while (work.samples() < check) {
         const bool has_result = work.samples() >= work.least_samples();
-        const std::uint64_t next = std::min(work.most_at_once(), look - work.samples());
+        const std::uint64_t next = std::min(work.most_at_once(), check - work.samples());
         if (has_result && interrupt_ && *interrupt_) return StopReason::interrupted;
         if (has_result && is_time_over(work, next)) return StopReason::time_over;
         if (!work.advance(next, has_result ? interrupt_ : nullptr)) return StopReason::interrupted;
-        if (work.samples() == look) error = work.attained_error();
+        if (work.samples() == check) error = work.attained_error();
         report(work, last, error);
         work.show();
     }
     return std::nullopt;
 }
 
-/// Once the next samples are made, as long as those before took.
+/// Predicts whether the next samples end in time, if they take as long as the last ones.
 bool Schedule::is_time_over(const Work& work, std::uint64_t next) const {
     if (!options_.time_s) return false;
     const double per_sample_s = clock_.elapsed_s() / static_cast<double>(work.samples());

@@ -1,5 +1,5 @@
-// What runs of all kinds have in common: the ray caster, the threads and the watch over the set-up, and the
-// schedule, which advances some work until a rule says stop.
+// The common part of all kinds of runs: the ray caster, the threads and the monitor of the set-up, and the
+// schedule, which advances the work until a rule says stop.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@
 
 namespace stilb::run {
 
-/// Time since it was made.
+/// Time since its construction.
 class Clock {
   public:
     double elapsed_s() const {
@@ -28,35 +28,36 @@ class Clock {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What grows sample by sample: readings, a picture or a solution.
+/// Work that grows sample by sample: readings, a picture or a solution.
 class Work {
   public:
     virtual ~Work() = default;
 
-    /// Of each replicate, or of the picture.
+    /// The samples of each replicate, or of the picture.
     virtual std::uint64_t samples() const = 0;
-    /// Of all replicates, as RunSummary has them.
+    /// The samples of all replicates, as in RunSummary.
     virtual std::uint64_t samples_in_all() const = 0;
-    /// So many samples are made where the user asks for `paths` in all.
+    /// The number of samples for the user's `paths`.
     virtual std::uint64_t samples_for(std::uint64_t paths) const = 0;
-    /// There are never more.
+    /// The largest number of samples.
     virtual std::uint64_t most_samples() const = 0;
-    /// There is no result with fewer: so many are made whatever the clock and the user say.
+    /// The least number of samples: without them there is no result, so they are made regardless of the
+    /// limits are.
     virtual std::uint64_t least_samples() const { return 1; }
-    /// After how many to look at the error next.
-    virtual std::uint64_t next_look() const = 0;
-    /// Between two looks at the clock.
+    /// The number of samples at the next error estimate.
+    virtual std::uint64_t next_check() const = 0;
+    /// Samples between two checks of the clock.
     virtual std::uint64_t most_at_once() const = 0;
 
-    /// Makes the next `count` samples. False where `interrupt` (which may be null) stopped it: then nothing
-    /// is added.
+    /// Makes the next `count` samples. Returns false, and adds nothing, where `interrupt` (which may be null)
+    /// stopped it.
     virtual bool advance(std::uint64_t count, const std::atomic<bool>* interrupt) = 0;
     virtual double attained_error() const = 0;
-    /// Called after each report of progress: shows the result so far to whom it may concern.
+    /// Called after each report of progress: shows the unfinished result where the sink asks for it.
     virtual void show() {}
 };
 
-/// The rules by which a run ends.
+/// The rules that end a run.
 class Schedule {
   public:
     /// `sink` and `interrupt` may be null.
@@ -71,8 +72,8 @@ class Schedule {
     Ending run(Work& work) const;
 
   private:
-    /// A stretch of work whose end is a look at the error; a reason where it got no farther.
-    std::optional<StopReason> advance_to(std::uint64_t look, std::uint64_t last, Work& work,
+    /// Advances to the next error estimate; returns a reason where the run ends before.
+    std::optional<StopReason> advance_to(std::uint64_t check, std::uint64_t last, Work& work,
                                          double& error) const;
     bool is_time_over(const Work& work, std::uint64_t next) const;
     void report(const Work& work, std::uint64_t last, double error) const;
@@ -83,12 +84,13 @@ class Schedule {
     const std::atomic<bool>* interrupt_;
 };
 
-/// Seconds until the first of the targets is met, infinite without any: the error falls as the root of time,
-/// samples take alike. `attained_error` may be infinite, `share_done` is that of the paths asked for.
+/// Seconds until the first of the limits is met, infinite without any: the error falls as the square root of
+/// time, all samples take the same time. `attained_error` may be infinite, `share_done` is that of the
+/// requested paths.
 double remaining_time_s(const RunOptions& options, double elapsed_s, double attained_error,
                         double share_done);
 
-/// One run from its beginning. The time that the user asks for holds for the set-up too; a default does not.
+/// One run from its beginning. The user's time limit includes the set-up; a default one does not.
 class Session {
   public:
     /// `asked` are the user's options, `options` those with defaults.
@@ -99,15 +101,15 @@ class Session {
 
     const rays::RayCaster& caster() const { return caster_; }
     const Monitor& monitor() const { return monitor_; }
-    /// Without measurands and camera.
+    /// The problem without measurands and camera.
     estimators::Problem problem(math::RandomKey preparation_key) const;
 
-    /// Calls `action` where its parallel loops take as many threads as the user asks for.
+    /// Calls `action` with the user's number of threads for its parallel loops.
     void on_threads(const std::function<void()>& action) { pool_.execute(action); }
 
-    /// Advances the work until a rule says stop: sets samples, stop_reason, converged and attained_error.
+    /// Advances the work until a rule ends it: sets samples, stop_reason, converged and attained_error.
     void run(Work& work, RunSummary& summary);
-    /// Sets what else all results have: what the estimator tells, and the time.
+    /// Sets the other common fields of results: the estimator's reports, and the time.
     void describe(const estimators::Estimator& estimator, RunSummary& summary) const;
     void finish(RunSummary& summary) const;
 

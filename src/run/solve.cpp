@@ -18,10 +18,10 @@ namespace stilb::run {
 namespace {
 
 constexpr const char* kMethod = "ray-bundle";
-/// Each has its own light in the file.
+/// The number of replicates; each has its own light in the file.
 constexpr std::size_t kReplicates = 8;
-/// Of each walk, before the first look at the errors.
-constexpr std::uint64_t kFirstLook = 16;
+/// Steps of each walk before the first error estimate.
+constexpr std::uint64_t kFirstCheck = 16;
 constexpr std::uint64_t kStepsAtOnce = 4;
 
 /// Independent walks, each with its own sums.
@@ -50,7 +50,7 @@ class Walks final : public Work {
     std::uint64_t most_samples() const override {
         return std::numeric_limits<std::uint64_t>::max() / kReplicates;
     }
-    std::uint64_t next_look() const override { return statistics::next_look(samples(), kFirstLook); }
+    std::uint64_t next_check() const override { return statistics::next_check(samples(), kFirstCheck); }
     std::uint64_t most_at_once() const override { return kStepsAtOnce; }
 
     bool advance(std::uint64_t steps, const std::atomic<bool>*) override {
@@ -72,8 +72,8 @@ class Walks final : public Work {
         return sides;
     }
 
-    /// Of the sides' illuminances, first shot included, by how much of the flux they get: sides that hardly
-    /// any light comes to, in cracks and where things touch, must not decide.
+    /// The errors of the sides' illuminances, first shot included, weighted by flux: sides with hardly
+    /// any light, in cracks and where things touch, must not decide.
     double attained_error() const override {
         const std::vector<std::uint32_t> sides = lit_sides();
         if (sides.empty()) return 0;

@@ -1,5 +1,5 @@
-// The light of a scene for every view at once, by stochastic iteration with ray bundles (bundle_iteration.h):
-// independent walks, which stop by how much they differ.
+// The view-independent light of a scene, by stochastic iteration with ray bundles (bundle_iteration.h):
+// independent walks, whose spread gives the error that ends them.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace stilb::run {
 
-/// Of the basis that the light of glossy sides is kept in; docs/solution.md has what it costs and gives.
+/// The degree of the basis for the light of glossy sides; docs/solution.md states its cost and accuracy.
 inline constexpr int kDefaultDegree = 6;
 
 /// The attained error is that of the sides which get 95 % of the flux.
@@ -20,10 +20,10 @@ struct SolveResult : RunSummary {
     estimators::PatchSolution solution;
 };
 
-/// Solves by method ray-bundle, whatever the options' method; their `paths` are steps of all walks together.
-/// Without any target, for a minute. The result depends on scene, patches, degree and seed, and
-/// on the steps done: not on threads. `interrupt` ends the run early, in good order. Throws as measure(), and
-/// InputError for first shots that are not stored: all but incoming and none.
+/// Solves by method ray-bundle, regardless of the options' method; their `paths` are steps of all walks
+/// together. Without any limit, for a minute. The result depends on scene, patches, degree and seed, and on
+/// the steps done: not on threads. `interrupt` ends the run early, with a result. Throws as measure(), and
+/// InputError for first shots that cannot be stored: all but incoming and none.
 SolveResult solve(const Scene& scene, const RunOptions& options, int degree = kDefaultDegree,
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
 

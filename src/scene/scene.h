@@ -1,4 +1,4 @@
-// What exists: objects with materials, and lights. Plain values, immutable once built; see scene_file for the
+// The scene: objects with materials, and lights. Plain values, immutable once built; see scene_file for the
 // reader and RayCaster for the queries.
 #pragma once
 
@@ -21,17 +21,17 @@ struct NamedMaterial {
 struct Object {
     std::string name;
     Shape shape;
-    /// One for the whole object, or (meshes) one for each triangle.
+    /// One material for the whole object, or (meshes) one for each triangle.
     std::vector<MaterialId> materials;
 };
 
-/// A luminaire's distribution, and what its file says of itself.
+/// A luminaire's distribution, and the statements of its file.
 struct NamedSolid {
     std::string file;
     std::string luminaire;  ///< the name that the file gives, may be empty
     PhotometricSolid solid;
     std::string format = {};          ///< "EULUMDAT", "IES LM-63-2002"
-    std::string flux_statement = {};  ///< whether the file's stated flux is the integral, for people
+    std::string flux_statement = {};  ///< comparison of the file's stated flux with the integral, as text
 };
 
 struct Scene {
@@ -46,7 +46,7 @@ struct Scene {
     const PhotometricSolid& solid(SolidId id) const { return solids[index_of(id)].solid; }
 };
 
-/// The scene as its lights see it. Keeps a reference.
+/// The scene as the lights' Surroundings. Keeps a reference.
 class LightSurroundings final : public lights::Surroundings {
   public:
     explicit LightSurroundings(const Scene& scene) : scene_(scene) {}
@@ -60,11 +60,11 @@ class LightSurroundings final : public lights::Surroundings {
     const Scene& scene_;
 };
 
-/// Of all objects and of lights that are points; a point at the origin where there is nothing.
+/// Bounds of all objects and point lights; a point at the origin where there are none.
 Bounds bounds_of(const Scene& scene);
 /// Flux of a light per band; luminance() of it is lumen.
 Rgb flux_lm(const Scene& scene, const Light& light);
-/// Of all objects; each surface once, though both its sides reflect.
+/// The area of all objects; each surface once, though both its sides reflect.
 double surface_area_m2(const Scene& scene);
 
 }  // namespace stilb::scene

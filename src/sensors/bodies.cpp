@@ -1,14 +1,12 @@
 #include "sensors/bodies.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "math/sampling.h"
 
 namespace stilb::sensors {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Vec3 kUp{0, 0, 1};
 
 /// An angle from -pi/2 to pi/2 with density 2 cos^2 / pi: the solution of
@@ -28,7 +26,7 @@ double sample_squared_cosine(double u) {
     return u < 0.5 ? e - kPi / 2 : kPi / 2 - e;
 }
 
-/// A direction by its azimuth and height over the horizon.
+/// A direction by its azimuth and its elevation above the horizon.
 struct Horizontal {
     double across, along, up;
 };
@@ -39,7 +37,7 @@ Horizontal by_azimuth(double azimuth_rad, double height_rad) {
 
 double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
-/// In a frame whose z axis is the cylinder's.
+/// Directions in a frame whose z axis is the cylinder's.
 constexpr Sensitivity kCylinder{[](const Vec3& d) { return length_of(d.x, d.y) / kPi; },
                                 [](double u1, double u2) {
                                     const auto [across, along, up] =
@@ -48,7 +46,7 @@ constexpr Sensitivity kCylinder{[](const Vec3& d) { return length_of(d.x, d.y) /
                                 },
                                 ""};
 
-/// In the frame of a wall that faces along the direction: y is upwards, z away from it.
+/// Directions in the frame of a wall that faces along the direction: y is upwards, z away from it.
 constexpr Sensitivity kSemicylinder{[](const Vec3& d) { return (length_of(d.x, d.z) + d.z) / kPi; },
                                     [](double u1, double u2) {
                                         // The azimuth has density (1 + cos(alpha)) / (2 pi) = cos^2(alpha /

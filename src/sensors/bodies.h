@@ -41,7 +41,7 @@ struct Semicylindrical {
         return std::tuple{
             PositionsField{&Semicylindrical::positions, "middle of the semicylinder's flat side"},
             DirectionField{"direction", &Semicylindrical::direction,
-                           "horizontal: the way that the curved side faces"}};
+                           "horizontal: direction of the curved side"}};
     }
     std::optional<Fault> settle(const GivenKeys& given);
 
@@ -58,9 +58,8 @@ struct Hemispherical {
     static constexpr Quantity kQuantity{"hemispherical illuminance", "lx"};
     static constexpr Noun kReadings = kPoints;
     static constexpr auto fields() {
-        return std::tuple{
-            PositionsField{&Hemispherical::positions, "middle of the hemisphere's flat side"},
-            DirectionField{"normal", &Hemispherical::normal, "the way that the curved side faces"}};
+        return std::tuple{PositionsField{&Hemispherical::positions, "middle of the hemisphere's flat side"},
+                          DirectionField{"normal", &Hemispherical::normal, "direction of the curved side"}};
     }
 
     std::size_t size() const { return positions.size(); }

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace stilb::sensors {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// False also where rounding alone puts a place on the edge beyond it.
+/// Returns false also where rounding alone moves a position from the edge to the outside.
 bool is_beyond(double angle, double limit) {
     constexpr double rounding = 1e-12;
     return std::abs(angle) > limit * (1 + rounding);
@@ -46,11 +43,12 @@ std::optional<Fault> Camera::settle(const GivenKeys& given) {
     constexpr double least = 1e-6;  // sine of the angle between up and the view
     if (length(cross(normalized(target - position), up)) < least) {
         if (given.has("up"))
-            return Fault{"up",
-                         "is parallel to the way from position to target, so that no side of the picture is "
-                         "up. Allowed: any other direction."};
+            return Fault{
+                "up",
+                "is parallel to the direction from position to target, so the picture has no upward side. "
+                "Allowed: any other direction."};
         return Fault{"target",
-                     "lies straight above or below the position, so that no side of the picture is up. "
+                     "lies straight above or below the position, so the picture has no upward side. "
                      "Allowed: any other point, or another \"up\" than [0, 0, 1]."};
     }
     const FieldOfView view = field_of_view(projection);

@@ -1,4 +1,4 @@
-// Pictures: which way each place on them looks.
+// Cameras: the directions of positions on a picture.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace stilb::sensors {
 
-/// How directions are laid out on a picture.
+/// The projection of directions to a picture.
 enum class Projection {
     perspective,  ///< onto a plane: straight lines stay straight
     fisheye,      ///< equiangular: the distance from the middle is proportional to the angle from the axis
@@ -23,7 +23,7 @@ constexpr std::string_view name_of(Projection projection) {
     return kProjectionNames[static_cast<std::size_t>(projection)];
 }
 
-/// How the luminances around a pixel make its value.
+/// The filter that makes a pixel's value from the luminances around it.
 enum class PixelFilter {
     box,       ///< their mean over the pixel
     gaussian,  ///< their mean about its middle, weighted by a Gaussian of half a pixel's standard deviation
@@ -49,7 +49,7 @@ struct Camera {
                                       std::numeric_limits<double>::max(), "a number"};
     static constexpr auto fields() {
         return std::tuple{
-            PositionField{"position", &Camera::position, "of the eye"},
+            PositionField{"position", &Camera::position, "of the camera"},
             TargetField{"target", &Camera::target, &Camera::position, "in the middle of the picture"},
             DirectionField{"up", &Camera::up, "upwards in the picture; by default [0, 0, 1]",
                            Presence::optional, false},
@@ -58,22 +58,22 @@ struct Camera {
                   Presence::optional},
             CountsField{"resolution", &Camera::resolution, kLimit, "width and height in pixels"},
             ChoiceField{"projection", &Camera::projection, kProjectionNames,
-                        "how directions are laid out; by default perspective"},
+                        "projection of directions; by default perspective"},
             ChoiceField{"filter", &Camera::filter, kPixelFilterNames,
-                        "how the luminances around a pixel make its value; by default box"}};
+                        "filter over the luminances around a pixel; by default box"}};
     }
     /// Sets the field of view where it is not given.
     std::optional<Fault> settle(const GivenKeys& given);
 };
 
-/// A camera with its axes. Places are in pixels from the upper left corner of the picture, y downwards:
-/// pixel (i, j) reaches from (i, j) to (i + 1, j + 1).
+/// A camera with its axes. Positions are in pixels from the upper left corner of the picture, y downwards:
+/// pixel (i, j) extends from (i, j) to (i + 1, j + 1).
 class CameraView {
   public:
-    /// `up` and the way to the target must not be parallel, nor any of them 0.
+    /// Preconditions: `up` and the direction to the target are not 0 and not parallel.
     explicit CameraView(const Camera& camera);
 
-    /// The unit direction that one looks along at a place; nothing where the picture shows none (beside the
+    /// The unit viewing direction at a position; nothing outside of the camera's field (such as the
     /// circle of a fisheye).
     std::optional<Vec3> direction_at(double x, double y) const;
     const Vec3& position() const { return position_; }

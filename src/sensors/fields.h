@@ -1,5 +1,5 @@
-// The kinds of keys that sensors have in scene files, beside the numbers of base/field.h. Each type of sensor
-// lists its own in fields(); the scene reader has one function for each kind of key.
+// The kinds of keys that sensors have in scene files, in addition to the numbers of base/field.h. Each type
+// of sensor lists its own in fields(); the scene reader has one function for each kind of key.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace stilb::sensors {
 
-/// Of all sensors together: 10 million measurands take 0.8 gigabytes.
+/// The limit of all sensors together: 10 million measurands take 0.8 gigabytes.
 inline constexpr std::int64_t kMostReadings = 10'000'000;
 
 /// [x, y, z] in m.
@@ -28,7 +28,7 @@ struct PositionField {
     std::string_view meaning;
 };
 
-/// [x, y, z] in m, elsewhere than another position.
+/// [x, y, z] in m, different from another position.
 template <typename Owner>
 struct TargetField {
     std::string_view key;
@@ -44,7 +44,7 @@ struct DirectionField {
     Value Owner::*member;
     std::string_view meaning;
     Presence presence = Presence::required;
-    bool warns_of_length = true;  ///< where it is far from 1
+    bool warns_of_length = true;  ///< where its length is far from 1
 };
 template <typename Owner, typename Value>
 DirectionField(std::string_view, Value Owner::*, std::string_view) -> DirectionField<Owner, Value>;
@@ -68,7 +68,7 @@ struct MeasuringPointsField {
     std::string_view meaning;
 };
 
-/// A "position", and from there one or many directions or targets.
+/// A "position", and one or many directions or targets from there.
 template <typename Owner>
 struct SightsField {
     std::vector<Measurand> Owner::*member;
@@ -84,7 +84,7 @@ struct ParallelogramField {
     std::string_view meaning;
 };
 
-/// How many there may be of what a pair of counts makes.
+/// The limit of the number of elements given by a pair of counts.
 struct CountLimit {
     std::string_view form;  ///< "[nu, nv]"
     std::int64_t most_each, most;
@@ -112,13 +112,13 @@ template <typename Owner, typename Enumeration>
 ChoiceField(std::string_view, Enumeration Owner::*, std::span<const std::string_view>, std::string_view)
     -> ChoiceField<Owner, Enumeration>;
 
-/// What is wrong with the keys of a sensor together: the one to change, and the message for it.
+/// A contradiction between the keys of a sensor: the key to change, and the message for it.
 struct Fault {
     std::string_view key;
     std::string message;
 };
 
-/// Which keys a scene file gives.
+/// The keys that a scene file gives.
 class GivenKeys {
   public:
     explicit GivenKeys(std::vector<std::string> keys) : keys_(std::move(keys)) {}
@@ -133,7 +133,7 @@ class GivenKeys {
     std::vector<std::string> keys_;
 };
 
-/// What the readings of a sensor are called: "3 lines of sight".
+/// The name of a sensor's readings: "3 lines of sight".
 struct Noun {
     std::string_view one, many;
 };

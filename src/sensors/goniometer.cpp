@@ -10,15 +10,15 @@
 namespace stilb::sensors {
 namespace {
 
-/// Steps from 0 that stay below `limit_deg`; one that meets it but for rounding does not.
+/// Steps from 0 below `limit_deg`; a step that meets it up to rounding is excluded.
 std::int64_t steps_below(double limit_deg, double step_deg) {
     constexpr double rounding = 1e-9;
     return static_cast<std::int64_t>(std::ceil(limit_deg / step_deg - rounding)) - 1;
 }
 
-/// The frame that directions are given in, w along the normal.
+/// The frame of the directions, w along the normal.
 Frame frame_of(const Vec3& normal) {
-    // The turn of +z to the normal is that of -z to its opposite.
+    // The rotation of +z to the normal is that of -z to its opposite.
     const lights::LuminaireFrame turned = lights::aim_luminaire(-normal, 0);
     return {turned.c0, turned.c90, normal};
 }
@@ -57,11 +57,11 @@ Measurand Goniometer::measurand(std::size_t j) const {
     return EmergentRay{point, normal, normalized(frame_of(normal).to_world(local_direction(angles(j))))};
 }
 
-Place Goniometer::place(std::size_t j) const {
-    Place place = place_of(measurand(j));
+Location Goniometer::location(std::size_t j) const {
+    Location location = location_of(measurand(j));
     const auto [theta_deg, phi_deg] = angles(j);
-    place.angles = {{"theta", theta_deg}, {"phi", phi_deg}};
-    return place;
+    location.angles = {{"theta", theta_deg}, {"phi", phi_deg}};
+    return location;
 }
 
 }  // namespace stilb::sensors

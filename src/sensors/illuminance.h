@@ -20,7 +20,7 @@ struct IlluminancePoints {
     static constexpr Noun kReadings = kPoints;
     static constexpr auto fields() {
         return std::tuple{
-            MeasuringPointsField{&IlluminancePoints::points, "where, and the side that light comes from"}};
+            MeasuringPointsField{&IlluminancePoints::points, "positions, and the side that receives light"}};
     }
 
     std::size_t size() const { return points.size(); }
@@ -31,7 +31,7 @@ struct IlluminancePoints {
 struct Grid {
     Vec3 corner, edge_u, edge_v;
     std::array<int, 2> count{1, 1};
-    /// A unit vector, of all points; by default that of edge_u x edge_v.
+    /// A unit vector for all points; by default that of edge_u x edge_v.
     std::optional<Vec3> normal{};
 
     static constexpr std::string_view kType = "grid";
@@ -44,7 +44,7 @@ struct Grid {
             ParallelogramField{&Grid::corner, &Grid::edge_u, &Grid::edge_v, "the measured area"},
             CountsField{"count", &Grid::count, kLimit, "cells along edge_u and edge_v"},
             DirectionField{"normal", &Grid::normal,
-                           "the side that light comes from; by default edge_u x edge_v", Presence::optional}};
+                           "the side that receives light; by default edge_u x edge_v", Presence::optional}};
     }
 
     std::size_t size() const {

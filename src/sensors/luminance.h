@@ -17,7 +17,7 @@ struct Luminance {
     static constexpr Quantity kQuantity = kLuminance;
     static constexpr Noun kReadings{"line of sight", "lines of sight"};
     static constexpr auto fields() {
-        return std::tuple{SightsField{&Luminance::sights, "from where, and which way one looks"}};
+        return std::tuple{SightsField{&Luminance::sights, "position and viewing direction"}};
     }
 
     std::size_t size() const { return sights.size(); }

@@ -19,19 +19,19 @@ struct ViewpointOf {
     MeasuringPoint operator()(const EmergentRay& ray) const { return {ray.position, ray.normal}; }
 };
 
-struct PlaceOf {
-    Place operator()(const MeasuringPoint& point) const {
+struct LocationOf {
+    Location operator()(const MeasuringPoint& point) const {
         return {"at", point.position, {{"normal", "facing", point.normal}}};
     }
-    Place operator()(const BodyPoint& body) const {
+    Location operator()(const BodyPoint& body) const {
         const std::string_view name = body.sensitivity->axis_name;
         if (name.empty()) return {"at", body.position};
         return {"at", body.position, {{name, "facing", body.axis}}};
     }
-    Place operator()(const LineOfSight& sight) const {
+    Location operator()(const LineOfSight& sight) const {
         return {"from", sight.position, {{"direction", "along", sight.direction}}};
     }
-    Place operator()(const EmergentRay& ray) const {
+    Location operator()(const EmergentRay& ray) const {
         return {"at", ray.position, {{"normal", "", ray.normal}, {"direction", "towards", ray.direction}}};
     }
 };
@@ -40,7 +40,7 @@ struct PlaceOf {
 
 bool is_luminance(const Measurand& measurand) { return std::visit(IsLuminance{}, measurand); }
 MeasuringPoint viewpoint_of(const Measurand& measurand) { return std::visit(ViewpointOf{}, measurand); }
-Place place_of(const Measurand& measurand) { return std::visit(PlaceOf{}, measurand); }
+Location location_of(const Measurand& measurand) { return std::visit(LocationOf{}, measurand); }
 
 std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster) {
     const double most = caster.offset_m(point.position, caster.half_extent_m());

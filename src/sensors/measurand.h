@@ -1,4 +1,5 @@
-// What one reading is of: the illuminance of a surface element or a small body, or the luminance along a ray.
+// The measurand of one reading: the illuminance of a surface element or a small body, or the luminance along
+// a ray.
 #pragma once
 
 #include <optional>
@@ -20,7 +21,7 @@ struct MeasuringPoint {
     Vec3 position, normal;
 };
 
-/// The luminance [cd/m2] that arrives at `position` when one looks along the unit `direction`.
+/// The luminance [cd/m2] that arrives at `position` for the unit viewing direction `direction`.
 struct LineOfSight {
     Vec3 position, direction;
 };
@@ -31,8 +32,8 @@ struct EmergentRay {
     Vec3 position, normal, direction;
 };
 
-/// How much light from each direction counts on a small body that stands free. Directions are unit vectors
-/// towards where light comes from, in Frame::of_surface(axis of the body).
+/// The directional sensitivity of a small body that stands free. Directions are unit vectors
+/// towards the incident light, in Frame::of_surface(axis of the body).
 ///
 /// The illuminance is the integral over the sphere of L(w) s(w) dw. It is the mean over the body's surface of
 /// illuminances of surface elements, so that the integral of s is pi, as that of cos+ is.
@@ -42,7 +43,7 @@ struct Sensitivity {
     std::string_view axis_name;            ///< of the axis in results; empty where it is the vertical
 };
 
-/// The illuminance [lx] on a small body with a unit `axis`, about which, or against which, it is the same.
+/// The illuminance [lx] on a small body, whose unit `axis` is its axis of symmetry or its facing direction.
 struct BodyPoint {
     Vec3 position, axis;
     const Sensitivity* sensitivity;
@@ -54,11 +55,11 @@ inline const Vec3& position_of(const Measurand& measurand) {
     return std::visit([](const auto& m) -> const Vec3& { return m.position; }, measurand);
 }
 bool is_luminance(const Measurand& measurand);
-/// Where a reading is made, and the side that light comes from.
+/// The position of a reading, and the side that receives light.
 MeasuringPoint viewpoint_of(const Measurand& measurand);
 
-/// A reading's place as results show it: JSON, CSV and text are all made of this.
-struct Place {
+/// The location of a reading in results: the common source of JSON, CSV and text.
+struct Location {
     struct Direction {
         std::string_view name;         ///< as a key of JSON and in columns: "normal"
         std::string_view preposition;  ///< in texts: "facing"; empty where texts leave it out
@@ -74,9 +75,9 @@ struct Place {
     std::vector<Direction> directions{};
     std::vector<Angle> angles{};
 };
-Place place_of(const Measurand& measurand);
+Location location_of(const Measurand& measurand);
 
-/// What a number says, as in "illuminance [lx]".
+/// The quantity of a number, as in "illuminance [lx]".
 struct Quantity {
     std::string_view name, unit;
 };
@@ -85,15 +86,16 @@ inline constexpr Quantity kIlluminance{"illuminance", "lx"}, kLuminance{"luminan
 /// The surface that a point lies on, on the side of its normal.
 std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster);
 
-/// Where rays from a measuring point start: lifted along its normal, off the surface that it lies on, if any.
+/// The start of rays from a measuring point: lifted along its normal, off the surface that it lies on, if
+/// any.
 Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster);
 
-/// The surface that a body lies on, on the side that the body is taken to be on: where its axis points to, or
-/// the front where the axis lies in the surface. Nothing where it stands free.
+/// The surface that a body lies on, on the assumed side of the body: where its axis points to, or
+/// the front where the axis lies in the surface. Nothing for a body that stands free.
 std::optional<rays::Hit> surface_at(const BodyPoint& body, const rays::RayCaster& caster);
 
-/// Where rays from a body start: at its position, which stands free; off the surface that it lies on, if any,
-/// which then hides half of the sphere from it.
+/// The start of rays from a body: its position, if it stands free; else lifted off the surface that it lies
+/// on, which then hides half of the sphere from it.
 Vec3 lifted_position(const BodyPoint& body, const rays::RayCaster& caster);
 
 }  // namespace stilb::sensors
@@ -102,8 +104,8 @@ namespace stilb {
 using sensors::BodyPoint;
 using sensors::EmergentRay;
 using sensors::LineOfSight;
+using sensors::Location;
 using sensors::Measurand;
 using sensors::MeasuringPoint;
-using sensors::Place;
 using sensors::Quantity;
 }  // namespace stilb

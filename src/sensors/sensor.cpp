@@ -65,22 +65,22 @@ std::vector<Measurand> Sensor::measurands() const {
     return all;
 }
 
-Place Sensor::place(std::size_t j) const {
+Location Sensor::location(std::size_t j) const {
     return std::visit(
         [this, j]<typename Kind>(const Kind& one) {
-            if constexpr (requires { one.place(j); }) {
-                return one.place(j);
+            if constexpr (requires { one.location(j); }) {
+                return one.location(j);
             } else {
-                return place_of(measurand(j));
+                return location_of(measurand(j));
             }
         },
         kind);
 }
 
-std::optional<Place> Sensor::common_place() const {
+std::optional<Location> Sensor::common_location() const {
     return std::visit(
-        []<typename Kind>(const Kind& one) -> std::optional<Place> {
-            if constexpr (requires { one.common_place(); }) return one.common_place();
+        []<typename Kind>(const Kind& one) -> std::optional<Location> {
+            if constexpr (requires { one.common_location(); }) return one.common_location();
             return std::nullopt;
         },
         kind);
@@ -107,10 +107,8 @@ const Sensor& sensor_named(const std::vector<Sensor>& all, const std::string& na
         if (sensor.name == name) return sensor;
         names.push_back(sensor.name);
     }
-    const std::string nearest = nearest_name(name, names);
     throw InputError(fmt::format("there is no {0} \"{1}\".{2} Allowed: {3}.", what, name,
-                                 nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
-                                 fmt::join(names, ", ")),
+                                 did_you_mean(name, names), fmt::join(names, ", ")),
                      {file});
 }
 
@@ -128,8 +126,9 @@ const Sensor& choose_camera(const std::vector<Sensor>& all, const std::string& n
         throw InputError("no camera: the scene needs a sensor of type \"camera\" under [sensors].", {file});
     }
     if (name.empty() && cameras.size() > 1) {
-        throw InputError(
-            fmt::format("the scene has several cameras: {}. Name one of them as the sensor.", fmt::join(cameras, ", ")), {file});
+        throw InputError(fmt::format("the scene has several cameras: {}. Name one of them as the sensor.",
+                                     fmt::join(cameras, ", ")),
+                         {file});
     }
     return sensor_named(all, name.empty() ? std::string(cameras.front()) : name, "camera", file, is_camera);
 }

@@ -1,12 +1,12 @@
-// Sensors: what is measured. One file a kind; a kind is a struct with
+// Sensors. One file a kind; a kind is a struct with
 //
-//     kType, kQuantity, kReadings     how files name it, what its numbers are, what its readings are called
+//     kType, kQuantity, kReadings     its name in files, the quantity, the name of its readings
 //     fields()                        its keys in scene files (fields.h, base/field.h)
 //     size(), measurand(j)            its readings, all of one quantity; cameras have none
 //
-// and, where it has them, settle(given) for what its keys say together, place(j) where results show more than
-// place_of(measurand), common_place() and `count` for rows and columns. The scene reader, JSON, CSV, the
-// table and `info` take all that they need from there: a new kind is its files and a line in SensorKind.
+// and optionally settle(given) for conditions between its keys, location(j) where results show more than
+// location_of(measurand), common_location() and `count` for rows and columns. The scene reader, JSON, CSV,
+// the table and `info` use this interface alone: a new kind is its files and a line in SensorKind.
 #pragma once
 
 #include <array>
@@ -33,10 +33,10 @@ constexpr std::array<std::string_view, sizeof...(Kinds)> type_names(
     std::type_identity<std::variant<Kinds...>>) {
     return {Kinds::kType...};
 }
-/// As scene files have them, in the order of SensorKind.
+/// The names in scene files, in the order of SensorKind.
 inline constexpr auto kSensorTypeNames = type_names(std::type_identity<SensorKind>{});
 
-/// What the readings of sensors of a type are called.
+/// The name of the readings of a type of sensor.
 Noun readings_of_type(std::string_view type);
 
 struct Sensor {
@@ -50,14 +50,14 @@ struct Sensor {
     /// Number of readings; a camera, which makes a picture, has none.
     std::size_t size() const;
     Measurand measurand(std::size_t j) const;
-    /// All of them, in order.
+    /// All measurands, in order.
     std::vector<Measurand> measurands() const;
-    Place place(std::size_t j) const;
-    /// What the places of all readings have in common, where results say it once.
-    std::optional<Place> common_place() const;
+    Location location(std::size_t j) const;
+    /// The common part of the locations of all readings, if results state it once.
+    std::optional<Location> common_location() const;
     /// Columns and rows of readings that cover an area, u fastest.
     std::optional<std::array<int, 2>> count() const;
-    /// Nothing where the sensor is none.
+    /// The camera; null for other sensors.
     const Camera* camera() const { return std::get_if<Camera>(&kind); }
 };
 

@@ -13,7 +13,7 @@
 // its true value: c is the Bonferroni quantile over the contenders. That the data choose their number is
 // covered by measurement (docs/statistics.md), not by this argument.
 //
-// Bonferroni, as nobody knows how the readings' errors are correlated. The maximum is the minimum of the
+// Bonferroni, because the correlation of the readings' errors is unknown. The maximum is the minimum of the
 // negatives.
 #include "statistics/grid_summary.h"
 

@@ -1,4 +1,4 @@
-// Mean, minimum, maximum and uniformity of a grid of readings, each with an interval that holds.
+// Mean, minimum, maximum and uniformity of a grid of readings, each with a valid interval.
 #pragma once
 
 #include "statistics/interval.h"
@@ -7,18 +7,19 @@ namespace stilb::statistics {
 
 struct GridSummary {
     Estimate mean, minimum, maximum;
-    Estimate uniformity;  ///< minimum over mean; all NaN where the mean is 0: without light it has no meaning
+    Estimate uniformity;  ///< minimum over mean; all NaN where the mean is 0, because uniformity is undefined
+                          ///< in darkness
 };
 
-/// The summary of a table with at least two replicates and one reading; all readings weigh the same in the
+/// The summary of a table with at least two replicates and one reading; all readings have equal weight in the
 /// mean. The values of minimum, maximum and uniformity are the plain ones of the readings' means, and their
-/// standard errors those of the readings selected; as such a selection is biased outwards, their intervals
-/// are simultaneous ones over all readings that cannot be excluded. Valid for any correlation among the
-/// readings; needs memory in proportion to the readings. Throws std::invalid_argument for fewer than two
+/// standard errors those of the selected readings; because such a selection is biased outwards, their
+/// intervals are simultaneous ones over all readings that cannot be excluded. Valid for any correlation among
+/// the readings; the memory is proportional to the readings. Throws std::invalid_argument for fewer than two
 /// replicates.
 GridSummary summarize_grid(const ReplicateTable& table, double confidence = 0.95);
 
-/// Of one or more readings whose errors nobody knows (without_error()).
+/// The summary of one or more readings with unknown errors (without_error()).
 GridSummary summarize_without_errors(std::span<const double> readings);
 
 }  // namespace stilb::statistics

@@ -25,8 +25,8 @@ struct Bin {
     double observed = 0, expected = 0;
 };
 
-/// Bins with at least the least expectation each, if the total allows it; those without any expectation left
-/// out.
+/// Bins with at least the least expectation each, if the total allows it; bins without any expectation are
+/// left out.
 std::vector<Bin> merge_bins(std::vector<Bin> bins, double least_expected) {
     std::stable_sort(bins.begin(), bins.end(), [](Bin a, Bin b) { return a.expected < b.expected; });
     std::vector<Bin> merged;

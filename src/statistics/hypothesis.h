@@ -1,4 +1,4 @@
-// Tests of hypotheses, one definition each: for the library, the tests and the experiments.
+// Statistical tests, one definition each: for the library, the tests and the experiments.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace stilb::statistics {
 
-/// How many standard errors two independent estimates are apart. Without any error: 0 if equal, else
+/// The distance of two independent estimates in standard errors. Without any error: 0 if equal, else
 /// infinite.
 double z_score(const Estimate& a, const Estimate& b);
-/// The same against a value known exactly.
+/// The distance from a value that is known exactly.
 double z_score(const Estimate& estimate, double exact);
 
-/// The chance that a normal deviate is at least this far from 0.
+/// The probability that a normal deviate is at least this far from 0.
 double two_sided_p_of_z(double z);
-/// The chance that Student's t is at least this far from 0.
+/// The probability that Student's t is at least this far from 0.
 double two_sided_p_of_t(double t, int degrees_of_freedom);
 
 /// The normal z with the same tail as this t. A z-score whose standard error comes from R replicates is a t
@@ -40,8 +40,8 @@ struct Chi2Result {
 Chi2Result chi2_test(std::span<const double> observed, std::span<const double> expected,
                      double least_expected = 5);
 
-/// Kolmogorov-Smirnov: the chance that numbers uniform in [0, 1] deviate from uniformity at least this much.
-/// For eight numbers or more (asymptotic distribution with the correction of [Stephens 1970]).
+/// Kolmogorov-Smirnov: the probability that numbers uniform in [0, 1] deviate from uniformity at least this
+/// much. For eight numbers or more (asymptotic distribution with the correction of [Stephens 1970]).
 double uniformity_p(std::span<const double> numbers);
 
 }  // namespace stilb::statistics

@@ -88,7 +88,7 @@ double attained_error(std::span<const Estimate> readings, double share) {
 
 double attained_error_of(std::vector<double> half_widths, double share) {
     if (half_widths.empty()) return 0;
-    // The small number keeps 0.95 * 20 from counting as more than 19.
+    // The small number prevents 0.95 * 20 from counting as more than 19.
     const double needed = std::ceil(share * static_cast<double>(half_widths.size()) - 1e-9);
     const auto last =
         half_widths.begin() + std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(needed) - 1, 0);
@@ -112,12 +112,12 @@ double attained_error(std::span<const Estimate> readings, std::span<const double
     return half_widths.empty() ? 0 : half_widths.back().first;
 }
 
-std::uint64_t next_look(std::uint64_t done, std::uint64_t first) {
-    std::uint64_t look = first;
-    while (2 * look <= done) look *= 2;
-    if (done < look) return look;
-    const std::uint64_t half_more = look + look / 2;
-    return done < half_more ? half_more : 2 * look;
+std::uint64_t next_check(std::uint64_t done, std::uint64_t first) {
+    std::uint64_t check = first;
+    while (2 * check <= done) check *= 2;
+    if (done < check) return check;
+    const std::uint64_t half_more = check + check / 2;
+    return done < half_more ? half_more : 2 * check;
 }
 
 }  // namespace stilb::statistics

@@ -1,5 +1,5 @@
-// A measured value with its error, made from independent replicates. docs/statistics.md says how and how
-// well.
+// A measured value with its error, from independent replicates. docs/statistics.md describes method and
+// quality.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@ struct Estimate {
     bool operator==(const Estimate&) const = default;
 };
 
-/// What R independent replicates say of each of many readings: row r holds replicate r's mean of every
-/// reading. Errors of one replicate's readings may be correlated (they share chains); those of different
+/// The means of R independent replicates for each of many readings: row r holds replicate r's mean of every
+/// reading. Errors of one replicate's readings may be correlated (they share light paths); those of different
 /// replicates may not.
 struct ReplicateTable {
     std::span<const double> means;  ///< replicates x readings, row-major
@@ -31,7 +31,7 @@ struct ReplicateTable {
     }
 };
 
-/// The number that Student's t with these degrees of freedom stays below with this probability (0 <
+/// The quantile of Student's t with these degrees of freedom for this probability (0 <
 /// probability < 1).
 double student_t_quantile(double probability, int degrees_of_freedom);
 
@@ -39,7 +39,7 @@ double student_t_quantile(double probability, int degrees_of_freedom);
 /// replicates.
 Estimate estimate_from_replicates(std::span<const double> replicate_means, double confidence = 0.95);
 
-/// A value whose error nobody knows: the others are NaN.
+/// A value with unknown error: the other members are NaN.
 Estimate without_error(double value);
 
 /// The same for every reading of a table.
@@ -55,7 +55,7 @@ struct ReplicateMoments {
     std::vector<double> means, standard_errors;  ///< one per reading
 };
 
-/// Throws std::invalid_argument for fewer than two replicates or a table whose size is no multiple of its
+/// Throws std::invalid_argument for fewer than two replicates or a table whose size is not a multiple of its
 /// readings.
 ReplicateMoments compute_replicate_moments(const ReplicateTable& table);
 
@@ -64,43 +64,44 @@ ReplicateMoments compute_replicate_moments(const ReplicateTable& table);
 std::vector<double> residual_standard_errors(const ReplicateTable& table, std::span<const double> means,
                                              std::span<const double> slopes, std::span<const double> common);
 
-// Whether single contributions carry so much of a sum that its interval cannot be trusted.
+// Detection of single contributions that dominate a sum, whose interval then cannot be trusted.
 
-/// The share of a sum of `count` independent contributions that its largest one may have: 1/sqrt(count).
+/// The acceptable share of the largest one in a sum of `count` independent contributions: 1/sqrt(count).
 ///
-/// Where the contributions' variance is finite, the largest one's share times sqrt(count) falls to 0 as they
-/// become more; where it is infinite (tails of index below 2, such as local estimation has in corners), it
+/// Where the contributions' variance is finite, the largest one's share times sqrt(count) falls to 0 with
+/// their number; where it is infinite (tails of index below 2, as in local estimation in corners), it
 /// grows without limit. At this share the largest contribution alone moves the sum by the standard error of
 /// contributions that vary as much as their mean. A fixed share would miss slowly converging sums at large
-/// counts and blame small counts for nothing.
+/// counts and raise false alarms at small counts.
 inline double heavy_tail_share(std::uint64_t count) { return 1 / std::sqrt(static_cast<double>(count)); }
 
-/// Whether the result deserves a warning. A sum of 0 does not; `count` counts the contributions that are 0
-/// too.
+/// Whether the result deserves a warning. A sum of 0 does not; `count` includes contributions of
+/// 0.
 inline bool is_heavy_tailed(double largest, double sum, std::uint64_t count) {
     return std::abs(largest) > heavy_tail_share(count) * std::abs(sum);
 }
 
-// When a run is good enough: the stopping rule and how far a run has come.
+// The stopping rule: when a run is accurate enough, and its progress.
 
 /// Share of each sensor's readings that must meet the target: the few darkest points must not decide over the
 /// rest.
 inline constexpr double kReadingShare = 0.95;
 
-/// The confidence at which to make the intervals of a run that stops by its own error, for them to hold in 95
-/// % of the runs: one stops sooner where the standard error happens to be too small. docs/statistics.md has
+/// The confidence of the intervals of a run that stops by its own error, so that they hold in 95
+/// % of the runs: a run stops sooner where the standard error happens to be too small. docs/statistics.md has
 /// the measurements.
 inline constexpr double kStoppedConfidence = 0.96;
 
-/// The relative half-width that this share of the readings is within; 0 without readings.
+/// The relative half-width that this share of the readings meets; 0 without readings.
 double attained_error(std::span<const Estimate> readings, double share = kReadingShare);
 double attained_error_of(std::vector<double> relative_half_widths, double share = kReadingShare);
-/// That readings with this share of all weight are within; weights are not negative, one for each reading.
+/// The half-width that readings with this share of all weight meet; weights are not negative, one for each
+/// reading.
 double attained_error(std::span<const Estimate> readings, std::span<const double> weights,
                       double share = kReadingShare);
 
-/// How many samples there are at the next look at the errors, after `done`: `first`, then 1.5, 2, 3, 4, 6 ...
+/// The number of samples at the next error estimate, after `done`: `first`, then 1.5, 2, 3, 4, 6 ...
 /// times as many, where Sobol' points are at their best and the overshoot is at most a half.
-std::uint64_t next_look(std::uint64_t done, std::uint64_t first);
+std::uint64_t next_check(std::uint64_t done, std::uint64_t first);
 
 }  // namespace stilb::statistics

@@ -20,16 +20,16 @@ void trace_light_path(const Scene& scene, const rays::RayCaster& caster, const L
         if (!hit) return;
         const Material& material = scene.material(hit->material);
         if (is_specular(material)) {
-            const auto way = choose_specular_ray(material, *hit, -direction, Carried::flux, stream.next());
-            if (way && !way->straight) {
+            const auto branch = choose_specular_ray(material, *hit, -direction, Carried::flux, stream.next());
+            if (branch && !branch->straight) {
                 if (reflections == 0) only_by_light = particle.from_point;
                 ++reflections;
             }
-            const double survival = way ? survival_probability(flux, way->share) : 0;
+            const double survival = branch ? survival_probability(flux, branch->share) : 0;
             if (stream.next() >= survival) return;
-            flux *= way->share * (1 / survival);
-            origin = way->origin;
-            direction = way->direction;
+            flux *= branch->share * (1 / survival);
+            origin = branch->origin;
+            direction = branch->direction;
             continue;
         }
         const double survival = survival_probability(flux, reflectance_bound(material));
@@ -51,8 +51,8 @@ std::vector<LightVertex> trace_light_paths(const Scene& scene, const rays::RayCa
                                            const LightSampler& lights, int max_nodes, math::RandomKey key,
                                            std::uint64_t first, std::uint64_t end) {
     std::vector<LightVertex> nodes;
-    for (std::uint64_t chain = first; chain < end; ++chain) {
-        trace_light_path(scene, caster, lights, max_nodes, math::SampleStream(key, chain), nodes);
+    for (std::uint64_t path = first; path < end; ++path) {
+        trace_light_path(scene, caster, lights, max_nodes, math::SampleStream(key, path), nodes);
     }
     return nodes;
 }

@@ -33,13 +33,13 @@ LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
 void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
     const auto number = static_cast<std::uint32_t>(emitters_.size());
     flux_lm_.push_back(scene::flux_lm(scene, light));
-    places_.push_back(place_of(light));
+    locations_.push_back(location_of(light));
     emitters_.push_back(lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift()));
     if (const auto surface = lights::surface_emission(light)) {
         luminance_of_object_[index_of(surface->object)] = surface->luminance_cd_m2;
         light_of_object_[index_of(surface->object)] = number;
     }
-    if (places_[number] == LightPlace::infinity) {
+    if (locations_[number] == LightLocation::infinity) {
         if (outside_ != kNoLight) {
             throw InputError(
                 fmt::format("lights \"{}\" and \"{}\" both surround the scene. Allowed: one environment.",

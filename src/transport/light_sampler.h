@@ -1,4 +1,4 @@
-// Light sources as the estimators need them: particles that leave them, and their light at a given point.
+// Sampling of light sources: particles that leave them, and their light at a given point.
 #pragma once
 
 #include <array>
@@ -25,45 +25,46 @@ struct EmittedParticle {
     bool from_point = false;  ///< from a light that no ray can hit
 };
 
-/// All lights of a scene. What a light does is the matter of its kind (lights/); here is how one is chosen.
+/// All lights of a scene. The kinds of lights (lights/) define their light; the sampler chooses among lights.
 /// Keeps references to scene and its solids. Immutable.
 class LightSampler {
   public:
-    /// `made_elsewhere`: of Scene::lights, those whose light something else brings to surfaces; none where it
-    /// is empty. sample_one_light() never chooses them, and to pdf_per_sr() they are as if it always found
+    /// `made_elsewhere`: the lights of Scene::lights whose light another method computes; none if it
+    /// is empty. sample_one_light() never chooses them, and pdf_per_sr() treats them as if it always found
     /// them.
     /// Throws InputError where several lights are at infinity.
     LightSampler(const Scene& scene, const rays::RayCaster& caster, std::vector<bool> made_elsewhere = {});
 
-    /// A particle drawn about in proportion to the emitted luminous flux: light, position, direction. Light
-    /// from infinity, most of which a scene of rooms never sees, gets at most as many as all others together.
+    /// Samples a particle about in proportion to the emitted luminous flux: light, position, direction. Light
+    /// from infinity, most of which misses a scene of rooms, gets at most as many as all others together.
     EmittedParticle sample_emission(math::SampleStream& stream) const;
 
     std::size_t count() const { return emitters_.size(); }
-    /// Light from a point is known exactly, without sampling.
-    bool is_point(std::size_t light) const { return places_[light] == LightPlace::point; }
+    /// Light from a point source is computed exactly, without sampling.
+    bool is_point(std::size_t light) const { return locations_[light] == LightLocation::point; }
 
-    /// Light from one source; points ignore `u`. Nothing where the sample's front is turned away.
+    /// Samples the light of one source; point sources ignore `u`. Nothing where the sample's front faces
+    /// away.
     std::optional<IncidentLight> sample_incident(std::size_t light, const ReceivingPoint& at,
                                                  const std::array<double, 2>& u) const;
     std::optional<IncidentLight> sample_incident(std::size_t light, const Vec3& from,
                                                  const std::array<double, 2>& u) const {
         return sample_incident(light, ReceivingPoint{from, std::nullopt}, u);
     }
-    /// As above from one source chosen by its unshadowed contribution at `from`, of many lights about by
-    /// that; divided by the choice's probability. Takes no memory.
+    /// Samples one source, chosen by its unshadowed contribution at `from` (approximately, if there are many
+    /// lights); divided by the choice's probability. Allocates no memory.
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
                                                   math::SampleStream& stream) const;
 
-    /// About the density with which sample_one_light() draws the direction to `hit`, on an emitter; 0 where
-    /// it never does, infinite where the light is made elsewhere.
+    /// The approximate density of the direction to `hit`, on an emitter, in sample_one_light(); 0 where
+    /// it never samples it, infinite where the light is made elsewhere.
     double pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Vec3& normal) const;
-    /// The same of sample_incident() for the light that `hit` is on.
+    /// The same for sample_incident() with the light that `hit` is on.
     double pdf_of_its_light_per_sr(const rays::Hit& hit, const Vec3& from) const;
 
-    /// Luminance that leaves `hit` towards where the ray came from, of an emitter; zero elsewhere.
+    /// Luminance that leaves `hit`, on an emitter, against the ray; zero elsewhere.
     Rgb emitted_luminance(const rays::Hit& hit) const;
-    /// Luminance that comes from outside of the scene, to a ray that leaves it along a unit direction.
+    /// Luminance from outside of the scene along a ray that leaves it in a unit direction.
     Rgb outside_luminance(const Vec3& direction) const;
     /// As pdf_per_sr() and pdf_of_its_light_per_sr(), for such a ray.
     double outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const;
@@ -81,9 +82,9 @@ class LightSampler {
         return !made_elsewhere_.empty() && made_elsewhere_[light];
     }
     double rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const;
-    /// The chance with which sample_one_light() chooses a light there, times `pdf`.
+    /// The probability that sample_one_light() chooses a light there, times `pdf`.
     double times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const;
-    /// More than kFew lights are chosen by the tree, and the light from infinity beside it.
+    /// More than kFew lights are chosen by the tree, and the light from infinity separately.
     bool goes_by_tree() const { return count() > kFew; }
     void plant_tree(const Scene& scene);
     std::optional<math::DiscreteChoice> choose(const Vec3& from, const Vec3& normal, double u) const;
@@ -91,13 +92,13 @@ class LightSampler {
     double tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const;
 
     std::vector<lights::Emitter> emitters_;
-    std::vector<LightPlace> places_;
+    std::vector<LightLocation> locations_;
     std::vector<Rgb> flux_lm_;
     math::DiscreteDistribution by_flux_;
     std::vector<Rgb> luminance_of_object_;
-    std::vector<std::uint32_t> light_of_object_;  ///< kNoLight where it is none
+    std::vector<std::uint32_t> light_of_object_;  ///< kNoLight for objects without a light
     std::vector<bool> made_elsewhere_;
-    LightTree tree_;                    ///< of the lights that are somewhere and not made elsewhere
+    LightTree tree_;                    ///< of the lights at finite distance that are not made elsewhere
     std::uint32_t outside_ = kNoLight;  ///< the light from infinity
     bool has_visible_lights_ = false;
 };

@@ -1,4 +1,4 @@
-// Choosing one of many lights at a point without asking each of them, after [Conty Estevez and Kulla 2018].
+// Choice of one of many lights at a point in sublinear time, after [Conty Estevez and Kulla 2018].
 #pragma once
 
 #include <algorithm>
@@ -15,23 +15,23 @@
 namespace stilb::transport {
 
 /// A binary tree of bounding boxes over lights. At a point, all boxes that are near for their size are
-/// opened, down to single lights or until there are kMostOpen of them; one is chosen by what it gives, and a
-/// branch at a time below it. A point gives what the caller's `rough_lx(number)` says, boxes and surfaces
-/// give about their intensity over the squared distance times the largest cosine above the surface: never 0
-/// where one of its lights gives something. Immutable; queries take no memory.
+/// opened, down to single lights or until there are kMostOpen of them; one is chosen by its estimated
+/// contribution, and one branch at each level below it. The caller's `rough_lx(number)` estimates point
+/// lights; boxes and surfaces are estimated by intensity over the squared distance times the largest cosine
+/// above the surface: never 0 where one of the lights contributes. Immutable; queries allocate no memory.
 class LightTree {
   public:
     struct Light {
         std::uint32_t number = 0;  ///< the caller's
         Bounds bounds;
-        double intensity_cd = 0;  ///< luminous, about
+        double intensity_cd = 0;  ///< luminous, approximate
         bool is_point = false;
     };
 
     LightTree() = default;
     explicit LightTree(std::vector<Light> lights);
 
-    /// The opened boxes at a point, with running sums of what they give [lx].
+    /// The opened boxes at a point, with running sums of their estimates [lx].
     class Cut {
       public:
         double total_lx() const { return count_ == 0 ? 0 : sums_lx_[count_ - 1]; }
@@ -46,11 +46,11 @@ class LightTree {
     template <typename Rough>
     Cut cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const;
 
-    /// A light's number with its probability; the cut of the same point gives something.
+    /// A light's number with its probability; the cut of the same point must not be empty.
     template <typename Rough>
     math::DiscreteChoice choose(const Cut& cut, const Vec3& from, const Vec3& normal, double u,
                                 const Rough& rough_lx) const;
-    /// The probability with which choose() takes a light of the tree.
+    /// The probability that choose() selects a light of the tree.
     template <typename Rough>
     double probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
                        const Rough& rough_lx) const;
@@ -62,7 +62,7 @@ class LightTree {
         double squared_radius_m2 = 0;
         double intensity_cd = 0;
         std::uint32_t parent = 0;
-        std::uint32_t first = 0;  ///< child, the other follows; of single lights: the number
+        std::uint32_t first = 0;  ///< first child, followed by the other; for single lights: the number
         bool is_light = false, is_point = false;
     };
 
@@ -75,7 +75,7 @@ class LightTree {
     double node_lx(std::uint32_t node, const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
         return nodes_[node].is_point ? rough_lx(nodes_[node].first) : box_lx(nodes_[node], from, normal);
     }
-    /// Of the first child beside the other. A box may have a corner above the horizon where neither child has
+    /// The probability of the first child. A box may have a corner above the horizon where neither child has
     /// one.
     template <typename Rough>
     double first_probability(const Node& parent, const Vec3& from, const Vec3& normal,
@@ -93,7 +93,7 @@ template <typename Rough>
 LightTree::Cut LightTree::cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
     Cut cut;
     if (nodes_.empty()) return cut;
-    /// Boxes that are to be opened, as a heap: the nearest for its size first.
+    /// Boxes to be opened, as a heap: the nearest relative to its size first.
     struct Waiting {
         double nearness;
         std::uint32_t node;
@@ -155,8 +155,8 @@ double LightTree::probability(const Cut& cut, std::uint32_t number, const Vec3& 
     for (std::uint32_t at = node_of_[number];; at = nodes_[at].parent) {
         const auto found = std::find(cut.nodes_.begin(), end, at);
         if (found != end) {
-            const auto place = static_cast<std::size_t>(found - cut.nodes_.begin());
-            const double own_lx = cut.sums_lx_[place] - (place == 0 ? 0 : cut.sums_lx_[place - 1]);
+            const auto index = static_cast<std::size_t>(found - cut.nodes_.begin());
+            const double own_lx = cut.sums_lx_[index] - (index == 0 ? 0 : cut.sums_lx_[index - 1]);
             return below * own_lx / cut.total_lx();
         }
         const Node& parent = nodes_[nodes_[at].parent];

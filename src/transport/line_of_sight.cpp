@@ -7,9 +7,9 @@ namespace stilb::transport {
 
 namespace {
 
-/// Share of the luminance below which a way is not followed on.
+/// Share of the luminance below which a branch is not followed.
 constexpr double kLeastTransmission = 0.005;
-/// Light that is caught in glass could go on for ever.
+/// The limit of interactions, because light can be trapped in glass.
 constexpr int kMostFollowed = 32;
 
 class LineOfSightFollower {
@@ -26,19 +26,19 @@ class LineOfSightFollower {
             sight.sub_points.push_back({hit, -direction, transmission, reflections});
             return;
         }
-        for (const SpecularRay& way : specular_rays(material, hit, -direction)) {
-            const int met = reflections + (way.straight ? 0 : 1);
+        for (const SpecularRay& branch : specular_rays(material, hit, -direction)) {
+            const int met = reflections + (branch.straight ? 0 : 1);
             if (met > max_reflections_) {
                 if (!sight.end) sight.end = hit.position;
                 continue;
             }
-            const Rgb left = transmission * way.share * way.luminance_factor;
+            const Rgb left = transmission * branch.share * branch.luminance_factor;
             if (left.max() < kLeastTransmission || met > kMostFollowed) {
-                sight.faint.push_back({way.origin, way.direction, left, met});
-            } else if (const auto next = caster_.closest(way.origin, way.direction)) {
-                follow(*next, way.direction, left, met);
+                sight.faint.push_back({branch.origin, branch.direction, left, met});
+            } else if (const auto next = caster_.closest(branch.origin, branch.direction)) {
+                follow(*next, branch.direction, left, met);
             } else {
-                sight.emission_cd_m2 += left * lights_.outside_luminance(way.direction);
+                sight.emission_cd_m2 += left * lights_.outside_luminance(branch.direction);
             }
         }
     }
@@ -55,26 +55,27 @@ class LineOfSightFollower {
 }  // namespace
 
 std::optional<rays::Hit> first_surface(const Measurand& luminance, const rays::RayCaster& caster) {
-    const MeasuringPoint place = viewpoint_of(luminance);
+    const MeasuringPoint viewpoint = viewpoint_of(luminance);
     if (std::holds_alternative<LineOfSight>(luminance)) {
-        return caster.closest(lifted_position(place, caster), place.normal);
+        return caster.closest(lifted_position(viewpoint, caster), viewpoint.normal);
     }
-    return surface_at(place, caster);
+    return surface_at(viewpoint, caster);
 }
 
-Vec3 looking_direction(const Measurand& luminance) {
+Vec3 viewing_direction(const Measurand& luminance) {
     const auto* ray = std::get_if<EmergentRay>(&luminance);
     return ray ? -ray->direction : std::get<LineOfSight>(luminance).direction;
 }
 
-VisibleSurfaces look(const Measurand& luminance, const Scene& scene, const rays::RayCaster& caster,
-                     const LightSampler& lights, int max_reflections) {
+VisibleSurfaces trace_line_of_sight(const Measurand& luminance, const Scene& scene,
+                                    const rays::RayCaster& caster, const LightSampler& lights,
+                                    int max_reflections) {
     LineOfSightFollower follower(scene, caster, lights, max_reflections);
     follower.sight.first = first_surface(luminance, caster);
     if (follower.sight.first) {
-        follower.follow(*follower.sight.first, looking_direction(luminance), Rgb::grey(1), 0);
+        follower.follow(*follower.sight.first, viewing_direction(luminance), Rgb::grey(1), 0);
     } else {
-        follower.sight.emission_cd_m2 = lights.outside_luminance(looking_direction(luminance));
+        follower.sight.emission_cd_m2 = lights.outside_luminance(viewing_direction(luminance));
     }
     std::stable_sort(follower.sight.sub_points.begin(), follower.sight.sub_points.end(),
                      [](const SubPoint& a, const SubPoint& b) {
@@ -87,7 +88,7 @@ VisibleSurfaces look(const Measurand& luminance, const Scene& scene, const rays:
 
 namespace {
 
-/// Everything that the two functions need of a surface and the way that a path came to it.
+/// The data of a surface and of the incoming path for the two functions.
 struct Meeting {
     const rays::Hit& hit;
     bool is_pane;
@@ -102,7 +103,7 @@ struct Meeting {
               surface.branches(met.on_front ? materials::LightSide::outside : materials::LightSide::inside,
                                surface.frame().to_local(from), carried)) {}
 
-    SpecularRay way(const materials::SpecularBranch& branch, double probability) const {
+    SpecularRay branch(const materials::SpecularBranch& branch, double probability) const {
         const bool reflected = branch.direction.z > 0;
         return {reflected ? hit.lifted : hit.lifted_behind(), surface.frame().to_world(branch.direction),
                 branch.share * (1 / probability), branch.luminance_factor, is_pane && !reflected};
@@ -113,10 +114,10 @@ struct Meeting {
 
 std::vector<SpecularRay> specular_rays(const Material& material, const rays::Hit& hit, const Vec3& from) {
     const Meeting meeting(material, hit, from, Carried::luminance);
-    std::vector<SpecularRay> ways;
+    std::vector<SpecularRay> all;
     for (const materials::SpecularBranch& branch : meeting.branches.list())
-        ways.push_back(meeting.way(branch, 1));
-    return ways;
+        all.push_back(meeting.branch(branch, 1));
+    return all;
 }
 
 std::optional<SpecularRay> choose_specular_ray(const Material& material, const rays::Hit& hit,
@@ -129,10 +130,10 @@ std::optional<SpecularRay> choose_specular_ray(const Material& material, const r
     double before = 0;
     for (const materials::SpecularBranch& branch : branches.first(branches.size() - 1)) {
         const double probability = branch.share.luminance() / total;
-        if (u < before + probability) return meeting.way(branch, probability);
+        if (u < before + probability) return meeting.branch(branch, probability);
         before += probability;
     }
-    return meeting.way(branches.back(), 1 - before);
+    return meeting.branch(branches.back(), 1 - before);
 }
 
 }  // namespace stilb::transport

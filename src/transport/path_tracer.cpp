@@ -69,7 +69,7 @@ void PathTracer::follow(Path& path) const {
     }
 }
 
-bool PathTracer::look_through(Path& path) const {
+bool PathTracer::follow_to_scattering(Path& path) const {
     while (is_specular(material(path.hit))) {
         const Step step = take_step(path);
         if (!step.ray) return false;
@@ -100,17 +100,17 @@ void PathTracer::add_stored_reflection(std::span<Path* const> paths, rays::Coher
 }
 
 std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Material& material) const {
-    const auto way =
+    const auto branch =
         choose_specular_ray(material, path.hit, path.outgoing, Carried::luminance, path.stream.next());
-    const double survival = way ? survival_probability(path.throughput, way->share) : 0;
+    const double survival = branch ? survival_probability(path.throughput, branch->share) : 0;
     if (path.stream.next() >= survival) return std::nullopt;
-    path.throughput *= way->share * (way->luminance_factor / survival);
-    if (!way->straight) {
+    path.throughput *= branch->share * (branch->luminance_factor / survival);
+    if (!branch->straight) {
         if (path.reflections_left == 0) return std::nullopt;
         --path.reflections_left;
         path.previous_vertex = {};
     }
-    return rays::Ray{way->origin, way->direction};
+    return rays::Ray{branch->origin, branch->direction};
 }
 
 PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const {

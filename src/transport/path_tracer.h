@@ -1,13 +1,13 @@
 // Path tracing from a surface point: the luminance that it reflects.
 //
 // Every reflection adds the light of one source, chosen and sampled by next-event estimation, and that of
-// emitters that the path runs into or that it sees where it leaves the scene, weighted against each other by
-// the balance heuristic [Veach and Guibas 1995]. Both see straight through panes. Behind mirrors and glass,
-// which next-event estimation cannot see through, emitters count in full. Not made: light that leaves a
+// emitters that the path hits or that it finds where it leaves the scene, weighted against each other by
+// the balance heuristic [Veach and Guibas 1995]. Both pass straight through panes. Behind mirrors and glass,
+// which next-event estimation cannot pass, emitters count in full. Not found: light that leaves a
 // point-like source and meets a mirror or glass first.
 //
-// Lights whose first reflection is stored (StoredReflection) are left out of both; every surface adds its
-// stored reflection instead.
+// Lights whose first reflection is stored (StoredReflection) are left out of both techniques; every surface
+// adds its stored reflection instead.
 #pragma once
 
 #include <limits>
@@ -17,18 +17,18 @@
 
 namespace stilb::transport {
 
-/// From where a path looks for emitters, beside next-event estimation there.
+/// The previous vertex of a path, from which it may hit emitters in addition to next-event estimation there.
 struct PreviousVertex {
-    /// Density of the path's direction; infinite where next-event estimation cannot find what the path does,
-    /// 0 where it finds everything.
+    /// Density of the path's direction; infinite where next-event estimation cannot find the light of the
+    /// path, 0 where it finds all of it.
     double pdf_per_sr = std::numeric_limits<double>::infinity();
     Vec3 position{}, normal{};  ///< of the surface, where the density is finite
 };
 
-/// Of paths that leave out what is seen straight.
+/// For paths that leave out directly visible emission.
 inline constexpr PreviousVertex kDirectIsKnown{0};
 
-/// A path that is traced against the light: where it has come to and what it has gathered on its way.
+/// A path traced against the light: its present vertex and the light gathered so far.
 struct Path {
     rays::Hit hit;
     Vec3 outgoing;  ///< unit, from `hit` back along the path
@@ -39,12 +39,12 @@ struct Path {
     PreviousVertex previous_vertex{};
 };
 
-/// The first reflection of lights that path tracing leaves out, where something has computed it beforehand.
+/// The precomputed first reflection of lights that path tracing leaves out.
 class StoredReflection {
   public:
     virtual ~StoredReflection() = default;
 
-    /// Adds to each path what the surface that it stands on reflects of those lights. `coherence`: of the
+    /// Adds to each path the light of those lights that its surface reflects. `coherence`: of the
     /// paths' last rays.
     virtual void add_to(std::span<Path* const> paths, rays::Coherence coherence) const = 0;
 };
@@ -52,27 +52,27 @@ class StoredReflection {
 /// Keeps references to its arguments. Immutable.
 class PathTracer {
   public:
-    /// `stored`: null where no light is left out. To `lights`, those that are have to be made elsewhere.
+    /// `stored`: null where no light is left out. The lights left out must be made elsewhere in `lights`.
     PathTracer(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights,
                const StoredReflection* stored = nullptr)
         : scene_(scene), caster_(caster), lights_(lights), stored_(stored) {}
 
-    /// Follows paths to their ends, side by side. `first`: of the ways to their first hits, and of the shadow
-    /// rays there.
+    /// Follows paths to their ends, in parallel. `first`: coherence of the rays to their first hits, and of
+    /// the shadow rays there.
     void trace(std::span<Path> paths, rays::Coherence first) const;
 
-    /// Follows a path through mirrors and glass until it stands on another surface; false where it ends
-    /// before.
-    bool look_through(Path& path) const;
+    /// Follows a path through mirrors and glass to the next surface that scatters; returns false where it
+    /// ends before.
+    bool follow_to_scattering(Path& path) const;
 
     /// Light from one source at `surface`, shadows included; nothing where none arrives.
     std::optional<IncidentLight> sample_light(const rays::Hit& surface, math::SampleStream& stream) const;
 
-    /// One sample of the luminance [cd/m2] that arrives along a ray that met `hit`, emission of `hit` itself
-    /// left out.
+    /// One sample of the luminance [cd/m2] that arrives along a ray with the hit `hit`, without the emission
+    /// of `hit` itself.
     Rgb luminance_behind(const rays::Hit& hit, const Vec3& direction, const PreviousVertex& previous_vertex,
                          int max_reflections, const math::SampleStream& stream) const;
-    /// The same without all emission that is seen straight: that is direct light.
+    /// The same without all directly visible emission: that is direct light.
     Rgb luminance_without_direct(const rays::Hit& hit, const Vec3& direction, int max_reflections,
                                  const math::SampleStream& stream) const {
         return luminance_behind(hit, direction, kDirectIsKnown, max_reflections, stream);
@@ -82,7 +82,7 @@ class PathTracer {
                   const math::SampleStream& stream) const {
         return lights_.emitted_luminance(hit) + luminance_behind(hit, direction, {}, max_reflections, stream);
     }
-    /// The same, where emission that is seen straight from `lookout` is weighted against next-event
+    /// The same, where emission directly visible from `previous_vertex` is weighted against next-event
     /// estimation there.
     Rgb incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex, int max_reflections,
                            const math::SampleStream& stream) const;
@@ -90,29 +90,29 @@ class PathTracer {
     const Material& material(const rays::Hit& hit) const { return scene_.material(hit.material); }
 
   private:
-    /// What a path receives from a source if nothing lies in between.
+    /// The light of a source at a path's surface if nothing lies in between.
     struct Connection {
         rays::Segment segment;
         Rgb luminance_cd_m2;
     };
-    /// What a path does where it has come to: nothing more if there is no ray.
+    /// The next step of a path at its present vertex: it ends if there is no ray.
     struct Step {
         std::optional<Connection> connection;
         std::optional<rays::Ray> ray;
     };
     Step take_step(Path& path) const;
-    /// What the surfaces that paths stand on reflect of the lights that are left out.
+    /// The light of the left-out lights that the paths' surfaces reflect.
     void add_stored_reflection(std::span<Path* const> paths, rays::Coherence coherence) const;
     std::optional<rays::Ray> pass_specular(Path& path, const Material& material) const;
     Step reflect(Path& path, const Material& material) const;
-    /// Where the step's ray has met something.
+    /// Continues where the step's ray has hit a surface.
     void arrive(Path& path, const Vec3& direction, const rays::Hit& next) const;
-    /// Where the step's ray leaves the scene.
+    /// Continues where the step's ray leaves the scene.
     void leave(Path& path, const Vec3& direction) const;
-    /// How much emission counts that a path finds; light from outside likewise.
+    /// The MIS weight of emission that a path finds; likewise of light from outside.
     double share_of(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const;
     double share_of_outside(const PreviousVertex& previous_vertex, const Vec3& direction) const;
-    /// One path by itself.
+    /// A single path.
     void follow(Path& path) const;
 
     const Scene& scene_;

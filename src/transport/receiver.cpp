@@ -13,8 +13,6 @@ namespace stilb::transport {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 const Material& white() {
     static const Material material = Diffuse{Rgb::grey(1)};
     return material;
@@ -130,7 +128,7 @@ std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
     std::vector<std::uint32_t> order(receivers.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return codes[a] < codes[b]; });
-    // So that at most one packet has bodies beside other receivers.
+    // Bodies follow all others, so that at most one packet has both.
     std::stable_partition(order.begin(), order.end(), [&](auto i) { return !receivers[i].is_body(); });
     std::vector<Receiver> sorted;
     sorted.reserve(receivers.size());
@@ -140,8 +138,8 @@ std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
 
 namespace {
 
-/// Without the response. Direction and distance are those of the point itself; only the shadow ray starts
-/// lifted.
+/// The sample without the response. Direction and distance are those of the point itself; only the shadow ray
+/// starts lifted.
 Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster) {
     const double sensitivity = receiver.sensitivity(light.direction);
     if (sensitivity <= 0) return {};
@@ -149,14 +147,14 @@ Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const r
            caster.transmittance({receiver.lifted(), light.source_point});
 }
 
-/// What has no normal receives light from all around.
+/// A point without a normal receives light from all directions.
 ReceivingPoint receiving_point(const Receiver& receiver) {
     ReceivingPoint point{receiver.position(), std::nullopt};
     if (squared_length(receiver.normal()) > 0) point.normal = receiver.normal();
     return point;
 }
 
-/// The emitters' light along a ray in proportion to the response; beside samples of each light.
+/// The emitters' light along a ray in proportion to the response; combined with samples of each light.
 Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
                        math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();

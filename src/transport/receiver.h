@@ -1,4 +1,4 @@
-// Where light is received, and what it adds to which reading.
+// Receivers: the points where light arrives, and their contribution to readings.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace stilb::transport {
 /// Reflections without limit.
 inline constexpr int kUnlimited = std::numeric_limits<int>::max();
 
-/// A point where light arrives: to its reading it adds
+/// A point where light arrives. It adds to its reading
 ///
 ///     integral over the sphere of L(direction) response(direction) sensitivity(direction) d direction.
 ///
@@ -26,35 +26,35 @@ inline constexpr int kUnlimited = std::numeric_limits<int>::max();
 /// that over the body's surface. The integral of either is pi.
 ///
 /// For illuminance the response is 1. For luminance the point is a sub-point z of the line of sight, and the
-/// response is the BRDF there times what mirrors and glass leave of the light on its way to the sensor
+/// response is the BRDF there times the transmittance of mirrors and glass between it and the sensor
 /// [LocalEstimation (8) to (10)].
 class Receiver {
   public:
-    /// Of illuminance.
+    /// A receiver of illuminance.
     Receiver(std::uint32_t reading, const MeasuringPoint& point, const rays::RayCaster& caster);
     Receiver(std::uint32_t reading, const BodyPoint& body, const rays::RayCaster& caster);
-    /// Of luminance. `material`: of the sub-point, not specular.
+    /// A receiver of luminance. `material`: of the sub-point, not specular.
     Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material);
 
     std::uint32_t reading() const { return reading_; }
     void set_reading(std::uint32_t reading) { reading_ = reading; }
     const Vec3& position() const { return position_; }
     const Vec3& lifted() const { return lifted_; }  ///< where rays start
-    /// 0 where the point is on no surface but a body.
+    /// 0 for a body, which has no surface normal.
     const Vec3& normal() const { return normal_; }
     bool is_body() const { return body_ != nullptr; }
-    /// For unit directions towards where light comes from.
+    /// The sensitivity for unit directions towards the incident light.
     double sensitivity(const Vec3& direction) const;
-    /// What is left of a limit to all reflections for light before it arrives here.
+    /// The reflections that remain of a limit for light before it arrives here.
     int reflections_left(int max_reflections) const {
         return max_reflections == kUnlimited ? kUnlimited : max_reflections - reflections_;
     }
 
     /// The response where it does not depend on direction.
     const std::optional<Rgb>& constant_response() const { return constant_response_; }
-    /// 1, or [1/sr]; for unit directions above the surface, towards where light comes from.
+    /// 1, or [1/sr]; for unit directions above the surface, towards the incident light.
     Rgb response(const Vec3& direction) const;
-    /// pi f / albedo: s of kernel_split.h; 1 where the response is constant.
+    /// pi f / albedo: s of weights.h; 1 where the response is constant.
     double relative_response(const Vec3& direction) const;
 
     struct Sample {
@@ -62,12 +62,12 @@ class Receiver {
         Rgb weight;  ///< response x sensitivity / pdf
         double pdf_per_sr = 0;
     };
-    /// A direction that light may come from, about in proportion to response x sensitivity; nothing where the
-    /// surface absorbs the light.
+    /// Samples a direction of incident light, about in proportion to response x sensitivity; nothing where
+    /// the surface absorbs the light.
     std::optional<Sample> sample(double u1, double u2) const;
     double pdf_per_sr(const Vec3& direction) const;
 
-    /// The point without its response: what receives its illuminance.
+    /// The point with the response of its illuminance.
     Receiver without_response() const;
 
   private:
@@ -83,7 +83,7 @@ class Receiver {
     std::uint32_t reading_ = 0;
 };
 
-/// Of an illuminance; nothing of a luminance.
+/// The receiver of an illuminance; nothing for a luminance.
 std::optional<Receiver> receiver_of_illuminance(std::uint32_t reading, const Measurand& measurand,
                                                 const rays::RayCaster& caster);
 
@@ -92,13 +92,13 @@ std::optional<Receiver> receiver_of_illuminance(std::uint32_t reading, const Mea
 /// kPacketWidth on. A reading may have several (several sub-points) or none.
 std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers);
 
-// Light that reaches receivers straight from the sources, through panes too, integrated on its own
+// Direct light at receivers, through panes too, integrated separately
 // [LocalEstimation 3].
 
-/// What a receiver gets from all lights that are points: exact, one shadow ray each.
+/// The light from all point lights at a receiver: exact, one shadow ray each.
 Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights);
 
-/// One sample of what a receiver gets from all other lights: each by itself and, where the response
+/// One sample of the light from all other lights at a receiver: each separately and, where the response
 /// depends on direction, all by a ray in proportion to the response as well, weighted by the balance
 /// heuristic.
 Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,

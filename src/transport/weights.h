@@ -1,9 +1,11 @@
-// The kernel split (theory T.1b): which part of the light from y to x comes by chains, which by rays from x.
+// Weights of multiple importance sampling, and Russian roulette.
 //
-// With G = cos+ cos+ / d^2 and s = pi f_r / albedo (1 on diffuse surfaces, large in glossy lobes) at y, and
-// likewise at the sub-point x where a luminance is measured (1 for illuminance), chains have the share
-// w = k / (k + s_y s_x G): the kernel f_y f_x G w that they are weighted with stays below k albedo_y
-// albedo_x / pi^2, whatever the BRDFs.
+// Bounded connections with compensation [Kollig, Keller 2004] (theory T.1b; the papers and the theory call a
+// light path a chain, and this weight the kernel split): light from y to x is shared between connections of
+// light vertices and gathering rays from x. With G = cos+ cos+ / d^2 and s = pi f_r / albedo (1 on diffuse
+// surfaces, large in glossy lobes) at y, and likewise at the sub-point x of a luminance (1 for illuminance),
+// connections have the MIS weight w = k / (k + s_y s_x G): their weighted kernel f_y f_x G w stays below
+// k albedo_y albedo_x / pi^2 for all BRDFs. Rays from x compensate with the weight 1 - w.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +17,13 @@
 
 namespace stilb::transport {
 
-/// s for a BRDF value of a material.
+/// The factor s of a BRDF value of a material.
 inline double relative_brdf(const Material& material, const Rgb& brdf_per_sr) {
     const double albedo = reflectance_bound(material).luminance();
     return albedo > 0 ? std::numbers::pi * brdf_per_sr.luminance() / albedo : 0;
 }
 
-/// 1 - w for a surface seen under a given G / k.
+/// The weight 1 - w of gathering rays, for a surface seen under a given G / k.
 struct GatheredShare {
     double g_over_k = INFINITY;  ///< infinity: everything is gathered
 
@@ -32,25 +34,25 @@ struct GatheredShare {
 
 // The balance heuristic of multiple importance sampling [Veach and Guibas 1995].
 
-/// The weight of a sample that was drawn with the first density, beside one drawn with the other. Infinite:
-/// the other can never draw it.
+/// The weight of a sample drawn with the first density, against the other technique's density. Infinite: the
+/// other technique cannot draw it.
 inline double balance(double pdf, double other_pdf) { return std::isinf(pdf) ? 1 : pdf / (pdf + other_pdf); }
 
-// Ending random walks without bias.
+// Russian roulette, which ends random walks without bias.
 
-/// With what probability a walk goes on whose throughput is about to be multiplied by `factor`: so that the
-/// largest band keeps its value. Below 1 even on white surfaces, so that every walk ends.
+/// The survival probability of a walk before its throughput is multiplied by `factor`: it keeps the value of
+/// the largest band. Below 1 even on white surfaces, so that every walk ends.
 constexpr double survival_probability(const Rgb& throughput, const Rgb& factor) {
     constexpr double most = 0.995;
     const double before = throughput.max();
     return before > 0 ? std::min((throughput * factor).max() / before, most) : 0;
 }
 
-/// The same for paths that gather light at every step, whose noise is less where they go on for sure as long
-/// as they matter: roulette begins where the largest band would fall below a quarter.
+/// The same for paths that gather light at every step, whose noise is less if they always survive while their
+/// throughput is large: roulette begins where the largest band would fall below a quarter.
 constexpr double patient_survival_probability(const Rgb& throughput, const Rgb& factor) {
-    constexpr double light_path = 0.25, most = 0.995;
-    return std::min((throughput * factor).max() / light_path, most);
+    constexpr double roulette_threshold = 0.25, most = 0.995;
+    return std::min((throughput * factor).max() / roulette_threshold, most);
 }
 
 }  // namespace stilb::transport

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "exact/closed_rooms.h"
 #include "verification/verification.h"
@@ -11,8 +10,6 @@
 namespace stilb::verification {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 VerificationCase photometric_sphere_case(double reflectance) {
     constexpr double flux_lm = 1000;
@@ -99,9 +96,9 @@ std::vector<MeasuringPoint> furnace_points() {
 
 constexpr double kEmitted = 10;
 constexpr const char* kFurnaceNote =
-    "an L-shaped room whose walls all shine and reflect. Not with Phong and Ward surfaces, whose albedo\n"
-    "  depends on the direction. What stands in it and loses no light is invisible; white rough and plastic\n"
-    "  balls are so within the errors of their tables (docs/materials.md).";
+    "an L-shaped room whose walls all emit and reflect. Not with Phong and Ward surfaces, whose albedo\n"
+    "  depends on the direction. Objects in it that absorb no light are invisible; white rough and plastic\n"
+    "  balls are invisible within the errors of their tables (docs/materials.md).";
 
 /// A furnace without readings.
 VerificationCase furnace(const std::string& variant, double reflectance,
@@ -127,7 +124,7 @@ void add_illuminances(VerificationCase& furnace, double reflectance) {
     }
 }
 
-/// Along lines of sight from the air, and leaving floor, ceiling and wall.
+/// Lines of sight in the air, and rays leaving floor, ceiling and wall.
 void add_luminances(VerificationCase& furnace, double reflectance) {
     const double luminance_cd_m2 = exact::furnace_luminance_cd_m2(kEmitted, reflectance);
     for (const auto& [position, normal] : furnace_points()) {
@@ -164,8 +161,8 @@ std::vector<VerificationCase> furnaces_of_walls() {
     return cases;
 }
 
-/// Two walls, through which nothing of the room is seen from outside, are open to an environment of the
-/// luminance that the furnace has: nothing changes inside.
+/// Two walls, outside of which nothing of the room is visible, are open to an environment with the
+/// luminance of the furnace: nothing changes inside.
 std::vector<VerificationCase> open_furnaces() {
     constexpr double reflectance = 0.6;
     std::vector<VerificationCase> cases{
@@ -183,18 +180,18 @@ std::vector<VerificationCase> open_furnaces() {
     return cases;
 }
 
-// What is invisible in a furnace
+// Invisible objects in a furnace
 
-constexpr Vec3 kMiddle{1, 1, 1.2};  ///< of the thing
+constexpr Vec3 kMiddle{1, 1, 1.2};  ///< of the object
 constexpr double kHalfSize = 0.45;
 
-/// Of walls that stand around a convex thing whose albedo is wrong by `albedo_error`, at most, the thing's
-/// luminance is wrong by (albedo_error + what arrives wrongly), and what arrives is wrong by `reflectance`
-/// times the thing's error.
+/// Around a convex object whose albedo is wrong by at most `albedo_error`, the object's
+/// luminance is wrong by (albedo_error + the error of the incident light), and that error is `reflectance`
+/// times the object's error.
 double largest_error(double albedo_error, double reflectance) { return albedo_error / (1 - reflectance); }
 
-/// Lines of sight to places all over the thing, which is no larger than a ball of kHalfSize, and past it; and
-/// of the floor beside it.
+/// Lines of sight to positions all over the object, which is no larger than a ball of kHalfSize, and past it;
+/// and to the floor beside it.
 VerificationCase invisible_case(const std::string& variant, const Shape& thing, const Material& material,
                                 double albedo_error) {
     constexpr double reflectance = 0.2;
@@ -202,11 +199,11 @@ VerificationCase invisible_case(const std::string& variant, const Shape& thing, 
     add_object(result.scene, thing, material);
     const double tolerance = largest_error(albedo_error, reflectance);
     const double luminance_cd_m2 = exact::furnace_luminance_cd_m2(kEmitted, reflectance);
-    for (const Vec3& eye : {Vec3{3, 0.8, 1.5}, Vec3{0.4, 3.2, 0.9}}) {
+    for (const Vec3& position : {Vec3{3, 0.8, 1.5}, Vec3{0.4, 3.2, 0.9}}) {
         for (const Vec3& offset : spread_directions(6)) {
             const Vec3 target = kMiddle + 0.9 * kHalfSize * offset;
             result.readings.push_back(
-                {LineOfSight{eye, normalized(target - eye)}, luminance_cd_m2, tolerance});
+                {LineOfSight{position, normalized(target - position)}, luminance_cd_m2, tolerance});
         }
     }
     result.readings.push_back(

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -12,15 +11,15 @@
 namespace stilb::verification {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLuminance = 1000;
 constexpr const char* kNote =
-    "Constant luminance all around, less what black things hide by their configuration factors; convex "
-    "things\n"
+    "Constant luminance from all directions, minus the part that black objects hide by their configuration "
+    "factors; convex "
+    "objects\n"
     "  alone in it, which reflect rho L; and a panorama of two half spaces, whose illuminance is linear in "
     "the cosine.";
 
-/// Near the origin, where black things stand, facing them and more and more turned away.
+/// Elements near the origin, where black objects stand, facing them and increasingly tilted.
 std::vector<exact::Receiver> elements() {
     std::vector<exact::Receiver> all;
     int i = 0;
@@ -89,7 +88,7 @@ VerificationCase under_a_hole() {
     return result;
 }
 
-/// What leaves a convex thing of this material, and what is seen past it.
+/// Rays leaving a convex object of this material, and lines of sight past it.
 VerificationCase seen_case(const std::string& variant, const Shape& shape, const Material& material,
                            double luminance_cd_m2, double tolerance) {
     VerificationCase result{"environment", variant + ", luminance", {}, {}};
@@ -97,16 +96,17 @@ VerificationCase seen_case(const std::string& variant, const Shape& shape, const
     add_object(result.scene, shape, material);
     add_environment(result.scene, kLuminance);
     for (const Vec3& direction : spread_directions(6)) {
-        const Vec3 eye = 2 * direction, target = 0.15 * Vec3{direction.y, direction.z, direction.x};
-        result.readings.push_back({LineOfSight{eye, normalized(target - eye)}, luminance_cd_m2, tolerance});
+        const Vec3 position = 2 * direction, target = 0.15 * Vec3{direction.y, direction.z, direction.x};
+        result.readings.push_back(
+            {LineOfSight{position, normalized(target - position)}, luminance_cd_m2, tolerance});
     }
     result.readings.push_back({LineOfSight{{2, 0, 0}, normalized(Vec3{0.4, 1, 0.2})}, kLuminance});
     return result;
 }
 
-/// Light that stays in glass for long is followed by paths that end at one surface in 200, each of which
+/// Camera paths in glass end with a probability of one in 200 per surface, while each
 /// carries less than 0.005 of the luminance. A few hundred such paths may all survive or not, and then
-/// nothing else has any noise.
+/// there is no other noise.
 constexpr double kRareEnds = 1e-4;
 
 std::vector<VerificationCase> seen_cases() {
@@ -125,8 +125,8 @@ std::vector<VerificationCase> seen_cases() {
 
 constexpr double kAbove = 1500, kBelow = 200;
 
-/// By a panorama that is `kAbove` about its top and `kBelow` about its bottom, to a plane that nothing
-/// shades.
+/// The illuminance of an unshaded plane by a panorama with `kAbove` around its top and `kBelow` around its
+/// bottom.
 double half_spaces_lx(const Vec3& normal, const Vec3& top) {
     return kPi / 2 * (kAbove + kBelow + (kAbove - kBelow) * dot(normal, top));
 }

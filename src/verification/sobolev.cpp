@@ -75,11 +75,12 @@ MeasuringPoint sobolev_point(const exact::ParallelPlanes& planes, Plane plane, d
 namespace {
 
 constexpr double kLargestRadius = 5;
-/// Beyond it light is so rare that methods which trace paths from every point take many times as long.
+/// The largest radius for all methods: beyond it light is so rare that methods which trace paths from every
+/// point take many times as long.
 constexpr double kFarRadius = 2.5;
 
-/// The luminance rho E / pi of plane 1 at two radii towards ten directions each, as it leaves the plane and
-/// as it is seen from a little way off.
+/// The luminance rho E / pi of plane 1 at two radii in ten directions each, as emergent rays and
+/// as lines of sight from a small distance.
 std::vector<ExactReading> seen_lower_plane(const exact::ParallelPlanes& planes) {
     constexpr double distance_m = 0.4;
     const exact::SobolevProblem problem(planes);
@@ -105,10 +106,10 @@ std::array<VerificationCase, 3> cases_between(const exact::ParallelPlanes& plane
         fmt::format("p1 {}, p2 {}, h1 {}", planes.reflectance_1, planes.reflectance_2, planes.distance_1_m);
     const Scene scene = make_sobolev_scene(planes, kLargestRadius);
     const std::string note = fmt::format(
-        "squares stand in for the infinite planes, so large that the exact values change by less than {} %.\n"
+        "squares replace the infinite planes, so large that the exact values change by less than {} %.\n"
         "  Of the {} radii from 0 to {}, those beyond {} (\"far\") are for method local alone: so little "
         "light\n"
-        "  comes there that the others take 10 to 100 times as long.",
+        "  arrives there that the other methods take 10 to 100 times as long.",
         100 * kLargestTruncation, radii, kLargestRadius, kFarRadius);
     VerificationCase near{"sobolev", variant + ", near", scene, {}, "", note};
     VerificationCase far{"sobolev", variant + ", far", scene, {}, "local", note};

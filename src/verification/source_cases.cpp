@@ -16,11 +16,10 @@ namespace stilb::verification {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSourceLuminance = 1000;
 
-/// Elements around a source at the origin that shines upwards: nearer and farther, facing it and more and
-/// more turned away, until all of it is below their horizon.
+/// Elements around a source at the origin that emits upwards: nearer and farther, facing it and increasingly
+/// tilted, until the source is below their horizon.
 std::vector<MeasuringPoint> tilted_elements() {
     constexpr std::array<double, 8> tilts_deg{0, 25, 45, 60, 75, 85, 95, 180};
     std::vector<MeasuringPoint> points;
@@ -93,7 +92,7 @@ constexpr double kLuminance = 1000;
 constexpr double kReflectance = 0.85;
 constexpr exact::PaneOptics kPane{1.52, 0.96};
 
-/// What all meters look at: every source has its front there, upwards.
+/// The target of all luminance sensors: every source has its front there, facing upwards.
 constexpr Vec3 kTarget{0.05, 0.03, 0};
 
 enum class Back { dark, bright };
@@ -117,7 +116,7 @@ void add_straight(VerificationCase& result, Back back) {
     result.readings.push_back({towards(kTarget, {0, 0, -1}, 2), back == Back::bright ? kLuminance : 0});
 }
 
-/// A small mirror in the way from the source, and a meter that looks into it.
+/// A small mirror between source and sensor, and a luminance sensor that sees it.
 void add_in_mirror(VerificationCase& result) {
     const Vec3 to_mirror = direction_at(40, 0), to_meter = direction_at(80, 90);
     const Vec3 middle = kTarget + to_mirror;
@@ -140,7 +139,7 @@ void add_through_pane(VerificationCase& result, double azimuth_deg, double angle
 VerificationCase seen_source_case(const std::string& shape_name, const Shape& shape, Back back) {
     VerificationCase result{"seen source", shape_name, {}, {}};
     result.note = fmt::format(
-        "straight, from behind, in a mirror of {}, and through a pane (ior {}, internal\n"
+        "Seen directly, from behind, in a mirror of {}, and through a pane (ior {}, internal\n"
         "  transmittance {}) at 0 and 60 degrees.",
         kReflectance, kPane.ior, kPane.internal_transmittance);
     add_area_light(result.scene, add_object(result.scene, shape, Black{}), kLuminance);

@@ -48,7 +48,8 @@ CheckedReading check(const ExactReading& exact, const statistics::Estimate& meas
 
 Verification verify(const VerificationCase& verification_case, const RunOptions& options,
                     ProgressSink* progress, const std::atomic<bool>* interrupt) {
-    std::vector<Sensor> sensors;  // one for each reading: a run's target is met by 95 % of each sensor's
+    std::vector<Sensor>
+        sensors;  // one for each reading, because a run's target is met by 95 % of each sensor's readings
     for (const ExactReading& reading : verification_case.readings) {
         sensors.push_back(std::visit(SensorOf{}, reading.measurand));
     }

@@ -1,4 +1,4 @@
-// Estimators held against exact values.
+// Comparison of estimators with exact values.
 #pragma once
 
 #include <atomic>
@@ -17,25 +17,25 @@
 
 namespace stilb::verification {
 
-// Scenes whose illuminance or luminance is known exactly, for `stilb verify`.
+// Scenes with exactly known illuminance or luminance, for `stilb verify`.
 
-/// One reading and what it must be.
+/// One reading and its exact value.
 struct ExactReading {
     Measurand measurand;
     double value = 0;  ///< [lx] or [cd/m2]
-    /// The share of it by which the tables of the scene's materials may be off, as docs/materials.md has it,
-    /// or which too few samples bring for their errors to be known.
+    /// The share of it by which the tables of the scene's materials may be off, as stated in
+    /// docs/materials.md, or by which too few samples leave the errors unknown.
     double tolerance = 0;
 };
 
 struct VerificationCase {
     std::string name;     ///< of the exact solution; variants share it
-    std::string variant;  ///< which one
+    std::string variant;  ///< variant of the solution
     Scene scene;
     std::vector<ExactReading> readings;  ///< all of one quantity
-    /// The one method to run; empty: all that measure the quantity.
+    /// The one method to run; empty: all methods for the quantity.
     std::string only_method{};
-    /// What the reader of the results has to know; variants share it.
+    /// An explanation for the reader of the results; variants share it.
     std::string note{};
 
     bool measures_luminance() const { return is_luminance(readings.front().measurand); }
@@ -45,19 +45,19 @@ struct VerificationCase {
 
 std::vector<VerificationCase> verification_cases();
 
-/// The |z| from which a reading contradicts the exact value.
+/// The |z| above which a reading contradicts the exact value.
 inline constexpr double kContradictionZ = 4;
-/// The share of a value by which sums in double precision may be off; counted as a standard error of its own,
-/// so that readings that are made without sampling have a z too.
+/// The share of a value by which sums in double precision may be off; it counts as an additional standard
+/// error, so that readings computed without sampling have a z, too.
 inline constexpr double kRounding = 1e-9;
 
 struct CheckedReading {
     ExactReading exact;
     statistics::Estimate measured;
-    double z = 0;  ///< of a normal deviate, whatever the number of replicates
+    double z = 0;  ///< as a normal deviate, for any number of replicates
 };
 
-/// What one method makes of one case.
+/// The result of one method for one case.
 struct Verification {
     std::string name, variant, method;  ///< of the case, of the estimator
     std::string_view unit;
@@ -66,41 +66,41 @@ struct Verification {
     double elapsed_s = 0;
 
     const CheckedReading& worst() const;  ///< the one with the largest |z|
-    /// Of the readings' intervals, half, relative.
+    /// The relative half-width of the readings' widest interval.
     double widest_interval() const;
     bool contradicts() const;
 };
 
 CheckedReading check(const ExactReading& exact, const statistics::Estimate& measured, int replicates);
 
-/// Measures with `options`; the error asked for is met by every reading, not only by 95 % of them.
+/// Measures with `options`; every reading meets the requested error, not only 95 % of them.
 Verification verify(const VerificationCase& verification_case, const RunOptions& options,
                     ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
 
-/// The chance that one of so many readings seems to contradict its exact value though none does.
+/// The probability that one of so many readings seems to contradict its exact value though none does.
 double false_alarm_chance(std::size_t readings);
 
-// The verification cases by the exact solutions that they are of.
+// The verification cases, grouped by their exact solutions.
 
 std::vector<VerificationCase> sobolev_cases();
 std::vector<VerificationCase> sphere_cases();
 std::vector<VerificationCase> furnace_cases();
 /// Elements lit by single sources.
 std::vector<VerificationCase> source_cases();
-/// Single sources that are looked at, straight, in a mirror and through a pane.
+/// Single sources seen directly, in a mirror and through a pane.
 std::vector<VerificationCase> seen_source_cases();
-/// Elements and things in light from infinity.
+/// Elements and objects in light from infinity.
 std::vector<VerificationCase> environment_cases();
 
-// What the verification cases' scenes are made of.
+// Building blocks of the verification cases' scenes.
 
-/// Directions each turned by it against the last never line up.
+/// The rotation between consecutive directions that never lets them line up (golden angle).
 inline constexpr double kGoldenAngle = 2 * std::numbers::pi * (2 - std::numbers::phi);
 
 MaterialId add_material(Scene& scene, const Material& material);
 ObjectId add_object(Scene& scene, const Shape& shape, const Material& material);
 void add_area_light(Scene& scene, ObjectId object, double luminance_cd_m2);
-/// Of the same luminance all around.
+/// Light from infinity with constant luminance.
 void add_environment(Scene& scene, double luminance_cd_m2);
 
 inline Diffuse diffuse(double reflectance) { return {Rgb::grey(reflectance)}; }
@@ -108,9 +108,9 @@ inline Diffuse diffuse(double reflectance) { return {Rgb::grey(reflectance)}; }
 /// `count` unit vectors spread evenly over the sphere: a Fibonacci spiral, from +z to -z.
 std::vector<Vec3> spread_directions(int count);
 
-// Sobolev's problem as a scene: finite planes stand in for the infinite ones.
+// Sobolev's problem as a scene: finite planes replace the infinite ones.
 
-/// The share of the exact illuminance by which the finite planes' may fall short, at most.
+/// The largest share of the exact illuminance that the finite planes may lose.
 inline constexpr double kLargestTruncation = 2e-4;
 
 /// Plane 1 is z = 0 and plane 2 above it; the source is on the z axis. `largest_radius_m`: up to there the

@@ -22,7 +22,7 @@ struct Coverage {
     double mean_half_width = 0;  ///< relative
 };
 
-/// Short runs, with few chains each, as intervals are the least sure there.
+/// Short runs, with few light paths each, where intervals are the least certain.
 Coverage coverage_of(const Scene& scene, const Sensor& sensor, double exact_lx, const std::string& method,
                      std::uint64_t paths) {
     Coverage coverage;

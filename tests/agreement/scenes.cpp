@@ -194,7 +194,7 @@ Scene lamp_behind_panes() {
     return scene;
 }
 
-/// A pane that reflects light of a point source: only light chains can bring that.
+/// A pane that reflects light of a point source: only light paths can find it.
 Scene room_with_glass_and_point_light() {
     Scene scene;
     add_object(scene, kRoom, diffuse(0.6));

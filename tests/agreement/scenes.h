@@ -15,7 +15,7 @@ namespace stilb {
 enum class Demand {
     nothing,
     finite_variance,     ///< points in corners: not for methods with heavy tails
-    light_from_mirrors,  ///< a point-like source shines on a mirror: only methods with light chains make that
+    light_from_mirrors,  ///< light of a point-like source by a mirror: only light paths find it
 };
 
 struct AgreementScene {

@@ -41,10 +41,10 @@ TEST(Placement, PointsInsideACabinetAreCounted) {
     const Sensor grid{"desk", Grid{{0, 0, 0.75}, {4, 0, 0}, {0, 4, 0}, {8, 8}}};
     const Texts warnings = warnings_of(furnished_room(), {grid});
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_EQ(
-        warnings[0],
-        "sensor \"desk\": 4 of 64 points lie inside object \"cabinet\", where no light is: no light arrives, "
-        "they read 0 lx. Move them into the lit space.");
+    EXPECT_EQ(warnings[0],
+              "sensor \"desk\": 4 of 64 points lie inside object \"cabinet\", which contains no light: no "
+              "light arrives, "
+              "they read 0 lx. Move them to where light is.");
 }
 
 TEST(Placement, APointInsideTheCabinetsWallSide) {
@@ -92,13 +92,13 @@ TEST(Placement, AnEnvironmentIsOutsideOfClosedRooms) {
     const Texts warnings = warnings_of(scene, {at({2, 2, 0.75})});
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_EQ(warnings[0],
-              "light \"sky\" surrounds the scene, and closed surfaces lie around all sensors: its light "
+              "light \"sky\" surrounds the scene, but closed surfaces enclose all sensors: its light "
               "cannot get in. Open a window, or remove the light.");
     EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({6, 2, 1})}).size(), 0u);
     scene.lights.erase(scene.lights.begin());
     const Texts without_bulb = warnings_of(scene, {at({2, 2, 0.75})});
     ASSERT_EQ(without_bulb.size(), 1u);
-    EXPECT_TRUE(has(without_bulb[0], "inside object \"room\", where no light is")) << without_bulb[0];
+    EXPECT_TRUE(has(without_bulb[0], "inside object \"room\", which contains no light")) << without_bulb[0];
     // A room with a hole keeps no light out.
     Mesh open = triangulated(Box{{0, 0, 0}, {4, 4, 3}});
     open.triangles.erase(open.triangles.begin());

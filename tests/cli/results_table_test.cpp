@@ -57,7 +57,7 @@ TEST(ResultsTable, ShowsNoErrorsWhereNoneAreKnown) {
               "    100.00 cd/m²   from (2, 0, 1) along (0, 1, 0), meets (2, 4, 1)\n"
               "    200.00 cd/m²   from (2, 0, 1) along (0, 0, 1), leaves the scene\n"
               "\n"
-              "auto in 0.00 s: solved; the error by the size of the patches is not known\n");
+              "auto in 0.00 s: solved; the discretisation error of the patches is unknown\n");
 }
 
 TEST(ResultsTable, ShowsNoErrorsWhereTheTimeLimitEndsAMethodWithoutChance) {
@@ -67,7 +67,7 @@ TEST(ResultsTable, ShowsNoErrorsWhereTheTimeLimitEndsAMethodWithoutChance) {
     const std::string table = table_of(made);
     EXPECT_TRUE(table.starts_with("Luminance, without intervals\n")) << table;
     EXPECT_TRUE(
-        has(table, "auto in 0.00 s: time limit reached; the error by the size of the patches is not known"))
+        has(table, "auto in 0.00 s: time limit reached; the discretisation error of the patches is unknown"))
         << table;
 }
 
@@ -78,7 +78,7 @@ TEST(ResultsTable, SaysWhatPatchesStandFor) {
         "\nauto, 0 paths in 0.00 s: all paths done; error 0 %\n"
         "1000 patches of 0.25 m; first shot (incoming, resolution 256) for 1 of 2 lights, 0.12 s, "
         "72 bytes per patch\n"
-        "lights that stay: panel (large)\n"))
+        "lights not replaced: panel (large)\n"))
         << table_of(made);
 }
 
@@ -89,7 +89,7 @@ TEST(ResultsTable, NamesFewOfManyLights) {
         made.patches->lights.push_back({fmt::format("panel {}", i), false, "large", 0, {}});
     }
     EXPECT_TRUE(table_of(made).ends_with(
-        "\nlights that stay: panel (large), panel 2 (large), panel 3 (large) and 2 more\n"))
+        "\nlights not replaced: panel (large), panel 2 (large), panel 3 (large) and 2 more\n"))
         << table_of(made);
 }
 

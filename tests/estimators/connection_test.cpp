@@ -90,7 +90,7 @@ double body_contribution(const transport::LightVertex& node, const BodyPoint& bo
     return node.flux_lm.luminance() * reflectance / std::numbers::pi * g / (1 + g / k_per_m2);
 }
 
-TEST(Fan, ConnectsBodiesBesideSurfaceElements) {
+TEST(Connections, ConnectsBodiesBesideSurfaceElements) {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, diffuse(0.5));
     add_object(scene, Box{{1, 1, 0.5}, {1.7, 1.6, 1.2}}, diffuse(0.5));
@@ -127,7 +127,7 @@ TEST(Fan, ConnectsBodiesBesideSurfaceElements) {
     const std::vector<PointTile> tiles =
         tiles_of(sorted, std::vector<double>(sorted.size(), k), caster, transport::kUnlimited);
     ReadingSums sums(measurands.size());
-    Fan(caster, tiles).collect(nodes, sums);
+    Connections(caster, tiles).collect(nodes, sums);
     for (std::size_t j = 0; j < measurands.size(); ++j) {
         double expected = 0;
         for (const transport::LightVertex& node : nodes) {
@@ -144,7 +144,7 @@ TEST(Fan, ConnectsBodiesBesideSurfaceElements) {
     }
 }
 
-TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
+TEST(Connections, CollectsWhatAScalarEvaluationDoes) {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, diffuse(0.5));
     add_object(scene, Box{{1, 1, 0.5}, {1.7, 1.6, 1.2}}, diffuse(0.5));
@@ -183,7 +183,7 @@ TEST(Fan, CollectsWhatAScalarEvaluationDoes) {
         std::vector<double> sorted_k;
         for (const transport::Receiver& receiver : sorted) sorted_k.push_back(k[receiver.reading()]);
         const std::vector<PointTile> tiles = tiles_of(sorted, sorted_k, caster, transport::kUnlimited);
-        Fan(caster, tiles).collect(nodes, sums);
+        Connections(caster, tiles).collect(nodes, sums);
         std::uint64_t rays = 0;
         for (std::size_t j = 0; j < count; ++j) {
             Rgb expected;

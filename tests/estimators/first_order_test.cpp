@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,6 @@
 namespace stilb::estimators {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kReplicates = 32;
 constexpr std::uint64_t kSamples = 1 << 12;  ///< of each replicate
 /// Relative, and in standard errors: by chance once in 150 times of the 96 comparisons.

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "estimators/first_shot_rooms.h"
 #include "estimators/patch_light/first_shot/factors.h"
@@ -11,8 +10,6 @@
 
 namespace stilb::estimators {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Intensity (1 + cos gamma)^2, of a luminaire turned in no particular way.
 PhotometricSolid downlight() {

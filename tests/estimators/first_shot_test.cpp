@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "estimators/first_shot_rooms.h"
@@ -13,8 +12,6 @@
 
 namespace stilb::estimators {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 FirstShotOptions options(FirstShotVariant variant, int resolution, int bin_rings = 4) {
     return {variant, {patches::BufferShape::hemicube, patches::BufferBackend::rays, resolution}, bin_rings};

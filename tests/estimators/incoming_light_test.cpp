@@ -4,15 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "estimators/first_shot_rooms.h"
 #include "support/quadrature.h"
 
 namespace stilb::estimators {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A cube of one material, seen from patches of a metre.
 struct Cube {

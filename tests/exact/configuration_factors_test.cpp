@@ -65,7 +65,7 @@ double triangle_by_quadrature(const Receiver& receiver, const Vec3& a, const Vec
 }
 
 /// A disk by quadrature in polar coordinates, with kinks at the receiver's horizon.
-double disk_by_quadrature(const Receiver& receiver, const DiskPlace& disk) {
+double disk_by_quadrature(const Receiver& receiver, const DiskPosition& disk) {
     const Frame frame = Frame::around(disk.normal);
     const double middle = dot(disk.center - receiver.position, receiver.normal);
     const double along_u = dot(frame.u, receiver.normal), along_v = dot(frame.v, receiver.normal);
@@ -206,7 +206,7 @@ TEST(Disk, EqualsQuadratureInRandomPositions) {
     Dice dice(4);
     int cut_by_horizon = 0;
     for (int i = 0; i < kConfigurations; ++i) {
-        const DiskPlace disk{dice.in_cube(1), dice.direction(), dice.between(0.1, 1.5)};
+        const DiskPosition disk{dice.in_cube(1), dice.direction(), dice.between(0.1, 1.5)};
         const Frame frame = Frame::around(disk.normal);
         // Every fifth receiver stands nearly on the axis, where the closed form would cancel.
         const double spread = i % 5 == 0 ? 0.01 : 2;
@@ -223,7 +223,7 @@ TEST(Disk, EqualsQuadratureInRandomPositions) {
 }
 
 TEST(Disk, EqualsItsInscribedAndCircumscribedPolygonsToSecondOrder) {
-    const DiskPlace disk{{0.3, -0.2, 1.5}, {0, 0, -1}, 0.8};
+    const DiskPosition disk{{0.3, -0.2, 1.5}, {0, 0, -1}, 0.8};
     const Receiver receiver{{1, 0.5, 0}, normalized({-0.4, 0.1, 0.3})};
     const auto polygon_lx = [&](double radius, int corners) {
         std::vector<Vec3> vertices;
@@ -241,7 +241,7 @@ TEST(Disk, EqualsItsInscribedAndCircumscribedPolygonsToSecondOrder) {
 TEST(Disk, NearItsRimStaysBetweenNearbyValues) {
     // A hair above the plane, just inside and just outside of the rim: nearly all or nearly half of the sky
     // below.
-    const DiskPlace disk{{0, 0, 0}, {0, 0, 1}, 1};
+    const DiskPosition disk{{0, 0, 0}, {0, 0, 1}, 1};
     EXPECT_NEAR(illuminance_by_disk_lx({{0.5, 0, 1e-6}, {0, 0, -1}}, disk, 1), pi, 1e-10);
     EXPECT_NEAR(illuminance_by_disk_lx({{1, 0, 1e-6}, {0, 0, -1}}, disk, 1), pi / 2, 1e-5);
     EXPECT_NEAR(illuminance_by_disk_lx({{1.5, 0, 1e-6}, {0, 0, -1}}, disk, 1), 0, 1e-10);
@@ -250,7 +250,7 @@ TEST(Disk, NearItsRimStaysBetweenNearbyValues) {
 }
 
 TEST(Disk, IsSmoothInTheTiltAcrossTheHorizon) {
-    const DiskPlace disk{{0.5, 0, 2}, {0, 0, -1}, 0.7};
+    const DiskPosition disk{{0.5, 0, 2}, {0, 0, -1}, 0.7};
     const auto tilted_lx = [&](double tilt) {
         return illuminance_by_disk_lx({{0, 0, 0}, {std::sin(tilt), 0, std::cos(tilt)}}, disk, 1);
     };
@@ -309,7 +309,7 @@ TEST(Sphere, EqualsADiskAcrossItsConeInEveryTilt) {
     for (int i = 0; i < kConfigurations; ++i) {
         const double sine = dice.between(0.05, 0.95);
         const Receiver receiver{{0, 0, 0}, dice.direction()};
-        const DiskPlace rim{(1 - sine * sine) * center, {0, 0, -1}, 2 * sine * std::sqrt(1 - sine * sine)};
+        const DiskPosition rim{(1 - sine * sine) * center, {0, 0, -1}, 2 * sine * std::sqrt(1 - sine * sine)};
         EXPECT_NEAR(illuminance_by_sphere_lx(receiver, center, 2 * sine, 1),
                     illuminance_by_disk_lx(receiver, rim, 1), 1e-13)
             << "case " << i;

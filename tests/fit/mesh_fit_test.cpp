@@ -95,12 +95,12 @@ TEST(MeshFit, RefusesWhatIsNotStarShaped) {
     const std::string message = refusal(u_prism(), {.degree = 8});
     expect_parts(message, {"mesh.ply: not star-shaped about (",
                            "% of the directions meet the surface more than once", "0.5 % are tolerated",
-                           "theta", "phi", "% of the size between", "--center", "--force", "--tolerance"});
+                           "theta", "phi", "% of the size between", "center", "force", "tolerance"});
 }
 
 /// Seen from the middle of its base, each arm of the U hides behind the wall of the gap: directions towards
 /// the far ends of the arms are the worst.
-TEST(MeshFit, TakesTheOutermostSurfaceWhereToldTo) {
+TEST(MeshFit, TakesTheOutermostSurfaceOnRequest) {
     const MeshFit fit = fit_mesh(
         u_prism(), {.degree = 6, .center = Vec3{1.5, 0.5, 0.5}, .otherwise = NotStarShaped::take_outermost},
         "");
@@ -134,7 +134,7 @@ TEST(MeshFit, CountsShellsWithinEachOther) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), inner.vertices.begin(), inner.vertices.end());
     for (const auto& [a, b, c] : inner.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
-    EXPECT_EQ(refusal(mesh, {.degree = 2}).find("--tolerance"), std::string::npos);  // none would do
+    EXPECT_EQ(refusal(mesh, {.degree = 2}).find("tolerance "), std::string::npos);  // none would do
     const MeshFit fit = fit_mesh(mesh, {.degree = 2, .otherwise = NotStarShaped::take_outermost}, "");
     EXPECT_NEAR(fit.survey.folded_share, 1, 1e-12);
     EXPECT_NEAR(fit.survey.worst_folds[0].depth, 0.6, 0.01);
@@ -143,7 +143,7 @@ TEST(MeshFit, CountsShellsWithinEachOther) {
 
 TEST(MeshFit, WantsItsCentreInside) {
     expect_parts(refusal(icosphere({{}, 1}, 3), {.degree = 4, .center = Vec3{1e4, 0, 0}}),
-                 {"mesh.ply: ", "meet nothing", "--center"});
+                 {"mesh.ply: ", "do not meet", "center inside"});
     expect_parts(refusal(icosphere({{}, 1}, 3), {.degree = 4, .center = Vec3{5, 0, 0}}), {"not star-shaped"});
 }
 
@@ -151,7 +151,7 @@ TEST(MeshFit, WantsItsCentreInside) {
 TEST(MeshFit, NamesTheWayOutWhereTheRadiusComesToZero) {
     const Mesh box = triangulated(Box{{0, 0, 0}, {20, 1, 1}});
     expect_parts(refusal(box, {.degree = 6, .center = Vec3{0.02, 0.02, 0.02}}),
-                 {"mesh.ply: the series of degree 6", "--center", "--degree"});
+                 {"mesh.ply: the series of degree 6", "center", "lower degree"});
 }
 
 /// Poles and axes are where rays run along coordinate planes.

@@ -27,25 +27,25 @@ Mesh unwelded(const Mesh& mesh) {
 const Box kUnitBox{{0, 0, 0}, {1, 1, 1}};
 
 TEST(ConnectedComponents, ABoxIsOneClosedShell) {
-    const ConnectedComponents shells = find_components(Shape{kUnitBox});
-    EXPECT_EQ(shells.count(), 1u);
-    EXPECT_TRUE(shells.is_closed(0));
-    EXPECT_EQ(shells.turned_edges, 0u);
-    EXPECT_EQ(shells.of_triangle, std::vector<std::uint32_t>(12, 0));
+    const ConnectedComponents components = find_components(Shape{kUnitBox});
+    EXPECT_EQ(components.count(), 1u);
+    EXPECT_TRUE(components.is_closed(0));
+    EXPECT_EQ(components.turned_edges, 0u);
+    EXPECT_EQ(components.of_triangle, std::vector<std::uint32_t>(12, 0));
 }
 
 TEST(ConnectedComponents, RepeatedVerticesAreOne) {
-    const ConnectedComponents shells = find_components(unwelded(triangulated(kUnitBox)));
-    EXPECT_EQ(shells.count(), 1u);
-    EXPECT_TRUE(shells.is_closed(0));
+    const ConnectedComponents components = find_components(unwelded(triangulated(kUnitBox)));
+    EXPECT_EQ(components.count(), 1u);
+    EXPECT_TRUE(components.is_closed(0));
 }
 
 TEST(ConnectedComponents, AMissingTriangleOpensItsThreeEdges) {
     Mesh mesh = unwelded(triangulated(kUnitBox));
     mesh.triangles.pop_back();
-    const ConnectedComponents shells = find_components(mesh);
-    EXPECT_EQ(shells.count(), 1u);
-    EXPECT_EQ(shells.total_open_edges(), 3u);
+    const ConnectedComponents components = find_components(mesh);
+    EXPECT_EQ(components.count(), 1u);
+    EXPECT_EQ(components.total_open_edges(), 3u);
 }
 
 TEST(ConnectedComponents, ARectangleHasFourOpenEdges) {
@@ -60,27 +60,27 @@ TEST(ConnectedComponents, SpheresAreClosedAndDisksAreNot) {
 TEST(ConnectedComponents, SeparatePartsAreSeparateShells) {
     Mesh open_box = triangulated(Box{{2, 0, 0}, {3, 1, 1}});
     open_box.triangles.erase(open_box.triangles.begin());
-    const ConnectedComponents shells = find_components(joined(triangulated(kUnitBox), open_box));
-    ASSERT_EQ(shells.count(), 2u);
-    EXPECT_TRUE(shells.is_closed(0));
-    EXPECT_FALSE(shells.is_closed(1));
-    EXPECT_EQ(shells.of_triangle.front(), 0u);
-    EXPECT_EQ(shells.of_triangle.back(), 1u);
+    const ConnectedComponents components = find_components(joined(triangulated(kUnitBox), open_box));
+    ASSERT_EQ(components.count(), 2u);
+    EXPECT_TRUE(components.is_closed(0));
+    EXPECT_FALSE(components.is_closed(1));
+    EXPECT_EQ(components.of_triangle.front(), 0u);
+    EXPECT_EQ(components.of_triangle.back(), 1u);
 }
 
 TEST(ConnectedComponents, BoxesThatShareAnEdgeStayClosed) {
-    const ConnectedComponents shells =
+    const ConnectedComponents components =
         find_components(joined(triangulated(kUnitBox), triangulated(Box{{1, 1, 0}, {2, 2, 1}})));
-    EXPECT_EQ(shells.total_open_edges(), 0u);
-    EXPECT_EQ(shells.turned_edges, 0u);
+    EXPECT_EQ(components.total_open_edges(), 0u);
+    EXPECT_EQ(components.turned_edges, 0u);
 }
 
 TEST(ConnectedComponents, AFlippedTriangleTurnsItsThreeEdges) {
     Mesh mesh = triangulated(kUnitBox);
     std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
-    const ConnectedComponents shells = find_components(mesh);
-    EXPECT_EQ(shells.total_open_edges(), 0u);
-    EXPECT_EQ(shells.turned_edges, 3u);
+    const ConnectedComponents components = find_components(mesh);
+    EXPECT_EQ(components.total_open_edges(), 0u);
+    EXPECT_EQ(components.turned_edges, 3u);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ Told told_of(const Harmonics& body, double away, int packets) {
         const auto part =
             static_cast<std::size_t>(numbers.next() * static_cast<double>(surface->part_count()));
         const RayPacket rays = rays_through(surface->bounds_of(part), away, numbers);
-        const LaneVerdicts classifications = surface->classifications(part, rays);
+        const LaneClassifications classifications = surface->classifications(part, rays);
         for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
             const rays::RayInterval ray = interval_of(rays, lane);
             const bool is_met = surface->intersect(part, ray) < kInfinity;
@@ -80,7 +80,7 @@ Told told_of(const Harmonics& body, double away, int packets) {
     return told;
 }
 
-TEST(HarmonicVerdicts, AreTrueAndMostlyThere) {
+TEST(HarmonicClassifications, AreTrueAndMostlyThere) {
     constexpr int packets = 6000;
     for (const double away : {0.0, 3.0, 20.0}) {
         const Told told = told_of(body_at({}, 1), away, packets);
@@ -90,7 +90,7 @@ TEST(HarmonicVerdicts, AreTrueAndMostlyThere) {
     }
 }
 
-TEST(HarmonicVerdicts, AreTrueOfSmallBodiesFarAway) {
+TEST(HarmonicClassifications, AreTrueOfSmallBodiesFarAway) {
     constexpr int packets = 4000;
     EXPECT_GT(told_of(body_at({4, -7, 30}, 0.3), 1, packets).missed, 8 * packets);
     const Told told = told_of(body_at({400, -7000, 30}, 0.05), 100, packets);

@@ -131,12 +131,12 @@ TEST(EulumdatFile, WrongInputIsNamedWithItsLine) {
                fmt::format("a.ldt:{}: {}", line, message));
     };
     expect("", "a.ldt: the file ends where the company identification should follow");
-    line_changed(3, "5", "the symmetry indicator is 5: a whole number from 0 to 4 is wanted");
+    line_changed(3, "5", "the symmetry indicator is 5: a whole number from 0 to 4 is required");
     line_changed(4, "0", "the number of C planes is 0");
     line_changed(4, "2000000000", "the number of C planes is 2000000000");
-    line_changed(6, "1", "one intensity in each plane");
+    line_changed(6, "1", "each plane has one intensity");
     line_changed(6, "two",
-                 "\"two\" is not a number: the number of intensities in each C plane should stand here");
+                 "\"two\" is not a number: the number of intensities in each C plane is expected here");
     line_changed(16, "", "\"\" is not a number: the length of the luminous area");
     line_changed(23, "-80", "the light output ratio is -80 %");
     line_changed(24, "0", "the conversion factor for luminous intensities is 0");
@@ -151,11 +151,11 @@ TEST(EulumdatFile, WrongInputIsNamedWithItsLine) {
     line_changed(48, "181", "gamma angle 181 is out of range");
     line_changed(50, "-4", "intensity -4 is negative");
     expect(text_of({0, {0, 90}, {-1, 2}}), "intensity -1 is negative");
-    line_changed(50, "1e300", "intensity 1e+300 cd (factors included) is beyond any luminaire");
-    expect(good + "\n \n12\n", "a.ldt:59: \"12\" stands after the last intensity");
+    line_changed(50, "1e300", "intensity 1e+300 cd (factors included) is too large for a luminaire");
+    expect(good + "\n \n12\n", "a.ldt:59: \"12\" follows the last intensity");
     expect(good.substr(0, good.rfind("1\n10")),
-           "a.ldt:54: the file ends too early: 8 lines are wanted for the intensities, 6");
-    expect(text_of({2, {0, 90, 180}, {1, 2}}), "symmetry 2 stores 2 of 3 planes, here those of C0 to C90");
+           "a.ldt:54: the file ends too early: 8 lines are required for the intensities, 6");
+    expect(text_of({2, {0, 90, 180}, {1, 2}}), "symmetry 2 stores 2 of 3 planes, here C0 to C90");
     expect(text_of({4, {0, 80, 180, 270}, {1, 2}}), "they should run from C0 to C90");
     expect(text_of({3, {0, 90, 180, 280}, {1, 2, 3}}), "they should run from C270 to C450");
     for (std::size_t length = 0; length + 3 < good.size(); ++length) {
@@ -168,7 +168,8 @@ TEST(PhotometryFile, IsReadByContent) {
     EXPECT_EQ(read_photometry("TILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 1 0 90 0 1 1", "a").format,
               "IES LM-63-1986");
     const auto expect = [](const std::string& content) {
-        expect_message([&] { read_photometry(content, "a.txt"); }, "a.txt: is neither IES LM-63");
+        expect_message([&] { read_photometry(content, "a.txt"); },
+                       "a.txt: not a luminaire file: neither IES LM-63");
     };
     expect("");
     expect("some\ntext\nof\nmany\nlines\nbut\nno\nnumbers\n");

@@ -207,7 +207,7 @@ TEST(HdrFile, RefusesWhatItCannotRead) {
     const auto expect = [](const std::string& content, const std::string& part) {
         EXPECT_NE(message_of(content).find(part), std::string::npos) << message_of(content);
     };
-    expect("BM", "a.hdr:1: no Radiance picture");
+    expect("BM", "a.hdr:1: not a Radiance picture");
     expect(header("", "+Y 1 +X 1") + kOne, "-Y height +X width");
     expect(header("", "+X 1 -Y 1") + kOne, "-Y height +X width");
     expect(header("", "-Y 0 +X 1") + kOne, "-Y height +X width");

@@ -177,7 +177,8 @@ TEST(IesFile, WrongInputIsNamedWithItsLine) {
     };
     expect("", "a.ies: has no line TILT=");
     expect("no photometry\nat all\n", "a.ies:2: has no line TILT=");
-    changed("IESNA:LM-63-2002", "IESNA:LM-63-2012", "a.ies:1: \"IESNA:LM-63-2012\" is no version of LM-63");
+    changed("IESNA:LM-63-2002", "IESNA:LM-63-2012",
+            "a.ies:1: \"IESNA:LM-63-2012\" is not a known version of LM-63");
     changed("1 1000", "1.5 1000", "a.ies:6: the number of lamps is 1.5: a whole number");
     changed("1 1000", "1 -7", "a.ies:6: the lumens per lamp are -7");
     changed("1000 2 3", "1000 0 3", "a.ies:6: the candela multiplier is 0");
@@ -188,7 +189,7 @@ TEST(IesFile, WrongInputIsNamedWithItsLine) {
     changed("2 3 2 1 2", "2 1 2 1 2", "a.ies:7: one vertical angle");
     changed("0.5 1 40", "0 1 40", "a.ies:7: the ballast factor is 0");
     changed("0.5 1 40", "0.5 1 watts",
-            "a.ies:7: \"watts\" is not a number: the input watts should stand here");
+            "a.ies:7: \"watts\" is not a number: the input watts is expected here");
     changed("0 45 90", "0 45 45", "a.ies:8: vertical angle 45 follows 45");
     changed("0 45 90", "0 45 200", "a.ies:8: vertical angle 200 is out of range");
     changed("0 45 90", "0 nan 90", "a.ies:8: \"nan\" is not a number");
@@ -202,8 +203,8 @@ TEST(IesFile, WrongInputIsNamedWithItsLine) {
             "0 10",
             "is not a number");
     changed("100 60 0\n", "100 60\n",
-            "a.ies:11: the file ends too early: 6 numbers are wanted for the intensities, 5");
-    changed("100 60 0\n", "100 60 0\n7 8\n", "a.ies:12: 2 more numbers than the counts of angles allow");
+            "a.ies:11: the file ends too early: 6 numbers are required for the intensities, 5");
+    changed("100 60 0\n", "100 60 0\n7 8\n", "a.ies:12: 2 numbers more than the counts of angles allow");
     changed("100 80 10\n100 60 0\n", "0 0 0 0 0 0", "a.ies: all intensities are 0");
     expect("TILT=NONE\n1 -1 1 2 1 2 2 0 0 0 1 1 1 0 90 0 1 1", "one horizontal angle: types A and B");
     expect("TILT=NONE\n1 -1 1 2 2 2 2 0 0 0 1 1 1 0 90 10 20 1 1 1 1", "the horizontal angles start at 10");

@@ -172,7 +172,7 @@ TEST(ObjFile, lines_are_counted_through_joined_lines) {
     expect_refusal("v 0 \\\n0 \\\n0\nf 1 \\\n2 3\n",
                    ":4: the face's corner \"2\" names vertex 2, but 1 vertices stand before it; they count "
                    "from 1, or backwards from -1");
-    expect_refusal("v 0 0 \\", ":1: the file ends after a backslash, which says that the line goes on");
+    expect_refusal("v 0 0 \\", ":1: the file ends after a backslash, which continues the line");
 }
 
 TEST(ObjFile, what_is_no_obj) {
@@ -180,30 +180,33 @@ TEST(ObjFile, what_is_no_obj) {
         std::string("\x7f"
                     "ELF\x02\x01\x01\0\0",
                     9),
-        ":1: byte 0x02 is not text, so this is no OBJ file; it must be plain text (ASCII or UTF-8)");
+        ":1: byte 0x02 is not text, so this is not an OBJ file; it must be plain text (ASCII or UTF-8)");
     expect_refusal(
         std::string("v 0 0 0\nv 1 0 0\n\0", 17),
-        ":3: byte 0x00 is not text, so this is no OBJ file; it must be plain text (ASCII or UTF-8)");
-    expect_refusal("\x89PNG\r\n",
-                   ":1: \"\\x89PNG\" is no OBJ statement (is this a text file in the OBJ format?); allowed "
-                   "are v, f, g, o, usemtl and others that are ignored");
-    expect_refusal(kSquare + "face 1 2 3\n",
-                   ":5: \"face\" is no OBJ statement (is this a text file in the OBJ format?); allowed are "
-                   "v, f, g, o, usemtl and others that are ignored");
+        ":3: byte 0x00 is not text, so this is not an OBJ file; it must be plain text (ASCII or UTF-8)");
+    expect_refusal(
+        "\x89PNG\r\n",
+        ":1: \"\\x89PNG\" is not an OBJ statement (is this a text file in the OBJ format?); allowed "
+        "are v, f, g, o, usemtl and others that are ignored");
+    expect_refusal(
+        kSquare + "face 1 2 3\n",
+        ":5: \"face\" is not an OBJ statement (is this a text file in the OBJ format?); allowed are "
+        "v, f, g, o, usemtl and others that are ignored");
     expect_refusal("surf 0 1 0 1 1 2 3 4\n",
-                   ":1: the statement \"surf\" is not read, and its surface would be missing; export "
+                   ":1: the statement \"surf\" is not supported, and its surface would be missing; export "
                    "polygons (f) instead");
 }
 
 TEST(ObjFile, no_triangle) {
     expect_refusal(
-        "", ": no triangle in the file, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
+        "", ": the file has no triangle, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
     expect_refusal(
         kSquare,
-        ": no triangle in the file, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
-    expect_refusal(kSquare + "f 1 1 2\n",
-                   ": no triangle in the file (1 of no area left out), so there is no surface; an OBJ file "
-                   "needs faces, such as: f 1 2 3");
+        ": the file has no triangle, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
+    expect_refusal(
+        kSquare + "f 1 1 2\n",
+        ": the file has no triangle (1 without area left out), so there is no surface; an OBJ file "
+        "needs faces, such as: f 1 2 3");
 }
 
 struct SharedMesh {
@@ -238,7 +241,7 @@ TEST(MeshFile, files_that_cannot_be_read) {
     };
     EXPECT_EQ(message("nowhere/room.obj"), "nowhere/room.obj: cannot be read: No such file or directory");
     EXPECT_EQ(message("room.stl"),
-              "room.stl: the extension \".stl\" names no mesh format that is read: use .obj or .ply");
+              "room.stl: the extension \".stl\" is not a supported mesh format: use .obj or .ply");
     const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "folder.obj";
     std::filesystem::create_directory(directory);
     EXPECT_EQ(message(directory), directory.string() + ": cannot be read: Is a directory");

@@ -199,9 +199,9 @@ void expect_refusal(const std::string& content, const std::string& message) {
 }
 
 TEST(PlyFile, what_is_no_ply) {
-    expect_refusal("", ":1: this is no PLY file: the first line must be ply");
-    expect_refusal("solid room\n", ":1: this is no PLY file: the first line must be ply");
-    expect_refusal(std::string("\0\xff\xff", 3), ":1: this is no PLY file: the first line must be ply");
+    expect_refusal("", ":1: this is not a PLY file: the first line must be ply");
+    expect_refusal("solid room\n", ":1: this is not a PLY file: the first line must be ply");
+    expect_refusal(std::string("\0\xff\xff", 3), ":1: this is not a PLY file: the first line must be ply");
 }
 
 TEST(PlyFile, broken_headers) {
@@ -211,11 +211,11 @@ TEST(PlyFile, broken_headers) {
                    ":2: the header has no format line; it needs one, such as: format ascii 1.0");
     expect_refusal("ply\nformat binary_littel_endian 1.0\n",
                    ":2: the format is \"binary_littel_endian\"; it must be ascii, "
-                   "binary_little_endian or binary_big_endian; did you mean binary_little_endian?");
+                   "binary_little_endian or binary_big_endian. Did you mean \"binary_little_endian\"?");
     expect_refusal("ply\nformat ascii 2.0\n", ":2: the format's version is \"2.0\"; it must be 1.0");
     expect_refusal("ply\nformat ascii 1.0\nelemnt vertex 3\n",
                    ":3: the header says \"elemnt\"; allowed are format, element, property, comment, obj_info "
-                   "and end_header; did you mean element?");
+                   "and end_header. Did you mean \"element\"?");
     const std::string count = "; it must be a whole number, 0 or more: element NAME COUNT";
     for (const std::string wrong : {"-1", "3.5", "many", "99999999999999999999"})
         expect_refusal("ply\nformat ascii 1.0\nelement vertex " + wrong,
@@ -225,10 +225,10 @@ TEST(PlyFile, broken_headers) {
     expect_refusal("ply\nformat ascii 1.0\nproperty float x\n",
                    ":3: a property stands before any element; an element line must come first");
     const std::string types =
-        "; allowed are char, uchar, short, ushort, int, uint, float, double, and int8 to float64";
+        "; allowed are char, uchar, short, ushort, int, uint, float, double, and int8 to float64.";
     const std::string start = "ply\nformat ascii 1.0\nelement vertex 1\n";
     expect_refusal(start + "property flaot x\n",
-                   ":4: the property's type is \"flaot\"" + types + "; did you mean float?");
+                   ":4: the property's type is \"flaot\"" + types + " Did you mean \"float\"?");
     expect_refusal(start + "property list uchar quaternion x\n",
                    ":4: the property's type is \"quaternion\"" + types);
     expect_refusal(
@@ -259,16 +259,16 @@ TEST(PlyFile, absurd_counts_are_refused_before_any_allocation) {
     const std::string many =
         "element vertex 4000000000000\nproperty float x\nproperty float y\nproperty float z\n";
     expect_refusal(text_file(many, kSquare),
-                   ":3: the element vertex is to have 4000000000000 rows of at least 6 bytes, but 24 bytes "
+                   ":3: the element vertex needs 4000000000000 rows of at least 6 bytes, but 24 bytes "
                    "are left; the count is wrong or "
                    "the file is cut off");
     expect_refusal(binary_header(std::endian::little, many) + "1234",
-                   ":3: the element vertex is to have 4000000000000 rows of at least 12 bytes, but 4 bytes "
+                   ":3: the element vertex needs 4000000000000 rows of at least 12 bytes, but 4 bytes "
                    "are left; the count is wrong or "
                    "the file is cut off");
     expect_refusal(binary_header(std::endian::big,
                                  "element hair 9223372036854775807\nproperty list uint double strand\n"),
-                   ":3: the element hair is to have 9223372036854775807 rows of at least 4 bytes, but 0 "
+                   ":3: the element hair needs 9223372036854775807 rows of at least 4 bytes, but 0 "
                    "bytes are left; the count is wrong or "
                    "the file is cut off");
     // A list whose length the file cannot hold, read and skipped.
@@ -372,9 +372,9 @@ TEST(PlyFile, what_follows_the_last_row) {
 TEST(PlyFile, no_triangle) {
     const std::string remedy =
         ", so there is no surface; a PLY file needs an element vertex and an element face (or tristrips)";
-    expect_refusal(text_file(kVertices, kSquare), ": no triangle in the file" + remedy);
+    expect_refusal(text_file(kVertices, kSquare), ": the file has no triangle" + remedy);
     expect_refusal(text_file(kVertices + kFaces, kSquare + "3 0 1 1\n"),
-                   ": no triangle in the file (1 of no area left out)" + remedy);
+                   ": the file has no triangle (1 without area left out)" + remedy);
 }
 
 TEST(PlyFile, igea_is_a_closed_head) {

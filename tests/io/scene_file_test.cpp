@@ -156,7 +156,7 @@ TEST(SceneFile, RefusesEndlessNesting) {
     std::string key = "a";
     for (int i = 0; i < 1'000'000; ++i) key += ".a";
     EXPECT_REFUSAL("\n" + key + " = 1",
-                   "s.toml:2: a key of more than 1000 parts. No key needs more than four.");
+                   "s.toml:2: a key has more than 1000 parts. No key needs more than four.");
     EXPECT_TRUE(refusal("a = " + std::string(1'000'000, '[')).starts_with("s.toml:1: not valid TOML: "));
     std::string numbers = "0.1";
     for (int i = 0; i < 2000; ++i) numbers += ", 0.1";

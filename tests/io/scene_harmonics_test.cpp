@@ -81,10 +81,9 @@ TEST(SceneHarmonics, RefuseWhatIsNoSurface) {
         object("coefficients = [1, 2]\n"),
         "s.toml:6: objects.a.coefficients: found 2 coefficients. Allowed: (degree + 1)^2 of them for "
         "a degree from 0 to 128: 1, 4, 9, 16 ...");
-    EXPECT_REFUSAL(
-        object("coefficients = [1, 0, 9, 0]\n"),
-        "s.toml:3: objects.a: the radius of a surface by spherical harmonics comes to 0 or nearly so "
-        "(its least value is below 3 % of the greatest): it must be above 0 in all directions");
+    EXPECT_REFUSAL(object("coefficients = [1, 0, 9, 0]\n"),
+                   "s.toml:3: objects.a: the radius of a surface by spherical harmonics is 0 or nearly 0 "
+                   "(its least value is below 3 % of the greatest): it must be above 0 in all directions");
     EXPECT_REFUSAL(object(coefficients() + "degree = 2\n"),
                    "s.toml:7: objects.a.degree: found the number 2. Allowed: a whole number from 0 to 1.");
     EXPECT_REFUSAL(object(coefficients() + "lod = 1\n"),

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <optional>
 
 #include "io/image/picture_file.h"
@@ -8,8 +7,6 @@
 
 namespace stilb::io {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Eight lines before the light's table.
 constexpr const char* kPanel = R"([materials.m]
@@ -126,10 +123,9 @@ TEST(SceneLights, RefusesWrongEnvironments) {
     Camera perspective;
     perspective.resolution = {8, 4};
     const PanoramaFolder view(perspective);
-    EXPECT_EQ(
-        refusal(light("type = \"environment\"\nfile = \"sky.exr\""), view.path()),
-        "s.toml:11: lights.a.file: is a picture of a camera that does not see all around. Needed: projection "
-        "= \"panorama\", fov = 360.");
+    EXPECT_EQ(refusal(light("type = \"environment\"\nfile = \"sky.exr\""), view.path()),
+              "s.toml:11: lights.a.file: the picture does not cover all directions. Needed: projection "
+              "= \"panorama\", fov = 360.");
     std::ofstream(view.path() / "no.hdr") << "no picture";
     EXPECT_THROW(read_text(light("type = \"environment\"\nfile = \"no.hdr\""), view.path()), InputError);
 }
@@ -196,15 +192,14 @@ TEST(SceneLights, RefusesAreaLightsWithoutTheirObject) {
         light("type = \"area\"\nobject = \"pannel\"\nflux = 1"),
         "s.toml:11: lights.a.object: unknown object \"pannel\". Did you mean \"panel\"? Allowed: panel.");
     EXPECT_REFUSAL("[lights.a]\ntype = \"area\"\nobject = \"panel\"\nflux = 1",
-                   "s.toml:3: lights.a.object: unknown object \"panel\". There is none to choose from.");
+                   "s.toml:3: lights.a.object: unknown object \"panel\". No name is allowed here.");
 }
 
 TEST(SceneLights, RefusesTwoAreaLightsOnOneObject) {
     const std::string area = "type = \"area\"\nobject = \"panel\"\nflux = 1\n";
-    EXPECT_REFUSAL(
-        light(area + "[lights.b]\n" + area),
-        "s.toml:15: lights.b.object: \"panel\" emits for the light \"a\" already. Allowed: one area light "
-        "for an object.");
+    EXPECT_REFUSAL(light(area + "[lights.b]\n" + area),
+                   "s.toml:15: lights.b.object: \"panel\" is already the emitter of the light \"a\". "
+                   "Allowed: one area light per object.");
 }
 
 TEST(SceneLights, RefusesFluxFromNoArea) {
@@ -218,8 +213,8 @@ TEST(SceneLights, RefusesFluxFromNoArea) {
 TEST(SceneLights, RefusesASphereWithTheNameOfAnObject) {
     EXPECT_REFUSAL(
         kPanel + std::string("[lights.panel]\ntype = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nflux = 9"),
-        "s.toml:9: lights.panel: adds a sphere object of its own name, which the scene has already. Allowed: "
-        "another name.");
+        "s.toml:9: lights.panel: a sphere light adds an object of its own name, but the scene already has an "
+        "object of this name. Allowed: another name.");
     EXPECT_REFUSAL(
         light("type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0\nflux = 9"),
         "s.toml:12: lights.a.radius: 0 is not allowed. Allowed: a length above 0 (from 1e-9 to 1e9 m).");
@@ -231,7 +226,7 @@ TEST(SceneLights, RefusesPhotometryWithoutItsFile) {
         "s.toml:12: lights.a.file: there is no file \"spot.ies\". Paths are relative to the scene file; "
         "looked for no-such-directory/spot.ies.");
     EXPECT_REFUSAL(light("type = \"photometry\"\nposition = [0, 0, 0]\naim = [0, 0, 0]\nfile = \"spot.ies\""),
-                   "s.toml:12: lights.a.aim: [0, 0, 0] points nowhere. Allowed: any other direction.");
+                   "s.toml:12: lights.a.aim: [0, 0, 0] has no direction. Allowed: any other vector.");
 }
 
 /// A file of 100 cd over the lower half space.

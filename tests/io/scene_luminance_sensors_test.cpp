@@ -51,11 +51,11 @@ TEST(SceneLuminance, WarnsOnceOfDirectionsThatAreNotUnitVectors) {
     const SceneFile one = read_text(sight("direction = [0, 2, 0]"));
     EXPECT_EQ(line(one.sensors[0], 0).direction, (Vec3{0, 1, 0}));
     EXPECT_EQ(one.warnings.back(),
-              "s.toml:4: sensors.s.direction: of length 2; its direction is used, with length 1.");
+              "s.toml:4: sensors.s.direction: the vector has length 2; it is normalised to length 1.");
     const SceneFile many = read_text(sight("directions = [[0, 1, 0], [0, 2, 0], [3, 0, 0], [4, 0, 0]]"));
     ASSERT_EQ(many.warnings.size(), 3u);
     EXPECT_EQ(many.warnings[1],
-              "s.toml:4: sensors.s.directions[1]: of length 2; its direction is used, with length 1.");
+              "s.toml:4: sensors.s.directions[1]: the vector has length 2; it is normalised to length 1.");
     EXPECT_EQ(many.warnings[2], "s.toml:4: sensors.s.directions: likewise 2 more.");
 }
 
@@ -71,10 +71,10 @@ TEST(SceneLuminance, RefusesWhatDoesNotSayWhereToLook) {
                    "s.toml:4: sensors.s.directions: contradicts \"target\", which is given too. Allowed: one "
                    "of the two.");
     EXPECT_REFUSAL(sight("direction = [0, 0, 0]"),
-                   "s.toml:4: sensors.s.direction: [0, 0, 0] points nowhere. Allowed: any other direction.");
+                   "s.toml:4: sensors.s.direction: [0, 0, 0] has no direction. Allowed: any other vector.");
     EXPECT_REFUSAL(sight("targets = [[1, 5, 7], [1, 2, 3]]"),
-                   "s.toml:4: sensors.s.targets[1]: lies at the position, so that there is no direction to "
-                   "it. Allowed: any other point.");
+                   "s.toml:4: sensors.s.targets[1]: equals the position, so there is no direction to it. "
+                   "Allowed: any other point.");
     EXPECT_REFUSAL(
         sight("directions = []"),
         "s.toml:4: sensors.s.directions: found no direction. Allowed: [[x, y, z], ...] with one direction or "
@@ -91,8 +91,8 @@ TEST(SceneGoniometer, MeasuresAPlane) {
     const Sensor s = read_text(goniometer("normal = [0, 0, 1]\nplane = 90\nstep = 30")).sensors[0];
     EXPECT_EQ(s.type(), "goniometer");
     ASSERT_EQ(s.size(), 5u);
-    EXPECT_EQ(s.place(0).angles[0].value_deg, -60);
-    EXPECT_EQ(s.place(0).angles[1].value_deg, 90);
+    EXPECT_EQ(s.location(0).angles[0].value_deg, -60);
+    EXPECT_EQ(s.location(0).angles[1].value_deg, 90);
     const auto ray = std::get<EmergentRay>(s.measurand(3));
     EXPECT_EQ(ray.position, (Vec3{2, 2, 0}));
     EXPECT_EQ(ray.normal, (Vec3{0, 0, 1}));
@@ -107,7 +107,7 @@ TEST(SceneGoniometer, WarnsOfALongNormal) {
     const SceneFile file = read_text(goniometer("normal = [0, 3, 0]\nplane = 0\nstep = 30"));
     EXPECT_EQ(std::get<EmergentRay>(file.sensors[0].measurand(0)).normal, (Vec3{0, 1, 0}));
     EXPECT_EQ(file.warnings.back(),
-              "s.toml:4: sensors.s.normal: of length 3; its direction is used, with length 1.");
+              "s.toml:4: sensors.s.normal: the vector has length 3; it is normalised to length 1.");
 }
 
 TEST(SceneGoniometer, RefusesWrongSteps) {
@@ -121,7 +121,7 @@ TEST(SceneGoniometer, RefusesWrongSteps) {
         "s.toml:5: sensors.s.step: asks for 323964001 directions. Allowed: 10000000 readings in all "
         "sensors together.");
     EXPECT_REFUSAL(goniometer("normal = [0, 0, 0]\nstep = 5"),
-                   "s.toml:4: sensors.s.normal: [0, 0, 0] points nowhere. Allowed: any other direction.");
+                   "s.toml:4: sensors.s.normal: [0, 0, 0] has no direction. Allowed: any other vector.");
 }
 
 TEST(SceneSensors, CountsReadingsOfAllSensors) {
@@ -130,7 +130,7 @@ TEST(SceneSensors, CountsReadingsOfAllSensors) {
         "count = [3000, 3000]\n";
     EXPECT_REFUSAL(
         grid + goniometer("normal = [0, 0, 1]\nstep = 0.1"),
-        "s.toml:7: sensors.s: the sensors so far have 12236401 readings. Allowed: 10000000 in all.");
+        "s.toml:7: sensors.s: the sensors up to this one have 12236401 readings. Allowed: 10000000 in all.");
 }
 
 TEST(SceneCamera, HasDefaults) {
@@ -176,18 +176,16 @@ TEST(SceneCamera, TheFieldOfViewGoesByTheProjection) {
 
 TEST(SceneCamera, RefusesWhatMakesNoPicture) {
     EXPECT_REFUSAL(camera("target = [1, 2, 3]\nresolution = [4, 4]"),
-                   "s.toml:4: sensors.s.target: lies at the position, so that there is no direction to it. "
+                   "s.toml:4: sensors.s.target: equals the position, so there is no direction to it. "
                    "Allowed: any other point.");
-    EXPECT_REFUSAL(
-        camera("target = [1, 2, 0]\nresolution = [4, 4]"),
-        "s.toml:4: sensors.s.target: lies straight above or below the position, so that no side of "
-        "the picture is up. Allowed: any other point, or another \"up\" than [0, 0, 1].");
-    EXPECT_REFUSAL(
-        camera("target = [1, 7, 3]\nup = [0, -2, 0]\nresolution = [4, 4]"),
-        "s.toml:5: sensors.s.up: is parallel to the way from position to target, so that no side of "
-        "the picture is up. Allowed: any other direction.");
+    EXPECT_REFUSAL(camera("target = [1, 2, 0]\nresolution = [4, 4]"),
+                   "s.toml:4: sensors.s.target: lies straight above or below the position, so the picture "
+                   "has no upward side. Allowed: any other point, or another \"up\" than [0, 0, 1].");
+    EXPECT_REFUSAL(camera("target = [1, 7, 3]\nup = [0, -2, 0]\nresolution = [4, 4]"),
+                   "s.toml:5: sensors.s.up: is parallel to the direction from position to target, so the "
+                   "picture has no upward side. Allowed: any other direction.");
     EXPECT_REFUSAL(camera("target = [1, 7, 3]\nup = [0, 0, 0]\nresolution = [4, 4]"),
-                   "s.toml:5: sensors.s.up: [0, 0, 0] points nowhere. Allowed: any other direction.");
+                   "s.toml:5: sensors.s.up: [0, 0, 0] has no direction. Allowed: any other vector.");
     EXPECT_REFUSAL(camera("target = [1, 7, 3]"),
                    "s.toml:1: sensors.s: key \"resolution\" is missing for type \"camera\".");
     EXPECT_REFUSAL(camera("target = [1, 7, 3]\nresolution = [1280]"),

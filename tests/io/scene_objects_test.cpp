@@ -57,10 +57,9 @@ TEST(SceneObjects, RefusesWrongTransforms) {
     EXPECT_REFUSAL(
         square("transform = [1, 0, 0]"),
         "s.toml:11: objects.a.transform: found an array of 3 where an array of 16 numbers is needed.");
-    EXPECT_REFUSAL(
-        square("transform = [1,0,0,0, 1,0,0,0, 0,0,1,0, 0,0,0,1]"),
-        "s.toml:11: objects.a.transform: the matrix is singular: it squashes the object flat. Allowed: any "
-        "invertible one.");
+    EXPECT_REFUSAL(square("transform = [1,0,0,0, 1,0,0,0, 0,0,1,0, 0,0,0,1]"),
+                   "s.toml:11: objects.a.transform: the matrix is singular: it flattens the object. Allowed: "
+                   "any invertible matrix.");
     EXPECT_REFUSAL(
         square("transform = [1,0,0,0, 0,1,0,0, 0,0,1,0, 5,5,5,1]"),
         "s.toml:11: objects.a.transform: the last row is not [0, 0, 0, 1]. Allowed: 16 numbers row by row; "
@@ -69,14 +68,15 @@ TEST(SceneObjects, RefusesWrongTransforms) {
         square("scale = 0"),
         "s.toml:11: objects.a.scale: 0 is not allowed. Allowed: a factor above 0 (from 1e-9 to 1e9).");
     EXPECT_REFUSAL(square("rotate = [0, 0, 0, 90]"),
-                   "s.toml:11: objects.a.rotate: [0, 0, 0] points nowhere. Allowed: any other direction.");
+                   "s.toml:11: objects.a.rotate: [0, 0, 0] has no direction. Allowed: any other vector.");
     EXPECT_REFUSAL(square("rotate = [0, 0, 90]"),
                    "s.toml:11: objects.a.rotate: found an array of 3 where an array of 4 numbers is needed.");
     EXPECT_REFUSAL(
         object("shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"wall\"\n"
                "transform = [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]"),
         "s.toml:10: objects.a.transform: stretches or shears a curved shape. Allowed for spheres, disks and "
-        "harmonics: what keeps angles (moves, turns, mirrors, one scale for all axes).");
+        "harmonics: transformations that keep angles (translation, rotation, reflection, one scale for all "
+        "axes).");
 }
 
 TEST(SceneObjects, RefusesUnknownShapesAndKeys) {
@@ -104,10 +104,10 @@ TEST(SceneObjects, RefusesFlatShapes) {
         "s.toml:5: objects.a: max is not above min. Allowed: a max that is larger than min in x, y and z.");
     EXPECT_REFUSAL(
         object("shape = \"rectangle\"\ncorner = [0, 0, 0]\nedge_u = [0, 0, 0]\nedge_v = [0, 1, 0]"),
-        "s.toml:8: objects.a.edge_u: [0, 0, 0] points nowhere. Allowed: any other direction.");
+        "s.toml:8: objects.a.edge_u: [0, 0, 0] has no direction. Allowed: any other vector.");
     EXPECT_REFUSAL(
         object("shape = \"rectangle\"\ncorner = [0, 0, 0]\nedge_u = [0, 2, 0]\nedge_v = [0, -1, 0]"),
-        "s.toml:9: objects.a.edge_v: is parallel to edge_u, so that they span no area. Allowed: any other "
+        "s.toml:9: objects.a.edge_v: is parallel to edge_u, so the edges span no area. Allowed: any other "
         "direction.");
     EXPECT_REFUSAL(
         object("shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = -1"),
@@ -124,12 +124,12 @@ TEST(SceneObjects, DiskNormalsAreMadeUnit) {
     const SceneFile file = read_text(object(disk + "[0, 3, 4]"));
     expect_near(std::get<Disk>(file.scene.objects[0].shape).normal, {0, 0.6, 0.8});
     EXPECT_EQ(file.warnings.at(0),
-              "s.toml:10: objects.a.normal: of length 5; its direction is used, with length 1.");
+              "s.toml:10: objects.a.normal: the vector has length 5; it is normalised to length 1.");
     EXPECT_EQ(read_text(object(disk + "[0, 0.6, 0.8001]")).warnings.at(0),
               "s.toml:3: materials.floor: no object has this material.")
         << "no warning of the normal";
     EXPECT_REFUSAL(object(disk + "[0, 0, 0]"),
-                   "s.toml:10: objects.a.normal: [0, 0, 0] points nowhere. Allowed: any other direction.");
+                   "s.toml:10: objects.a.normal: [0, 0, 0] has no direction. Allowed: any other vector.");
 }
 
 TEST(SceneObjects, PolygonsOfAnyNumberOfCorners) {
@@ -146,7 +146,7 @@ TEST(SceneObjects, PolygonsOfAnyNumberOfCorners) {
 TEST(SceneObjects, DropsAndCountsDegenerateTriangles) {
     const SceneFile file = read_text(object(kTetrahedron + "[[0,1,2], [0,1,1], [2,3,2]]"));
     EXPECT_EQ(std::get<Mesh>(file.scene.objects[0].shape).triangles.size(), 1u);
-    EXPECT_EQ(file.warnings.at(0), "s.toml:5: objects.a: 2 triangles of no area are left out.");
+    EXPECT_EQ(file.warnings.at(0), "s.toml:5: objects.a: 2 triangles without area are left out.");
 }
 
 TEST(SceneObjects, RefusesWrongPolygons) {
@@ -221,9 +221,9 @@ TEST_F(SceneMeshes, RefusesUnknownParts) {
 
 TEST_F(SceneMeshes, RefusesPartsWithoutMaterial) {
     EXPECT_EQ(refusal(mesh("materials = { carpet = \"floor\" }"), directory_),
-              "s.toml:5: objects.a: the mesh file's material \"paint\" has no material of the scene. "
-              "Allowed: an entry "
-              "in \"materials\" for it, or \"material\" for all that is not in \"materials\".");
+              "s.toml:5: objects.a: the mesh file's material \"paint\" is not assigned to a material of the "
+              "scene. Allowed: an entry "
+              "in \"materials\" for it, or \"material\" for all parts that are not in \"materials\".");
     EXPECT_EQ(refusal(mesh(""), directory_),
               "s.toml:5: objects.a: key \"material\" is missing for shape \"mesh\".");
 }

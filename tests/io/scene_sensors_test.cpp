@@ -24,7 +24,7 @@ TEST(SceneSensors, GridMayHaveANormalOfItsOwn) {
     const SceneFile file = read_text(grid("count = [1, 1]\nnormal = [0, 2, 0]"));
     EXPECT_EQ(viewpoint_of(file.sensors[0].measurand(0)).normal, (Vec3{0, 1, 0}));
     EXPECT_EQ(file.warnings.back(),
-              "s.toml:7: sensors.s.normal: of length 2; its direction is used, with length 1.");
+              "s.toml:7: sensors.s.normal: the vector has length 2; it is normalised to length 1.");
 }
 
 TEST(SceneSensors, IlluminanceAtOnePointOrMany) {
@@ -51,7 +51,7 @@ TEST(SceneBodies, StandAtOnePointOrMany) {
     ASSERT_EQ(one.size(), 1u);
     EXPECT_EQ(body(one, 0).position, (Vec3{1, 2, 3}));
     EXPECT_EQ(body(one, 0).axis, (Vec3{0, 0, 1}));
-    EXPECT_TRUE(one.place(0).directions.empty());
+    EXPECT_TRUE(one.location(0).directions.empty());
     const Sensor two = read_text(sensor("type = \"spherical\"\npoints = [[1, 2, 3], [4, 5, 6]]")).sensors[0];
     EXPECT_EQ(two.quantity().name, "spherical illuminance");
     ASSERT_EQ(two.size(), 2u);
@@ -62,14 +62,14 @@ TEST(SceneBodies, FaceADirectionOrANormal) {
     const SceneFile file =
         read_text(sensor("type = \"semicylindrical\"\nposition = [1, 2, 3]\ndirection = [0, 2, 0]"));
     EXPECT_EQ(body(file.sensors[0], 0).axis, (Vec3{0, 1, 0}));
-    ASSERT_EQ(file.sensors[0].place(0).directions.size(), 1u);
-    EXPECT_EQ(file.sensors[0].place(0).directions[0].name, "direction");
+    ASSERT_EQ(file.sensors[0].location(0).directions.size(), 1u);
+    EXPECT_EQ(file.sensors[0].location(0).directions[0].name, "direction");
     EXPECT_EQ(file.warnings.back(),
-              "s.toml:4: sensors.s.direction: of length 2; its direction is used, with length 1.");
+              "s.toml:4: sensors.s.direction: the vector has length 2; it is normalised to length 1.");
     const Sensor hemisphere =
         read_text(sensor("type = \"hemispherical\"\nposition = [1, 2, 3]\nnormal = [0, 0, -1]")).sensors[0];
     EXPECT_EQ(body(hemisphere, 0).axis, (Vec3{0, 0, -1}));
-    EXPECT_EQ(hemisphere.place(0).directions[0].name, "normal");
+    EXPECT_EQ(hemisphere.location(0).directions[0].name, "normal");
 }
 
 TEST(SceneBodies, RefuseWrongKeys) {
@@ -85,7 +85,7 @@ TEST(SceneBodies, RefuseWrongKeys) {
                    "Allowed: [x, y, "
                    "0].");
     EXPECT_REFUSAL(sensor("type = \"hemispherical\"\nposition = [1, 2, 3]\nnormal = [0, 0, 0]"),
-                   "s.toml:4: sensors.s.normal: [0, 0, 0] points nowhere. Allowed: any other direction.");
+                   "s.toml:4: sensors.s.normal: [0, 0, 0] has no direction. Allowed: any other vector.");
     EXPECT_REFUSAL(
         sensor("type = \"cylindrical\"\npoints = []"),
         "s.toml:3: sensors.s.points: found no point. Allowed: [[x, y, z], ...] with one point or more.");
@@ -117,10 +117,10 @@ TEST(SceneSensors, RefusesWrongCounts) {
 
 TEST(SceneSensors, RefusesWrongGeometry) {
     EXPECT_REFUSAL(grid("count = [1, 1]\nnormal = [0, 0, 0]"),
-                   "s.toml:7: sensors.s.normal: [0, 0, 0] points nowhere. Allowed: any other direction.");
+                   "s.toml:7: sensors.s.normal: [0, 0, 0] has no direction. Allowed: any other vector.");
     EXPECT_REFUSAL(
         sensor("type = \"grid\"\ncorner = [0, 0, 1]\nedge_u = [4, 0, 0]\nedge_v = [2, 0, 0]\ncount = [1, 1]"),
-        "s.toml:5: sensors.s.edge_v: is parallel to edge_u, so that they span no area. Allowed: any other "
+        "s.toml:5: sensors.s.edge_v: is parallel to edge_u, so the edges span no area. Allowed: any other "
         "direction.");
     EXPECT_REFUSAL(sensor("type = \"illuminance\"\nposition = [1, 2, 3]"),
                    "s.toml:1: sensors.s: key \"normal\" is missing for type \"illuminance\".");

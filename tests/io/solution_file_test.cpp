@@ -86,26 +86,25 @@ TEST(SolutionFile, BeginsAsDocumented) {
 TEST(SolutionFile, NamesWhatIsWrong) {
     const std::string& good = sample_bytes();
     EXPECT_EQ(message_of(good), "accepted");
-    EXPECT_EQ(message_of(""),
-              "a.solution: not a solution: it does not begin with STILBSOL. `stilb solve` writes them.");
+    EXPECT_EQ(message_of(""), "a.solution: not a solution: the file does not begin with STILBSOL.");
     EXPECT_EQ(message_of("[scene]\nname = \"a room\"\n"), message_of(""));
     EXPECT_EQ(message_of("STILBSOL\1"),
               "a.solution: damaged at byte 8: the file ends before the version. Solve the scene again.");
     std::string other = good;
     other[8] = 9;
-    EXPECT_EQ(message_of(other), "a.solution: a solution of version 9, and this is Stilb " STILB_VERSION
-                                 ", which reads version 1. Solve the scene again.");
+    EXPECT_EQ(message_of(other), "a.solution: the solution is of version 9, but Stilb " STILB_VERSION
+                                 " reads version 1. Solve the scene again.");
     EXPECT_EQ(message_of(good.substr(0, good.size() - 1)),
-              "a.solution: the file has " + std::to_string(good.size() - 1) + " bytes where it should have " +
+              "a.solution: the file has " + std::to_string(good.size() - 1) + " bytes instead of " +
                   std::to_string(good.size()) +
-                  ": it was cut off or added to. Copy it anew, or solve the scene again.");
+                  ": it was cut off or extended. Copy it again, or solve the scene again.");
     EXPECT_EQ(message_of(good + "x").substr(0, 26),
               "a.solution: the file has " + std::to_string(good.size() + 1).substr(0, 1));
     other = good;
     other[good.size() / 2] ^= 1;
     EXPECT_EQ(message_of(other),
-              "a.solution: damaged: its contents do not have the hash that it states. Copy it anew, "
-              "or solve the scene again.");
+              "a.solution: damaged: the contents do not match the stored hash. Copy the file again, or solve "
+              "the scene again.");
 }
 
 /// With a hash that fits: no memory is taken for what is not there.
@@ -113,14 +112,14 @@ TEST(SolutionFile, CountsAreHeldAgainstTheFile) {
     const std::string body = sample_bytes().substr(kHeaderSize);
     std::string huge = body;
     huge[6] = 0x7f;
-    EXPECT_EQ(message_of_body(huge),
-              "a.solution: damaged at byte 36: Stilb's version should be 35747322042253317 in number, "
-              "and only " +
-                  std::to_string(body.size() - 8) + " bytes are left. Solve the scene again.");
+    EXPECT_EQ(
+        message_of_body(huge),
+        "a.solution: damaged at byte 36: Stilb's version: 35747322042253317 entries are expected, but only " +
+            std::to_string(body.size() - 8) + " bytes are left. Solve the scene again.");
     for (std::size_t length = 0; length < body.size(); length += 7)
         EXPECT_NE(message_of_body(body.substr(0, length)).find("damaged at byte"), std::string::npos)
             << length;
-    EXPECT_NE(message_of_body(body + "abc").find("3 bytes too many"), std::string::npos);
+    EXPECT_NE(message_of_body(body + "abc").find("3 surplus bytes"), std::string::npos);
 }
 
 TEST(SolutionFile, IsWrittenAndRead) {

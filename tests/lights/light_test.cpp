@@ -23,7 +23,7 @@ struct NotChosen : PointLight {
 };
 /// A point light that says that rays find it.
 struct OnNoSurface : PointLight {
-    static constexpr LightPlace kPlace = LightPlace::surface;
+    static constexpr LightLocation kLocation = LightLocation::surface;
 };
 static_assert(LightKind<PointLight> && LightKind<Luminaire> && LightKind<AreaLight> &&
               LightKind<EnvironmentLight>);
@@ -48,9 +48,9 @@ std::vector<std::string> keys_of(const Light& light, const Scene& scene) {
 TEST(Light, IsAtOnePlace) {
     const Scene scene = three_lights();
     const Light &point = scene.lights[0], &area = scene.lights[1], &environment = scene.lights[2];
-    EXPECT_EQ(place_of(point), LightPlace::point);
-    EXPECT_EQ(place_of(area), LightPlace::surface);
-    EXPECT_EQ(place_of(environment), LightPlace::infinity);
+    EXPECT_EQ(location_of(point), LightLocation::point);
+    EXPECT_EQ(location_of(area), LightLocation::surface);
+    EXPECT_EQ(location_of(environment), LightLocation::infinity);
     ASSERT_TRUE(point_origin(point));
     EXPECT_EQ(point_origin(point)->position, (Vec3{1, 2, 3}));
     EXPECT_FALSE(point_origin(area) || point_origin(environment));

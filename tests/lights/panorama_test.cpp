@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "lights/environment.h"
 #include "math/random.h"
@@ -14,7 +13,6 @@
 namespace stilb::lights {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kHeight = 6, kWidth = 2 * kHeight;
 
 /// Dark and bright pixels, some black, in three colours.

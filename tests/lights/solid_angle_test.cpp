@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,6 @@ namespace stilb::lights {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
-constexpr double kPi = std::numbers::pi;
 
 /// [Van Oosterom, Strackee 1983], in extended precision.
 double solid_angle_sr(const Corners& triangle, const Vec3& from) {

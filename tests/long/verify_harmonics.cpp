@@ -82,10 +82,11 @@ bool verify(std::uint64_t rays) {
         print("", "cells", tallies.cells);
         print("", "march", tallies.march);
     }
-    VerdictTally classifications;
+    ClassificationTally classifications;
     for (const auto& [kind, tallies] : sum) classifications += tallies.classifications;
-    fmt::print("single precision: {} verdicts on rays and cells, {} wrong; {} left to double precision\n",
-               classifications.told, classifications.wrong, classifications.unclear);
+    fmt::print(
+        "single precision: {} classifications of rays and cells, {} wrong; {} left to double precision\n",
+        classifications.told, classifications.wrong, classifications.unclear);
     return all_held;
 }
 

@@ -13,7 +13,6 @@
 namespace stilb::materials {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Chance that a sound set of samplers fails the test of all of them, when its seeds are first used.
 constexpr double kFamilyError = 0.01;
 

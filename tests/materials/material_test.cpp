@@ -8,8 +8,6 @@
 namespace stilb::materials {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A unit vector at this angle to the normal, at an azimuth that is no axis.
 Vec3 incident(double degrees) {
     const double theta = degrees * kPi / 180;

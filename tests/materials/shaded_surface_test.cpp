@@ -13,7 +13,6 @@
 namespace stilb::materials {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const Rgb kWhite = Rgb::grey(1);
 
 Vec3 at(double theta_deg, double phi_deg) {
@@ -248,8 +247,8 @@ TEST(ShadedSurface, RefractsTheSameLightFromBothSides) {
             return to_light.z > 0 ? light_from(to_light) : 0;
         };
         const auto importance_from_outside = [&](const Vec3& out) {
-            const Vec3 to_eye = inside.frame().to_local(outside.frame().to_world(out));
-            return to_eye.z > 0 ? importance_of(to_eye) : 0;
+            const Vec3 to_camera = inside.frame().to_local(outside.frame().to_world(out));
+            return to_camera.z > 0 ? importance_of(to_camera) : 0;
         };
         RandomPairs random(9);
         Mean from_eye, from_light;

@@ -7,7 +7,6 @@
 namespace stilb::math {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Vec3 kUp{0, 0, 1};
 constexpr std::size_t kSamples = 200'000;
 

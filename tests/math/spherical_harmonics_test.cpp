@@ -15,8 +15,6 @@
 namespace stilb::math {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vec3 direction_at(double theta, double phi) {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <future>
 #include <memory>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -21,8 +20,6 @@
 
 namespace stilb::patches {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Of what comes out of each of many independent bundles.
 struct Moments {

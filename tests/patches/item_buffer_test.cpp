@@ -4,14 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "stilb/error.h"
 
 namespace stilb::patches {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::array kShapes{BufferShape::cube, BufferShape::hemicube, BufferShape::cubic_tetrahedron};
 
 struct Sums {

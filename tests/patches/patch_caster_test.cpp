@@ -11,7 +11,7 @@
 namespace stilb::patches {
 namespace {
 
-/// Rays in all directions from a place in the room, relative to the patches' centre.
+/// Rays in all directions from a position in the room, relative to the patches' centre.
 RayPacket random_rays(const Vec3& origin, RandomPairs& random) {
     RayPacket rays;
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
@@ -21,19 +21,19 @@ RayPacket random_rays(const Vec3& origin, RandomPairs& random) {
     return rays;
 }
 
-/// What a hit says of itself is one place: along the ray, on the patch; and the scene's shapes are there, up
-/// to the sagitta of round ones.
+/// What a hit says of itself is one position: along the ray, on the patch; and the scene's shapes are
+/// there, up to the sagitta of round ones.
 TEST(PatchCaster, HitsAreWhereTheSceneIs) {
     const Scene scene = furnished_room();
     const Patches patches = make_patches(scene, 0.2);
     const PatchCaster caster(patches);
     const rays::RayCaster exact(scene);
-    const Vec3 place = point_in_room().position;
+    const Vec3 barycentric = point_in_room().position;
     RandomPairs random(11);
     std::size_t same_object = 0;
     constexpr int packets = 100;
     for (int i = 0; i < packets; ++i) {
-        RayPacket rays = random_rays(place - patches.center, random);
+        RayPacket rays = random_rays(barycentric - patches.center, random);
         LaneMask lanes{};
         for (std::size_t lane = 0; lane < kPacketWidth; lane += 2) lanes[lane] = -1;
         const PatchHits hits = caster.closest(rays, lanes);
@@ -44,10 +44,10 @@ TEST(PatchCaster, HitsAreWhereTheSceneIs) {
             }
             const Vec3 direction{rays.direction_x[lane], rays.direction_y[lane], rays.direction_z[lane]};
             const std::uint32_t patch = patches.patch_of(hits.sides[lane]);
-            const Vec3 on_patch = patches.position(patch, hits.place(lane));
-            EXPECT_LT(length(place + rays.end[lane] * direction - on_patch), 1e-5);
+            const Vec3 on_patch = patches.position(patch, hits.barycentric(lane));
+            EXPECT_LT(length(barycentric + rays.end[lane] * direction - on_patch), 1e-5);
             EXPECT_LT(dot(direction, patches.normal_of(hits.sides[lane])), 0);
-            const auto hit = exact.closest(place, direction);
+            const auto hit = exact.closest(barycentric, direction);
             ASSERT_TRUE(hit);
             if (hit->object != patches.object_of(patch)) continue;
             ++same_object;

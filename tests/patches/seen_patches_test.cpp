@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <span>
 
@@ -16,7 +15,6 @@
 namespace stilb::patches {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 struct Accumulated {
     std::vector<double> by_side;  ///< integral of 1 (points) or of the cosine over what is seen of the side
     double everywhere = 0;

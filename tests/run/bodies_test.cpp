@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "estimators/estimator_list.h"
 #include "exact/closed_rooms.h"
@@ -15,7 +14,6 @@
 namespace stilb::run {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Vec3 kUp{0, 0, 1};
 const Vec3 kFacing = normalized(Vec3{1, -2, 0});
 const Vec3 kTilted = normalized(Vec3{1, -2, 3});
@@ -138,7 +136,7 @@ std::array<double, 4> means_over_bodies(const auto& lx) {
 
 TEST_P(BodiesBy, ADiskLight) {
     constexpr double luminance = 1000;
-    const exact::DiskPlace disk{{2, 1.5, 2.6}, {0.3, 0.1, -1}, 0.5};
+    const exact::DiskPosition disk{{2, 1.5, 2.6}, {0.3, 0.1, -1}, 0.5};
     const Vec3 at{1, 1.2, 1.1};
     Scene scene;
     add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, Black{});

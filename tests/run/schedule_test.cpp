@@ -18,7 +18,7 @@ class MadeUpWork final : public Work {
     std::uint64_t samples_for(std::uint64_t paths) const override { return (paths + 1) / 2; }
     std::uint64_t most_samples() const override { return 1000; }
     std::uint64_t least_samples() const override { return least; }
-    std::uint64_t next_look() const override {
+    std::uint64_t next_check() const override {
         std::uint64_t look = 4;
         while (look <= samples_) look *= 2;
         return look;

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "rays/ray_caster.h"
 #include "support/quadrature.h"
@@ -15,7 +14,6 @@
 namespace stilb::sensors {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Vec3 kUp{0, 0, 1};
 
 Vec3 spherical(double theta, double phi) {

@@ -2,12 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 
 namespace stilb::sensors {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180;
 
 /// Looks along +y from (1, 2, 3), with +x to the right.

@@ -17,7 +17,7 @@ constexpr int kRuns = 2000;
 constexpr double kLeastCoverage = 0.94;  // of 0.95 promised: two standard errors of 2000 runs
 
 /// Grids of normal errors: part of every replicate's error is common to all readings, as from common light
-/// chains.
+/// light paths.
 struct GridModel {
     std::string name;
     std::vector<double> truth;

@@ -38,12 +38,12 @@ TEST(Stopping, DarkReadingsAndNoReadingsAreDone) {
     EXPECT_GT(attained_error(unknown), 1e9);
 }
 
-/// A reading of true value 1 from 32 replicates of chains, checked at growing sizes until it meets the
+/// A reading of true value 1 from 32 replicates of light paths, checked at growing sizes until it meets the
 /// target.
 class StoppedRun {
   public:
-    StoppedRun(std::function<double(std::mt19937_64&)> draw_chain, double growth)
-        : draw_chain_(std::move(draw_chain)), growth_(growth) {}
+    StoppedRun(std::function<double(std::mt19937_64&)> draw_light_path, double growth)
+        : draw_light_path_(std::move(draw_light_path)), growth_(growth) {}
 
     double coverage(double target) {
         constexpr int kRuns = 2000;
@@ -58,22 +58,22 @@ class StoppedRun {
   private:
     Estimate stop_at(double target) {
         std::vector<double> sums(32, 0.0), means(32);
-        int chains = 0;
+        int light_paths = 0;
         // Where the sizes lie beside the one needed is random, as it is in practice.
         double size = 8 * std::pow(growth_, std::uniform_real_distribution<double>()(random_));
         for (;; size *= growth_) {
             const int upto = static_cast<int>(size);
             for (std::size_t r = 0; r < sums.size(); ++r) {
-                for (int chain = chains; chain < upto; ++chain) sums[r] += draw_chain_(random_);
+                for (int path = light_paths; path < upto; ++path) sums[r] += draw_light_path_(random_);
                 means[r] = sums[r] / upto;
             }
-            chains = upto;
+            light_paths = upto;
             const Estimate estimate = estimate_from_replicates(means, kStoppedConfidence);
             if (attained_error({&estimate, 1}) <= target) return estimate;
         }
     }
 
-    std::function<double(std::mt19937_64&)> draw_chain_;
+    std::function<double(std::mt19937_64&)> draw_light_path_;
     double growth_;
     std::mt19937_64 random_{17};
 };
@@ -92,9 +92,9 @@ TEST(Stopping, WeightsSayWhoDecides) {
 
 TEST(Stopping, LooksAtPowersOfTwoAndBetween) {
     std::vector<std::uint64_t> looks;
-    for (std::uint64_t done = 0; done < 256; done = looks.back()) looks.push_back(next_look(done, 32));
+    for (std::uint64_t done = 0; done < 256; done = looks.back()) looks.push_back(next_check(done, 32));
     EXPECT_EQ(looks, (std::vector<std::uint64_t>{32, 48, 64, 96, 128, 192, 256}));
-    EXPECT_EQ(next_look(33, 32), 48u);
+    EXPECT_EQ(next_check(33, 32), 48u);
 }
 
 TEST(Stopping, IntervalsHoldThoughTheRunStopsWhereTheyAreNarrow) {

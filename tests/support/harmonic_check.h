@@ -60,11 +60,11 @@ inline Tally judge(const geometry::HarmonicSurface& surface, const TestRay& ray,
 inline constexpr double kAllowedOfRoots = 1e-9, kAllowedOfCells = 5e-7, kAllowedOfMarch = 1e-6;
 
 /// What single precision says of rays and cells whose boxes they meet, against what double precision does.
-struct VerdictTally {
+struct ClassificationTally {
     std::uint64_t told = 0, unclear = 0;
     std::uint64_t wrong = 0;
 
-    VerdictTally& operator+=(const VerdictTally& other) {
+    ClassificationTally& operator+=(const ClassificationTally& other) {
         told += other.told, unclear += other.unclear, wrong += other.wrong;
         return *this;
     }
@@ -72,7 +72,7 @@ struct VerdictTally {
 
 struct Tallies {
     Tally roots, cells, march;
-    VerdictTally classifications;
+    ClassificationTally classifications;
 
     Tallies& operator+=(const Tallies& other) {
         roots += other.roots, cells += other.cells, march += other.march,
@@ -113,7 +113,7 @@ class CheckedSurface {
                     return cells_.crossing(cell, origin, direction, start, end);
                 });
             sum.cells += judged(by_cells, kAllowedOfCells);
-            sum.classifications += compare_verdicts(ray);
+            sum.classifications += compare_classifications(ray);
             if (n % marched_every != 0) continue;
             const auto by_march = march_crossing(surface_, origin, direction, 0, infinity, step);
             sum.march += judged(distance_of(by_march), kAllowedOfMarch);
@@ -122,14 +122,14 @@ class CheckedSurface {
     }
 
   private:
-    VerdictTally compare_verdicts(const TestRay& exact) const {
+    ClassificationTally compare_classifications(const TestRay& exact) const {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         const PacketPlacement own{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}};
         RayPacket rays;
         rays.set(0, exact.origin, exact.direction, infinity);
         const Vec3 origin{rays.origin_x[0], rays.origin_y[0], rays.origin_z[0]};
         const Vec3 direction{rays.direction_x[0], rays.direction_y[0], rays.direction_z[0]};
-        VerdictTally tally;
+        ClassificationTally tally;
         std::uint64_t met = 0;
         bool is_crossed = false;
         const auto look_at = [&](std::size_t cell, double start, double) {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "statistics/hypothesis.h"
 #include "statistics/interval.h"
@@ -14,7 +13,6 @@
 namespace stilb::transport {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kReplicates = 32;
 
 /// A ball in a corner of the scene's box, which a speck in the opposite corner spans.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Box kRoom{{0, 0, 0}, {4, 3, 2.8}};
 constexpr int kUnlimited = std::numeric_limits<int>::max();
-constexpr std::uint64_t kChains = 1 << 13;
+constexpr std::uint64_t kLightPaths = 1 << 13;
 constexpr int kReplicates = 32;
 
 /// Flux [lm] that all reflections together send out: nodes' flux times albedo, from replicates.
@@ -25,17 +25,17 @@ statistics::Estimate reflected_flux(const Scene& scene, int max_nodes, const Rgb
     for (int r = 0; r < kReplicates; ++r) {
         const math::RandomKey key = math::RandomKey{3}.derived(static_cast<std::uint64_t>(r));
         std::vector<LightVertex> nodes;
-        for (std::uint64_t i = 0; i < kChains; ++i) {
+        for (std::uint64_t i = 0; i < kLightPaths; ++i) {
             trace_light_path(scene, caster, lights, max_nodes, math::SampleStream(key, i), nodes);
         }
         Rgb sum;
         for (const LightVertex& node : nodes) sum += node.flux_lm * reflectance;
-        means.push_back(sum.luminance() / static_cast<double>(kChains));
+        means.push_back(sum.luminance() / static_cast<double>(kLightPaths));
     }
     return statistics::estimate_from_replicates(means);
 }
 
-TEST(LightChain, NodesOfAClosedBoxReflectTheGeometricSeries) {
+TEST(LightPath, NodesOfAClosedBoxReflectTheGeometricSeries) {
     const Rgb rho{{0.8, 0.5, 0.3}}, intensity{{100, 60, 30}};
     Scene scene;
     add_object(scene, kRoom, Diffuse{rho});
@@ -53,7 +53,7 @@ TEST(LightChain, NodesOfAClosedBoxReflectTheGeometricSeries) {
     EXPECT_LT(measured.standard_error / measured.value, 0.003);
 }
 
-TEST(LightChain, NothingIsReflectedByBlackOrWithoutReflections) {
+TEST(LightPath, NothingIsReflectedByBlackOrWithoutReflections) {
     Scene scene;
     add_object(scene, kRoom, Black{});
     add_point_light(scene, {1, 1, 1}, Rgb::grey(100));
@@ -62,7 +62,7 @@ TEST(LightChain, NothingIsReflectedByBlackOrWithoutReflections) {
     EXPECT_EQ(reflected_flux(scene, 0, Rgb::grey(1)).value, 0);
 }
 
-TEST(LightChain, MirrorsHaveNoNodes) {
+TEST(LightPath, MirrorsHaveNoNodes) {
     Scene scene;
     add_walls(scene, kRoom,
               {Mirror{Rgb::grey(0.9)}, diffuse(0.7), diffuse(0.7), diffuse(0.7), diffuse(0.7), diffuse(0.7)});

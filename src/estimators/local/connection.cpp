@@ -18,11 +18,11 @@ namespace {
 
 using Floats = PointTile::Floats;
 
-/// Nodes whose contributions are summed in single precision before they are added to the sums in double.
+/// Vertices whose contributions are summed in single precision before they are added to the sums in double.
 constexpr std::size_t kBlock = 64;
 
-/// A chain node as the inner loop wants it.
-struct FanNode {
+/// A light vertex in the form of the inner loop.
+struct ConnectedVertex {
     SegmentOrigin origin;
     float split;  ///< 0: w = 1
     std::array<float, kBands>
@@ -36,8 +36,8 @@ struct alignas(64) TileSums {
     Floats largest{};
 };
 
-/// (Without the promise that nothing overlaps, the loop would stay scalar.)
-STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTile& __restrict tile,
+/// (Without __restrict, which promises that nothing overlaps, the loop would stay scalar.)
+STILB_VECTORIZED void add_visible(const ConnectedVertex& __restrict node, const PointTile& __restrict tile,
                                   const RayPacket& __restrict packet, const LaneMask& __restrict lanes,
                                   const Floats& __restrict g, TileSums& __restrict sums) {
     const float luminance = static_cast<float>(kLuminanceWeights[0]) * node.coefficient[0] +
@@ -54,15 +54,14 @@ STILB_VECTORIZED void add_visible(const FanNode& __restrict node, const PointTil
     }
 }
 
-/// As add_visible() where the BRDF of the node or the response of a receiver depends on direction: lane by
-/// lane, w included, and the response where one of the tile's depends on direction.
-void add_visible_directional(const FanNode& node, const PointTile& tile, const RayPacket& packet,
+/// The counterpart of add_visible() where the BRDF of the vertex or the response of a receiver depends on
+/// direction: lane by lane, w included.
+void add_visible_directional(const ConnectedVertex& node, const PointTile& tile, const RayPacket& packet,
                              const LaneMask& lanes, const Floats& g_per_m2, TileSums& sums) {
-    const transport::LightVertex& chain_node = *node.node;
-    const materials::ShadedSurface surface(*chain_node.material, chain_node.normal,
-                                           chain_node.shading_normal);
+    const transport::LightVertex& vertex = *node.node;
+    const materials::ShadedSurface surface(*vertex.material, vertex.normal, vertex.shading_normal);
     const Frame& frame = surface.frame();
-    const Vec3 in = frame.to_local(chain_node.incoming);
+    const Vec3 in = frame.to_local(vertex.incoming);
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         if (lanes[i] == 0 || packet.end[i] < 0) continue;
         const Vec3 to_point =
@@ -70,17 +69,17 @@ void add_visible_directional(const FanNode& node, const PointTile& tile, const R
         const Rgb brdf = surface.brdf_per_sr(in, frame.to_local(to_point));
         const transport::Receiver& receiver = tile.receivers[i];
         const double relative =
-            transport::relative_brdf(*chain_node.material, brdf) * receiver.relative_response(-to_point);
+            transport::relative_brdf(*vertex.material, brdf) * receiver.relative_response(-to_point);
         const double g = g_per_m2[i];
-        const double chain_share = chain_node.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
-        Rgb added = chain_node.flux_lm * brdf * (g * chain_share);
+        const double connected_share = vertex.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
+        Rgb added = vertex.flux_lm * brdf * (g * connected_share);
         if (tile.directional) added = added * receiver.response(-to_point);
         for (std::size_t b = 0; b < kBands; ++b) sums.band[b][i] += static_cast<float>(added[b]);
         sums.largest[i] = std::max(sums.largest[i], static_cast<float>(added.luminance()));
     }
 }
 
-/// Constant responses are multiplied here, once for a block of nodes; others are in the sums.
+/// Constant responses are multiplied here, once for a block of vertices; others are in the sums.
 void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const transport::Receiver& receiver = tile.receivers[i];
@@ -93,33 +92,34 @@ void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
     sums = {};
 }
 
-FanNode fan_node(const transport::LightVertex& node, const Vec3& center) {
+ConnectedVertex connected_vertex(const transport::LightVertex& node, const Vec3& center) {
     const bool is_smooth = node.shading_normal != node.normal;
     const auto* diffuse = is_smooth ? nullptr : std::get_if<Diffuse>(node.material);
     const Rgb coefficient =
         diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
-    FanNode result{SegmentOrigin(node.position, node.lifted, node.normal, center),
-                   node.only_by_light || !diffuse ? 0.0f : 1.0f,
-                   {},
-                   &node,
-                   diffuse == nullptr};
+    ConnectedVertex result{SegmentOrigin(node.position, node.lifted, node.normal, center),
+                           node.only_by_light || !diffuse ? 0.0f : 1.0f,
+                           {},
+                           &node,
+                           diffuse == nullptr};
     for (std::size_t b = 0; b < kBands; ++b) result.coefficient[b] = static_cast<float>(coefficient[b]);
     return result;
 }
 
 }  // namespace
 
-void Fan::collect(std::span<const transport::LightVertex> nodes, ReadingSums& sums) const {
-    std::vector<FanNode> fan_nodes;
-    fan_nodes.reserve(nodes.size());
-    for (const transport::LightVertex& node : nodes) fan_nodes.push_back(fan_node(node, caster_.center()));
+void Connections::collect(std::span<const transport::LightVertex> nodes, ReadingSums& sums) const {
+    std::vector<ConnectedVertex> connected_vertices;
+    connected_vertices.reserve(nodes.size());
+    for (const transport::LightVertex& node : nodes)
+        connected_vertices.push_back(connected_vertex(node, caster_.center()));
     RayPacket packet;
     LaneMask lanes;
     alignas(64) Floats g_per_m2;
     for (const PointTile& tile : tiles_) {
         TileSums tile_sums;
-        for (std::size_t n = 0; n < fan_nodes.size(); ++n) {
-            const FanNode& node = fan_nodes[n];
+        for (std::size_t n = 0; n < connected_vertices.size(); ++n) {
+            const ConnectedVertex& node = connected_vertices[n];
             if (connect(node.origin, node.node->reflections, tile, packet, lanes, g_per_m2)) {
                 sums.rays += static_cast<std::uint64_t>(-std::accumulate(lanes.begin(), lanes.end(), 0));
                 caster_.occlude(packet, lanes);
@@ -137,7 +137,7 @@ void Fan::collect(std::span<const transport::LightVertex> nodes, ReadingSums& su
 
 namespace {
 
-/// Which of the six axis directions a normal is nearest to.
+/// The index of the axis direction nearest to a normal, of six.
 int orientation(const Vec3& normal) {
     const Vec3 size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -181,13 +181,13 @@ std::vector<transport::LightVertex> NodePool::select(std::size_t count, double u
     const double step = passed_lm_.back() / static_cast<double>(count);
     std::vector<transport::LightVertex> selected;
     selected.reserve(count + 1);
-    double next = u * step;  // flux at which the next one is selected
-    for (auto place = passed_lm_.begin(); place != passed_lm_.end(); ++place) {
-        place = std::upper_bound(place, passed_lm_.end(), next);
-        if (place == passed_lm_.end()) break;
-        const double times = std::ceil((*place - next) / step);
+    double next = u * step;  // flux at which the next vertex is selected
+    for (auto bound = passed_lm_.begin(); bound != passed_lm_.end(); ++bound) {
+        bound = std::upper_bound(bound, passed_lm_.end(), next);
+        if (bound == passed_lm_.end()) break;
+        const double times = std::ceil((*bound - next) / step);
         next += times * step;
-        const transport::LightVertex& node = nodes_[static_cast<std::size_t>(place - passed_lm_.begin())];
+        const transport::LightVertex& node = nodes_[static_cast<std::size_t>(bound - passed_lm_.begin())];
         selected.push_back(node);
         selected.back().flux_lm *= times * step / reflected_flux_lm(node);
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "materials/shaded_surface.h"
 #include "math/sampling.h"
@@ -12,17 +11,15 @@
 namespace stilb::estimators {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// A place y that a ray has met, and the receivers of the ray's packet that may see it. Keeps references.
-class SharedPlace {
+/// A point y that a ray has met, and the receivers of the ray's packet that may see it. Keeps references.
+class SharedPoint {
   public:
-    /// Light for receivers that are farther from their sensors may have met fewer surfaces: only those like
-    /// `own` share.
-    SharedPlace(const rays::Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
+    /// Light for receivers that are farther from their sensors may have met fewer surfaces: only receivers
+    /// with the same count as `own` share.
+    SharedPoint(const rays::Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
                 const Vec3& center)
         : surface_(material, hit.normal, hit.shading_normal), tile_(tile) {
-        // At y at least one reflection takes place.
+        // There is at least one reflection, at y.
         connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, center), 1, tile, segments_, lanes_,
                 g_per_m2_);
         for_each_lane([&](std::size_t i) {
@@ -36,7 +33,7 @@ class SharedPlace {
 
     bool reaches(std::size_t lane) const { return lanes_[lane] != 0; }
 
-    /// 1 - w as it is on average over the ways of the light, at the receiver where it is largest.
+    /// 1 - w, averaged over the directions of the light, at the receiver where it is largest.
     double gathered_share() const {
         const double concentration = mean_concentration(surface_.material());
         double largest = 0;
@@ -44,7 +41,7 @@ class SharedPlace {
         return largest;
     }
 
-    /// Leaves the receivers that see y. `own` does: its ray has shown it.
+    /// Removes receivers that y is hidden from. `own` sees y: its ray has met it.
     void test_visibility(const rays::RayCaster& caster, std::size_t own) {
         lanes_[own] = 0;
         caster.occlude(segments_, lanes_);
@@ -54,11 +51,11 @@ class SharedPlace {
         });
     }
 
-    /// A direction that light may come to y from, drawn by the BRDF as a receiver sees y.
+    /// A direction of incident light at y, drawn by the BRDF as a receiver sees y.
     struct Beam {
         Vec3 direction;
-        double density = 0;  ///< of y and the direction together, by all receivers' rays [1/(m2 sr)]
-        double weight = 0;   ///< 1 / probability of having gone on
+        double density = 0;  ///< of y and the direction together, over all receivers' rays [1/(m2 sr)]
+        double weight = 0;   ///< 1 / probability of having survived
     };
     std::optional<Beam> sample_beam(std::size_t lane, math::SampleStream& stream) const {
         const double survival =
@@ -73,14 +70,14 @@ class SharedPlace {
         return Beam{direction, density, 1 / survival};
     }
 
-    /// How densely the packet's rays meet y [1/m2].
+    /// The density with which the packet's rays meet y [1/m2].
     double ray_density() const {
         double sum = 0;
         for_each_lane([&](std::size_t i) { sum += ray_density_per_m2_[i]; });
         return sum;
     }
 
-    /// How densely they meet y and go on along `direction` [1/(m2 sr)].
+    /// The density with which they meet y and continue along `direction` [1/(m2 sr)].
     double beam_density(const Vec3& direction) const {
         const Vec3 in = surface_.frame().to_local(direction);
         double sum = 0;
@@ -90,7 +87,7 @@ class SharedPlace {
         return sum;
     }
 
-    /// Adds what the readings receive of light that comes to y from `direction`, given its illuminance on a
+    /// Adds to the readings the light that comes to y from `direction`, given its illuminance on a
     /// surface across it, over the density of y.
     void reflect(const Vec3& direction, const Rgb& normal_illuminance, ReadingSums& sums) const {
         const Vec3 in = surface_.frame().to_local(direction);
@@ -144,9 +141,10 @@ class SharedPlace {
 void Gather::collect(const Batch& batch, ReadingSums& sums) const {
     for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
         const math::RandomKey key = batch.key.derived(tile);
-        const std::uint64_t chains = plans_[tile * kPacketWidth].chains_per_ray;
-        for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
-            trace_round(tiles_[tile], key, i, static_cast<double>(chains), sums);
+        const std::uint64_t light_paths = plans_[tile * kPacketWidth].paths_per_ray;
+        for (std::uint64_t i = batch.first / light_paths; i < (batch.first + batch.count) / light_paths;
+             ++i) {
+            trace_round(tiles_[tile], key, i, static_cast<double>(light_paths), sums);
         }
     }
 }
@@ -173,27 +171,27 @@ void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64
 
 void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t own,
                        math::SampleStream& stream, double weight, ReadingSums& sums) const {
-    SharedPlace place(hit, tracer_.material(hit), tile, own, caster_.center());
-    if (!place.reaches(own)) return;
-    const double survival = place.gathered_share();
+    SharedPoint shared(hit, tracer_.material(hit), tile, own, caster_.center());
+    if (!shared.reaches(own)) return;
+    const double survival = shared.gathered_share();
     if (stream.next() >= survival) return;
     weight /= survival;
-    place.test_visibility(caster_, own);
-    const double ray_density = place.ray_density();
+    shared.test_visibility(caster_, own);
+    const double ray_density = shared.ray_density();
     if (const auto light = tracer_.sample_light(hit, stream)) {
-        // Beams make the light of emitters too; the balance heuristic over both.
+        // BRDF samples may hit emitters, too; the balance heuristic weights both techniques.
         const double light_density = light->pdf_per_sr * ray_density;
         const double share = std::isinf(light_density)
                                  ? 1
-                                 : light_density / (light_density + place.beam_density(light->direction));
-        place.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
+                                 : light_density / (light_density + shared.beam_density(light->direction));
+        shared.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
     }
-    if (const auto beam = place.sample_beam(own, stream)) {
+    if (const auto beam = shared.sample_beam(own, stream)) {
         const transport::PreviousVertex previous_vertex{beam->density / ray_density, hit.position,
                                                         hit.normal};
         const Rgb luminance = tracer_.incoming_luminance({hit.lifted, beam->direction}, previous_vertex,
                                                          tile.reflections_left[own] - 1, stream);
-        place.reflect(beam->direction, luminance * (weight * beam->weight / beam->density), sums);
+        shared.reflect(beam->direction, luminance * (weight * beam->weight / beam->density), sums);
     }
 }
 }  // namespace stilb::estimators

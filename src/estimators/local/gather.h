@@ -1,4 +1,4 @@
-// The part of readings that rays from the receivers bring in, in packets of neighbours.
+// The part of readings that gathering rays from the receivers estimate, in packets of neighbours.
 #pragma once
 
 #include <span>
@@ -15,20 +15,21 @@ namespace stilb::estimators {
 ///
 ///     integral over the hemisphere of L_r(y, y->x) (1 - w) response(x->y) cos(theta_x) dw    (theory T.1b)
 ///
-/// with w of kernel_split.h. In a round every receiver of a packet sends out a ray about in proportion to
-/// response x cosine, and what goes on from the place y that it meets serves all receivers of the packet that
-/// see y: path reuse [Bekaert et al. 2002], by the balance heuristic over the rays that could have met y.
+/// with w of weights.h. In a round every receiver of a packet sends out a ray about in proportion to
+/// response x cosine, and the continuation from the point y that it meets serves all receivers of the packet
+/// that see y: path reuse [Bekaert et al. 2002], by the balance heuristic over the rays that could have met
+/// y.
 ///
-/// What is seen by mirrors and glass has w = 0 always, because no node on them can be joined to x, and serves
-/// only the receiver whose ray it is; emission counts behind them only: the rest is direct light. Keeps what
-/// its arguments refer to.
+/// Surfaces seen by mirrors and glass always have w = 0, because no light vertex on a specular surface can be
+/// connected to x, and serve only the receiver whose ray it is; emission counts behind them only: the rest is
+/// direct light. Keeps references to its arguments' targets.
 class Gather {
   public:
     Gather(const rays::RayCaster& caster, const transport::PathTracer& tracer,
            std::span<const PointTile> tiles, std::span<const SplitPlan> plans)
         : caster_(caster), tracer_(tracer), tiles_(tiles), plans_(plans) {}
 
-    /// A round for so many chains of the batch as the plan says, weighing as much as these.
+    /// One round per so many light paths of the batch as the plan says, with their weight.
     void collect(const Batch& batch, ReadingSums& sums) const;
 
   private:

@@ -1,25 +1,26 @@
-// Local estimation: illuminance at all points from one set of light chains, by the kernel split (theory T.1b)
+// Local estimation: illuminance at all points from one set of light paths, by bounded connections with
+// compensation (theory T.1b)
 //
-//   E(x) = E_direct + sum over nodes of W f_r w G + integral of L_r (1 - w) s_x dw
+//   E(x) = E_direct + sum over light vertices of W f_r w G + integral of L_r (1 - w) s_x dw
 //
-// with w = k / (k + s G) of kernel_split.h. Double local estimation: luminance, by the same sums with the
+// with w = k / (k + s G) of weights.h. Double local estimation: luminance, by the same sums with the
 // response of the sub-points that are seen (receiver.h, theory T.2).
 //
 //   local         k = infinity: the estimator as published [LocalEstimation (5)]. Rays from the point bring
-//                 in only what mirrors and glass show. Infinite variance where chains come arbitrarily near
-//                 to a point: in corners.
+//                 in only light by mirrors and glass. Infinite variance where light vertices come arbitrarily
+//                 near to a point: in corners.
 //   double-local  the same for luminance [LocalEstimation (8) to (10)]; local at illuminance readings.
-//   auto          k and the number of gathering rays by plan_splits(), nodes from a NodePool. Unbiased and
-//                 of finite variance, but for light that only chains can make (it met a mirror or glass
-//                 first): w = 1.
+//   auto          k and the number of gathering rays by plan_splits(), vertices from a NodePool. Unbiased and
+//                 of finite variance, except for light that only light paths can find (it met a mirror or
+//                 glass first): w = 1.
 //
-// Pictures: double local estimation of sub-points that each pass draws anew. A pass walks chains of its own
-// for the whole picture. Each packet of 4 x 4 pixels selects its own few of their nodes, and packets lie
-// elsewhere in every pass: errors of neighbouring packets are nearly independent, and no structure of the
-// chains shows in the picture.
+// Pictures: double local estimation of sub-points that each pass draws anew. A pass traces light paths of its
+// own for the whole picture. Each packet of 4 x 4 pixels selects its own few of their vertices, and packets
+// have another offset in every pass: errors of neighbouring packets are nearly independent, and no structure
+// of the light paths shows in the picture.
 //
-// Not made: light that leaves a point-like source, meets a mirror or glass first and comes to the receiver by
-// a mirror or glass last; the run warns of it.
+// Not found: light that leaves a point-like source, meets a mirror or glass first and comes to the receiver
+// by a mirror or glass last; the run warns of it.
 
 #include <algorithm>
 #include <atomic>
@@ -37,13 +38,13 @@
 namespace stilb::estimators {
 namespace {
 
-/// Chains that are spent on planning; few suffice, because any plan is unbiased.
-constexpr std::uint64_t kPilotChains = 256;
+/// Light paths for planning; few suffice, because any plan is unbiased.
+constexpr std::uint64_t kPilotPaths = 256;
 
-/// Whether light is gathered by rays too.
+/// Whether rays gather light, too.
 enum class Split { none, balanced };
 
-/// What readings and pictures have in common. Stays where it is made.
+/// The common part of readings and pictures. Not movable, because its members refer to each other.
 struct LocalTransport {
     LocalTransport(const Problem& problem, Split asked)
         : scene(problem.scene),
@@ -56,9 +57,9 @@ struct LocalTransport {
     LocalTransport(const LocalTransport&) = delete;
     LocalTransport& operator=(const LocalTransport&) = delete;
 
-    std::vector<transport::LightVertex> walk_chains(math::RandomKey key, std::uint64_t first,
-                                                    std::uint64_t end) const {
-        return trace_light_paths(scene, caster, lights, max_reflections, key, first, end);
+    std::vector<transport::LightVertex> trace_light_paths(math::RandomKey key, std::uint64_t first,
+                                                          std::uint64_t end) const {
+        return transport::trace_light_paths(scene, caster, lights, max_reflections, key, first, end);
     }
 
     const Scene& scene;
@@ -70,19 +71,19 @@ struct LocalTransport {
     transport::PathTracer tracer;
 };
 
-/// Nodes are sent to the points after so many chains per selected one (below).
-constexpr std::uint64_t kChainBlock = 512;
-/// Chains (divided by the selection's share) for each sample of direct light from area lights.
-constexpr std::uint64_t kChainsPerDirectSample = 2;
-/// Chains for each ray that `local` sends out where there are mirrors or glass.
-constexpr std::uint64_t kChainsPerSpecularRay = 4;
-/// Of so many chains' nodes `auto` sends one chain's to the points: a chain costs some 50 rays of a fan, so
-/// the more points there are the more is gained by choosing well; the square root balances the cost and the
-/// variance of both.
-std::uint64_t chains_per_selected(std::size_t points) {
-    std::uint64_t chains = 1;
-    while (chains < 64 && 80 * chains * chains <= points) chains *= 2;
-    return chains;
+/// Vertices are connected to the points after so many light paths per selected one (below).
+constexpr std::uint64_t kPathBlock = 512;
+/// Light paths (divided by the selection's share) for each sample of direct light from area lights.
+constexpr std::uint64_t kPathsPerDirectSample = 2;
+/// Light paths for each ray that `local` sends out where there are mirrors or glass.
+constexpr std::uint64_t kPathsPerSpecularRay = 4;
+/// The vertices of one in so many light paths are connected to the points by `auto`: a light path costs as
+/// much as some 50 shadow rays, so careful selection gains more with more points; the square root balances
+/// the cost and the variance of both.
+std::uint64_t paths_per_selected(std::size_t points) {
+    std::uint64_t light_paths = 1;
+    while (light_paths < 64 && 80 * light_paths * light_paths <= points) light_paths *= 2;
+    return light_paths;
 }
 
 /// Illuminance at points and luminance along lines of sight.
@@ -91,58 +92,59 @@ class LocalReadings {
     LocalReadings(const LocalTransport& transport, const Problem& problem)
         : transport_(transport),
           seen_(receive(problem.measurands)),
-          chains_per_selected_(
-              transport.split == Split::balanced ? chains_per_selected(seen_.receivers.size()) : 1),
+          paths_per_selected_(transport.split == Split::balanced ? paths_per_selected(seen_.receivers.size())
+                                                                 : 1),
           plans_(plans(problem)),
           tiles_(tiles_of(seen_.receivers, constants_per_m2(plans_), transport_.caster,
                           transport_.max_reflections)),
-          fan_(transport_.caster, tiles_),
+          connections_(transport_.caster, tiles_),
           gather_(transport_.caster, transport_.tracer, tiles_, plans_) {}
 
     void run_batch(const Batch& batch, ReadingSums& sums) const {
         const std::uint64_t end = batch.first + batch.count;
-        const std::uint64_t block = kChainBlock * chains_per_selected_;
+        const std::uint64_t block = kPathBlock * paths_per_selected_;
         for (std::uint64_t first = batch.first; first < end; first += block) {
-            fan_.collect(fan_nodes(batch.key, first, std::min(end, first + block)), sums);
+            connections_.collect(connected_vertices(batch.key, first, std::min(end, first + block)), sums);
         }
         if (transport_.lights.has_visible_lights()) add_direct_light(batch, sums);
         if (transport_.gathers) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
-        add_faint_ways(batch, sums);
+        add_faint_branches(batch, sums);
     }
 
     std::span<const Rgb> known_part() const { return seen_.known_part; }
     std::span<const std::optional<Vec3>> sight_ends() const { return seen_.ends; }
-    std::uint64_t batch_granularity() const { return kMostChainsPerRay * chains_per_selected_; }
+    std::uint64_t batch_granularity() const { return kMostPathsPerRay * paths_per_selected_; }
     double rays_per_sample() const {
-        constexpr double chain_cost = 50;
-        return chain_cost +
-               2.0 * static_cast<double>(seen_.receivers.size()) / static_cast<double>(chains_per_selected_);
+        constexpr double path_cost = 50;
+        return path_cost +
+               2.0 * static_cast<double>(seen_.receivers.size()) / static_cast<double>(paths_per_selected_);
     }
 
   private:
-    enum Purpose : std::uint64_t { kChains, kSelection, kDirect, kGather, kPilot, kPlan, kFaint };
+    enum Purpose : std::uint64_t { kLightPaths, kSelection, kDirect, kGather, kPilot, kPlan, kFaint };
 
-    std::vector<transport::LightVertex> fan_nodes(math::RandomKey key, std::uint64_t first,
-                                                  std::uint64_t end) const {
-        std::vector<transport::LightVertex> nodes = transport_.walk_chains(key.derived(kChains), first, end);
-        if (chains_per_selected_ == 1) return nodes;
+    std::vector<transport::LightVertex> connected_vertices(math::RandomKey key, std::uint64_t first,
+                                                           std::uint64_t end) const {
+        std::vector<transport::LightVertex> nodes =
+            transport_.trace_light_paths(key.derived(kLightPaths), first, end);
+        if (paths_per_selected_ == 1) return nodes;
         const double u = math::SampleStream(key.derived(kSelection).derived(first), 0).next();
-        return NodePool(nodes).select(nodes.size() / chains_per_selected_ + 1, u);
+        return NodePool(nodes).select(nodes.size() / paths_per_selected_ + 1, u);
     }
 
-    /// What the readings are made from.
-    struct Seen {
+    /// Receivers, faint branches and known parts of the readings.
+    struct Reception {
         std::vector<transport::Receiver> receivers;
         struct Faint {
             std::uint32_t reading = 0;
-            transport::FaintRay way;
+            transport::FaintRay branch;
         };
         std::vector<Faint> faint;
         std::vector<Rgb> known_part;
         std::vector<std::optional<Vec3>> ends;  ///< of lines of sight
     };
-    Seen receive(std::span<const Measurand> measurands) const {
-        Seen seen;
+    Reception receive(std::span<const Measurand> measurands) const {
+        Reception seen;
         seen.known_part.resize(measurands.size());
         seen.ends.resize(measurands.size());
         for (std::uint32_t reading = 0; reading < measurands.size(); ++reading) {
@@ -151,16 +153,17 @@ class LocalReadings {
                 seen.receivers.push_back(std::move(*receiver));
                 continue;
             }
-            const transport::VisibleSurfaces sight = look(measurand, transport_.scene, transport_.caster,
-                                                          transport_.lights, transport_.max_reflections);
+            const transport::VisibleSurfaces sight =
+                trace_line_of_sight(measurand, transport_.scene, transport_.caster, transport_.lights,
+                                    transport_.max_reflections);
             seen.ends[reading] = sight.end;
             seen.known_part[reading] = sight.emission_cd_m2;
-            for (const transport::FaintRay& way : sight.faint) {
-                seen.faint.push_back({reading, way});
+            for (const transport::FaintRay& branch : sight.faint) {
+                seen.faint.push_back({reading, branch});
                 if (transport_.lights.has_light_from_outside() &&
-                    !transport_.caster.closest(way.origin, way.direction))
+                    !transport_.caster.closest(branch.origin, branch.direction))
                     seen.known_part[reading] +=
-                        way.transmission * transport_.lights.outside_luminance(way.direction);
+                        branch.transmission * transport_.lights.outside_luminance(branch.direction);
             }
             for (const transport::SubPoint& sub_point : sight.sub_points) {
                 if (sub_point.reflections == transport_.max_reflections) continue;
@@ -178,33 +181,34 @@ class LocalReadings {
 
     void add_direct_light(const Batch& batch, ReadingSums& sums) const {
         const math::RandomKey key = batch.key.derived(kDirect);
-        const std::uint64_t chains = kChainsPerDirectSample * chains_per_selected_;
-        const std::uint64_t end = (batch.first + batch.count) / chains;
+        const std::uint64_t light_paths = kPathsPerDirectSample * paths_per_selected_;
+        const std::uint64_t end = (batch.first + batch.count) / light_paths;
         for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
             const transport::Receiver& receiver = seen_.receivers[j];
             const math::RandomKey own_key = key.derived(j);
-            for (std::uint64_t i = batch.first / chains; i < end; ++i) {
+            for (std::uint64_t i = batch.first / light_paths; i < end; ++i) {
                 math::SampleStream stream(own_key, i);
                 const Rgb sample =
                     sample_direct_from_areas(receiver, transport_.caster, transport_.lights, stream);
-                sums.add(receiver.reading(), static_cast<double>(chains) * sample);
+                sums.add(receiver.reading(), static_cast<double>(light_paths) * sample);
             }
         }
     }
 
-    /// So little light comes along these that a path for each granule of chains does.
-    void add_faint_ways(const Batch& batch, ReadingSums& sums) const {
+    /// These branches carry so little light that one path for each granule of light paths suffices.
+    void add_faint_branches(const Batch& batch, ReadingSums& sums) const {
         const math::RandomKey key = batch.key.derived(kFaint);
-        const std::uint64_t chains = batch_granularity();
+        const std::uint64_t light_paths = batch_granularity();
         for (std::size_t j = 0; j < seen_.faint.size(); ++j) {
-            const auto& [reading, way] = seen_.faint[j];
-            const auto hit = transport_.caster.closest(way.origin, way.direction);
+            const auto& [reading, branch] = seen_.faint[j];
+            const auto hit = transport_.caster.closest(branch.origin, branch.direction);
             if (!hit) continue;  // in the known part
-            for (std::uint64_t i = batch.first / chains; i < (batch.first + batch.count) / chains; ++i) {
+            for (std::uint64_t i = batch.first / light_paths; i < (batch.first + batch.count) / light_paths;
+                 ++i) {
                 math::SampleStream stream(key.derived(j), i);
                 const Rgb luminance = transport_.tracer.luminance(
-                    *hit, way.direction, transport_.max_reflections - way.reflections, stream);
-                sums.add(reading, static_cast<double>(chains) * way.transmission * luminance);
+                    *hit, branch.direction, transport_.max_reflections - branch.reflections, stream);
+                sums.add(reading, static_cast<double>(light_paths) * branch.transmission * luminance);
             }
         }
     }
@@ -213,24 +217,24 @@ class LocalReadings {
         if (seen_.receivers.empty()) return {};
         if (transport_.split == Split::none) {
             return std::vector<SplitPlan>(seen_.receivers.size(),
-                                          {std::numeric_limits<double>::infinity(), kChainsPerSpecularRay});
+                                          {std::numeric_limits<double>::infinity(), kPathsPerSpecularRay});
         }
         const math::RandomKey key = problem.preparation_key;
         const std::vector<transport::LightVertex> nodes =
-            transport_.walk_chains(key.derived(kPilot), 0, kPilotChains);
+            transport_.trace_light_paths(key.derived(kPilot), 0, kPilotPaths);
         const std::vector<double> direct = pilot_direct(key.derived(kDirect));
         const std::span<const double> weights = problem.weights;
         const std::vector<double> alike(weights.empty() ? direct.size() : 0, 1.0);
         const PilotLight pilot{nodes,
-                               kPilotChains,
+                               kPilotPaths,
                                direct,
                                surface_area_m2(transport_.scene),
                                transport_.max_reflections,
-                               chains_per_selected_};
+                               paths_per_selected_};
         std::vector<SplitPlan> plans =
             plan_splits(transport_.caster, transport_.tracer, seen_.receivers,
                         weights.empty() ? alike : weights, pilot, key.derived(kPlan), problem.monitor);
-        for (SplitPlan& plan : plans) plan.chains_per_ray *= chains_per_selected_;
+        for (SplitPlan& plan : plans) plan.paths_per_ray *= paths_per_selected_;
         return plans;
     }
 
@@ -258,22 +262,23 @@ class LocalReadings {
     }
 
     const LocalTransport& transport_;
-    Seen seen_;
-    std::uint64_t chains_per_selected_;
+    Reception seen_;
+    std::uint64_t paths_per_selected_;
     std::vector<SplitPlan> plans_;
     std::vector<PointTile> tiles_;
-    Fan fan_;
+    Connections connections_;
     Gather gather_;
 };
 
-/// Chains of a pass, and of so many of them a packet selects one chain's nodes. The more are walked, the more
-/// evenly the selected nodes lie; walking costs less than a hundredth of a large picture's pass.
-constexpr std::uint64_t kChainsPerPass = 4096;
-constexpr std::uint64_t kChainsPerSelected = 256;
-/// For planning, from each sub-point.
+/// Light paths of a pass, and the number of them for one selected path's vertices in a packet. The more paths
+/// are traced, the more evenly the selected vertices lie; tracing costs less than a hundredth of a large
+/// picture's pass.
+constexpr std::uint64_t kPathsPerPass = 4096;
+constexpr std::uint64_t kPathsPerSelected = 256;
+/// Planning rays from each sub-point.
 constexpr unsigned kPilotRays = 4;
 
-/// Edge of a packet.
+/// Edge of a packet in pixels.
 constexpr int kPacketSide = 4;
 static_assert(kPacketSide * kPacketSide == kPacketWidth);
 
@@ -286,19 +291,19 @@ class LocalPicture {
           k_per_m2_(plan(problem)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const {
-        return std::make_unique<Fans>(*this, pass);
+        return std::make_unique<LocalPass>(*this, pass);
     }
 
   private:
     enum Purpose : std::uint64_t { kWalks = kPixels + 1, kPackets, kSelection, kGather, kPilot, kPlan };
 
-    class Fans final : public PicturePass {
+    class LocalPass final : public PicturePass {
       public:
-        Fans(const LocalPicture& picture, const Pass& pass)
+        LocalPass(const LocalPicture& picture, const Pass& pass)
             : picture_(picture),
               pass_(pass),
-              pool_(picture.transport_.walk_chains(pass.key.derived(kWalks), pass.index * kChainsPerPass,
-                                                   (pass.index + 1) * kChainsPerPass)) {}
+              pool_(picture.transport_.trace_light_paths(pass.key.derived(kWalks), pass.index * kPathsPerPass,
+                                                         (pass.index + 1) * kPathsPerPass)) {}
 
         std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
@@ -330,11 +335,12 @@ class LocalPicture {
                 sums.add(readings[pixel], luminance_cd_m2);
             for (std::size_t i = 0; i < started.paths.size(); ++i) {
                 const std::size_t pixel = started.pixels[i];
-                sums.add(readings[pixel], picture_.look(started.paths[i], readings[pixel], receivers));
+                sums.add(readings[pixel],
+                         picture_.add_sub_point(started.paths[i], readings[pixel], receivers));
                 k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(pixels[pixel])]);
             }
             if (receivers.empty()) return;
-            // The packet's random numbers: those of its first pixel's place.
+            // The packet's random numbers: those of its first pixel's position.
             const math::RandomKey key = pass_.key.derived(kPackets).derived(
                 static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
             picture_.receive(receivers, k_per_m2, pool_, {key, pass_.index}, sums);
@@ -350,11 +356,11 @@ class LocalPicture {
         return static_cast<std::size_t>(cell);
     }
 
-    /// Appends the sub-point that a path from the camera comes to; returns the emission that it sees and the
+    /// Appends the sub-point of a camera path; returns the emission seen and the
     /// direct light at the sub-point.
-    Rgb look(transport::Path& path, std::uint32_t reading,
-             std::vector<transport::Receiver>& receivers) const {
-        const bool meets_surface = transport_.tracer.look_through(path);
+    Rgb add_sub_point(transport::Path& path, std::uint32_t reading,
+                      std::vector<transport::Receiver>& receivers) const {
+        const bool meets_surface = transport_.tracer.follow_to_scattering(path);
         const Rgb emission = path.luminance_cd_m2;
         if (!meets_surface || path.reflections_left == 0) return emission;
         receivers.emplace_back(reading,
@@ -372,29 +378,29 @@ class LocalPicture {
         const std::vector<PointTile> tiles =
             tiles_of(receivers, k_per_m2, tracing_.caster, tracing_.max_reflections);
         const double u = math::SampleStream(pass.key.derived(kSelection), pass.index).next();
-        std::vector<transport::LightVertex> nodes = pool.select(pool.size() / kChainsPerSelected + 1, u);
-        for (transport::LightVertex& node : nodes) node.flux_lm *= 1.0 / kChainsPerPass;
-        Fan(tracing_.caster, tiles).collect(nodes, sums);
+        std::vector<transport::LightVertex> nodes = pool.select(pool.size() / kPathsPerSelected + 1, u);
+        for (transport::LightVertex& vertex : nodes) vertex.flux_lm *= 1.0 / kPathsPerPass;
+        Connections(tracing_.caster, tiles).collect(nodes, sums);
         if (!transport_.gathers) return;
         const std::vector<SplitPlan> plans(receivers.size(), {0, 1});
         Gather(tracing_.caster, transport_.tracer, tiles, plans)
             .collect({pass.key.derived(kGather), pass.index, 1}, sums);
     }
 
-    /// A k for each cell of kBlockSize pixels' edge, from a packet of sub-points spread over it.
+    /// A k for each cell with an edge of kBlockSize pixels, from a packet of sub-points spread over it.
     std::vector<double> plan(const Problem& problem) const {
         const std::vector<PixelBlock> cells = blocks_of(tracing_.camera.resolution);
         std::vector<double> k_per_m2(cells.size(), std::numeric_limits<double>::infinity());
         if (transport_.split == Split::none) return k_per_m2;
         const math::RandomKey key = problem.preparation_key;
         const std::vector<transport::LightVertex> nodes =
-            transport_.walk_chains(key.derived(kPilot), 0, kPilotChains);
+            transport_.trace_light_paths(key.derived(kPilot), 0, kPilotPaths);
         const PilotLight pilot{nodes,
-                               kPilotChains,
+                               kPilotPaths,
                                {},
                                surface_area_m2(tracing_.scene),
                                tracing_.max_reflections,
-                               kChainsPerSelected};
+                               kPathsPerSelected};
         const Pass pass{key.derived(kPlan), 0};
         std::atomic<std::size_t> done = 0;
         parallel_for(cells.size(), [&](std::size_t c) {
@@ -407,10 +413,11 @@ class LocalPicture {
                                   cell.top + (4 * (i / 4) + 2) * cell.height / 16});
             }
             std::vector<transport::Receiver> receivers;
-            for (transport::Path& path : tracing_.start_paths(pixels, pass).paths) look(path, 0, receivers);
+            for (transport::Path& path : tracing_.start_paths(pixels, pass).paths)
+                add_sub_point(path, 0, receivers);
             if (receivers.empty()) return;
             k_per_m2[c] = plan_constant(tracing_.caster, transport_.tracer, receivers, pilot,
-                                        kChainsPerPass / kChainsPerSelected, kPilotRays, pass.key.derived(c));
+                                        kPathsPerPass / kPathsPerSelected, kPilotRays, pass.key.derived(c));
         });
         return k_per_m2;
     }

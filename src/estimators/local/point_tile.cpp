@@ -5,7 +5,7 @@
 namespace stilb::estimators {
 namespace {
 
-/// Without the promise that nothing overlaps, the loop would stay scalar.
+/// Without __restrict, which promises that nothing overlaps, the loop would stay scalar.
 STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std::int32_t reflections,
                                     const PointTile& __restrict tile, RayPacket& __restrict segments,
                                     LaneMask& __restrict lanes, PointTile::Floats& __restrict g_per_m2) {
@@ -39,11 +39,11 @@ bool connect_bodies(const SegmentOrigin& origin, std::int32_t reflections, const
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const transport::Receiver& receiver = tile.receivers[i];
         if (!receiver.is_body() || reflections > tile.reflections_left[i]) continue;
-        const Vec3 way{tile.x[i] - origin.x, tile.y[i] - origin.y, tile.z[i] - origin.z};
-        const double along = dot(normal, way);
+        const Vec3 offset{tile.x[i] - origin.x, tile.y[i] - origin.y, tile.z[i] - origin.z};
+        const double along = dot(normal, offset);
         if (!(along > 0)) continue;
-        const double distance = length(way);
-        const double g = along * receiver.sensitivity(-way / distance) / (distance * distance * distance);
+        const double distance = length(offset);
+        const double g = along * receiver.sensitivity(-offset / distance) / (distance * distance * distance);
         g_per_m2[i] = static_cast<float>(g);
         if (!(g_per_m2[i] > 0)) continue;
         lanes[i] = -1;

@@ -1,4 +1,4 @@
-// Sixteen receivers, and the segments from one place on a surface to all of them.
+// Sixteen receivers, and the segments from one point on a surface to all of them.
 #pragma once
 
 #include <array>
@@ -14,23 +14,24 @@ namespace stilb::estimators {
 /// A packet of neighbouring receivers as a structure of arrays, relative to the ray caster's centre.
 struct alignas(64) PointTile {
     using Floats = std::array<float, kPacketWidth>;
-    Floats x{}, y{}, z{};                       ///< the points themselves: G is theirs
+    Floats x{}, y{}, z{};                       ///< the points themselves, which determine G
     Floats lifted_x{}, lifted_y{}, lifted_z{};  ///< where segments end
     Floats normal_x{}, normal_y{}, normal_z{};  ///< 0 in lanes without a point
-    Floats inverse_k{};                         ///< of the kernel split [m2]
-    /// Reflections that light may have met before it arrives.
+    Floats inverse_k{};                         ///< of the bounded connection [m2]
+    /// The number of reflections that light may have met before it arrives.
     std::array<std::int32_t, kPacketWidth> reflections_left{};
     std::span<const transport::Receiver> receivers;  ///< of the first lanes
     bool directional = false;                        ///< the response of one of them depends on direction
     bool has_bodies = false;                         ///< one of them is on no surface; its normal is 0
 };
 
-/// Receivers in packets, in their order; keeps references to them. `k_per_m2`: of each; may be infinite.
+/// Receivers in packets, in their order; keeps references to them. `k_per_m2`: of each receiver; may be
+/// infinite.
 std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
                                 std::span<const double> k_per_m2, const rays::RayCaster& caster,
                                 int max_reflections);
 
-/// A place on a surface in single precision, relative to the ray caster's centre.
+/// A point on a surface in single precision, relative to the ray caster's centre.
 struct SegmentOrigin {
     float x = 0, y = 0, z = 0;
     float lifted_x = 0, lifted_y = 0, lifted_z = 0;
@@ -39,9 +40,9 @@ struct SegmentOrigin {
     SegmentOrigin(const Vec3& position, const Vec3& lifted, const Vec3& normal, const Vec3& center);
 };
 
-/// Makes the segments from `origin`, for light that has met so many reflections, to a tile's points, and G =
-/// cos+ s / d^2 [1/m2] without visibility, with s the sensitivity of the receiver (cos+ on a surface); lanes
-/// are set where G is not 0 and so many reflections are allowed. False: no lane is.
+/// Prepares the segments from `origin`, for light after so many reflections, to a tile's points, and G =
+/// cos+ s / d^2 [1/m2] without visibility, with s the sensitivity of the receiver (cos+ on a surface); a lane
+/// is set where G is not 0 and so many reflections are allowed. Returns false where no lane is.
 bool connect(const SegmentOrigin& origin, int reflections, const PointTile& tile, RayPacket& segments,
              LaneMask& lanes, PointTile::Floats& g_per_m2);
 

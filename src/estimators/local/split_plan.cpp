@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -16,48 +15,48 @@
 namespace stilb::estimators {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-// Costs in units of one ray of a fan, and factors of the variance model; measured in the example office.
+// Costs in units of one shadow ray of a connection, and factors of the variance model; measured in the
+// example office.
 constexpr double kRayCost = 12;        ///< a gathering ray to its hit
-constexpr double kPathCost = 75;       ///< the path that goes on from there, shared out in its packet
-constexpr double kSegmentCost = 12;    ///< a chain's way from one node to the next
-constexpr double kPathVariance = 0.5;  ///< what Sobol' points leave of that of independent paths
-/// What even selection leaves of the variance of a kernel that varies slowly, and how many nodes lie evenly;
-/// a kernel that is peaked between two of these keeps its variance.
+constexpr double kPathCost = 75;       ///< the continued path, shared by its packet
+constexpr double kSegmentCost = 12;    ///< a light path's segment from one vertex to the next
+constexpr double kPathVariance = 0.5;  ///< with Sobol' points, relative to independent paths
+/// The remaining share of the variance after even selection, for a kernel that varies slowly, and the number
+/// of vertices that lie evenly; a kernel that is peaked between two of these keeps its variance.
 constexpr double kEvenVariance = 0.1;
 constexpr double kEvenNodes = 512;
 
-/// What a ray from a receiver meets.
+/// The hit of a ray from a receiver.
 struct RaySample {
-    double g_per_m2 = 0;   ///< infinite where it is a mirror: what that shows is gathered always
+    double g_per_m2 = 0;   ///< infinite for a mirror, whose light is always gathered
     double luminance = 0;  ///< over the mean; both weighted by the response
-    double own_share = 1;  ///< of the rays of its packet that could have met the same place
+    double own_share = 1;  ///< share of the density of its packet's rays at the same point
 };
 
-/// What the model says of a point and a k.
+/// The model's prediction for a point and a k.
 struct Outcome {
     double k_per_m2 = 0;
-    double fan_variance = 0;     ///< of one chain, relative to the indirect light squared
-    double gather_variance = 0;  ///< of one gathering ray, likewise
-    double gather_cost = 0;      ///< of one gathering ray
+    double connection_variance = 0;  ///< of one light path, relative to the indirect light squared
+    double gather_variance = 0;      ///< of one gathering ray, likewise
+    double gather_cost = 0;          ///< of one gathering ray
 };
 struct Prediction {
-    double variance = 0, cost = 0;  ///< of a chain with its share of gathering
+    double variance = 0, cost = 0;  ///< of a light path with its share of gathering
 };
-Prediction predict(const Outcome& outcome, std::uint64_t chains_per_ray) {
-    const double chains = static_cast<double>(chains_per_ray);
-    return {outcome.fan_variance + chains * outcome.gather_variance, outcome.gather_cost / chains};
+Prediction predict(const Outcome& outcome, std::uint64_t paths_per_ray) {
+    const double light_paths = static_cast<double>(paths_per_ray);
+    return {outcome.connection_variance + light_paths * outcome.gather_variance,
+            outcome.gather_cost / light_paths};
 }
 
-/// One for each k that is tried: powers of two times pi nu.
+/// One prediction for each tried k: powers of two times pi nu.
 using PointModel = std::vector<Outcome>;
 constexpr double kLeastFactor = 1.0 / 16;
-/// The largest factor for each ray that the model is made from. Surfaces near by that cover little of the
-/// hemisphere may be met by no ray; their nodes make the variance grow with k.
+/// The largest factor for each ray of the model. Close surfaces that cover little of the
+/// hemisphere may be met by no ray; their vertices make the variance grow with k.
 constexpr double kLargestFactorPerRay = 16;
 
-/// `peak` is G times the area that one of the evenly lying nodes stands for.
+/// `peak` is G times the area per evenly lying vertex.
 double remaining_variance(double peak) { return (kEvenVariance + peak) / (1 + peak); }
 
 PointModel model_of(std::span<const RaySample> rays, double density_per_m2) {
@@ -65,16 +64,17 @@ PointModel model_of(std::span<const RaySample> rays, double density_per_m2) {
     const double largest = kLargestFactorPerRay * static_cast<double>(rays.size());
     for (double factor = kLeastFactor; factor <= largest; factor *= 2) {
         const double k = factor * kPi * density_per_m2;
-        double fan_moment = 0, gathered = 0, gathered_moment = 0;
+        double connection_moment = 0, gathered = 0, gathered_moment = 0;
         for (const auto& [g, l, own_share] : rays) {
             const double rest = transport::GatheredShare{g / k}(1);
             const double w = 1 - rest;
-            if (w > 0) fan_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * density_per_m2));
+            if (w > 0)
+                connection_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * density_per_m2));
             gathered += rest;
             gathered_moment += l * l * rest * own_share;
         }
         const double per_ray = 1 / static_cast<double>(rays.size());
-        model.push_back({k, per_ray * fan_moment / (kPi * density_per_m2),
+        model.push_back({k, per_ray * connection_moment / (kPi * density_per_m2),
                          per_ray * kPathVariance * gathered_moment,
                          kRayCost + kPathCost * per_ray * gathered});
     }
@@ -85,13 +85,13 @@ struct Choice {
     Prediction prediction;
     double k_per_m2 = 0;
 };
-/// The k that is best for a given number of chains per ray, when a unit of cost is worth `price` units of
+/// The best k for a given number of light paths per ray, when a unit of cost is worth `price` units of
 /// variance.
-Choice best_constant(const PointModel& point, std::uint64_t chains_per_ray, double price) {
+Choice best_constant(const PointModel& point, std::uint64_t paths_per_ray, double price) {
     Choice best;
     double least = std::numeric_limits<double>::infinity();
     for (const Outcome& outcome : point) {
-        const Prediction prediction = predict(outcome, chains_per_ray);
+        const Prediction prediction = predict(outcome, paths_per_ray);
         const double loss = prediction.variance + price * prediction.cost;
         if (loss < least) {
             least = loss;
@@ -101,17 +101,17 @@ Choice best_constant(const PointModel& point, std::uint64_t chains_per_ray, doub
     return best;
 }
 
-/// Plans for the points of a packet, which have the number of chains per ray in common; returns what they
-/// add up to.
+/// Plans for the points of a packet, which share the number of light paths per ray; returns their
+/// sum.
 Prediction plan_packet(std::span<const PointModel> packet, double price, std::span<SplitPlan> plans) {
     Prediction best;
     double least = std::numeric_limits<double>::infinity();
-    for (std::uint64_t chains = 1; chains <= kMostChainsPerRay; chains *= 2) {
+    for (std::uint64_t light_paths = 1; light_paths <= kMostPathsPerRay; light_paths *= 2) {
         std::array<SplitPlan, kPacketWidth> tried;
         Prediction sum;
         for (std::size_t j = 0; j < packet.size(); ++j) {
-            const Choice choice = best_constant(packet[j], chains, price);
-            tried[j] = {choice.k_per_m2, chains};
+            const Choice choice = best_constant(packet[j], light_paths, price);
+            tried[j] = {choice.k_per_m2, light_paths};
             sum.variance += choice.prediction.variance;
             sum.cost += choice.prediction.cost;
         }
@@ -126,13 +126,13 @@ Prediction plan_packet(std::span<const PointModel> packet, double price, std::sp
 }
 
 /// The mean of w over rays.
-double mean_chain_share(std::span<const RaySample> rays, double k_per_m2) {
+double mean_connected_share(std::span<const RaySample> rays, double k_per_m2) {
     double sum = 0;
     for (const RaySample& ray : rays) sum += 1 - transport::GatheredShare{ray.g_per_m2 / k_per_m2}(1);
     return sum / static_cast<double>(rays.size());
 }
 
-/// G of a lane over the sum of all lanes': visibility left out.
+/// G of a lane over the sum of all lanes': visibility is ignored.
 double own_share(const rays::RayCaster& caster, const rays::Hit& hit, const PointTile& packet,
                  std::size_t lane) {
     RayPacket segments;
@@ -146,12 +146,12 @@ double own_share(const rays::RayCaster& caster, const rays::Hit& hit, const Poin
 
 struct RaySamples {
     std::vector<RaySample> rays;
-    double indirect = 0;  ///< of the receiver, by these alone [lx or cd/m2]
+    double indirect = 0;  ///< of the receiver, from these rays alone [lx or cd/m2]
 };
 
 RaySamples sample_rays(const rays::RayCaster& caster, const transport::PathTracer& tracer,
                        const PointTile& packet, std::size_t lane, unsigned count, math::RandomKey key) {
-    constexpr double floor = 0.2;  // of the mean: single bright paths are not to decide alone
+    constexpr double floor = 0.2;  // of the mean: limits the influence of single bright paths
     const transport::Receiver& receiver = packet.receivers[lane];
     std::vector<RaySample> rays(count);
     double sum = 0;
@@ -185,7 +185,7 @@ RaySamples sample_rays(const rays::RayCaster& caster, const transport::PathTrace
     return {std::move(rays), mean};
 }
 
-/// Nodes of unit flux on white surfaces: what they send to a point adds up to nu.
+/// Vertices of unit flux on white surfaces: their sum at a point is nu.
 std::vector<transport::LightVertex> unit_nodes(std::span<const transport::LightVertex> nodes) {
     static const Material white = Diffuse{Rgb::grey(1)};
     std::vector<transport::LightVertex> result(nodes.begin(), nodes.end());
@@ -198,15 +198,15 @@ std::vector<transport::LightVertex> unit_nodes(std::span<const transport::LightV
     return result;
 }
 
-/// What is known of a receiver before planning.
+/// The data of a receiver before planning.
 struct Survey {
     std::vector<RaySample> rays;
-    double density_per_m2 = 0;  ///< of nodes, per chain, on the surfaces that it sees
+    double density_per_m2 = 0;  ///< of vertices, per light path, on the surfaces that it sees
     double indirect = 0;        ///< [lx or cd/m2]
 };
 
-/// What the pilot's nodes send to the receivers of a packet, and how densely they lie there [1/m2]: sums over
-/// its chains, weighted by w of the kernel split.
+/// The light from the pilot's vertices at the receivers of a packet, and the density of vertices there
+/// [1/m2]: sums over its light paths, weighted by w of the bounded connection.
 struct PilotSums {
     std::vector<double> indirect, density_per_m2;
 };
@@ -220,7 +220,7 @@ PilotSums collect_pilot(const rays::RayCaster& caster, std::span<const transport
         for (std::size_t i = 0; i < packet.size(); ++i) packet[i].set_reading(static_cast<std::uint32_t>(i));
         const std::vector<PointTile> tile = tiles_of(packet, k, caster, pilot.max_reflections);
         ReadingSums sums(packet.size());
-        Fan(caster, tile).collect(nodes, sums);
+        Connections(caster, tile).collect(nodes, sums);
         std::vector<double> luminous;
         for (const Rgb& sum : sums.sum) luminous.push_back(sum.luminance());
         return luminous;
@@ -235,23 +235,23 @@ std::vector<Survey> survey_packet(const rays::RayCaster& caster, const transport
                                   std::span<const transport::Receiver> receivers, const PilotLight& pilot,
                                   std::span<const transport::LightVertex> units, unsigned rays_per_receiver,
                                   math::RandomKey key) {
-    const double chains = static_cast<double>(pilot.chains);
+    const double light_paths = static_cast<double>(pilot.light_paths);
     const double area_m2 = std::max(pilot.scene_area_m2, std::numeric_limits<double>::min());
-    const double mean_density = (static_cast<double>(pilot.nodes.size()) + 1) / (chains * area_m2);
-    // Few nodes are there, and in a corner one may be very near by chance. Kernels bounded so that they are
-    // wider than the space between nodes keep such a node from deciding.
+    const double mean_density = (static_cast<double>(pilot.nodes.size()) + 1) / (light_paths * area_m2);
+    // There are few vertices, and in a corner one may be very near by chance. Bounding kernels to a width
+    // above the distance between vertices limits the influence of such a vertex.
     constexpr double nodes_within = 16;
-    const double k_per_m2 = kPi * chains * mean_density / nodes_within;
+    const double k_per_m2 = kPi * light_paths * mean_density / nodes_within;
     const PilotSums sums = collect_pilot(caster, receivers, k_per_m2, pilot, units);
     const std::vector<PointTile> tile =
         tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2), caster, pilot.max_reflections);
     std::vector<Survey> surveys;
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         RaySamples samples = sample_rays(caster, tracer, tile.front(), i, rays_per_receiver, key.derived(i));
-        const double seen = chains * std::max(mean_chain_share(samples.rays, k_per_m2), 0.01);
-        // Few nodes, or none, lie where a glossy sub-point looks: there rays know more.
+        const double seen = light_paths * std::max(mean_connected_share(samples.rays, k_per_m2), 0.01);
+        // A glossy sub-point reflects few or no vertices: there rays are more reliable.
         const double indirect = receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
-        // Where nothing is seen, in the dark, nothing is to be gained.
+        // Without any light seen, planning cannot gain anything.
         const double density_per_m2 =
             indirect > 0 ? std::max(sums.density_per_m2[i] / seen, 1e-3 * mean_density) : mean_density;
         surveys.push_back({std::move(samples.rays), density_per_m2, indirect});
@@ -259,7 +259,7 @@ std::vector<Survey> survey_packet(const rays::RayCaster& caster, const transport
     return surveys;
 }
 
-/// A model in units of the indirect light, and how much that is.
+/// A model in units of the indirect light, and that light.
 struct ReceiverModel {
     PointModel model;
     double indirect = 0;  ///< [lx or cd/m2]
@@ -269,7 +269,7 @@ std::vector<ReceiverModel> model_receivers(const rays::RayCaster& caster, const 
                                            std::span<const transport::Receiver> receivers,
                                            const PilotLight& pilot, math::RandomKey key,
                                            const Monitor& monitor) {
-    // As many for all points together, but for very few or very many points.
+    // A constant number for all points together, except for very few or very many points.
     constexpr std::size_t rays = 1u << 14;
     const auto rays_per_point =
         static_cast<unsigned>(std::clamp<std::size_t>(rays / receivers.size(), 16, 1024));
@@ -290,7 +290,7 @@ std::vector<ReceiverModel> model_receivers(const rays::RayCaster& caster, const 
     return models;
 }
 
-/// The models with variances relative to the readings that the receivers are parts of, times their weights.
+/// The models with variances relative to the readings of the receivers, times their weights.
 std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
                                         std::span<const transport::Receiver> receivers,
                                         std::span<const double> weights, std::span<const double> direct) {
@@ -302,7 +302,7 @@ std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
         const double share = values[reading] > 0 ? models[j].indirect / values[reading] : 0;
         weighted.push_back(std::move(models[j].model));
         for (Outcome& outcome : weighted.back()) {
-            outcome.fan_variance *= weights[reading] * share * share;
+            outcome.connection_variance *= weights[reading] * share * share;
             outcome.gather_variance *= weights[reading] * share * share;
         }
     }
@@ -318,22 +318,23 @@ std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transpor
     if (receivers.empty()) return {};
     const std::vector<PointModel> models = weighted_models(
         model_receivers(caster, tracer, receivers, pilot, key, monitor), receivers, weights, pilot.direct);
-    // About half of the nodes face a point; the walk is shared by all points.
-    const double nodes_per_chain =
-        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
+    // About half of the vertices face a point; all points share the cost of tracing.
+    const double vertices_per_path =
+        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.light_paths);
     const std::size_t lanes = (receivers.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth;
-    const double fan_cost =
-        0.5 * nodes_per_chain * static_cast<double>(lanes) +
-        kSegmentCost * (nodes_per_chain + 1) * static_cast<double>(pilot.chains_per_selected);
-    // What a unit of cost is worth: at the best plan, the quotient of variance and cost. Both depend on the
+    const double connection_cost =
+        0.5 * vertices_per_path * static_cast<double>(lanes) +
+        kSegmentCost * (vertices_per_path + 1) * static_cast<double>(pilot.paths_per_selected);
+    // The worth of a unit of cost: at the best plan, the quotient of variance and cost. Both depend on the
     // plan; after some rounds they change little.
     double price = 0;
-    for (const PointModel& model : models) price += predict(model[model.size() / 2], 16).variance / fan_cost;
+    for (const PointModel& model : models)
+        price += predict(model[model.size() / 2], 16).variance / connection_cost;
     std::vector<SplitPlan> plans(receivers.size());
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
         price = std::max(price, std::numeric_limits<double>::min());  // cost decides where nothing varies
-        Prediction sum{0, fan_cost};
+        Prediction sum{0, connection_cost};
         for (std::size_t first = 0; first < models.size(); first += kPacketWidth) {
             const std::size_t count = std::min<std::size_t>(kPacketWidth, models.size() - first);
             const Prediction packet =
@@ -348,7 +349,7 @@ std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transpor
 
 double plan_constant(const rays::RayCaster& caster, const transport::PathTracer& tracer,
                      std::span<const transport::Receiver> receivers, const PilotLight& pilot,
-                     std::uint64_t chains_per_ray, unsigned rays_per_receiver, math::RandomKey key) {
+                     std::uint64_t paths_per_ray, unsigned rays_per_receiver, math::RandomKey key) {
     const std::vector<Survey> surveys =
         survey_packet(caster, tracer, receivers, pilot, unit_nodes(pilot.nodes), rays_per_receiver, key);
     double density_per_m2 = 0;
@@ -361,20 +362,20 @@ double plan_constant(const rays::RayCaster& caster, const transport::PathTracer&
         sums.resize(model.size());
         for (std::size_t i = 0; i < model.size(); ++i) {
             sums[i].k_per_m2 = model[i].k_per_m2;
-            sums[i].fan_variance += model[i].fan_variance;
+            sums[i].connection_variance += model[i].connection_variance;
             sums[i].gather_variance += model[i].gather_variance;
             sums[i].gather_cost += model[i].gather_cost;
         }
     }
-    const double chains = static_cast<double>(chains_per_ray);
-    const double nodes_per_chain =
-        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.chains);
-    const double fan_cost = chains * nodes_per_chain * static_cast<double>(surveys.size());
+    const double light_paths = static_cast<double>(paths_per_ray);
+    const double vertices_per_path =
+        (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.light_paths);
+    const double connection_cost = light_paths * vertices_per_path * static_cast<double>(surveys.size());
     Outcome best;
     double least = std::numeric_limits<double>::infinity();
     for (const Outcome& outcome : sums) {
-        const double loss =
-            (outcome.fan_variance / chains + outcome.gather_variance) * (fan_cost + outcome.gather_cost);
+        const double loss = (outcome.connection_variance / light_paths + outcome.gather_variance) *
+                            (connection_cost + outcome.gather_cost);
         if (loss < least) {
             least = loss;
             best = outcome;

@@ -14,10 +14,10 @@ namespace {
 
 const double kSqrtPi = std::sqrt(std::numbers::pi);  // 1 / Z_0
 
-/// Calls `visit(in, weight_sr)` for directions to sum over instead of an integral over the light that arrives
-/// and leaves towards `out`, both in the material's frame: as many drawn by the BRDF as by the cosine, from
-/// Hammersley's points, with the weights of the balance heuristic, which keep f / weight bounded for lobes of
-/// any width.
+/// Calls `visit(in, weight_sr)` for directions whose weighted sum replaces an integral over the light that
+/// arrives and leaves towards `out`, both in the material's frame: as many drawn by the BRDF as by the
+/// cosine, from Hammersley's points, with the weights of the balance heuristic, which keep f / weight bounded
+/// for lobes of any width.
 template <typename Visit>
 void for_each_node(const Material& material, const Vec3& out, const Visit& visit) {
     constexpr std::uint32_t each = 256;

@@ -1,5 +1,5 @@
-// The light that sides of patches receive, seen from no eye in particular: its first terms over the
-// directions that it comes from.
+// The incident light of sides of patches, independent of the view: its first terms in a basis over the
+// incident directions.
 //
 // L_in = sum over k of a_k Z_k for the projected hemisphere's orthonormal basis (base/zernike.h), so that
 //
@@ -7,10 +7,10 @@
 //     L_out(w) = sum over k of a_k integral of f(w_in, w) Z_k(w_in) cos(theta) dw_in
 //
 // where E is the illuminance of each arrival. A diffuse side needs a_0 alone, E / sqrt(pi), and nothing is
-// lost. Others keep a basis of some degree: light that is alike from everywhere is still exact; light that
-// changes within less than about 180 degrees / degree is blurred. docs/solution.md has the errors.
+// lost. Other sides keep a basis of some degree: light that is equal from all directions is still exact;
+// light that changes within less than about 180 degrees / degree is blurred. docs/solution.md has the errors.
 //
-// First shot is no part of it: light of small sources has no few terms.
+// First shot is not part of it: light of small sources needs too many terms.
 #pragma once
 
 #include <cstdint>
@@ -23,18 +23,18 @@
 
 namespace stilb::estimators {
 
-/// Where the terms of each side are among those of all: one of a side that reflects alike, a basis of others.
+/// The offsets of each side's terms: one term for a side with constant reflection, a basis for others.
 class TermLayout {
   public:
-    /// `sides`: those that have terms, ascending.
+    /// `sides`: the sides with terms, ascending.
     TermLayout(const PatchTransport& transport, int degree, std::vector<std::uint32_t> sides);
 
     const math::ZernikeBasis& basis() const { return basis_; }
     std::span<const std::uint32_t> sides() const { return sides_; }
-    /// Of all sides together.
+    /// The number of terms of all sides together.
     std::size_t count() const { return first_.back(); }
     std::size_t first_of(std::uint32_t side) const { return first_[side]; }
-    /// 0 where the side has none.
+    /// 0 where the side has no terms.
     std::size_t count_of(std::uint32_t side) const { return first_[side + 1] - first_[side]; }
 
   private:
@@ -43,7 +43,7 @@ class TermLayout {
     std::vector<std::size_t> first_;  ///< per side of all patches, and the end
 };
 
-/// Sides that reflect anything.
+/// Sides that reflect light.
 std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport);
 
 /// Terms of the mean of a walk's steps. Keeps references to both arguments.
@@ -52,7 +52,7 @@ class TermSums {
     TermSums(const PatchTransport& transport, const TermLayout& layout)
         : transport_(transport), layout_(layout), sums_(layout.count()) {}
 
-    /// What was received in the last step.
+    /// Adds the light received in the last step.
     void add(const BundleIteration& iteration);
     std::uint64_t steps() const { return steps_; }
     /// [lx / sqrt(sr)]
@@ -66,12 +66,12 @@ class TermSums {
     std::vector<FloatRgb> sums_;
 };
 
-/// What the terms of a side are multiplied by for the luminance that it reflects towards the unit `out`, in
-/// front of it [1 / sqrt(sr)]. By a sum over directions: right to about 0.5 % for light that is alike from
-/// everywhere.
+/// The factors of a side's terms for the luminance that it reflects towards the unit `out`, in
+/// front of it [1 / sqrt(sr)]. By a sum over directions: accurate to about 0.5 % for light that is equal from
+/// all directions.
 std::vector<FloatRgb> reflection_factors(const PatchTransport& transport, const TermLayout& layout,
                                          std::uint32_t side, const Vec3& out);
-/// The sum of their products [cd/m2]; 0 where that is below: a luminance is not.
+/// The sum of their products [cd/m2]; 0 where that is negative, because a luminance is not.
 Rgb reflected_cd_m2(std::span<const FloatRgb> terms, std::span<const FloatRgb> factors);
 
 }  // namespace stilb::estimators

@@ -1,4 +1,4 @@
-// How methods that light patches are asked to do it: plain values, without the machinery.
+// Options of the methods on patches: plain values, without the machinery.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace stilb::estimators {
 
-/// What stands for small lights (first_shot.h).
+/// The replacement of small lights (first_shot.h).
 enum class FirstShotVariant { none, classical, diffuse, incoming, on_the_fly };
 inline constexpr std::array<std::string_view, 5> kFirstShotNames{"none", "classical", "diffuse", "incoming",
                                                                  "on-the-fly"};
@@ -21,7 +21,7 @@ constexpr std::string_view name_of(FirstShotVariant variant) {
     return kFirstShotNames[static_cast<std::size_t>(variant)];
 }
 
-/// Where none is asked for, but for path tracing: that takes none.
+/// The default, except for path tracing, which has none.
 inline constexpr FirstShotVariant kUsualFirstShot = FirstShotVariant::incoming;
 
 /// Item buffers.
@@ -33,7 +33,7 @@ struct ShootingOptions {
 };
 
 struct FirstShotOptions {
-    std::optional<FirstShotVariant> variant;  ///< absent: as is usual with the method
+    std::optional<FirstShotVariant> variant;  ///< absent: the method's default
     ShootingOptions shooting;
     int bin_rings = 4;  ///< classical: 4 bin_rings^2 bins where reflection depends on direction
 };
@@ -46,28 +46,29 @@ constexpr std::string_view name_of(BundleDirections directions) {
 }
 
 struct PatchOptions {
-    /// Longest edge; by the scene where absent: about 10,000 patches.
+    /// Longest edge; absent: by the scene, for about 10,000 patches.
     std::optional<double> patch_m;
     FirstShotOptions first_shot;
-    /// Of first shot's item buffers; by the number of patches where absent.
+    /// Resolution of first shot's item buffers; absent: by the number of patches.
     std::optional<int> resolution;
     BundleDirections directions = BundleDirections::frame;
-    /// Of the item buffers around patches of method radiosity, whose window and backend are first shot's.
+    /// Resolution of the item buffers around patches in method radiosity, whose window and backend are first
+    /// shot's.
     int shot_resolution = 64;
 };
 
-// What became of surfaces and lights where patches stand for them, for the results: plain values.
+// Patches and first shot in the results: plain values.
 
-/// What first shot made of a light.
+/// First shot's decision on a light.
 struct FirstShotLight {
     std::string name;
     bool is_replaced = false;
     std::string why;          ///< in words: "a point", "large: it would take more than 32 vertices ..."
     std::size_t samples = 0;  ///< 0 where it is not replaced
-    Rgb colour{};             ///< of its light: luminance 1; nothing where it is dark
+    Rgb colour{};             ///< of its light, with luminance 1; 0 for a dark light
 };
 
-/// All but the time is the same whenever the same is computed.
+/// All values except the time depend on the scene and options alone.
 struct PatchReport {
     std::size_t count = 0;  ///< of patches
     double size_m = 0;      ///< no edge is longer

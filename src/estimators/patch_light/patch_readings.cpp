@@ -11,10 +11,10 @@ namespace stilb::estimators {
 
 namespace {
 
-/// From each point: a step of the light costs far more than a ray.
+/// Rays from each point: a step of the light costs far more than a ray.
 constexpr std::uint64_t kRaysPerSample = 4;
 constexpr double kShare = 1.0 / kRaysPerSample;
-/// A key of its own; points have those of their numbers.
+/// A separate key; the points have keys of their numbers.
 constexpr std::uint64_t kViews = ~std::uint64_t{0};
 
 }  // namespace
@@ -36,27 +36,27 @@ void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measuran
         return;
     }
     const transport::VisibleSurfaces sight =
-        look(measurand, transport_.scene, caster, transport_.lights, transport::kUnlimited);
+        trace_line_of_sight(measurand, transport_.scene, caster, transport_.lights, transport::kUnlimited);
     known_part_[reading] = sight.emission_cd_m2;
     sight_ends_[reading] = sight.end;
     std::vector<ViewedHit> points;
     for (const transport::SubPoint& sub_point : sight.sub_points) {
         points.push_back({sub_point.surface, sub_point.outgoing});
     }
-    const auto places = find_patch_locations(transport_.patch_caster, points);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!places[i]) continue;
-        views_.push_back({reading, sight.sub_points[i].transmission, *places[i], points[i].hit.position,
+    const auto locations = find_patch_locations(transport_.patch_caster, points);
+    for (std::size_t i = 0; i < locations.size(); ++i) {
+        if (!locations[i]) continue;
+        views_.push_back({reading, sight.sub_points[i].transmission, *locations[i], points[i].hit.position,
                           points[i].outgoing});
     }
 }
 
 void PatchReadings::add_shares() {
-    std::vector<patches::VertexInterpolation::Place> places;
+    std::vector<patches::VertexInterpolation::PatchPoint> locations;
     for (const View& view : views_) {
-        places.push_back({transport_.patches.patch_of(view.seen.side), view.seen.place});
+        locations.push_back({transport_.patches.patch_of(view.seen.side), view.seen.barycentric});
     }
-    auto shares = transport_.interpolation.shares_of(places);
+    auto shares = transport_.interpolation.shares_of(locations);
     for (std::size_t i = 0; i < views_.size(); ++i) {
         views_[i].shares = std::move(shares[i]);
         known_part_[views_[i].reading] += views_[i].transmission * first_reflected(views_[i]);
@@ -131,9 +131,9 @@ void PatchReadings::add_illuminances(const PatchLight& light, std::span<const tr
     }
 }
 
-VisibleSides::VisibleSides(const PatchTransport& transport, const Vec3& eye)
+VisibleSides::VisibleSides(const PatchTransport& transport, const Vec3& camera)
     : transport_(transport),
-      eye_(eye),
+      camera_(camera),
       are_backs_seen_(std::ranges::any_of(transport.scene.materials,
                                           [](const auto& named) { return is_specular(named.material); })),
       first_(2 * transport.patches.count()) {
@@ -172,14 +172,14 @@ std::uint64_t PatchPass::sample(const PixelBlock& block, std::span<Rgb> pixels) 
     std::vector<std::size_t> standing;
     std::vector<ViewedHit> points;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        if (!tracing_.tracer.look_through(paths[i])) continue;
+        if (!tracing_.tracer.follow_to_scattering(paths[i])) continue;
         standing.push_back(i);
         points.push_back({paths[i].hit, paths[i].outgoing});
     }
-    const auto places = find_patch_locations(transport_.patch_caster, points);
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto locations = find_patch_locations(transport_.patch_caster, points);
+    for (std::size_t i = 0; i < locations.size(); ++i) {
         transport::Path& path = paths[standing[i]];
-        if (places[i]) path.luminance_cd_m2 += path.throughput * reflected(path, *places[i]);
+        if (locations[i]) path.luminance_cd_m2 += path.throughput * reflected(path, *locations[i]);
     }
     return started.write_to(pixels);
 }
@@ -187,7 +187,7 @@ std::uint64_t PatchPass::sample(const PixelBlock& block, std::span<Rgb> pixels) 
 Rgb PatchPass::reflected(const transport::Path& path, const PatchLocation& seen) const {
     const bool is_front = transport_.patches.is_front(seen.side);
     const std::span<const Rgb> vertices(is_front ? fronts_ : backs_);
-    return transport_.interpolation.at(vertices, transport_.patches.patch_of(seen.side), seen.place) +
+    return transport_.interpolation.at(vertices, transport_.patches.patch_of(seen.side), seen.barycentric) +
            transport_.first_reflected_at(seen.side, path.hit.position, {}, path.outgoing);
 }
 

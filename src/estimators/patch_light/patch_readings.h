@@ -1,8 +1,8 @@
-// Readings of lit patches.
+// Readings of the light of patches.
 //
 // Luminance: at the sub-points of lines of sight, interpolated between the patches around. Illuminance:
-// direct light as everywhere (direct_light.h), and along a few rays from the point for each sample what the
-// patches that they meet reflect.
+// direct light by shadow rays (direct_light.h), and along a few rays from the point for each sample the
+// light that the patches reflect where the rays end.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace stilb::estimators {
 
-// What lit patches send out, by whatever method.
+// The light that patches reflect, independent of the method.
 
 class PatchLight {
   public:
@@ -28,7 +28,7 @@ class PatchLight {
     virtual Rgb reflected(std::uint32_t side, const Vec3& out) const = 0;
 };
 
-/// Sides that reflect the same luminance in all directions: what methods for diffuse scenes find.
+/// Sides with the same luminance in all directions: the result of methods for diffuse scenes.
 class ReflectedSides final : public PatchLight {
   public:
     /// `cd_m2`: of every side.
@@ -55,7 +55,7 @@ class PatchReadings {
     void add(const PatchLight& light, math::RandomKey key, std::uint64_t sample, ReadingSums& sums) const;
 
   private:
-    /// A sub-point as patches show it.
+    /// A sub-point on the patches.
     struct View {
         std::uint32_t reading = 0;
         Rgb transmission;
@@ -84,15 +84,15 @@ class PatchReadings {
 
 // Pictures of lit patches.
 
-/// What sides reflect towards the eye. Those that are turned away from it count only where there are mirrors
-/// or glass to show them, and then along their normals. Keeps a reference to the transport.
+/// The light that sides reflect towards the camera. Sides facing away from it count only where there are
+/// mirrors or glass to show them, and then along their normals. Keeps a reference to the transport.
 class VisibleSides {
   public:
-    VisibleSides(const PatchTransport& transport, const Vec3& eye);
+    VisibleSides(const PatchTransport& transport, const Vec3& camera);
 
-    /// Adds what each side reflects of the light to `sums_cd_m2`, first shot left out.
+    /// Adds each side's reflected light to `sums_cd_m2`, without first shot.
     void add(const PatchLight& light, std::vector<FloatRgb>& sums_cd_m2) const;
-    /// The mean of as many lights as were added, and first shot [cd/m2].
+    /// The mean of all lights added, and first shot [cd/m2].
     std::vector<FloatRgb> mean_cd_m2(const std::vector<FloatRgb>& sums_cd_m2, double lights) const;
 
     std::size_t count() const { return first_.size(); }
@@ -103,7 +103,7 @@ class VisibleSides {
 
   private:
     const PatchTransport& transport_;
-    Vec3 eye_;
+    Vec3 camera_;
     bool are_backs_seen_;
     std::vector<FloatRgb> first_;  ///< [cd/m2] by first shot
 };
@@ -119,18 +119,19 @@ void VisibleSides::for_each(const Visit& visit) const {
             visit(back, -normal);
             continue;
         }
-        const Vec3 to_eye = normalized(eye_ - patches.middle(patch));
-        const bool front_is_seen = dot(to_eye, normal) > 0;
-        visit(front_is_seen ? patch : back, to_eye);
+        const Vec3 to_camera = normalized(camera_ - patches.middle(patch));
+        const bool front_is_seen = dot(to_camera, normal) > 0;
+        visit(front_is_seen ? patch : back, to_camera);
         if (are_backs_seen_) visit(front_is_seen ? back : patch, front_is_seen ? -normal : normal);
     }
 }
 
-/// A pass over pixels: emission and visibility are those of the true surfaces, what these reflect is
+/// A pass over pixels: emission and visibility are those of the true surfaces, reflected light is
 /// interpolated between patches.
 class PatchPass final : public PicturePass {
   public:
-    /// `sides_cd_m2`: of every side, towards the eye, first shot included. Keeps references to all but that.
+    /// `sides_cd_m2`: of every side, towards the camera, first shot included. Keeps references to the other
+    /// arguments.
     PatchPass(const PictureTracing& tracing, const PatchTransport& transport, const Pass& pass,
               const std::vector<FloatRgb>& sides_cd_m2);
 

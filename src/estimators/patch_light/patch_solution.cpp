@@ -29,7 +29,7 @@ bool all_below(std::span<const std::uint32_t> numbers, std::size_t limit) {
     return std::ranges::all_of(numbers, [&](std::uint32_t number) { return number < limit; });
 }
 
-/// A table of where rows begin, from 0 to `end`.
+/// A table of the starts of rows, from 0 to `end`.
 bool is_row_table(std::span<const std::uint32_t> rows, std::size_t count, std::size_t end) {
     return rows.size() == count + 1 && rows.front() == 0 && rows.back() == end && ascend(rows, false);
 }
@@ -54,7 +54,7 @@ void require_patches(const patches::Patches& patches, const Scene& scene) {
     require(stilb::is_finite(patches.center) && std::ranges::all_of(patches.vertices, finite) &&
                 std::ranges::all_of(patches.normals, finite) &&
                 std::ranges::all_of(patches.areas_m2, [](float area) { return area > 0; }),
-            "places and areas must be numbers");
+            "positions and areas must be finite numbers");
 }
 
 void require_factors(const FirstShotFactors& factors, std::size_t sides, std::size_t samples) {
@@ -80,11 +80,11 @@ void require_light(const PatchSolution& solution, const Scene& scene) {
     for (const auto& replicate : solution.replicates) {
         require(replicate.size() == terms, "the number of terms");
         require(std::ranges::all_of(replicate, [](const FloatRgb& rgb) { return is_finite(rgb); }),
-                "light must be numbers");
+                "light must be finite numbers");
     }
 }
 
-/// Pictures: what patches reflect towards the eye is known before the first pass.
+/// Pictures: the light that patches reflect towards the camera is computed before the first pass.
 class SolutionPicture final : public Estimator {
   public:
     SolutionPicture(const Problem& problem, PatchSolution solution)
@@ -111,12 +111,12 @@ class SolutionPicture final : public Estimator {
 
   private:
     void reflect(const TermLayout& layout, const std::vector<std::vector<FloatRgb>>& replicates) {
-        struct Seen {
+        struct VisibleSide {
             std::uint32_t side = 0;
             Vec3 out;
         };
         const VisibleSides sides(transport_, tracing_.view.position());
-        std::vector<Seen> seen;
+        std::vector<VisibleSide> seen;
         sides.for_each([&](std::uint32_t side, const Vec3& out) { seen.push_back({side, out}); });
         std::ranges::fill(replicates_cd_m2_, std::vector<FloatRgb>(sides.count()));
         parallel_for(seen.size(), [&](std::size_t i) {
@@ -132,7 +132,7 @@ class SolutionPicture final : public Estimator {
 
     PatchTransport transport_;
     PictureTracing tracing_;
-    std::vector<std::vector<FloatRgb>> replicates_cd_m2_;  ///< of every side, towards the eye
+    std::vector<std::vector<FloatRgb>> replicates_cd_m2_;  ///< of every side, towards the camera
 };
 
 }  // namespace

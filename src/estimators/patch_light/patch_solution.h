@@ -1,4 +1,4 @@
-// What is known of a scene's light for all eyes at once: made by solve(), kept in files, shown by pictures.
+// The view-independent light of a scene: computed by solve(), stored in files, rendered to pictures.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +17,21 @@ namespace stilb::estimators {
 /// Plain values, which belong to a scene with the same objects, materials and lights.
 struct PatchSolution {
     patches::Patches patches;
-    /// Of incoming first shot; nothing without first shot.
+    /// Factors of incoming first shot; nothing without first shot.
     std::optional<FirstShotFactors> factors;
-    /// Of the basis that light is kept in (incoming_light.h).
+    /// The degree of the basis of the light (incoming_light.h).
     int degree = 0;
-    /// That receive light and reflect some, ascending.
+    /// The sides that receive light and reflect some of it, ascending.
     std::vector<std::uint32_t> lit_sides;
-    /// Of each independent replicate: the terms [lx / sqrt(sr)] of all lit sides, one after the other.
+    /// For each independent replicate: the terms [lx / sqrt(sr)] of all lit sides, one after the other.
     std::vector<std::vector<FloatRgb>> replicates;
 };
 
-/// Throws InputError where the parts do not fit one another or the scene: what is out of range would be
-/// looked up elsewhere.
+/// Throws InputError where the parts do not fit one another or the scene: indices out of range would
+/// address other data.
 void require_consistency(const PatchSolution& solution, const Scene& scene, const rays::RayCaster& caster);
 
-/// An estimator of pictures alone, of which a pass shows the solution's replicate of the pass's number.
+/// An estimator for pictures alone, whose pass shows the solution's replicate of the pass's number.
 /// Throws InputError where the solution does not fit the scene.
 std::unique_ptr<Estimator> make_solution_picture(const Problem& problem, PatchSolution solution);
 

@@ -14,7 +14,7 @@ namespace stilb::estimators {
 
 namespace {
 
-/// Rays of a bundle that meet a patch of mean size which stands across it.
+/// Rays of a bundle that meet a patch of mean size that is perpendicular to it.
 constexpr double kRaysPerPatch = 2;
 
 double area_m2(const patches::Patches& patches) {
@@ -86,10 +86,10 @@ Rgb PatchTransport::first_reflected(std::uint32_t side, const Vec3& out) const {
 std::vector<std::optional<PatchLocation>> find_patch_locations(const patches::PatchCaster& caster,
                                                                std::span<const ViewedHit> points,
                                                                rays::Coherence coherence) {
-    // The way to the hit is free. So is a short stretch of it, from where patches that bulge out of the true
-    // surface by rounding are met.
+    // The segment to the hit is free. So is a short stretch beyond it, where rays meet patches that protrude
+    // from the true surface by rounding.
     constexpr double stretch = 1e-3;
-    std::vector<std::optional<PatchLocation>> places(points.size());
+    std::vector<std::optional<PatchLocation>> locations(points.size());
     for (std::size_t first = 0; first < points.size(); first += kPacketWidth) {
         const std::size_t count = std::min<std::size_t>(kPacketWidth, points.size() - first);
         RayPacket packet;
@@ -103,10 +103,10 @@ std::vector<std::optional<PatchLocation>> find_patch_locations(const patches::Pa
         const patches::PatchHits hits = caster.closest(packet, lanes, coherence);
         for (std::size_t lane = 0; lane < count; ++lane) {
             if (hits.sides[lane] == patches::kNoSide) continue;
-            places[first + lane] = PatchLocation{hits.sides[lane], hits.place(lane)};
+            locations[first + lane] = PatchLocation{hits.sides[lane], hits.barycentric(lane)};
         }
     }
-    return places;
+    return locations;
 }
 
 }  // namespace stilb::estimators

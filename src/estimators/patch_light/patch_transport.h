@@ -1,4 +1,4 @@
-// What the methods that light patches share: the patches, how they reflect, and what is known of the light.
+// The common part of the methods on patches: the patches, their reflection, and the light known in advance.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace stilb::estimators {
 
-/// Single precision, for what every side has.
+/// Single precision, for data of every side.
 using FloatRgb = std::array<float, kBands>;
 
 inline FloatRgb to_float_rgb(const Rgb& rgb) {
@@ -28,14 +28,14 @@ inline void add_to(FloatRgb& sum, const Rgb& value) {
     for (std::size_t b = 0; b < kBands; ++b) sum[b] += static_cast<float>(value[b]);
 }
 
-/// Of as many sides.
+/// The number of sides.
 inline void add_to(std::vector<FloatRgb>& sums, const std::vector<FloatRgb>& others) {
     for (std::size_t side = 0; side < sums.size(); ++side) add_to(sums[side], to_rgb(others[side]));
 }
 
-/// Keeps references to scene and caster. Immutable once made.
+/// Keeps references to scene and caster. Immutable after construction.
 struct PatchTransport : FirstShotPatches {
-    /// Both as FirstShotPatches.
+    /// Both as in FirstShotPatches.
     PatchTransport(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
                    const Monitor& monitor = Monitor::none());
     PatchTransport(const Scene& scene, const rays::RayCaster& caster, patches::Patches patches,
@@ -50,9 +50,10 @@ struct PatchTransport : FirstShotPatches {
     }
     bool reflects_alike(std::uint32_t patch) const { return glossy_number[patch] == kConstant; }
 
-    /// What first shot makes a side reflect, as a mean over the patch; nothing where it depends on the place.
+    /// The light of first shot that a side reflects, as a mean over the patch; nothing where it depends on
+    /// the position.
     Rgb first_reflected(std::uint32_t side, const Vec3& out) const;
-    /// The other part: what depends on the place.
+    /// The part that depends on the position.
     Rgb first_reflected_at(std::uint32_t side, const Vec3& position, math::RandomKey key,
                            const Vec3& out) const {
         return first_shot.needs_position(side) ? first_shot.reflected(side, position, key, out) : Rgb{};
@@ -64,13 +65,14 @@ struct PatchTransport : FirstShotPatches {
     double spacing_m = 0;  ///< of bundles' rays
 
     static constexpr std::uint32_t kConstant = ~0u;
-    /// Per patch: its place in `glossy_patches`, or kConstant: it reflects alike in all directions.
+    /// Per patch: its index in `glossy_patches`, or kConstant for reflection that is equal in all directions.
     std::vector<std::uint32_t> glossy_number;
     std::vector<std::uint32_t> glossy_patches;
-    std::vector<FloatRgb> constant_brdf;     ///< per patch [1/sr]; 0 where it depends on direction
-    std::vector<FloatRgb> first_reflection;  ///< per side [cd/m2]; 0 where it depends on direction or place
-    std::vector<FloatRgb> emission;          ///< per patch, of its front; 0 where first shot stands for it
-    double mean_reflectance = 0;             ///< by area
+    std::vector<FloatRgb> constant_brdf;  ///< per patch [1/sr]; 0 where it depends on direction
+    std::vector<FloatRgb>
+        first_reflection;            ///< per side [cd/m2]; 0 where it depends on direction or position
+    std::vector<FloatRgb> emission;  ///< per patch, of its front; 0 where first shot replaces it
+    double mean_reflectance = 0;     ///< by area
 
   private:
     void describe_patches();
@@ -78,11 +80,11 @@ struct PatchTransport : FirstShotPatches {
     void add_emission(std::size_t light);
 };
 
-// Where on the patches something is that was found on the true surfaces.
+// Patch locations of points on the true surfaces.
 
 struct PatchLocation {
     std::uint32_t side = 0;
-    math::Barycentric place;
+    math::Barycentric barycentric;
 };
 
 /// A point of a true surface, seen from the unit direction `outgoing`.
@@ -91,9 +93,9 @@ struct ViewedHit {
     Vec3 outgoing;
 };
 
-/// The places on patches that stand for points. Where the patches of a curved surface leave one out, at its
-/// outline, what is behind stands for it; nothing where there is nothing. `coherence`: of the ways that
-/// neighbouring points are seen along.
+/// The patch locations of points. Where the patches of a curved surface do not cover a point, at its
+/// outline, the surface behind it takes its place; nothing where there is none. `coherence`: of the
+/// directions that neighbouring points are seen from.
 std::vector<std::optional<PatchLocation>> find_patch_locations(
     const patches::PatchCaster& caster, std::span<const ViewedHit> points,
     rays::Coherence coherence = rays::Coherence::coherent);

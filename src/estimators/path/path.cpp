@@ -1,13 +1,13 @@
-// Path tracing from every measuring point, with next-event estimation: the naive twin of local estimation.
+// Path tracing from every measuring point, with next-event estimation: the reference for local estimation.
 //
 //   E(x) = E_direct + integral over the hemisphere of L_r(y, y->x) cos(theta_x) dw        (theory 2, T.1b
 //   with k = 0)
 //
 // by one cosine-distributed ray and the path that it begins, for each sample and point by itself; luminance
 // by paths that begin along the line of sight, and pictures by one path from the camera for each sample of a
-// pixel (path_tracer.h). Finite variance for bounded BRDFs. Not made: light that leaves a point-like source
-// and meets a mirror or glass before anything else, but panes straight on. With first shot, which is only
-// taken where it is asked for, it is biased by the patches.
+// pixel (path_tracer.h). Finite variance for bounded BRDFs. Not found: light that leaves a point-like source
+// and meets a mirror or glass before anything else, except panes straight on. With first shot, which is only
+// used on request, it is biased by the patches.
 
 #include <fmt/format.h>
 
@@ -42,12 +42,12 @@ bool has_panes(const Scene& scene) {
                                [](const NamedMaterial& named) { return passes_straight(named.material); });
 }
 
-// Path tracing of a scene as it is, or flattened by first shot: small lights replaced by their first
-// reflection, which every surface on a path adds as the patch that stands for it does.
+// Path tracing of a scene as it is, or with first shot: small lights replaced by their first
+// reflection, which every surface on a path adds by the patch that represents it.
 
-/// Keeps references to scene and caster. Stays where it is made. Immutable.
+/// Keeps references to scene and caster. Not movable. Immutable.
 struct FlattenedPaths {
-    /// There are patches only where the options name a variant of first shot.
+    /// Patches exist only where the options select a variant of first shot.
     FlattenedPaths(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
                    const Monitor& monitor);
     FlattenedPaths(const FlattenedPaths&) = delete;
@@ -58,7 +58,7 @@ struct FlattenedPaths {
 
     const Scene& scene;
     std::unique_ptr<const FirstShotPatches> patches;  ///< null without first shot
-    transport::LightSampler lights;                   ///< those that are replaced are made elsewhere
+    transport::LightSampler lights;                   ///< the lights that first shot does not replace
     transport::PathTracer tracer;
 };
 
@@ -136,7 +136,7 @@ class PathEstimator final : public Estimator {
 
     std::span<const Rgb> known_part() const override { return known_part_; }
     std::span<const std::optional<Vec3>> sight_ends() const override { return sight_ends_; }
-    /// Enough for a first look at the error not to miss what few paths find.
+    /// Enough samples for a reliable first estimate of the error, which rare bright paths dominate.
     std::uint64_t batch_granularity() const override { return 64; }
     double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
@@ -146,14 +146,14 @@ class PathEstimator final : public Estimator {
     std::optional<PatchReport> patch_report() const override { return paths_.report(); }
 
   private:
-    /// The surface that a line of sight meets first, and the direction that it is seen along.
+    /// The first hit of a line of sight, and the direction from which it is seen.
     struct FirstHit {
         std::uint32_t reading = 0;
         rays::Hit hit;
         Vec3 direction;
     };
 
-    /// What is known of a reading without sampling: direct light of point-like sources at a point, emission
+    /// The part of a reading without sampling: direct light of point-like sources at a point, emission
     /// along a line of sight.
     void add_reading(std::uint32_t reading, const Measurand& measurand) {
         if (auto receiver = transport::receiver_of_illuminance(reading, measurand, caster_)) {
@@ -162,13 +162,13 @@ class PathEstimator final : public Estimator {
             return;
         }
         const transport::VisibleSurfaces seen =
-            look(measurand, scene_, caster_, paths_.lights, max_reflections_);
+            trace_line_of_sight(measurand, scene_, caster_, paths_.lights, max_reflections_);
         sight_ends_[reading] = seen.end;
         if (!seen.first) {
-            known_part_[reading] = paths_.lights.outside_luminance(transport::looking_direction(measurand));
+            known_part_[reading] = paths_.lights.outside_luminance(transport::viewing_direction(measurand));
             return;
         }
-        sights_.push_back({reading, *seen.first, transport::looking_direction(measurand)});
+        sights_.push_back({reading, *seen.first, transport::viewing_direction(measurand)});
         known_part_[reading] = paths_.lights.emitted_luminance(*seen.first);
     }
 

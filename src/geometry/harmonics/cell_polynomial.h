@@ -12,7 +12,7 @@ namespace stilb::geometry {
 template <std::size_t N>
 using Matrix = std::array<std::array<double, N>, N>;
 
-/// Chebyshev's points with the ends.
+/// Chebyshev's points including the ends.
 template <std::size_t N>
 std::array<double, N> lobatto_nodes() {
     std::array<double, N> nodes{};
@@ -22,8 +22,8 @@ std::array<double, N> lobatto_nodes() {
     return nodes;
 }
 
-/// From values at nodes to coefficients of powers: row p, column node, by Lagrange's polynomials multiplied
-/// out.
+/// The matrix from values at nodes to coefficients of powers: row p, column node, from Lagrange's
+/// polynomials.
 template <std::size_t N>
 Matrix<N> power_matrix(const std::array<double, N>& nodes) {
     Matrix<N> matrix{};
@@ -41,8 +41,8 @@ Matrix<N> power_matrix(const std::array<double, N>& nodes) {
     return matrix;
 }
 
-/// From coefficients of powers to Bernstein's over [-1, 1], which enclose the polynomial: row i, column p.
-/// Column p has the coefficients of x^p in (1 + x)^i (1 - x)^(N - 1 - i) over binomial(N - 1, p).
+/// The matrix from coefficients of powers to Bernstein's over [-1, 1], which enclose the polynomial: row i,
+/// column p. Column p has the coefficients of x^p in (1 + x)^i (1 - x)^(N - 1 - i) over binomial(N - 1, p).
 template <std::size_t N>
 Matrix<N> bernstein_matrix() {
     const auto product = [](std::size_t plus, std::size_t minus) {
@@ -78,7 +78,7 @@ Matrix<N> transformed(const Matrix<N>& m, const Matrix<N>& c) {
     return whole;
 }
 
-/// Of a function of a and b.
+/// The nodal values of a function of a and b.
 struct ValueAndSlopes {
     double value = 0, along_a = 0, along_b = 0;
 };
@@ -105,7 +105,7 @@ ValueAndSlopes evaluate(const Matrix<N>& c, double a, double b) {
 /// c[0] + c[1] a + c[2] b + c[3] a^2 + c[4] a b + c[5] b^2.
 using Quadratic = std::array<float, 6>;
 
-/// What Chebyshev's series has up to degree 2 in all: near the best.
+/// The truncation of Chebyshev's series at total degree 2: nearly the best approximation.
 template <std::size_t N>
 Quadratic quadratic_part(const Matrix<N>& c) {
     // Coefficients of T_0, T_1 and T_2 in x^p: binomials over 2^p, twice those for T_1 and T_2.

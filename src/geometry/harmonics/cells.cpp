@@ -20,16 +20,16 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNarrowest = 1e-9;
-/// Cells reach a little beyond their edges in s and t, so that rounding leaves nothing between them.
+/// Cells reach a little beyond their edges in s and t, so that rounding leaves no gaps.
 constexpr double kOverlap = 1e-9;
-/// What bounds get on top, for rounding and the overlap: a share, and of W.
+/// Safety margins of bounds, for rounding and the overlap: relative, and as a share of W.
 constexpr double kSlack = 1e-4, kLeastSlack = 1e-12;
 constexpr double kMargin = 1e-5;  ///< of boxes
-/// Where differences from the surface are largest: between nodes, in the middle of the cell.
+/// The points of largest differences from the surface: between nodes, and in the middle of the cell.
 constexpr std::array kChecked{-0.7, 0.26, 0.7};
 
-/// The part of a ray where linear functions of the distance are not below 0. Its ends are fractions with
-/// denominators above 0, as most are replaced before anybody needs their values.
+/// The interval of a ray where linear functions of the distance are not negative. Its ends are fractions with
+/// positive denominators, because most are replaced before their values are needed.
 class Stretch {
   public:
     Stretch(double low, double high) : low_{low, 1}, high_{high, 1} {}
@@ -60,15 +60,15 @@ struct Parabola {
 
     double last() const { return first + slope + bend; }
     double last_slope() const { return slope + 2 * bend; }
-    /// Where it turns, or its first value where it does not.
+    /// Its extremum, or its first value where there is none.
     double turning() const { return slope * last_slope() < 0 ? first - slope * slope / (4 * bend) : first; }
     double least() const { return std::min({first, last(), turning()}); }
     double greatest() const { return std::max({first, last(), turning()}); }
-    /// The least amount of its slope; 0 where it turns.
+    /// The least magnitude of its slope; 0 where it has an extremum.
     double least_slope() const {
         return slope * last_slope() > 0 ? std::min(std::abs(slope), std::abs(last_slope())) : 0;
     }
-    /// Of one that does not turn.
+    /// The value of a monotone one.
     double root() const {
         const double squared = slope * slope - 4 * bend * first;
         return -2 * first / (slope + std::copysign(std::sqrt(std::max(0.0, squared)), slope));
@@ -122,7 +122,8 @@ struct Largest {
 }  // namespace
 
 HarmonicCells::HarmonicCells(const HarmonicSurface& surface, double tolerance) {
-    if (!(tolerance >= 1e-11)) throw std::invalid_argument("a tolerance of cells near rounding's, or below");
+    if (!(tolerance >= 1e-11))
+        throw std::invalid_argument("the tolerance of cells is not above rounding errors");
     const math::HarmonicSeries<double>& radius = surface.radius();
     const std::array series{MeridianSeries(radius, 0), MeridianSeries(radius, 1), MeridianSeries(radius, 2)};
     double on_edge = 2 + 0.15 * radius.degree();
@@ -135,7 +136,7 @@ HarmonicCells::HarmonicCells(const HarmonicSurface& surface, double tolerance) {
     for (std::size_t cell = 0; cell < polynomials_.size(); ++cell) outlines_.push_back(outline_of(cell));
 }
 
-/// False where a polynomial is not good enough.
+/// Returns false where a polynomial is not accurate enough.
 bool HarmonicCells::divide(const std::array<MeridianSeries, 3>& series, std::size_t on_edge,
                            double tolerance) {
     const auto edge = [&](std::size_t n) {
@@ -231,8 +232,8 @@ HarmonicCells::Outline HarmonicCells::outline_of(std::size_t cell) const {
     return outline;
 }
 
-/// A patch with weights b and control points (s_i, t_j, 1) / b_ij, which enclose it; larger by a share that
-/// is more than the overlap.
+/// A patch with weights b and control points (s_i, t_j, 1) / b_ij, which enclose it; enlarged by a share
+/// above the overlap.
 Bounds HarmonicCells::bounds_of(std::size_t number) const {
     const Outline& cell = outlines_[number];
     const Polynomial b = bernstein_form(polynomials_[number]);
@@ -265,7 +266,7 @@ struct HarmonicCells::Line {
                 (c[1] + 2 * c[3] * a + c[4] * b) * da + (c[2] + c[4] * a + 2 * c[5] * b) * db - dw,
                 c[3] * da * da + c[4] * da * db + c[5] * db * db};
     }
-    /// Of W - w and its slope, at x.
+    /// The value and slope of W - w at x.
     std::pair<double, double> excess_of(const Polynomial& polynomial, double x) const {
         const ValueAndSlopes at = evaluate(polynomial, a + x * da, b + x * db);
         return {at.value - (w + x * dw), at.along_a * da + at.along_b * db - dw};
@@ -321,7 +322,7 @@ double HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec
     return (rest * low + share * high) / (rest + share);
 }
 
-HarmonicCells::Place HarmonicCells::place_at(std::size_t number, const Vec3& near_by) const {
+HarmonicCells::Point HarmonicCells::point_at(std::size_t number, const Vec3& near_by) const {
     const Outline& cell = outlines_[number];
     const Span s = spans_[cell.column], t = spans_[cell.row];
     const Vec3 x = CubeFace(cell.face).to_local(near_by);

@@ -1,4 +1,4 @@
-// A surface by spherical harmonics in small cells with a polynomial each: for many rays.
+// A surface by spherical harmonics as small cells with a polynomial each: fast for many rays.
 //
 // On a face of a cube about the origin, x_k the coordinate across it, a direction is s = x_i / x_k, t = x_j /
 // x_k, and the surface is
@@ -6,10 +6,10 @@
 //     w = W(s, t) = sqrt(1 + s^2 + t^2) / R,    w = 1 / x_k.
 //
 // (s, t, w) is a projective map, so a ray is a straight line there, too: in a cell, a rectangle where W is a
-// polynomial of s and t, W - w along a ray is a polynomial of one variable. A quadratic with bounds of what
-// it leaves out tells most rays that pass by, and where there is one root at most; else the bound of the
-// second derivative makes the first root certain (first_root.h). Cells interpolate W at Chebyshev's points
-// with the ends (Lobatto), so that neighbours agree on their edge: the surface has no gaps.
+// polynomial of s and t, W - w along a ray is a polynomial of one variable. A quadratic with bounds of its
+// remainder rejects most rays that pass by, and shows where there is at most one root; otherwise a bound of
+// the second derivative makes the first root certain (first_root.h). Cells interpolate W at Chebyshev's
+// points with the ends (Lobatto), so that neighbours agree on their edge: the surface has no gaps.
 #pragma once
 
 #include <array>
@@ -49,13 +49,13 @@ struct CubeFace {
 /// distances along a ray are in units of it.
 class HarmonicCells {
   public:
-    /// As many cells, nearly equal in angle, as make the polynomials differ from the surface by `tolerance`
-    /// of R at most, at points between those that are interpolated. Throws std::invalid_argument where the
-    /// tolerance is below 1e-11.
+    /// Chooses the number of cells, nearly equal in angle, such that the polynomials differ from the surface
+    /// by at most `tolerance` of R, at points between the interpolated ones. Throws std::invalid_argument
+    /// where the tolerance is below 1e-11.
     explicit HarmonicCells(const HarmonicSurface& surface, double tolerance = 1e-7);
 
     std::size_t count() const { return outlines_.size(); }
-    /// The largest difference that was found, as a share of R.
+    /// The largest difference found, as a share of R.
     double error() const { return error_; }
     Bounds bounds_of(std::size_t cell) const;
     std::size_t bytes() const { return count() * (sizeof(Outline) + sizeof(Polynomial)); }
@@ -64,20 +64,20 @@ class HarmonicCells {
     double crossing(std::size_t cell, const Vec3& origin, const Vec3& direction, double start,
                     double end) const;
 
-    /// What crossing() would find, where that is certain without it.
-    LaneVerdicts classifications(std::size_t cell, const RayPacket& rays,
-                                 const PacketPlacement& placement) const;
+    /// The result of crossing(), where single precision suffices for certainty.
+    LaneClassifications classifications(std::size_t cell, const RayPacket& rays,
+                                        const PacketPlacement& placement) const;
 
     /// By the cell's polynomial: at the default tolerance the normal is within about 3e-5 rad of
     /// HarmonicSurface::normal_at(), mostly within 2e-6.
-    struct Place {
+    struct Point {
         Vec3 position;
         Vec3 normal;  ///< unit, outwards
     };
     /// The surface's point on the line from the origin through `near_by`, which is in or near a cell.
-    Place place_at(std::size_t cell, const Vec3& near_by) const;
+    Point point_at(std::size_t cell, const Vec3& near_by) const;
 
-    struct Element : Place {
+    struct Element : Point {
         double area = 0;  ///< by a and b: of a square in which they change by 1
     };
     /// At a and b from -1 to 1 over a cell.
@@ -87,11 +87,11 @@ class HarmonicCells {
     static constexpr std::size_t kNodes = 8;  ///< along an edge
     using Polynomial = Matrix<kNodes>;        ///< of a and b, which go from -1 to 1 over the cell
 
-    /// Of a row or column of cells, in s or t.
+    /// The bounds of a row or column of cells, in s or t.
     struct Span {
         double middle = 0, half = 0;
     };
-    /// What is needed to reject a ray: one cache line.
+    /// The data for rejecting a ray: one cache line.
     struct alignas(64) Outline {
         float low = 0, high = 0;  ///< bounds of x_k
         Quadratic quadratic{};    ///< about W

@@ -1,6 +1,6 @@
 // HarmonicCells::classifications(): crossing() in single precision with bounds of its errors, in a loop that
-// compilers turn into vector instructions. So it has no branches, and no conditions but comparisons of two
-// numbers.
+// compilers turn into vector instructions. Therefore it has no branches, and no conditions except comparisons
+// of two numbers.
 #include <cmath>
 #include <limits>
 
@@ -11,10 +11,10 @@ namespace stilb::geometry {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// What roundings add up to, in shares of the coordinates: 30 unit roundoffs on the longest way, the planes
-/// at the sides, and some to spare.
+/// The sum of rounding errors, in shares of the coordinates: 30 unit roundoffs on the longest evaluation
+/// path, the planes at the sides, and a reserve.
 constexpr float kRounding = 48 * 0.5F * std::numeric_limits<float>::epsilon();
-/// Where positions are less certain than this share of the least distance from the origin, nothing is.
+/// Positions less certain than this share of the least distance from the origin classify nothing.
 constexpr float kMostDoubt = 0.01F;
 
 float lesser(float a, float b) { return a < b ? a : b; }
@@ -25,7 +25,7 @@ struct Vec3f {
 };
 float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// The part of a ray where linear functions of the distance are not below 0.
+/// The interval of a ray where linear functions of the distance are not negative.
 struct Stretch {
     float low, high;
 
@@ -89,7 +89,7 @@ HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, con
     const float x = dot(x_axis, from), y = dot(y_axis, from), z = dot(z_axis, from);
     const float dx = dot(x_axis, direction), dy = dot(y_axis, direction), dz = dot(z_axis, direction);
 
-    // The stretch over the cell, which is widened by what positions may be off.
+    // The stretch over the cell, widened by the error of positions.
     const float doubt = kRounding * (std::abs(x) + std::abs(y) + std::abs(z) + magnitude);
     Stretch stretch{start, end};
     stretch.keep(z - low + doubt, dz);
@@ -123,12 +123,12 @@ HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, con
     return doubt < most_doubt ? sure : Classification::unclear;
 }
 
-STILB_VECTORIZED LaneVerdicts HarmonicCells::FloatCell::classifications(const RayPacket& rays) const {
-    LaneVerdicts classifications;
+STILB_VECTORIZED LaneClassifications HarmonicCells::FloatCell::classifications(const RayPacket& rays) const {
+    LaneClassifications classifications;
     for (std::size_t n = 0; n < kPacketWidth; ++n) {
-        classifications[n] = classification(
-            {rays.origin_x[n], rays.origin_y[n], rays.origin_z[n]},
-            {rays.direction_x[n], rays.direction_y[n], rays.direction_z[n]}, rays.start[n], rays.end[n]);
+        classifications[n] = classification({rays.origin_x[n], rays.origin_y[n], rays.origin_z[n]},
+                                            {rays.direction_x[n], rays.direction_y[n], rays.direction_z[n]},
+                                            rays.start[n], rays.end[n]);
     }
     return classifications;
 }

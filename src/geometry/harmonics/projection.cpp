@@ -10,7 +10,7 @@
 namespace stilb::geometry {
 namespace {
 
-/// Y_lm at phi = 0 but for m < 0, where the cosine's value stands: what belongs to z of both.
+/// Y_lm at phi = 0; for m < 0 the value of the cosine term: the factor that depends on z.
 std::vector<double> legendre_parts(double z, int degree) {
     std::vector<double> parts(math::harmonic_count(degree));
     math::evaluate_harmonics({std::sqrt(1 - z * z), 0, z}, degree, parts);
@@ -20,7 +20,7 @@ std::vector<double> legendre_parts(double z, int degree) {
     return parts;
 }
 
-/// What belongs to phi of Y_lm, on the azimuths of a grid: a row for each m from -degree to degree, cos(m
+/// The factor that depends on phi, on the azimuths of a grid: a row for each m from -degree to degree, cos(m
 /// phi) or sin(|m| phi).
 class PhiParts {
   public:
@@ -52,14 +52,14 @@ double inner_product(std::span<const double> a, std::span<const double> b) {
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// The mean of the known values next to a place; none where there are none.
+/// The mean of the known neighbouring values; none where there are none.
 std::optional<double> mean_of_neighbours(const ParallelGrid& grid, std::span<const double> values,
-                                         std::size_t place) {
-    const std::size_t n = grid.azimuths, parallel = place / n, k = place % n;
-    std::array<std::size_t, 4> neighbours{parallel * n + (k + 1) % n, parallel * n + (k + n - 1) % n, place,
-                                          place};
-    if (parallel > 0) neighbours[2] = place - n;
-    if (parallel + 1 < grid.parallels()) neighbours[3] = place + n;
+                                         std::size_t index) {
+    const std::size_t n = grid.azimuths, parallel = index / n, k = index % n;
+    std::array<std::size_t, 4> neighbours{parallel * n + (k + 1) % n, parallel * n + (k + n - 1) % n, index,
+                                          index};
+    if (parallel > 0) neighbours[2] = index - n;
+    if (parallel + 1 < grid.parallels()) neighbours[3] = index + n;
     double sum = 0;
     int count = 0;
     for (const std::size_t neighbour : neighbours) {
@@ -123,18 +123,18 @@ void fill_holes(const ParallelGrid& grid, std::span<double> values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (std::isnan(values[i])) open.push_back(i);
     }
-    if (open.size() == values.size()) throw std::invalid_argument("a function without a value");
+    if (open.size() == values.size()) throw std::invalid_argument("the function has no value at all");
     while (!open.empty()) {
         std::vector<std::size_t> still_open;
         std::vector<std::pair<std::size_t, double>> filled;
-        for (const std::size_t place : open) {
-            const auto mean = mean_of_neighbours(grid, values, place);
+        for (const std::size_t index : open) {
+            const auto mean = mean_of_neighbours(grid, values, index);
             if (mean)
-                filled.emplace_back(place, *mean);
+                filled.emplace_back(index, *mean);
             else
-                still_open.push_back(place);
+                still_open.push_back(index);
         }
-        for (const auto& [place, mean] : filled) values[place] = mean;
+        for (const auto& [index, mean] : filled) values[index] = mean;
         open = std::move(still_open);
     }
 }

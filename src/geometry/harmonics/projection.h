@@ -1,4 +1,4 @@
-// Functions on the sphere, given by their values on parallels, as series of spherical harmonics.
+// Projection of functions on the sphere, given by values on parallels, to series of spherical harmonics.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct DegreeError {
     double rms = 0, maximum = 0;  ///< in units of the values
 };
 
-/// How far the series is off the values if it ends with degree 0, 1, 2 ...; values that are NaN are left
+/// The errors of the series truncated at degree 0, 1, 2 ...; NaN values are left
 /// out, all others count by their weight.
 std::vector<DegreeError> errors_by_degree(const ParallelGrid& grid, std::span<const double> values,
                                           std::span<const double> coefficients);

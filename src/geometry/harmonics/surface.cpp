@@ -47,7 +47,7 @@ HarmonicSurface::HarmonicSurface(math::HarmonicSeries<double> radius) : radius_(
     least_radius_ = range.least, greatest_radius_ = range.greatest;
     if (!(least_radius_ > 0)) {
         throw InputError(
-            "the radius of a surface by spherical harmonics comes to 0 or nearly so (its least value is "
+            "the radius of a surface by spherical harmonics is 0 or nearly 0 (its least value is "
             "below 3 % of the greatest): it must be above 0 in all directions");
     }
 }
@@ -70,7 +70,7 @@ std::optional<HarmonicCrossing> HarmonicSurface::first_crossing(const Vec3& orig
     return crossing_between(line, std::max(low, inner), high);
 }
 
-/// On one arm of the ray, between distances from the closest point.
+/// The distance on one arm of the ray, measured from the closest point.
 std::optional<HarmonicCrossing> HarmonicSurface::crossing_between(const Line& line, double low,
                                                                   double high) const {
     if (!(low < high)) return std::nullopt;
@@ -163,7 +163,7 @@ struct Angle {
     explicit Angle(double radians) : cosine(std::cos(radians)), sine(std::sin(radians)) {}
 };
 
-/// Of `count` in a turn.
+/// The angles of `count` equal steps in a turn.
 double part_of_turn(double part, std::size_t count) { return kTurn * part / static_cast<double>(count); }
 
 /// sum of cos(n angle) over |n| <= degree.
@@ -175,7 +175,7 @@ double dirichlet_kernel(std::size_t degree, double angle) {
 }  // namespace
 
 /// Directions are cos(e) (cos(a) e_k + sin(a) e_j) + sin(e) e_i. Samples are taken between the poles; beyond
-/// a pole the circle goes on on the opposite half.
+/// a pole the circle continues on the opposite half.
 MeridianSeries::MeridianSeries(const math::HarmonicSeries<double>& series, std::size_t i)
     : degree_(static_cast<std::size_t>(series.degree())) {
     const std::size_t half = degree_ + 1, count = 2 * half, j = (i + 1) % 3, k = (i + 2) % 3;

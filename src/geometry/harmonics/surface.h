@@ -22,26 +22,26 @@ struct HarmonicCrossing {
 /// Immutable. Lengths are in units of the series' values.
 class HarmonicSurface {
   public:
-    /// Throws InputError where R is not above 0 everywhere.
+    /// Throws InputError where R is not positive everywhere.
     explicit HarmonicSurface(math::HarmonicSeries<double> radius);
 
     const math::HarmonicSeries<double>& radius() const { return radius_; }
-    /// Bounds of R, safe ones: within 4 % and a little more of the true ones.
+    /// Guaranteed bounds of R: within 4 % and a little more of the true ones.
     double least_radius() const { return least_radius_; }
     double greatest_radius() const { return greatest_radius_; }
 
     /// Unit, outwards, at the surface's point in a unit direction from the origin.
     Vec3 normal_at(const Vec3& direction) const;
 
-    /// The first crossing of a ray with a unit direction between two distances. Certain: what it leaves out
-    /// are pairs of crossings closer together than about 1e-9 of the radius, where the ray touches the
+    /// The first crossing of a ray with a unit direction between two distances. It is certain, except for
+    /// pairs of crossings closer together than about 1e-9 of the radius, where the ray touches the
     /// surface.
     ///
     /// The ray and the origin span a plane, in which the ray is |x| = d / cos(a), where d is its distance
     /// from the origin and a the angle from its closest point. With M between the bounds of R, (R - M) cos(a)
     /// is a trigonometric polynomial of degree N = L + 1 there, so its second derivative is at most N^2 times
     /// its maximum [Bernstein], and that of M cos(a) at most M: intervals without a root of R cos(a) - d
-    /// (T.5), and such with one, are known for certain.
+    /// (T.5), and intervals with one, are certain.
     std::optional<HarmonicCrossing> first_crossing(const Vec3& origin, const Vec3& direction, double start,
                                                    double end) const;
 
@@ -56,7 +56,7 @@ class HarmonicSurface {
     double least_radius_ = 0, greatest_radius_ = 0;
 };
 
-// Directions on parallels of the sphere, evenly spaced on each.
+// Directions on parallels of the sphere, evenly spaced on each parallel.
 
 /// Values on it are numbered parallel by parallel: parallel * azimuths + k for phi = first_phi + 2 pi k /
 /// azimuths.
@@ -69,9 +69,9 @@ struct ParallelGrid {
     std::size_t parallels() const { return z.size(); }
     std::size_t size() const { return z.size() * azimuths; }
     double phi(std::size_t k) const;
-    /// Unit.
+    /// The unit vector.
     Vec3 direction(std::size_t parallel, std::size_t k) const;
-    /// All, in their order.
+    /// All directions, in their order.
     std::vector<Vec3> directions() const;
 };
 
@@ -89,7 +89,7 @@ ParallelGrid even_grid(int parallels);
 /// Immutable.
 class MeridianSeries {
   public:
-    /// Of the planes through axis i, where (i, j, k) are (0, 1, 2), (1, 2, 0) or (2, 0, 1).
+    /// Precomputes the planes through axis i, where (i, j, k) are (0, 1, 2), (1, 2, 0) or (2, 0, 1).
     MeridianSeries(const math::HarmonicSeries<double>& series, std::size_t i);
 
     /// The series' values in the directions of (x_i, x_j, x_k) = (s, t, z), one for each s. z is not 0.

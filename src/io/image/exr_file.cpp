@@ -26,7 +26,7 @@ constexpr const char* kLuminanceName = "Y";
 constexpr const char* kErrorName = "SE.Y";
 constexpr const char* kDepthName = "Z";
 
-/// Channels of one file and where their values are in memory.
+/// The channels of one file, each with the address of its values.
 class Channels {
   public:
     Channels(int width, const Imath::V2i& first) : width_(static_cast<std::size_t>(width)), first_(first) {}
@@ -63,7 +63,7 @@ Imf::Header header_of(const Picture& picture) {
     return header;
 }
 
-/// The primaries that differ from Rec. 709 in what floats and rounded digits can tell.
+/// True where the primaries differ from Rec. 709 by more than float and decimal rounding.
 std::optional<Primaries> other_primaries(const Imf::Header& header) {
     if (!Imf::hasChromaticities(header)) return std::nullopt;
     const Imf::Chromaticities& found = Imf::chromaticities(header);
@@ -75,7 +75,7 @@ std::optional<Primaries> other_primaries(const Imf::Header& header) {
         difference = std::max({difference, std::abs(primaries[i][0] - kRec709[i][0]),
                                std::abs(primaries[i][1] - kRec709[i][1])});
     }
-    // !(<=) takes NaN for another one, which then is not usable.
+    // !(<=) treats NaN as different; such primaries then count as unusable.
     return !(difference <= 2e-4) ? std::optional(primaries) : std::nullopt;
 }
 
@@ -132,7 +132,8 @@ class ExrReader {
         } else if (has(kLuminanceName)) {
             channels.add(kLuminanceName, picture_.rgb_cd_m2.front().data(), 3);
         } else {
-            fail(fmt::format("no channels R, G, B or Y in full resolution (it has {}).", channel_names()));
+            fail(fmt::format("the channels R, G, B or Y are missing in full resolution (the file has {}).",
+                             channel_names()));
         }
         const auto add_optional = [&](const char* name, std::vector<float>& values) {
             if (!has(name)) return;
@@ -183,7 +184,7 @@ class ExrReader {
 
 std::string to_exr(const Picture& picture) {
     require_consistency(picture);
-    Picture copy = picture;  // OpenEXR writes from what it could also read into
+    Picture copy = picture;  // OpenEXR writes from non-const memory
     std::vector<float> luminance(picture.pixel_count());
     for (std::size_t i = 0; i < luminance.size(); ++i)
         luminance[i] = static_cast<float>(picture.luminance_cd_m2(i));
@@ -202,7 +203,7 @@ std::string to_exr(const Picture& picture) {
         Imf::OutputFile file(stream, header);
         file.setFrameBuffer(channels.buffer());
         file.writePixels(picture.height);
-    }  // which completes the stream
+    }  // the destructor completes the stream
     return stream.str();
 }
 
@@ -212,7 +213,7 @@ Picture read_exr(std::string_view content, const std::string& name) {
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& error) {
-        throw InputError(fmt::format("no OpenEXR picture that can be read, or damaged ({}).", error.what()),
+        throw InputError(fmt::format("not a readable OpenEXR picture, or damaged ({}).", error.what()),
                          {name});
     }
 }

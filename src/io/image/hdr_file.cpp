@@ -14,9 +14,9 @@ namespace stilb::io {
 namespace {
 
 constexpr double kLumenPerWatt = 179;
-/// Of Radiance's red, green and blue in the luminance.
+/// The weights of Radiance's red, green and blue in the luminance.
 constexpr Triple kWeights{0.265, 0.670, 0.065};
-/// cd/m2; fits a float and RGBE.
+/// The largest storable value [cd/m2]: it fits a float and RGBE.
 constexpr double kLargest = 3e38;
 constexpr int kExponentBias = 128;
 /// Other widths are stored flat: the marker of a run-length encoded scanline has 15 bits for the width.
@@ -57,7 +57,7 @@ Triple to_radiance(const PrimariesConversion& convert, const std::array<float, 3
     if (!(luminance > 0)) return {};
     Triple rgb = convert(wanted.band);
     for (double& component : rgb) component = std::max(component, 0.0);
-    // Components below 0 cannot be stored; what their loss adds to the luminance is taken off again.
+    // Components below 0 cannot be stored. The luminance that clamping them adds is subtracted again.
     const double stored = kWeights[0] * rgb[0] + kWeights[1] * rgb[1] + kWeights[2] * rgb[2];
     for (double& component : rgb) component *= luminance / stored / kLumenPerWatt;
     return rgb;
@@ -140,7 +140,7 @@ class HdrReader {
 
     void read_header() {
         if (!lines_.next() || !lines_.line().starts_with("#?"))
-            fail("no Radiance picture: it does not begin with \"#?RADIANCE\".");
+            fail("not a Radiance picture: it does not begin with \"#?RADIANCE\".");
         while (lines_.next() && !lines_.line().empty()) {
             const std::string_view line = lines_.line();
             const std::size_t equals = line.find('=');
@@ -222,8 +222,8 @@ class HdrReader {
         }
     }
 
-    /// Pixels one by one; (1, 1, 1, n) repeats the last one n times, and n 256 times more often for each such
-    /// pixel in succession.
+    /// Uncompressed pixels. (1, 1, 1, n) repeats the last pixel n times; n counts 256 times more with each
+    /// such pixel in succession.
     void read_flat(std::vector<Rgbe>& scanline) {
         int shift = 0;
         for (std::size_t at = 0; at < scanline.size();) {
@@ -253,7 +253,7 @@ class HdrReader {
     TextLines lines_;
     const std::string& name_;
     Picture picture_;
-    std::vector<HeaderField> fields_;  ///< until the size is known
+    std::vector<HeaderField> fields_;  ///< until the resolution line is read
     double exposure_ = 1;
     Primaries primaries_ = kRadiance;
     std::string_view bytes_;

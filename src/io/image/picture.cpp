@@ -41,7 +41,7 @@ namespace {
 
 constexpr std::string_view kSoftware = "Stilb ";
 
-/// Between 0 and 180 degrees for a perspective, else to 360.
+/// The full angle of view: up to 180 degrees for a perspective, else up to 360.
 double vertical_fov_deg(const Camera& camera) {
     const double aspect = double(camera.resolution[1]) / camera.resolution[0];
     if (camera.projection != Projection::perspective) return camera.fov_deg * aspect;
@@ -82,7 +82,7 @@ std::optional<Projection> projection_of(std::string_view word) {
     return std::nullopt;
 }
 
-/// Radiance's defaults stand for what is not there.
+/// Absent fields have Radiance's defaults.
 std::optional<Camera> read_view(std::string_view words, Projection projection) {
     Camera camera;
     camera.fov_deg = 45;
@@ -100,7 +100,7 @@ std::optional<Camera> read_view(std::string_view words, Projection projection) {
             if (!v) return std::nullopt;
             (word == "-vp" ? camera.position : word == "-vd" ? direction : camera.up) = *v;
         } else if (word == "-vs" || word == "-vl") {
-            // A view that is shifted or lifted off its axis.
+            // A view that is shifted off its axis.
             if (parse_number(next_word(words)).value_or(1) != 0) return std::nullopt;
         }
     }

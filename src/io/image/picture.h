@@ -1,4 +1,4 @@
-// Luminance pictures: what a camera measured, with where it comes from.
+// Luminance pictures of a camera, with their origin.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace stilb::io {
 
-/// How a picture came about. Empty texts and zeros are unknown.
+/// The origin of a picture. Empty texts and zeros stand for unknown values.
 struct PictureOrigin {
     std::string scene;       ///< the file, as the user named it
-    std::string scene_hash;  ///< of what the scene consists of
+    std::string scene_hash;  ///< of the scene file and all files that it refers to
     std::string sensor;
     std::string method;
     std::string command;  ///< the command line
@@ -27,14 +27,14 @@ struct PictureOrigin {
     std::uint64_t paths = 0;
     int replicates = 0;
     double elapsed_s = 0;
-    std::uint64_t patches = 0;  ///< that stand for the surfaces
+    std::uint64_t patches = 0;  ///< that represent the surfaces
     double patch_size_m = 0;    ///< no edge is longer
-    std::string first_shot;     ///< which one stands for small lights
+    std::string first_shot;     ///< the variant that replaces small lights
     bool operator==(const PictureOrigin&) const = default;
 };
 
-/// Pixels go row by row from the top, from left to right. A channel has a value for each pixel, or none at
-/// all where it is optional. NaN says that a pixel has no value.
+/// Pixels row by row from the top, from left to right. A channel has a value for each pixel; an optional
+/// channel may be empty. NaN marks a pixel without a value.
 struct Picture {
     int width = 0, height = 0;
     std::vector<std::array<float, 3>> rgb_cd_m2;  ///< linear Rec. 709
@@ -53,12 +53,12 @@ struct Picture {
     }
 };
 
-/// Whether a reader takes a picture of that size: up to 100 million pixels (1.2 GB in memory), and 100 000
+/// Whether readers accept a picture of this size: up to 100 million pixels (1.2 GB in memory), and 100 000
 /// pixels on a side.
 bool is_readable_size(long long width, long long height);
 std::string too_large_message(long long width, long long height);
 
-/// Throws std::invalid_argument where there are no pixels or a channel's size is not theirs.
+/// Throws std::invalid_argument where there are no pixels, or a channel has another size.
 void require_consistency(const Picture& picture);
 
 /// A picture that is not finished.
@@ -66,7 +66,7 @@ Picture picture_of(const Pixels& pixels, const Camera& camera, const PictureOrig
 /// A finished one, with normals and depth; how it went is added to the origin.
 Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrigin origin);
 
-// What a picture file says about its picture besides the pixels: named texts, the same in all formats.
+// The metadata of a picture file: named texts, the same in all formats.
 
 struct HeaderField {
     std::string name;
@@ -74,15 +74,15 @@ struct HeaderField {
 };
 
 /// Origin (scene, sceneHash, sensor, method, seed, paths, replicates, elapsed_s, patches, patchSize_m,
-/// firstShot, command, software) and view; what is unknown is left out.
+/// firstShot, command, software) and view; unknown values are left out.
 ///
 /// The view is in Radiance's words: VIEW = "-vtv -vp 0 0 1.5 -vd 1 0 0 -vu 0 0 1 -vh 60 -vv 36", with -vtv
 /// for perspective and -vta for an (equiangular) fisheye. Radiance has no equirectangular type (its -vtc is a
-/// perspective upwards), so a panorama has a field PANORAMA without type instead, which Radiance passes over.
+/// perspective upwards), so a panorama has a field PANORAMA without type instead, which Radiance ignores.
 std::vector<HeaderField> header_fields(const Picture& picture);
 
-/// Takes in what header_fields() gave, names in any case; whatever else or out of range is passed over. Width
-/// and height must be known.
+/// Reads the fields of header_fields(), with names in any case; other fields and values out of range are
+/// ignored. Width and height must be set.
 void read_header_field(Picture& picture, std::string_view name, std::string_view text);
 
 }  // namespace stilb::io

@@ -23,7 +23,7 @@ namespace {
 constexpr std::string_view kExrBeginning = "\x76\x2f\x31\x01";
 constexpr std::string_view kHdrBeginning = "#?";
 
-/// The extension in lower case; InputError where no luminance picture can have it.
+/// The extension in lower case. Throws InputError where it belongs to no format of luminance pictures.
 std::string luminance_picture_extension(const std::filesystem::path& path) {
     std::string extension = extension_of(path);
     if (extension != ".exr" && extension != ".hdr" && extension != ".png") {
@@ -70,7 +70,7 @@ Picture read_picture(const std::filesystem::path& path) {
 
 namespace {
 
-/// libpng's sink: the std::string that collects the file.
+/// The output of libpng, a std::string that collects the file.
 void append(png_structp png, png_bytep data, std::size_t length) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), length);
 }
@@ -109,7 +109,7 @@ std::vector<png_byte> pixels_of(const Picture& picture, const ToneCurve& curve) 
     return pixels;
 }
 
-/// What libpng writes; its structs end with it.
+/// The writing state of libpng; its structs are destroyed with it.
 struct Writer {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
@@ -120,7 +120,7 @@ struct Writer {
     ~Writer() { png_destroy_write_struct(&png, &info); }
 };
 
-/// False where libpng fails: it comes back by longjmp, past no object that has a destructor.
+/// Returns false where libpng fails: it returns by longjmp, past no object that has a destructor.
 bool write(const Writer& writer, int width, int height, const png_text* texts, int text_count,
            const png_byte* pixels) {
     if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
@@ -144,7 +144,7 @@ std::string to_png(const Picture& picture, const ToneCurve& curve) {
     const std::vector<png_byte> pixels = pixels_of(picture, curve);
     std::string content;
     const Writer writer;
-    if (writer.info == nullptr) throw std::runtime_error("libpng cannot begin a picture");
+    if (writer.info == nullptr) throw std::runtime_error("libpng cannot create a picture");
     png_set_write_fn(writer.png, &content, append, flush);
     if (!write(writer, picture.width, picture.height, png_texts.data(), static_cast<int>(png_texts.size()),
                pixels.data()))

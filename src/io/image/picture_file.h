@@ -1,4 +1,4 @@
-// Luminance pictures as files, by the ending of their names.
+// Luminance pictures as files; the extension of the name selects the format.
 #pragma once
 
 #include <filesystem>
@@ -11,34 +11,34 @@
 
 namespace stilb::io {
 
-/// Throws InputError where no luminance picture can be written to `path`: another extension than .exr, .hdr
-/// or .png (any case), or a folder that does not exist. For a look before a long computation.
+/// Throws InputError where no luminance picture can be written to `path`: for an extension other than .exr,
+/// .hdr or .png (any case), or a folder that does not exist. For a check before a long computation.
 void require_luminance_picture_path(const std::filesystem::path& path);
 
-/// Writes .exr (exr_file.h), .hdr (hdr_file.h) or .png (png_picture.h); the file changes in one step, so that
-/// a viewer never sees half of it. Returns the curve of a .png, whose exposure may have been chosen. Throws
-/// InputError as above and where the file cannot be written.
+/// Writes .exr (exr_file.h), .hdr (hdr_file.h) or .png (png_picture.h). The file is replaced in one step, so
+/// that a viewer never reads half of it. Returns the tone curve of a .png, whose exposure may have been
+/// chosen automatically. Throws InputError as above and where the file cannot be written.
 std::optional<ToneCurve> write_picture(const Picture& picture, const std::filesystem::path& path,
                                        const ToneOptions& tone = {});
 
 /// Whether the file begins as an OpenEXR or Radiance picture does. Throws InputError where it cannot be read.
 bool is_picture_file(const std::filesystem::path& path);
 
-/// Reads an OpenEXR or Radiance picture, whatever its name. Throws InputError where it is neither, damaged or
+/// Reads an OpenEXR or Radiance picture with any file name. Throws InputError where it is neither, damaged or
 /// too large.
 Picture read_picture(const std::filesystem::path& path);
 
-// OpenEXR pictures. The only file that sees OpenEXR.
+// OpenEXR pictures. Only this implementation includes OpenEXR.
 
-/// The file's content, 32-bit floats without loss: channels R, G, B and Y (luminance) in cd/m2, where the
-/// picture has them SE.Y (standard error of Y), N.X, N.Y, N.Z (normals) and Z (depth [m], as OpenEXR calls
-/// it). The header has whiteLuminance 1 (so values are cd/m2), Rec. 709 chromaticities, and header_fields()
-/// as texts.
+/// The content of a file with 32-bit floats, without loss: channels R, G, B and Y (luminance) in cd/m2, and
+/// as far as the picture has them SE.Y (standard error of Y), N.X, N.Y, N.Z (normals) and Z (depth [m],
+/// OpenEXR's name). The header has whiteLuminance 1 (so values are cd/m2), Rec. 709 chromaticities, and
+/// header_fields() as texts.
 std::string to_exr(const Picture& picture);
 
 /// Reads R, G, B, or Y alone as grey, of any type, and the optional channels that are there. Values are
 /// multiplied by whiteLuminance and converted from other chromaticities where the header has them. `name` is
-/// used in messages. Throws InputError for what is no such picture, damaged or truncated.
+/// used in messages. Throws InputError for other, damaged or truncated files.
 Picture read_exr(std::string_view content, const std::string& name);
 
 // Radiance pictures (.hdr): four bytes a pixel, three mantissas and a common exponent.
@@ -48,20 +48,21 @@ Picture read_exr(std::string_view content, const std::string& name);
 // do so whatever a line PRIMARIES says. Pixels are therefore written in Radiance's own primaries, with Rec.
 // 709 white as its white: luminances come out right in all of them, and grey is grey. EXPOSURE is 1.
 
-/// The file's content: run-length encoded scanlines from the top, with header_fields() (names in capitals).
-/// A component is exact to 1/256 of its pixel's largest one. Colours beyond Radiance's primaries keep their
-/// luminance. Pixels of a luminance that is negative or NaN are black. Optional channels are left out.
+/// The content of a file: run-length encoded scanlines from the top, with header_fields() (names in
+/// capitals). A component is exact to 1/256 of its pixel's largest one. Colours beyond Radiance's primaries
+/// keep their luminance. Pixels of a luminance that is negative or NaN are black. Optional channels are left
+/// out.
 std::string to_hdr(const Picture& picture);
 
 /// Reads run-length encoded scanlines of both kinds and flat ones, of rows from the top and from left to
-/// right; honours EXPOSURE (all lines multiply) and PRIMARIES. `name` is used in messages. Throws InputError
-/// for whatever else, and for what is truncated.
+/// right; applies EXPOSURE (all lines multiply) and PRIMARIES. `name` is used in messages. Throws InputError
+/// for other formats and for truncated files.
 Picture read_hdr(std::string_view content, const std::string& name);
 
-// Pictures as PNG, to look at. The only file that sees libpng: Cairo, which draws everything else, cannot
-// keep notes in a PNG.
+// Tone-mapped pictures as PNG. Only this implementation includes libpng: Cairo, which draws everything else,
+// cannot write text fields into a PNG.
 
-/// The file's content: 8-bit sRGB. Its texts are "Exposure" (per cd/m2), "Tone curve" and header_fields().
+/// The content of a file: 8-bit sRGB. Its texts are "Exposure" (per cd/m2), "Tone curve" and header_fields().
 std::string to_png(const Picture& picture, const ToneCurve& curve);
 
 }  // namespace stilb::io

@@ -63,7 +63,7 @@ namespace {
 
 constexpr double kMiddleGrey = 0.18;
 constexpr double kWhite = 8;
-/// Two stops.
+/// Two stops (a factor of 4).
 constexpr double kMostProtection = 4;
 constexpr double kProtectedShare = 0.99;
 
@@ -72,7 +72,7 @@ std::uint8_t srgb_byte(double linear) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(encoded, 0.0, 1.0)));
 }
 
-/// Mixed with grey as far as all components need to be 0 to 1; the luminance stays.
+/// Mixes the colour with grey until all components are within 0 to 1; the luminance stays.
 Triple within_screen(const Triple& rgb, double luminance) {
     double share = 1;
     for (const double component : rgb) {
@@ -88,7 +88,7 @@ Triple within_screen(const Triple& rgb, double luminance) {
 
 ToneCurve::ToneCurve(double exposure) : exposure_(exposure) {
     if (!(exposure > 0 && std::isfinite(exposure)))
-        throw InputError(fmt::format("an exposure of {} shows nothing. Give a number above 0.", exposure));
+        throw InputError(fmt::format("exposure {}: expected a number above 0", exposure));
 }
 
 std::string ToneCurve::description() const {

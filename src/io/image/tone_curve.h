@@ -1,4 +1,4 @@
-// From luminances to what a screen can show.
+// Tone reproduction: from luminances to the range of a display.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct Oklab {
 
 Oklab to_oklab(const Colour& colour);
 
-/// Components may leave 0 to 1 where sRGB does not have the colour.
+/// Components may leave 0 to 1 where sRGB cannot represent the colour.
 Colour from_oklab(const Oklab& colour);
 
 double distance(const Oklab& first, const Oklab& second);
@@ -39,37 +39,38 @@ double distance(const Oklab& first, const Oklab& second);
 Colour readable_on(const Colour& background);
 
 struct ToneOptions {
-    /// Per cd/m2: a luminance of 0.18 / exposure becomes middle grey. Chosen from the picture where absent.
+    /// The exposure per cd/m2: a luminance of 0.18 / exposure becomes middle grey. Chosen from the picture
+    /// where absent.
     std::optional<double> exposure;
 };
 
 /// Luminance times exposure goes through the curve L (1 + L / W^2) / (1 + L) with W = 8 (Reinhard's global
 /// operator [Reinhard et al. 2002, Photographic tone reproduction for digital images, eq. 4]): nearly linear
-/// in the dark, and white from W on. Hue and saturation stay, but where the screen lacks the colour it is
-/// mixed with grey of the same luminance: what is too bright goes to white.
+/// at low luminances, and white from W on. Hue and saturation stay, except that a colour outside the
+/// display's gamut is mixed with grey of the same luminance: overexposed colours tend to white.
 class ToneCurve {
   public:
     /// Throws InputError where the exposure is not a finite number above 0.
     explicit ToneCurve(double exposure);
 
     double exposure() const { return exposure_; }
-    /// Such as "Reinhard 2002, white at 8 / exposure".
+    /// A description such as "Reinhard 2002, white at 8 / exposure".
     std::string description() const;
 
-    /// Display luminance, 0 to 1; does not decrease; 0 below 0 and for NaN.
+    /// Display luminance, 0 to 1; monotonic; 0 for negative values and for NaN.
     double display_luminance(double luminance_cd_m2) const;
-    /// sRGB. A pixel without value is black.
+    /// The sRGB colour. A pixel without value is black.
     std::array<std::uint8_t, 3> srgb(const std::array<float, 3>& rgb_cd_m2) const;
 
   private:
     double exposure_;
 };
 
-/// Makes the luminances' geometric mean middle grey, 0.18, but less where more than one pixel in a hundred
-/// would be white by that, down to a quarter. 1 for a black picture.
+/// The exposure that makes the geometric mean of the luminances middle grey, 0.18. It is reduced, down to a
+/// quarter, where more than one pixel in a hundred would become white. 1 for a black picture.
 double automatic_exposure(const Picture& picture);
 
-// RGB by other primaries than Rec. 709.
+// RGB with primaries other than Rec. 709.
 
 using Triple = std::array<double, 3>;
 
@@ -77,11 +78,11 @@ using Triple = std::array<double, 3>;
 using Primaries = std::array<std::array<double, 2>, 4>;
 
 inline constexpr Primaries kRec709{{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}}};
-/// Radiance's own, with equal-energy white: its programs weight with 0.265, 0.670, 0.065, which are these
-/// primaries' shares of the luminance.
+/// Radiance's own primaries, with equal-energy white: its programs weight with 0.265, 0.670, 0.065, which are
+/// these primaries' shares of the luminance.
 inline constexpr Primaries kRadiance{{{0.64, 0.33}, {0.29, 0.60}, {0.15, 0.06}, {1.0 / 3, 1.0 / 3}}};
 
-/// Whether three colours with luminance make a basis, so that colours can be converted.
+/// Whether the three primaries span a colour space, so that colours can be converted.
 bool are_usable(const Primaries& primaries);
 
 /// Converts linear RGB between primaries such that luminance is kept and white remains white: X and Z are

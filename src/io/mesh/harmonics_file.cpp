@@ -36,7 +36,7 @@ class Reader {
         } catch (const Json::parse_error& error) {
             const std::size_t end = std::min(error.byte, content.size());
             const auto before = content.substr(0, end);
-            fail("not JSON, so not a surface by spherical harmonics. `stilb fit` writes them.",
+            fail("not JSON, so not a surface by spherical harmonics.",
                  1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')));
         } catch (const Json::out_of_range&) {
             fail("a number is too large for a double");
@@ -93,7 +93,7 @@ class Reader {
     const std::string& name_;
 };
 
-/// The number in its fewest digits; 0 has no sign, as JSON's integers have none.
+/// The number in its fewest digits; 0 has no sign, like JSON's integers.
 template <typename T>
 std::string shortest(T number) {
     return fmt::format("{}", number + T{0});
@@ -114,14 +114,14 @@ HarmonicsFile parse_harmonics(std::string_view content, const std::string& name)
     const Json json = reader.parsed(content);
     if (!json.is_object() || json.value("format", Json()) != Json(kFormat)) {
         reader.fail(
-            fmt::format("JSON, but not a surface by spherical harmonics: there is no \"format\": "
-                        "\"{}\". `stilb fit` writes them.",
+            fmt::format("JSON, but not a surface by spherical harmonics: it lacks \"format\": "
+                        "\"{}\".",
                         kFormat));
     }
     const int version = reader.whole(json, "version");
     if (version != kVersion) {
         reader.fail(
-            fmt::format("it has version {} of the format, and this is Stilb {}, which reads version {}. Fit "
+            fmt::format("the file has version {} of the format, but Stilb {} reads version {}. Fit "
                         "the mesh again.",
                         version, STILB_VERSION, kVersion));
     }

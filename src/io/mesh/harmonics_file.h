@@ -1,4 +1,4 @@
-// Surfaces by spherical harmonics on disk: JSON, docs/fit.md has its keys.
+// Files with surfaces by spherical harmonics: JSON with the keys of docs/fit.md.
 #pragma once
 
 #include <filesystem>
@@ -13,23 +13,24 @@ namespace stilb::io {
 
 /// The surface |x - center| = R((x - center) / |x - center|).
 struct HarmonicsFile {
-    /// Of R, by harmonic_number(); as many as a degree up to kMostHarmonicDegree has.
+    /// The coefficients of R, by harmonic_number(); as many as a degree up to kMostHarmonicDegree has.
     std::vector<double> coefficients;
     Vec3 center;
-    /// What it was made of, and its root mean square error as a share of the mesh's size;
-    /// not needed.
+    /// The file name of the fitted mesh, and the root mean square error as a share of the mesh's size;
+    /// both optional.
     std::string mesh{};
     std::optional<double> rms_error{};
 };
 
-/// Throw InputError naming the file, and what is wrong with it or that it cannot be read. Whether R is above
-/// 0 is for HarmonicSurface to say.
+/// Throw InputError with the file's name where it cannot be read or has wrong contents. HarmonicSurface
+/// checks whether R is above 0.
 HarmonicsFile read_harmonics(const std::filesystem::path& path);
 HarmonicsFile parse_harmonics(std::string_view content, const std::string& name);
 
-/// The file's text: coefficients rounded to single precision, in the fewest digits that tell it.
+/// The text of the file: coefficients rounded to single precision, in the fewest digits that identify the
+/// number.
 std::string to_text(const HarmonicsFile& file);
-/// Throws InputError where the file cannot be written; it changes in one step.
+/// Throws InputError where the file cannot be written. The file is replaced in one step.
 void write_harmonics(const HarmonicsFile& file, const std::filesystem::path& path);
 
 }  // namespace stilb::io

@@ -16,14 +16,14 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
     const std::string extension = extension_of(path);
     if (extension == ".obj") return read_obj(read_whole_file(path), path.string());
     if (extension == ".ply") return read_ply(read_whole_file(path), path.string());
-    throw InputError(fmt::format("the extension {} names no mesh format that is read: use .obj or .ply",
+    throw InputError(fmt::format("the extension {} is not a supported mesh format: use .obj or .ply",
                                  in_quotes(extension)),
                      {path.string()});
 }
 
 namespace {
 
-/// Whether the triangle has no area but for rounding: it is a line or a point.
+/// Whether the triangle has no area beyond rounding, so that it is a line or a point.
 bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
     constexpr double kThinnest = 1e-12;  // height over longest side
     const double longest_squared =
@@ -85,11 +85,12 @@ void MeshBuilder::drop_unused_normals() {
 
 MeshFile MeshBuilder::finish(const std::string& name, std::string_view remedy) && {
     if (file_.mesh.triangles.empty()) {
-        const std::string dropped = file_.degenerate_triangles == 0 ? ""
-                                                                    : fmt::format(" ({} of no area left out)",
-                                                                                  file_.degenerate_triangles);
+        const std::string dropped =
+            file_.degenerate_triangles == 0
+                ? ""
+                : fmt::format(" ({} without area left out)", file_.degenerate_triangles);
         throw InputError(
-            fmt::format("no triangle in the file{}, so there is no surface; {}", dropped, remedy), {name});
+            fmt::format("the file has no triangle{}, so there is no surface; {}", dropped, remedy), {name});
     }
     drop_unused_normals();
     file_.material_names = std::move(materials_).names();

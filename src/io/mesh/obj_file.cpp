@@ -15,13 +15,13 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// Statements that change nothing about surfaces of polygons.
+/// Statements that do not affect polygonal surfaces.
 constexpr std::array kIgnored{
     "vp"sv,       "s"sv,        "mtllib"sv, "l"sv,      "p"sv,          "mg"sv,        "lod"sv,  "bevel"sv,
     "c_interp"sv, "d_interp"sv, "usemap"sv, "maplib"sv, "shadow_obj"sv, "trace_obj"sv, "deg"sv,  "bmat"sv,
     "step"sv,     "cstype"sv,   "ctech"sv,  "stech"sv,  "curv"sv,       "curv2"sv,     "parm"sv, "trim"sv,
     "hole"sv,     "scrv"sv,     "sp"sv,     "end"sv,    "con"sv};
-/// Statements that bring surfaces which this reader cannot make: without them the scene would be another.
+/// Statements with surfaces that this reader does not support: ignoring them would change the scene.
 constexpr std::array kSurfaces{"surf"sv, "fo"sv,  "bzp"sv,  "bsp"sv, "cdc"sv,
                                "cdp"sv,  "res"sv, "call"sv, "csh"sv};
 
@@ -45,8 +45,8 @@ class ObjReader {
   private:
     [[noreturn]] void fail(const std::string& message) const { throw InputError(message, {name_, line_}); }
 
-    /// The next line, with those that a backslash at its end joins to it. A comment is never joined: a path
-    /// in it may well end in a backslash.
+    /// The next line, joined with its continuation lines (a backslash at the end). A comment is never
+    /// continued, because a path in it may well end in a backslash.
     bool next_statement() {
         if (!lines_.next()) return false;
         statement_ = lines_.line();
@@ -58,7 +58,7 @@ class ObjReader {
             joined_ += part.substr(0, part.size() - (goes_on ? 1 : 0));
             joined_ += ' ';
             if (!goes_on) break;
-            if (!lines_.next()) fail("the file ends after a backslash, which says that the line goes on");
+            if (!lines_.next()) fail("the file ends after a backslash, which continues the line");
         }
         statement_ = joined_;
         return true;
@@ -73,17 +73,19 @@ class ObjReader {
         if (word == "g" || word == "o") return builder_.use_group(trimmed(arguments));
         if (contains(kIgnored, word)) return;
         if (contains(kSurfaces, word)) {
-            fail(fmt::format(
-                "the statement {} is not read, and its surface would be missing; export polygons (f) instead",
-                in_quotes(word)));
+            fail(
+                fmt::format("the statement {} is not supported, and its surface would be missing; export "
+                            "polygons (f) instead",
+                            in_quotes(word)));
         }
-        fail(fmt::format(
-            "{} is no OBJ statement (is this a text file in the OBJ format?); allowed are v, f, g, o, usemtl "
-            "and others that are ignored",
-            in_quotes(word)));
+        fail(
+            fmt::format("{} is not an OBJ statement (is this a text file in the OBJ format?); allowed are v, "
+                        "f, g, o, usemtl "
+                        "and others that are ignored",
+                        in_quotes(word)));
     }
 
-    /// Three finite numbers; `what` has them.
+    /// Reads three finite numbers, the coordinates of `what`.
     Vec3 read_triple(std::string_view arguments, std::string_view what, std::string_view form) const {
         std::array<double, 3> triple{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -110,7 +112,7 @@ class ObjReader {
         builder_.add_polygon(corners_, normals_);
     }
 
-    /// What a word of a face names: v, v/vt, v//vn or v/vt/vn.
+    /// The indices in a word of a face: v, v/vt, v//vn or v/vt/vn.
     void read_corner(std::string_view word) {
         std::array<std::string_view, 3> parts;
         std::string_view rest = word;
@@ -130,7 +132,7 @@ class ObjReader {
                                : index(word, parts[2], "normal", "normals", builder_.normal_count()));
     }
 
-    /// From 0, of a part of a face's corner.
+    /// The index from 0 of a part of a face's corner.
     std::uint32_t index(std::string_view word, std::string_view part, std::string_view one,
                         std::string_view many, std::size_t how_many) const {
         const auto index = parse_integer(part);
@@ -161,7 +163,7 @@ class ObjReader {
     MeshBuilder builder_;
 };
 
-/// Throws where a byte is of no text: binary files, and text of two bytes a character.
+/// Throws for bytes that are not text: binary files, and text with two bytes a character.
 void check_text(std::string_view content, const std::string& name) {
     const auto is_wrong = [](char c) {
         return static_cast<unsigned char>(c) < ' ' && (c < '\t' || c > '\r');
@@ -171,7 +173,7 @@ void check_text(std::string_view content, const std::string& name) {
     const auto line = static_cast<std::size_t>(std::count(content.begin(), wrong, '\n')) + 1;
     throw InputError(
         fmt::format(
-            "byte 0x{:02x} is not text, so this is no OBJ file; it must be plain text (ASCII or UTF-8)",
+            "byte 0x{:02x} is not text, so this is not an OBJ file; it must be plain text (ASCII or UTF-8)",
             static_cast<unsigned char>(*wrong)),
         {name, line});
 }

@@ -44,18 +44,13 @@ constexpr std::array kFormats{"ascii"sv, "binary_little_endian"sv, "binary_big_e
 constexpr std::array kStatements{"format"sv,  "element"sv,  "property"sv,
                                  "comment"sv, "obj_info"sv, "end_header"sv};
 
-/// "; did you mean NAME?", where one is near.
-std::string suggestion(std::string_view found, std::span<const std::string_view> allowed) {
-    const std::string nearest = nearest_name(found, allowed);
-    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
-}
-
 class HeaderReader {
   public:
     HeaderReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
 
     PlyHeader read() && {
-        if (!lines_.next() || lines_.line() != "ply") fail("this is no PLY file: the first line must be ply");
+        if (!lines_.next() || lines_.line() != "ply")
+            fail("this is not a PLY file: the first line must be ply");
         while (lines_.next()) {
             rest_ = lines_.line();
             const std::string_view word = next_word(rest_);
@@ -76,17 +71,17 @@ class HeaderReader {
         if (word == "property") return read_property();
         if (word == "comment" || word == "obj_info" || word.empty()) return;
         fail(fmt::format(
-            "the header says {}; allowed are format, element, property, comment, obj_info and end_header{}",
-            in_quotes(word), suggestion(word, kStatements)));
+            "the header says {}; allowed are format, element, property, comment, obj_info and end_header.{}",
+            in_quotes(word), did_you_mean(word, kStatements)));
     }
 
     void read_format() {
         const std::string_view format = next_word(rest_), version = next_word(rest_);
         const auto found = std::find(kFormats.begin(), kFormats.end(), format);
         if (found == kFormats.end()) {
-            fail(
-                fmt::format("the format is {}; it must be ascii, binary_little_endian or binary_big_endian{}",
-                            in_quotes(format), suggestion(format, kFormats)));
+            fail(fmt::format(
+                "the format is {}; it must be ascii, binary_little_endian or binary_big_endian.{}",
+                in_quotes(format), did_you_mean(format, kFormats)));
         }
         if (version != "1.0")
             fail(fmt::format("the format's version is {}; it must be 1.0", in_quotes(version)));
@@ -143,8 +138,8 @@ class HeaderReader {
             fail(
                 fmt::format("the property's type is {}; allowed are char, uchar, short, ushort, int, uint, "
                             "float, double, "
-                            "and int8 to float64{}",
-                            in_quotes(name), suggestion(name, names)));
+                            "and int8 to float64.{}",
+                            in_quotes(name), did_you_mean(name, names)));
         }
         return kScalars[static_cast<std::size_t>(found - names.begin())].scalar;
     }
@@ -176,8 +171,8 @@ PlyHeader read_ply_header(std::string_view content, const std::string& name) {
 
 namespace {
 
-/// Where the reader stands, for messages.
-struct Place {
+/// The position of the reader, for messages.
+struct Location {
     const std::string& file;
     const PlyElement* element = nullptr;
     std::uint64_t row = 0;
@@ -190,38 +185,40 @@ struct Place {
     }
 };
 
-/// Whether a value of a body can count or number something: no type that PLY has for that goes further.
+/// Whether a value can be a count or an index: PLY's integer types have no larger range.
 bool is_index(double value) {
     return value >= 0 && value <= std::numeric_limits<std::uint32_t>::max() && value == std::floor(value);
 }
 
-/// Values written as text: each row of an element stands on a line of its own.
+/// Values as text: each row of an element has a line of its own.
 class TextBody {
   public:
-    TextBody(const PlyHeader& header, Place& place) : lines_(header.body, header.body_line), place_(place) {}
+    TextBody(const PlyHeader& header, Location& location)
+        : lines_(header.body, header.body_line), location_(location) {}
 
     std::string_view rest() const { return lines_.rest(); }
-    /// The fewest bytes that a row's part can take: a digit and a blank or line end.
+    /// The fewest bytes of a value in a row: a digit and a blank or line end.
     static std::size_t least_size(const PlyProperty&) { return 2; }
 
     void begin_row() {
         do {
-            if (!lines_.next()) place_.fail("the file ends too early: it is cut off, or the count is wrong");
+            if (!lines_.next())
+                location_.fail("the file ends too early: it is cut off, or the count is wrong");
             row_ = lines_.line();
-            place_.line = lines_.number();
+            location_.line = lines_.number();
         } while (row_.find_first_not_of(" \t") == row_.npos);
     }
     void end_row() {
         const std::string_view word = next_word(row_);
         if (word.empty()) return;
-        place_.fail(
+        location_.fail(
             fmt::format("{} follows the last value; each row needs a line of its own", in_quotes(word)));
     }
 
     double read(PlyScalar) {
         const std::string_view word = next_value();
         const auto value = parse_number(word);
-        if (!value) place_.fail(fmt::format("{} stands where a finite number must be", in_quotes(word)));
+        if (!value) location_.fail(fmt::format("{} stands where a finite number must be", in_quotes(word)));
         return *value;
     }
     void skip(PlyScalar, std::size_t count) {
@@ -232,19 +229,19 @@ class TextBody {
     std::string_view next_value() {
         const std::string_view word = next_word(row_);
         if (word.empty())
-            place_.fail("the line ends too early; it needs all values that the header declares");
+            location_.fail("the line ends too early; it needs all values that the header declares");
         return word;
     }
 
     TextLines lines_;
-    Place& place_;
-    std::string_view row_;  // what is left of it
+    Location& location_;
+    std::string_view row_;  // the unread rest of the row
 };
 
 template <std::endian order>
 class BinaryBody {
   public:
-    BinaryBody(const PlyHeader& header, const Place& place) : rest_(header.body), place_(place) {}
+    BinaryBody(const PlyHeader& header, const Location& location) : rest_(header.body), location_(location) {}
 
     std::string_view rest() const { return rest_; }
     static std::size_t least_size(const PlyProperty& property) {
@@ -282,7 +279,7 @@ class BinaryBody {
 
   private:
     [[noreturn]] void fail_short() const {
-        place_.fail("the file ends too early: it is cut off, or the count is wrong");
+        location_.fail("the file ends too early: it is cut off, or the count is wrong");
     }
 
     template <class Number>
@@ -296,18 +293,18 @@ class BinaryBody {
     }
 
     std::string_view rest_;
-    const Place& place_;
+    const Location& location_;
 };
 
 template <class Body>
 class PlyReader {
   public:
     PlyReader(const PlyHeader& header, const std::string& name)
-        : header_(header), place_{name}, body_(header, place_) {}
+        : header_(header), location_{name}, body_(header, location_) {}
 
     MeshFile read() && {
         for (const PlyElement& element : header_.elements) {
-            place_.element = &element;
+            location_.element = &element;
             check_count(element);
             if (element.name == "vertex") {
                 read_vertices(element);
@@ -322,16 +319,16 @@ class PlyReader {
         }
         check_end();
         return std::move(builder_).finish(
-            place_.file, "a PLY file needs an element vertex and an element face (or tristrips)");
+            location_.file, "a PLY file needs an element vertex and an element face (or tristrips)");
     }
 
   private:
     [[noreturn]] void fail_declaration(const PlyElement& element, const std::string& message) const {
         throw InputError(fmt::format("the element {} {}", element.name, message),
-                         {place_.file, element.line});
+                         {location_.file, element.line});
     }
 
-    /// A count that the file cannot hold must become neither an allocation nor a loop.
+    /// Refuses counts that exceed the file's size, before any allocation or loop.
     void check_count(const PlyElement& element) const {
         if (element.count == 0) return;
         if (element.properties.empty()) fail_declaration(element, "has rows but no property; it needs one");
@@ -341,7 +338,7 @@ class PlyReader {
             body_.rest().size() + 1;  // the last line of a text may do without its end
         if (element.count > bytes_left / row_size) {
             fail_declaration(element,
-                             fmt::format("is to have {} rows of at least {} bytes, but {} bytes are left; "
+                             fmt::format("needs {} rows of at least {} bytes, but {} bytes are left; "
                                          "the count is wrong or the file is cut off",
                                          element.count, row_size, body_.rest().size()));
         }
@@ -354,14 +351,14 @@ class PlyReader {
             fmt::format("{} bytes follow the last row that the header declares; its counts are wrong "
                         "or the file is damaged",
                         rest.size()),
-            {place_.file});
+            {location_.file});
     }
 
     /// `read_property(i)` takes a row's values of property i off the body; `use_row()` is called at the row's
     /// end.
     template <class ReadProperty, class UseRow>
     void read_rows(const PlyElement& element, ReadProperty read_property, UseRow use_row) {
-        for (place_.row = 0; place_.row < element.count; ++place_.row) {
+        for (location_.row = 0; location_.row < element.count; ++location_.row) {
             body_.begin_row();
             for (std::size_t i = 0; i < element.properties.size(); ++i) read_property(i);
             body_.end_row();
@@ -376,13 +373,13 @@ class PlyReader {
     std::size_t read_length(const PlyProperty& list) {
         const double length = body_.read(*list.count_type);
         if (!is_index(length)) {
-            place_.fail(fmt::format("the list {} has the length {}; it must be a whole number, 0 or more",
-                                    list.name, length));
+            location_.fail(fmt::format("the list {} has the length {}; it must be a whole number, 0 or more",
+                                       list.name, length));
         }
         return static_cast<std::size_t>(length);
     }
 
-    /// The number of the property of this name, no list.
+    /// The index of the scalar property of this name.
     static std::optional<std::size_t> scalar_named(const PlyElement& element, std::string_view name) {
         const auto has_name = [&](const PlyProperty& p) { return p.name == name && !p.is_list(); };
         const auto found = std::find_if(element.properties.begin(), element.properties.end(), has_name);
@@ -393,7 +390,7 @@ class PlyReader {
     void read_vertices(const PlyElement& element) {
         constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"}, kNormals{"nx", "ny", "nz"};
         std::array<double, 3> position{}, normal{};
-        std::vector<double*> targets(element.properties.size(), nullptr);  // null: to be skipped
+        std::vector<double*> targets(element.properties.size(), nullptr);  // null: skipped
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto property = scalar_named(element, kAxes[axis]);
             if (!property)
@@ -410,8 +407,8 @@ class PlyReader {
             if (targets[i] == nullptr) return skip(property);
             const double value = body_.read(property.type);
             if (!is_coordinate(value)) {
-                place_.fail(fmt::format("{} is {}; it must be a finite number, at most 1e30 in size",
-                                        property.name, value));
+                location_.fail(fmt::format("{} is {}; it must be a finite number, at most 1e30 in size",
+                                           property.name, value));
             }
             *targets[i] = value;
         };
@@ -422,7 +419,7 @@ class PlyReader {
         });
     }
 
-    /// Rows with a list of vertex numbers, which `use_list()` finds in list_.
+    /// Reads rows with a list of vertex indices into list_, and calls `use_list()` for each.
     template <class UseList>
     void read_lists(const PlyElement& element, UseList use_list) {
         const auto is_vertex_list = [](const PlyProperty& p) {
@@ -447,7 +444,7 @@ class PlyReader {
 
     void add_face() {
         if (list_.size() < 3)
-            place_.fail(fmt::format("the face has {} corners; it needs three or more", list_.size()));
+            location_.fail(fmt::format("the face has {} corners; it needs three or more", list_.size()));
         corners_.clear();
         for (const double number : list_) corners_.push_back(vertex_index(number));
         builder_.add_polygon(corners_);
@@ -474,13 +471,13 @@ class PlyReader {
     std::uint32_t vertex_index(double number) const {
         const auto last = static_cast<double>(builder_.vertex_count() - 1);
         if (!is_index(number) || number > last)
-            place_.fail(
+            location_.fail(
                 fmt::format("the vertex number is {}; it must be a whole number from 0 to {}", number, last));
         return static_cast<std::uint32_t>(number);
     }
 
     const PlyHeader& header_;
-    Place place_;
+    Location location_;
     Body body_;
     MeshBuilder builder_;
     std::vector<double> list_;

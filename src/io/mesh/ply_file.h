@@ -1,4 +1,4 @@
-// The header of a PLY file: what follows it, and how it is written.
+// The header of a PLY file and its body's format.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ enum class PlyFormat { ascii, binary_little_endian, binary_big_endian };
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    std::string_view body;  ///< all that follows the header
+    std::string_view body;  ///< everything after the header
     std::size_t body_line = 0;
 };
 

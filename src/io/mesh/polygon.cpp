@@ -20,8 +20,8 @@ double turn(const Point& a, const Point& b, const Point& c) {
 
 double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-/// Twice the polygon's area times its normal [Newell], from the first corner: far from the origin it stays
-/// exact.
+/// Twice the polygon's area times its normal [Newell], computed from the first corner, so that it stays exact
+/// far from the origin.
 Vec3 area_vector(const std::vector<Vec3>& polygon) {
     Vec3 sum;
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
@@ -77,21 +77,22 @@ class EarClipper {
         bool operator==(const Links&) const = default;
     };
 
-    /// Relative to the polygon's size, what counts as on a line.
+    /// The tolerance for collinear points, relative to the polygon's size.
     static constexpr double kTolerance = 1e-12;
     static constexpr Links kCut{0, 0};
 
     bool is_cut(std::uint32_t i) const { return links_[i] == kCut; }
 
-    /// Not so straight corners: one that is cut off leaves a T junction, where light leaks at the neighbour.
+    /// Prefers corners that are not straight: clipping a straight one leaves a T junction, where light leaks
+    /// at the neighbour.
     bool is_convex(std::uint32_t i) const {
         const auto [previous, next] = links_[i];
         const Point &a = points_[previous], &b = points_[i], &c = points_[next];
         return turn(a, b, c) > kTolerance * distance(a, c);
     }
 
-    /// On the triangle, its border included, but not at a corner: corners coincide where a slit leads to a
-    /// hole.
+    /// Whether a point is on the triangle or its border, but not at a corner: corners coincide where a slit
+    /// leads to a hole.
     bool is_covered(const Point& p, const std::array<Point, 3>& triangle) const {
         for (std::size_t i = 0; i < 3; ++i) {
             const Point &a = triangle[i], &b = triangle[(i + 1) % 3];

@@ -1,4 +1,4 @@
-// EULUMDAT (Stockmar 1990): one value a line.
+// EULUMDAT [Stockmar 1990]: one value per line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class FieldReader {
         const auto value = parse_number(with_point);
         if (!value) {
             throw InputError(
-                fmt::format("{} is not a number: the {} should stand here", in_quotes(found), what), here());
+                fmt::format("{} is not a number: the {} is expected here", in_quotes(found), what), here());
         }
         return *value;
     }
@@ -41,8 +41,7 @@ class FieldReader {
         const double value = number(what);
         if (!(value > 0)) {
             throw InputError(
-                fmt::format("the {} is {}: the intensities are multiplied by it, it must be above 0", what,
-                            value),
+                fmt::format("the {} is {}: this factor of the intensities must be above 0", what, value),
                 here());
         }
         return value;
@@ -51,14 +50,14 @@ class FieldReader {
     int whole_number(std::string_view what, int least, int greatest) {
         const double value = number(what);
         if (value != std::floor(value) || value < least || value > greatest) {
-            throw InputError(fmt::format("the {} is {}: a whole number from {} to {} is wanted", what, value,
-                                         least, greatest),
+            throw InputError(fmt::format("the {} is {}: a whole number from {} to {} is required", what,
+                                         value, least, greatest),
                              here());
         }
         return static_cast<int>(value);
     }
 
-    /// How many lines or groups of lines follow: no more than the file has.
+    /// The number of lines or groups of lines that follow: at most as many as the file has.
     std::size_t count(std::string_view what) {
         const int greatest = static_cast<int>(std::min<std::size_t>(lines_.size(), 100'000'000));
         return static_cast<std::size_t>(whole_number(what, 1, greatest));
@@ -67,7 +66,7 @@ class FieldReader {
     std::vector<LocatedNumber> numbers(std::size_t count, std::string_view what) {
         if (count > lines_.size() - next_) {
             throw InputError(
-                fmt::format("the file ends too early: {} lines are wanted for the {}, {} are left", count,
+                fmt::format("the file ends too early: {} lines are required for the {}, {} are left", count,
                             what, lines_.size() - next_),
                 {file_, lines_.size()});
         }
@@ -87,7 +86,7 @@ class FieldReader {
         for (; next_ < lines_.size(); ++next_) {
             if (const std::string_view rest = trimmed(lines_[next_]); !rest.empty()) {
                 throw InputError(
-                    fmt::format("{} stands after the last intensity: the numbers of planes and angles allow "
+                    fmt::format("{} follows the last intensity: the numbers of planes and angles allow "
                                 "for no more",
                                 in_quotes(rest)),
                     {file_, next_ + 1});
@@ -96,7 +95,7 @@ class FieldReader {
     }
 
     const std::string& file() const { return file_; }
-    /// Of the line read last.
+    /// The position of the line read last.
     SourceLocation here() const { return {file_, next_}; }
 
   private:
@@ -105,10 +104,10 @@ class FieldReader {
     std::size_t next_ = 0;
 };
 
-/// Isym of the file.
+/// Isym, the symmetry indicator of the file.
 enum class Symmetry { None, Axis, PlaneC0, PlaneC90, BothPlanes };
 
-/// The planes whose intensities the file has: those of a full turn from plane `first` on, round and round.
+/// The planes with stored intensities: those of a full turn from plane `first` on, cyclically.
 struct StoredPlanes {
     std::size_t first, count;
 };
@@ -141,12 +140,11 @@ std::vector<double> angles_of_stored(const std::vector<double>& turn, Symmetry s
     const double first = symmetry == Symmetry::PlaneC90 ? 270 : 0;
     const double last = symmetry == Symmetry::BothPlanes ? 90 : first + 180;
     if (!same_angle(angles.front(), first) || !same_angle(angles.back(), last)) {
-        throw InputError(
-            fmt::format("symmetry {} stores {} of {} planes, here those of C{} to C{}: they should run "
-                        "from C{} to C{}",
-                        static_cast<int>(symmetry), stored.count, turn.size(), angles.front(), angles.back(),
-                        first, last),
-            where);
+        throw InputError(fmt::format("symmetry {} stores {} of {} planes, here C{} to C{}: they should run "
+                                     "from C{} to C{}",
+                                     static_cast<int>(symmetry), stored.count, turn.size(), angles.front(),
+                                     angles.back(), first, last),
+                         where);
     }
     return angles;
 }
@@ -168,7 +166,7 @@ void unfold(PhotometricSolid::Grid& grid, Symmetry symmetry) {
     if (grid.planes_deg.size() > 1) close_circle(grid);
 }
 
-/// Metres; a round opening has a diameter and no width.
+/// The luminous opening in metres; a round opening has a diameter and no width.
 Vec3 read_opening(FieldReader& reader) {
     const double length = reader.number("length of the luminous area") / 1000;
     const double width = reader.number("width of the luminous area") / 1000;
@@ -185,7 +183,7 @@ struct LampSet {
     double flux_lm = 0;
 };
 
-/// The first set of lamps; others are what else fits into the luminaire.
+/// The first set of lamps; the further sets are alternatives.
 LampSet read_lamp_sets(FieldReader& reader, std::vector<std::string>& warnings) {
     constexpr std::size_t kLinesPerSet = 6;
     const std::size_t sets = reader.count("number of sets of lamps");
@@ -214,7 +212,7 @@ PhotometryFile read_eulumdat(std::string_view content, const std::string& name) 
     const std::size_t planes = reader.count("number of C planes");
     reader.number("distance between C planes");
     const std::size_t rings = reader.count("number of intensities in each C plane");
-    if (rings < 2) throw InputError("one intensity in each plane: two or more are needed", reader.here());
+    if (rings < 2) throw InputError("each plane has one intensity: two or more are required", reader.here());
     reader.number("distance between the intensities of a C plane");
     reader.skip(1, "number of the measurement report");
     file.luminaire = printable(reader.text("luminaire name"));
@@ -231,10 +229,10 @@ PhotometryFile read_eulumdat(std::string_view content, const std::string& name) 
     }
     const double conversion = reader.positive_number("conversion factor for luminous intensities");
     if (const double tilt = reader.number("tilt of the luminaire during measurement"); tilt != 0) {
-        file.warnings.push_back(
-            fmt::format("the luminaire was tilted by {} degrees during the measurement: gamma = 0 is the "
-                        "file's, not turned back",
-                        tilt));
+        file.warnings.push_back(fmt::format(
+            "the luminaire was tilted by {} degrees during the measurement: the angles are used as the "
+            "file gives them, without correction",
+            tilt));
     }
     const LampSet lamps = read_lamp_sets(reader, file.warnings);
     file.absolute = lamps.absolute;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMetresPerFoot = 0.3048;
 
-/// The numbers below the TILT line: separated by blanks, commas and line ends, wherever those fall.
+/// The numbers below the TILT line: separated by blanks, commas and line ends in any order.
 class NumberReader {
   public:
     NumberReader(const std::vector<std::string_view>& lines, std::size_t first, std::string file)
@@ -38,15 +38,15 @@ class NumberReader {
     int whole_number(std::string_view what, int least, int greatest) {
         const auto [value, line] = located_number(what);
         if (value != std::floor(value) || value < least || value > greatest) {
-            throw InputError(fmt::format("the {} is {}: a whole number from {} to {} is wanted", what, value,
-                                         least, greatest),
+            throw InputError(fmt::format("the {} is {}: a whole number from {} to {} is required", what,
+                                         value, least, greatest),
                              {file_, line});
         }
         return static_cast<int>(value);
     }
 
-    /// How many numbers follow: at least one and, before anything is set aside for them, no more than there
-    /// are.
+    /// The number of values that follow: at least one and, so that no memory is reserved for missing values,
+    /// at most as many as the file still has.
     std::size_t count(std::string_view what) {
         const int greatest = static_cast<int>(std::min<std::size_t>(words_.size(), 100'000'000));
         return static_cast<std::size_t>(whole_number(what, 1, std::max(greatest, 1)));
@@ -55,7 +55,7 @@ class NumberReader {
     std::vector<LocatedNumber> numbers(std::size_t count, std::string_view what) {
         if (count > left()) {
             throw InputError(
-                fmt::format("the file ends too early: {} numbers are wanted for the {}, {} are left", count,
+                fmt::format("the file ends too early: {} numbers are required for the {}, {} are left", count,
                             what, left()),
                 {file_, last_line_});
         }
@@ -66,15 +66,14 @@ class NumberReader {
 
     void expect_end() const {
         if (left() == 0) return;
-        throw InputError(
-            fmt::format("{} more numbers than the counts of angles allow for, from {} on: either a "
-                        "count is wrong or an intensity is one too many",
-                        left(), in_quotes(words_[next_].text)),
-            {file_, words_[next_].line});
+        throw InputError(fmt::format("{} numbers more than the counts of angles allow, from {} on: either a "
+                                     "count is wrong or there are surplus intensities",
+                                     left(), in_quotes(words_[next_].text)),
+                         {file_, words_[next_].line});
     }
 
     const std::string& file() const { return file_; }
-    /// Of the number read last.
+    /// The position of the number read last.
     SourceLocation here() const { return {file_, next_ > 0 ? words_[next_ - 1].line : last_line_}; }
 
   private:
@@ -95,7 +94,7 @@ class NumberReader {
         const auto value = parse_number(word.text);
         if (!value) {
             throw InputError(
-                fmt::format("{} is not a number: the {} should stand here", in_quotes(word.text), what),
+                fmt::format("{} is not a number: the {} is expected here", in_quotes(word.text), what),
                 {file_, word.line});
         }
         return {*value, word.line};
@@ -107,7 +106,7 @@ class NumberReader {
     std::size_t next_ = 0;
 };
 
-/// The year of LM-63 that the first line names; files of 1986 have no such line.
+/// The year of the LM-63 version in the first line; files of 1986 have no such line.
 int read_year(std::string_view first_line, const std::string& name) {
     const std::string_view line = trimmed(first_line);
     constexpr std::array<std::pair<std::string_view, int>, 8> kHeaders{{{"IESNA91", 1991},
@@ -122,15 +121,15 @@ int read_year(std::string_view first_line, const std::string& name) {
         if (line == header) return year;
     }
     if (line.starts_with("IESNA:") || line.starts_with("IES:")) {
-        throw InputError(fmt::format("{} is no version of LM-63 that is known: IESNA91, IESNA:LM-63-1995, "
-                                     "IESNA:LM-63-2002 and IES:LM-63-2019 are, and none means 1986",
+        throw InputError(fmt::format("{} is not a known version of LM-63. Known: IESNA91, IESNA:LM-63-1995, "
+                                     "IESNA:LM-63-2002 and IES:LM-63-2019; a file of 1986 names no version",
                                      in_quotes(line)),
                          {name, 1});
     }
     return 1986;
 }
 
-/// From the keywords LUMINAIRE and MANUFAC; in 1986 the first line is the name.
+/// The name from the keywords LUMINAIRE and MANUFAC; in files of 1986 from the first line.
 std::string read_name(const std::vector<std::string_view>& lines, std::size_t tilt_line, int year) {
     std::string luminaire, manufacturer;
     const auto take = [](std::string_view line, std::string_view keyword, std::string& text) {
@@ -145,8 +144,8 @@ std::string read_name(const std::vector<std::string_view>& lines, std::size_t ti
     return luminaire + ", " + manufacturer;
 }
 
-/// How the lamp's output changes as the luminaire is tilted out of the position of the measurement: checked,
-/// not used.
+/// The dependence of the lamp's output on the tilt of the luminaire against the measured position: checked,
+/// but not used.
 void skip_included_tilt(NumberReader& reader) {
     reader.whole_number("lamp-to-luminaire geometry of TILT", 1, 3);
     const std::size_t pairs = reader.count("number of TILT angles");
@@ -165,7 +164,7 @@ void read_tilt(std::string_view tilt, NumberReader& reader, std::vector<std::str
     if (tilt.empty()) throw InputError("TILT= must be NONE, INCLUDE or the name of a file", reader.here());
     if (tilt == "INCLUDE") skip_included_tilt(reader);
     warnings.push_back(fmt::format(
-        "TILT={}: the lamp's output depends on how the luminaire is tilted; that is left out, the "
+        "TILT={}: the dependence of the lamp's output on the tilt of the luminaire is ignored; the "
         "intensities are those of the measured position",
         printable(tilt)));
 }
@@ -196,10 +195,11 @@ Header read_header(NumberReader& reader, int year, std::vector<std::string>& war
     header.lamps = reader.whole_number("number of lamps", 0, 1'000'000);
     header.lumens_per_lamp = reader.number("lumens per lamp");
     if (header.lumens_per_lamp < 0 && header.lumens_per_lamp != -1) {
-        throw InputError(fmt::format("the lumens per lamp are {}: a flux is not negative, and -1 alone means "
-                                     "absolute photometry",
-                                     header.lumens_per_lamp),
-                         reader.here());
+        throw InputError(
+            fmt::format("the lumens per lamp are {}: a flux cannot be negative, and only -1 means "
+                        "absolute photometry",
+                        header.lumens_per_lamp),
+            reader.here());
     }
     header.multiplier = read_factor(reader, "candela multiplier");
     header.vertical_angles = reader.count("number of vertical angles");
@@ -220,15 +220,15 @@ Header read_header(NumberReader& reader, int year, std::vector<std::string>& war
     } else if (const double reserved = reader.number("number after the ballast factor");
                year < 2019 && reserved != 1) {
         warnings.push_back(
-            fmt::format("the number after the ballast factor is {}: LM-63-{} reserves it, so that it "
-                        "is not taken for a factor",
+            fmt::format("the number after the ballast factor is {}: LM-63-{} reserves it, so it "
+                        "is not applied as a factor",
                         reserved, year));
     }
     reader.number("input watts");
     return header;
 }
 
-/// Type C: a quarter, half or whole turn of planes, or one for all.
+/// Type C: planes over a quarter, half or whole turn, or one plane for all.
 void unfold_turn(PhotometricSolid::Grid& grid, const SourceLocation& where) {
     const auto& planes = grid.planes_deg;
     if (planes.size() == 1) return;
@@ -236,7 +236,7 @@ void unfold_turn(PhotometricSolid::Grid& grid, const SourceLocation& where) {
     if (same_angle(first, 0) && same_angle(last, 90)) mirror_at_last_plane(grid);
     const double turn = planes.back() - first;
     const bool half = same_angle(turn, 180) && same_angle(std::fmod(first, 90), 0);
-    // Some programs leave out the plane at 360.
+    // Some programs omit the plane at 360.
     const bool open = same_angle(first, 0) && same_angle(360 - last, last - planes[planes.size() - 2]);
     if (half) {
         mirror_at_last_plane(grid);
@@ -244,7 +244,7 @@ void unfold_turn(PhotometricSolid::Grid& grid, const SourceLocation& where) {
         close_circle(grid);
     } else {
         throw InputError(
-            fmt::format("the horizontal angles run from {} to {}: type C knows 0 alone, 0 to 90, 0 to "
+            fmt::format("the horizontal angles run from {} to {}: type C allows 0 alone, 0 to 90, 0 to "
                         "180, 90 to 270 and 0 to 360",
                         first, last),
             where);
@@ -254,11 +254,11 @@ void unfold_turn(PhotometricSolid::Grid& grid, const SourceLocation& where) {
 /// Types A and B: horizontal angles from 0 on are mirrored at 0.
 void unfold_sides(PhotometricSolid::Grid& grid, const SourceLocation& where) {
     if (grid.planes_deg.size() < 2) {
-        throw InputError("one horizontal angle: types A and B need at least two", where);
+        throw InputError("there is one horizontal angle: types A and B require at least two", where);
     }
     if (grid.planes_deg.front() > 0) {
         throw InputError(
-            fmt::format("the horizontal angles start at {}: types A and B start at 0 (both sides alike) "
+            fmt::format("the horizontal angles start at {}: types A and B start at 0 (symmetric) "
                         "or below",
                         grid.planes_deg.front()),
             where);
@@ -266,7 +266,7 @@ void unfold_sides(PhotometricSolid::Grid& grid, const SourceLocation& where) {
     if (same_angle(grid.planes_deg.front(), 0)) mirror_at_first_plane(grid);
 }
 
-/// In type B the vertical angles are those that turn about an axis.
+/// In type B the vertical angles are those of the rotation about an axis.
 PhotometricSolid::Grid transposed(const PhotometricSolid::Grid& grid) {
     PhotometricSolid::Grid result{grid.type, grid.polar_deg, grid.planes_deg, {}};
     const std::size_t rings = grid.polar_deg.size();
@@ -287,7 +287,7 @@ PhotometricSolid::Grid read_grid(NumberReader& reader, const Header& header) {
                           : header.type == lights::PhotometryType::B ? Limits{-90, 90, -180, 180}
                                                                      : Limits{-90, 360, 0, 180};
     if (header.vertical_angles < 2) {
-        throw InputError("one vertical angle: intensities at two or more are needed", reader.here());
+        throw InputError("there is one vertical angle: two or more are required", reader.here());
     }
     PhotometricSolid::Grid grid;
     grid.type = header.type;
@@ -317,7 +317,7 @@ PhotometryFile read_ies(std::string_view content, const std::string& name) {
     const auto tilt = std::find_if(lines.begin(), lines.end(),
                                    [&](std::string_view line) { return trimmed(line).starts_with(kTilt); });
     if (tilt == lines.end()) {
-        throw InputError("has no line TILT=, which every IES file has before its numbers",
+        throw InputError("the line TILT= is missing; every IES file has it before its numbers",
                          {name, lines.size()});
     }
     const auto tilt_line = static_cast<std::size_t>(tilt - lines.begin());

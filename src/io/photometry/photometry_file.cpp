@@ -13,7 +13,7 @@ namespace {
 
 bool is_tilt_line(std::string_view line) { return trimmed(line).starts_with("TILT="); }
 
-/// EULUMDAT starts with a name, then four lines of one number each.
+/// EULUMDAT begins with a name, then four lines of one number each.
 bool looks_like_eulumdat(const std::vector<std::string_view>& lines) {
     if (lines.size() < 5) return false;
     return std::all_of(lines.begin() + 1, lines.begin() + 4,
@@ -31,7 +31,8 @@ PhotometryFile read_photometry(std::string_view content, const std::string& name
     if (std::any_of(lines.begin(), lines.end(), is_tilt_line)) return read_ies(content, name);
     if (looks_like_eulumdat(lines)) return read_eulumdat(content, name);
     throw InputError(
-        "is neither IES LM-63 (which has a line that starts with TILT=) nor EULUMDAT (whose lines 2 to 4 are "
+        "not a luminaire file: neither IES LM-63 (which has a line that starts with TILT=) nor EULUMDAT "
+        "(whose lines 2 to 4 are "
         "numbers)",
         {name, 0});
 }

@@ -8,12 +8,12 @@
 namespace stilb::io {
 namespace {
 
-/// No luminaire comes near: a laser of a watt with a divergence of a milliradian has 1e9 cd.
+/// The largest credible intensity: a laser of a watt with a divergence of a milliradian has 1e9 cd.
 constexpr double kGreatestIntensityCd = 1e12;
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
-/// Length of the UTF-8 sequence at the start of `text`; 0 where there is none, or a control character of two
+/// Length of the UTF-8 sequence at the start of `text`; 0 for an invalid one, or a control character of two
 /// bytes.
 std::size_t utf8_length(std::string_view text) {
     const auto lead = static_cast<unsigned char>(text[0]);
@@ -76,9 +76,9 @@ std::vector<double> checked_angles(const std::vector<LocatedNumber>& numbers, st
                              {file, line});
         }
         if (!angles.empty() && angle - angles.back() < PhotometricSolid::kSmallestStepDeg) {
-            throw InputError(fmt::format("{} {} follows {}: the angles must increase strictly", what, angle,
-                                         angles.back()),
-                             {file, line});
+            throw InputError(
+                fmt::format("{} {} follows {}: the angles must increase", what, angle, angles.back()),
+                {file, line});
         }
         angles.push_back(angle);
     }
@@ -91,12 +91,12 @@ void set_intensities(PhotometricSolid::Grid& grid, const std::vector<LocatedNumb
     for (const auto& [number, line] : numbers) {
         const double intensity = factor * number;
         if (number < 0) {
-            throw InputError(fmt::format("intensity {} is negative: light cannot be taken away", number),
+            throw InputError(fmt::format("intensity {} is negative: it must be 0 or more", number),
                              {file, line});
         }
         if (!(intensity <= kGreatestIntensityCd)) {
             throw InputError(
-                fmt::format("intensity {} cd (factors included) is beyond any luminaire: at most "
+                fmt::format("intensity {} cd (factors included) is too large for a luminaire: at most "
                             "{} cd are allowed",
                             intensity, kGreatestIntensityCd),
                 {file, line});
@@ -104,7 +104,7 @@ void set_intensities(PhotometricSolid::Grid& grid, const std::vector<LocatedNumb
         peak = std::max(peak, intensity);
         grid.intensity_cd.push_back(intensity);
     }
-    if (!(peak > 0)) throw InputError("all intensities are 0: the luminaire would give no light", {file, 0});
+    if (!(peak > 0)) throw InputError("all intensities are 0: the luminaire would emit no light", {file, 0});
 }
 
 void mirror_at_last_plane(PhotometricSolid::Grid& grid) {

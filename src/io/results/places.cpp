@@ -6,9 +6,9 @@ using Json = nlohmann::ordered_json;
 
 Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-Json place_json(const Place& place) {
-    Json json{{"position", vector_json(place.position)}};
-    for (const Place::Direction& direction : place.directions)
+Json location_json(const Location& location) {
+    Json json{{"position", vector_json(location.position)}};
+    for (const Location::Direction& direction : location.directions)
         json[std::string(direction.name)] = vector_json(direction.value);
     return json;
 }

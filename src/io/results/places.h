@@ -1,4 +1,4 @@
-// Where readings are made, which way they look and what they see, as JSON and as columns.
+// Positions, directions and seen points of readings, as JSON and as columns.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,10 +12,10 @@ namespace stilb::io {
 nlohmann::ordered_json vector_json(const Vec3& v);
 
 /// Position and directions, without the angles.
-nlohmann::ordered_json place_json(const Place& place);
+nlohmann::ordered_json location_json(const Location& location);
 
-/// The surface point that reading `j` of a sensor is the luminance of: where the line of sight ends, or the
-/// point of a goniometer. Nothing where the line of sight leaves the scene, and where the run did not tell.
+/// The surface point whose luminance reading `j` of a sensor is: the end of the line of sight, or the
+/// point of a goniometer. Nothing where the line of sight leaves the scene, or the run did not record it.
 std::optional<Vec3> sub_point(const SensorResult& result, const Sensor& sensor, std::size_t j);
 
 }  // namespace stilb::io

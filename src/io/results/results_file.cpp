@@ -18,16 +18,16 @@ using Json = nlohmann::json;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// A JSON value and where it stands ("sensors[2].count"), so that every message can say it.
+/// A JSON value and its path ("sensors[2].count"), which every message states.
 class Node {
   public:
-    Node(const Json& json, std::string place, const std::string& file)
-        : json_(json), place_(std::move(place)), file_(file) {}
+    Node(const Json& json, std::string path, const std::string& file)
+        : json_(json), path_(std::move(path)), file_(file) {}
 
     [[noreturn]] void fail(const std::string& expected) const {
         throw InputError(
-            fmt::format("{} is {} (not what 'stilb measure --json' writes). It should be {}.",
-                        place_.empty() ? "the document" : "'" + place_ + "'", json_.type_name(), expected),
+            fmt::format("{} is {}, but should be {}. The file must hold measured results as JSON.",
+                        path_.empty() ? "the document" : "'" + path_ + "'", json_.type_name(), expected),
             {file_});
     }
 
@@ -35,13 +35,13 @@ class Node {
 
     Node member(const char* key) const {
         if (!json_.is_object()) fail("an object");
-        const std::string place = place_.empty() ? key : place_ + "." + key;
+        const std::string path = path_.empty() ? key : path_ + "." + key;
         const auto found = json_.find(key);
         if (found == json_.end()) {
             throw InputError(
-                fmt::format("'{}' is missing (results of 'stilb measure --json' have it).", place), {file_});
+                fmt::format("'{}' is missing. The file must hold measured results as JSON.", path), {file_});
         }
-        return {*found, place, file_};
+        return {*found, path, file_};
     }
 
     std::size_t size() const {
@@ -51,7 +51,7 @@ class Node {
     Node element(std::size_t index) const {
         if (!json_.is_array() || index >= json_.size())
             fail(fmt::format("an array of {} or more", index + 1));
-        return {json_[index], fmt::format("{}[{}]", place_, index), file_};
+        return {json_[index], fmt::format("{}[{}]", path_, index), file_};
     }
 
     std::string text() const {
@@ -73,7 +73,7 @@ class Node {
 
   private:
     const Json& json_;
-    std::string place_;
+    std::string path_;
     const std::string& file_;
 };
 
@@ -93,7 +93,7 @@ void read_size(const Node& values, MeasuredGrid& grid) {
     };
     const double span_u = length(at(nu - 1, 0) - first);
     const double span_v = length(at(0, nv - 1) - first);
-    // A row of single cells is taken for a row of squares.
+    // A row of single cells is treated as a row of squares.
     grid.width_m = extent_of(span_u, nu, nv > 1 ? span_v / (nv - 1) : 0);
     grid.height_m = extent_of(span_v, nv, nu > 1 ? span_u / (nu - 1) : 0);
 }
@@ -128,10 +128,10 @@ Json parse_json(std::string_view content, const std::string& name) {
         const std::size_t end = std::min(error.byte, content.size());
         const auto line =
             1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-        throw InputError("not JSON, so not results. Give a file written by 'stilb measure SCENE --json'.",
+        throw InputError("not JSON. The file must hold measured results as JSON.",
                          {name, static_cast<std::size_t>(line)});
     } catch (const Json::out_of_range& error) {
-        throw InputError("a number is too large for a double. Give a file written by 'stilb measure --json'.",
+        throw InputError("a number is too large for a double. The file must hold measured results as JSON.",
                          {name});
     }
 }
@@ -143,8 +143,7 @@ ResultsFile read_results(std::string_view content, const std::string& name) {
     const Node root(json, "", name);
     if (!root.has("stilb")) {
         throw InputError(
-            "JSON, but not results (there is no 'stilb'). Give a file written by 'stilb measure "
-            "SCENE --json'.",
+            "JSON, but not measured results: there is no 'stilb'. The file must be one that Stilb wrote.",
             {name});
     }
     ResultsFile results{root.member("scene").text(), {}};

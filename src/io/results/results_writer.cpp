@@ -19,13 +19,13 @@ using Json = nlohmann::ordered_json;
 Json interval_json(const statistics::Estimate& e) { return {e.lower, e.upper}; }
 
 Json reading_json(const SensorResult& result, const Sensor& sensor, std::size_t j) {
-    const Place place = sensor.place(j);
-    Json json = place_json(place);
+    const Location location = sensor.location(j);
+    Json json = location_json(location);
     if (sensor.measures_luminance()) {
         const auto hit = sub_point(result, sensor, j);
         json["hit"] = hit ? vector_json(*hit) : Json();
     }
-    for (const Place::Angle& angle : place.angles) json[std::string(angle.name)] = angle.value_deg;
+    for (const Location::Angle& angle : location.angles) json[std::string(angle.name)] = angle.value_deg;
     const Reading& reading = result.readings[j];
     json["value"] = reading.estimate.value;
     json["standard_error"] = reading.estimate.standard_error;
@@ -34,7 +34,7 @@ Json reading_json(const SensorResult& result, const Sensor& sensor, std::size_t 
     return json;
 }
 
-/// Uniformity is a property of an illuminated area: luminances in several directions have none.
+/// Uniformity is defined for an illuminated area; luminances in several directions have none.
 Json summary_json(const statistics::GridSummary& summary, bool has_uniformity) {
     Json json{
         {"mean", summary.mean.value}, {"minimum", summary.minimum.value}, {"maximum", summary.maximum.value}};
@@ -130,7 +130,7 @@ std::string to_json(const RunResult& result, const std::string& scene) {
 
 namespace {
 
-/// Columns of a sensor's readings, made of what is told of each.
+/// Columns of a sensor's readings, made from the location of each.
 class ReadingColumns {
   public:
     explicit ReadingColumns(std::size_t readings) : readings_(readings) {}
@@ -152,23 +152,23 @@ class ReadingColumns {
 };
 
 /// All readings of a sensor have the same directions and angles.
-void add_places(ReadingColumns& columns, const Sensor& sensor) {
-    std::vector<Place> places;
-    for (std::size_t j = 0; j < sensor.size(); ++j) places.push_back(sensor.place(j));
-    columns.add_vector({"x_m", "y_m", "z_m"}, [&](std::size_t j) { return places[j].position; });
-    if (places.empty()) return;
-    for (std::size_t d = 0; d < places.front().directions.size(); ++d) {
-        const std::string name(places.front().directions[d].name);
+void add_locations(ReadingColumns& columns, const Sensor& sensor) {
+    std::vector<Location> locations;
+    for (std::size_t j = 0; j < sensor.size(); ++j) locations.push_back(sensor.location(j));
+    columns.add_vector({"x_m", "y_m", "z_m"}, [&](std::size_t j) { return locations[j].position; });
+    if (locations.empty()) return;
+    for (std::size_t d = 0; d < locations.front().directions.size(); ++d) {
+        const std::string name(locations.front().directions[d].name);
         columns.add_vector({name + "_x", name + "_y", name + "_z"},
-                           [&](std::size_t j) { return places[j].directions[d].value; });
+                           [&](std::size_t j) { return locations[j].directions[d].value; });
     }
-    for (std::size_t a = 0; a < places.front().angles.size(); ++a) {
-        columns.add(std::string(places.front().angles[a].name) + "_deg",
-                    [&](std::size_t j) { return places[j].angles[a].value_deg; });
+    for (std::size_t a = 0; a < locations.front().angles.size(); ++a) {
+        columns.add(std::string(locations.front().angles[a].name) + "_deg",
+                    [&](std::size_t j) { return locations[j].angles[a].value_deg; });
     }
 }
 
-/// "cd/m2" and names of several words as parts of a column's name.
+/// The unit and names of several words as parts of a column's name, such as "cd_m2".
 std::string in_column(std::string_view text) {
     std::string name(text);
     for (char& c : name) {
@@ -191,7 +191,7 @@ void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings,
 
 void write_sensor(const SensorResult& result, const Sensor& sensor, const std::filesystem::path& path) {
     ReadingColumns columns(result.readings.size());
-    add_places(columns, sensor);
+    add_locations(columns, sensor);
     if (sensor.measures_luminance()) {
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
         columns.add_vector({"hit_x_m", "hit_y_m", "hit_z_m"}, [&](std::size_t j) {
@@ -208,7 +208,8 @@ void write_results_csv(const RunResult& result, const std::filesystem::path& dir
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error)
-        throw InputError(fmt::format("the folder cannot be made: {}", error.message()), {directory.string()});
+        throw InputError(fmt::format("the folder cannot be created: {}", error.message()),
+                         {directory.string()});
     for (const SensorResult& sensor : result.sensors) {
         write_sensor(sensor, sensor.sensor, directory / (sensor.sensor.name + ".csv"));
     }

@@ -8,14 +8,14 @@
 
 namespace stilb::io {
 
-/// `scene` is the scene file as the user named it. Two runs that did the same give the same text but for
-/// elapsed_s and first_shot_set_up_s.
+/// `scene` is the scene file as the user named it. Two runs with the same results give the same text except
+/// for elapsed_s and first_shot_set_up_s.
 std::string to_json(const RunResult& result, const std::string& scene);
 
 // The results of a run as CSV, a file per sensor.
 
-/// Writes DIR/<sensor>.csv, a line per reading; makes the folder where it is missing. Throws InputError where
-/// a file cannot be written.
+/// Writes DIR/<sensor>.csv, a line per reading; creates the folder where it is missing. Throws InputError
+/// where a file cannot be written.
 void write_results_csv(const RunResult& result, const std::filesystem::path& directory);
 
 }  // namespace stilb::io

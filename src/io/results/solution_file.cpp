@@ -49,7 +49,7 @@ class ByteWriter {
 
 class ByteReader {
   public:
-    /// `first`: the number of the first byte in the file, for messages.
+    /// `first`: the offset of the first byte in the file, for messages.
     ByteReader(std::string_view bytes, std::size_t first, const std::string& name)
         : rest_(bytes), position_(first), name_(name) {}
 
@@ -62,14 +62,14 @@ class ByteReader {
         skip(sizeof number);
         return number;
     }
-    /// Takes memory only for what is in the file.
+    /// Allocates memory only after checking the remaining size of the file.
     template <typename List>
     List take_list(std::string_view what) {
         using T = typename List::value_type;
         static_assert(kIsPlain<T> || std::is_same_v<T, char>);
         const auto count = take<std::uint64_t>(what);
         if (count > rest_.size() / sizeof(T)) {
-            fail(fmt::format("{} should be {} in number, and only {} bytes are left", what, count,
+            fail(fmt::format("{}: {} entries are expected, but only {} bytes are left", what, count,
                              rest_.size()));
         }
         List list(static_cast<std::size_t>(count), T{});
@@ -78,7 +78,7 @@ class ByteReader {
         return list;
     }
     void expect_end() const {
-        if (!rest_.empty()) fail(fmt::format("{} bytes too many", rest_.size()));
+        if (!rest_.empty()) fail(fmt::format("{} surplus bytes", rest_.size()));
     }
     [[noreturn]] void fail(const std::string& message) const {
         throw InputError(fmt::format("damaged at byte {}: {}. Solve the scene again.", position_, message),
@@ -151,7 +151,7 @@ StoredSolution read_body(ByteReader& bytes) {
     estimators::PatchSolution& solution = stored.solution;
     solution.patches = read_patches(bytes);
     const auto first_shot = bytes.take<std::uint32_t>("first shot");
-    if (first_shot > 1) bytes.fail(fmt::format("first shot is {}, and 0 and 1 are known", first_shot));
+    if (first_shot > 1) bytes.fail(fmt::format("first shot is {}, but must be 0 or 1", first_shot));
     if (first_shot == 1) {
         auto rows = bytes.take_list<std::vector<std::uint32_t>>("the rows of first shot");
         auto factors =
@@ -186,28 +186,28 @@ std::string to_bytes(const StoredSolution& stored) {
 StoredSolution read_solution(std::string_view bytes, const std::string& name) {
     const auto fail = [&](const std::string& message) { throw InputError(message, {name}); };
     if (!bytes.starts_with(std::string_view(kMagic.data(), kMagic.size()))) {
-        fail("not a solution: it does not begin with STILBSOL. `stilb solve` writes them.");
+        fail("not a solution: the file does not begin with STILBSOL.");
     }
     ByteReader header(bytes.substr(kMagic.size()), kMagic.size(), name);
     const auto version = header.take<std::uint32_t>("the version");
     if (version != kVersion) {
         fail(
-            fmt::format("a solution of version {}, and this is Stilb {}, which reads version {}. Solve the "
+            fmt::format("the solution is of version {}, but Stilb {} reads version {}. Solve the "
                         "scene again.",
                         version, STILB_VERSION, kVersion));
     }
     const auto size = header.take<std::uint64_t>("the size");
     if (size != bytes.size()) {
         fail(
-            fmt::format("the file has {} bytes where it should have {}: it was cut off or added to. Copy it "
-                        "anew, or solve the scene again.",
+            fmt::format("the file has {} bytes instead of {}: it was cut off or extended. Copy it "
+                        "again, or solve the scene again.",
                         bytes.size(), size));
     }
     const auto hash = header.take<std::uint64_t>("the hash");
     const std::string_view body = bytes.substr(kHeaderSize);
     if (hash != hash_of(body)) {
         fail(
-            "damaged: its contents do not have the hash that it states. Copy it anew, or solve the scene "
+            "damaged: the contents do not match the stored hash. Copy the file again, or solve the scene "
             "again.");
     }
     ByteReader reader(body, kHeaderSize, name);
@@ -242,7 +242,7 @@ void require_same_light(const StoredSolution& stored, std::span<const std::files
     if (light_hash(sources) == stored.light_hash) return;
     throw InputError(
         fmt::format("materials, objects or lights of '{}', or files that it refers to, have changed "
-                    "since it was solved (only sensors may change). Solve it again.",
+                    "since the scene was solved (only sensors may change). Solve it again.",
                     sources.front().string()),
         {solution_file});
 }

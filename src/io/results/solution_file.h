@@ -1,4 +1,4 @@
-// Solutions on disk: docs/solution.md has the format byte by byte.
+// Solution files. docs/solution.md describes the format byte by byte.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace stilb::io {
 
 struct StoredSolution {
     std::string version;     ///< of Stilb
-    std::string scene;       ///< the scene's file, relative to the folder of the solution's
+    std::string scene;       ///< the scene's file, relative to the folder of the solution file
     std::string light_hash;  ///< of the scene (io/text/text.h)
     std::uint64_t seed = 0;
     std::uint64_t steps = 0;    ///< of all walks together
@@ -33,15 +33,15 @@ void require_same_light(const StoredSolution& stored, std::span<const std::files
                         const std::string& solution_file);
 
 std::string to_bytes(const StoredSolution& stored);
-/// Throws InputError, with the name, where the bytes are no solution, of another version, truncated or
-/// damaged. Whether the parts fit a scene is for require_consistency() to say.
+/// Throws InputError, with the name, where the bytes are not a solution, of another version, truncated or
+/// damaged. require_consistency() checks whether the parts fit a scene.
 StoredSolution read_solution(std::string_view bytes, const std::string& name);
 
-/// Throw InputError as above, and where the file cannot be read or written; it changes in one step.
+/// Throw InputError as above, and where the file cannot be read or written. The file is replaced in one step.
 StoredSolution read_solution_file(const std::filesystem::path& path);
 void write_solution_file(const StoredSolution& stored, const std::filesystem::path& path);
 
-/// What a file of these contents begins with: for the fuzz target, whose contents are foreign.
+/// The header of a file with these contents: for the fuzz target, whose contents are arbitrary.
 std::string solution_header(std::string_view body);
 
 }  // namespace stilb::io

@@ -1,4 +1,4 @@
-// Reads the parameters of a material, a light or a sensor by the list that its type has of them.
+// Reads the parameters of a material, a light or a sensor from the field list of its type.
 #pragma once
 
 #include <fmt/format.h>
@@ -36,8 +36,8 @@ std::vector<std::string_view> keys_of() {
     return keys;
 }
 
-/// The parameters that the table's keys give; throws where one is missing or wrong. Does not look for keys
-/// that are no parameters.
+/// The parameters that the table's keys give; throws where one is missing or wrong. Ignores keys
+/// that are not parameters.
 template <typename Parameters>
 Parameters read_fields(const TomlTable& table) {
     Parameters parameters;
@@ -50,7 +50,7 @@ Parameters read_fields(const TomlTable& table) {
     return parameters;
 }
 
-/// The same of a table that has these keys and "type", which is `type`, and no others.
+/// Reads a table that has these keys, a "type" equal to `type`, and no others.
 template <typename Parameters>
 Parameters read_typed_fields(TomlTable& table, std::string_view type) {
     std::vector<std::string_view> keys = keys_of<Parameters>();
@@ -61,7 +61,7 @@ Parameters read_typed_fields(TomlTable& table, std::string_view type) {
 
 // Reads a sensor by the list of its fields: one function for each kind of key of sensors/fields.h.
 
-/// A table's values are read through this; warnings are of values that are odd but not wrong.
+/// The context for reading a table; warnings are for values that are unusual but not wrong.
 struct FieldSource {
     const TomlTable& table;
     std::vector<std::string>& warnings;
@@ -69,7 +69,7 @@ struct FieldSource {
 
 using Keys = std::vector<std::string_view>;
 
-// The parts that need no type.
+// The parts that do not depend on the type.
 
 Vec3 read_direction_field(const FieldSource& source, std::string_view key, bool warns_of_length);
 std::vector<Vec3> read_positions(const FieldSource& source);
@@ -77,7 +77,7 @@ std::vector<MeasuringPoint> read_measuring_points(const FieldSource& source);
 std::vector<Measurand> read_sights(const FieldSource& source);
 std::array<int, 2> read_counts(const TomlItem& item, const sensors::CountLimit& limit);
 /// The unit vector from the position to a target.
-Vec3 read_way_to(const TomlItem& target, const Vec3& position);
+Vec3 read_direction_to(const TomlItem& target, const Vec3& position);
 
 // The keys of each kind of field, as messages list them.
 
@@ -122,7 +122,7 @@ Keys keys_of(const sensors::ChoiceField<Owner, Enumeration>& field) {
     return {field.key};
 }
 
-// What stands at the keys becomes the member.
+// The member is set from the values of the keys.
 
 inline bool is_left_out(const FieldSource& source, std::string_view key, Presence presence) {
     return presence == Presence::optional && !source.table.has(key);
@@ -141,7 +141,7 @@ template <typename Owner>
 void read_field(const sensors::TargetField<Owner>& field, const FieldSource& source, Owner& owner) {
     const TomlItem item = source.table.at(field.key);
     owner.*field.member = item.vector();
-    read_way_to(item, owner.*field.position);  // fails where there is none
+    read_direction_to(item, owner.*field.position);  // fails if both points coincide
 }
 template <typename Owner, typename Value>
 void read_field(const sensors::DirectionField<Owner, Value>& field, const FieldSource& source, Owner& owner) {
@@ -179,7 +179,7 @@ void read_field(const sensors::ChoiceField<Owner, Enumeration>& field, const Fie
         static_cast<Enumeration>(source.table.at(field.key).index_in(field.names, field.key));
 }
 
-/// A sensor of this kind, all its keys checked by themselves and together.
+/// Reads a sensor of this kind, and checks its keys one by one and together.
 template <typename Kind>
 Kind read_by_fields(TomlTable& table, std::vector<std::string>& warnings) {
     Keys keys{"type"};

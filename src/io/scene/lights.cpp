@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "io/image/picture_file.h"
 #include "io/photometry/photometry_file.h"
@@ -18,20 +17,19 @@
 namespace stilb::io {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Range kColourTemperature{lights::kMinColourTemperature_k, lights::kMaxColourTemperature_k,
                                    "from 1000 to 25000 K"};
 constexpr double kWholeTurnDeg = 360;
 constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
 
-/// What the reader of one light sees besides its table.
+/// The context of reading one light, besides its table.
 struct Context {
     const std::string& name;
     const std::filesystem::path& directory;
     SceneFile& file;
 };
 
-/// Luminance 1.
+/// A colour of luminance 1.
 Rgb read_colour(const TomlTable& table) {
     table.expect_not_both("cct", "color");
     if (const auto cct = table.find("cct"))
@@ -71,8 +69,9 @@ AreaLight read_area(TomlTable& table, const Context& context) {
     for (const Light& other : scene.lights) {
         const auto surface = lights::surface_emission(other);
         if (surface && surface->object == object) {
-            item.fail(fmt::format("{} emits for the light {} already. Allowed: one area light for an object.",
-                                  in_quotes(item.text()), in_quotes(other.name)));
+            item.fail(
+                fmt::format("{} is already the emitter of the light {}. Allowed: one area light per object.",
+                            in_quotes(item.text()), in_quotes(other.name)));
         }
     }
     return {object, read_luminance(table, scene.object(object).shape) * read_colour(table)};
@@ -81,10 +80,10 @@ AreaLight read_area(TomlTable& table, const Context& context) {
 /// The surface of luminous spheres reflects nothing; all of them share one material.
 MaterialId black_of_lights(Scene& scene) {
     constexpr std::string_view name = "(luminous spheres)";
-    const auto place = std::find_if(scene.materials.begin(), scene.materials.end(),
+    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
                                     [&](const NamedMaterial& material) { return material.name == name; });
-    const auto index = static_cast<std::uint32_t>(place - scene.materials.begin());
-    if (place == scene.materials.end()) scene.materials.push_back({std::string(name), Black{}});
+    const auto index = static_cast<std::uint32_t>(found - scene.materials.begin());
+    if (found == scene.materials.end()) scene.materials.push_back({std::string(name), Black{}});
     return MaterialId{index};
 }
 
@@ -95,7 +94,8 @@ AreaLight read_sphere(TomlTable& table, const Context& context) {
     for (const Object& object : scene.objects) {
         if (object.name != context.name) continue;
         table.fail(
-            "adds a sphere object of its own name, which the scene has already. Allowed: another name.");
+            "a sphere light adds an object of its own name, but the scene already has an object of this "
+            "name. Allowed: another name.");
     }
     const AreaLight light{ObjectId{static_cast<std::uint32_t>(scene.objects.size())},
                           read_luminance(table, sphere) * read_colour(table)};
@@ -103,14 +103,14 @@ AreaLight read_sphere(TomlTable& table, const Context& context) {
     return light;
 }
 
-/// Lights with the same file share one solid.
+/// Lights with the same file share one photometric solid.
 SolidId read_solid(const TomlItem& item, const Context& context) {
     std::vector<NamedSolid>& solids = context.file.scene.solids;
     const std::filesystem::path path = item.existing_file(context.directory).lexically_normal();
-    const auto place = std::find_if(solids.begin(), solids.end(),
+    const auto found = std::find_if(solids.begin(), solids.end(),
                                     [&](const NamedSolid& solid) { return solid.file == path.string(); });
-    const auto index = static_cast<std::uint32_t>(place - solids.begin());
-    if (place == solids.end()) {
+    const auto index = static_cast<std::uint32_t>(found - solids.begin());
+    if (found == solids.end()) {
         context.file.sources.push_back(path);
         const PhotometryFile file = read_photometry_file(path);
         const PhotometricSolid solid(file.grid);
@@ -137,7 +137,7 @@ Luminaire read_photometry(TomlTable& table, const Context& context) {
     return {position, solid, c0, c90, nadir, factor};
 }
 
-/// Of an OpenEXR or Radiance picture, in cd/m2 as the reader of pictures has them.
+/// The map from an OpenEXR or Radiance picture, in cd/m2 as the picture reader gives them.
 std::shared_ptr<const Panorama> read_panorama(const TomlItem& item, double dimming, const Context& context) {
     const std::filesystem::path path = item.existing_file(context.directory).lexically_normal();
     context.file.sources.push_back(path);
@@ -145,7 +145,7 @@ std::shared_ptr<const Panorama> read_panorama(const TomlItem& item, double dimmi
     if (picture.camera &&
         (picture.camera->projection != Projection::panorama || picture.camera->fov_deg < kWholeTurnDeg)) {
         item.fail(
-            "is a picture of a camera that does not see all around. Needed: projection = \"panorama\", "
+            "the picture does not cover all directions. Needed: projection = \"panorama\", "
             "fov = 360.");
     }
     Panorama::Image image{picture.width, picture.height, picture.rgb_cd_m2};
@@ -163,7 +163,7 @@ EnvironmentLight read_environment(TomlTable& table, const Context& context) {
     table.expect_keys({"type", "luminance", "file", "up", "rotation", "dimming", "cct", "color"},
                       "type \"environment\"");
     for (const Light& other : context.file.scene.lights) {
-        if (place_of(other) != LightPlace::infinity) continue;
+        if (location_of(other) != LightLocation::infinity) continue;
         table.fail(fmt::format("surrounds the scene, as light {} does. Allowed: one environment.",
                                in_quotes(other.name)));
     }
@@ -182,7 +182,7 @@ EnvironmentLight read_environment(TomlTable& table, const Context& context) {
     return light;
 }
 
-/// By `type`.
+/// Selects the reader by `type`.
 struct Reader {
     std::string_view type;
     lights::LightSource (*read)(TomlTable& table, const Context& context);

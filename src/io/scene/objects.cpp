@@ -22,7 +22,7 @@ namespace stilb::io {
 namespace {
 
 constexpr Range kScale{1e-9, 1e9, "a factor above 0 (from 1e-9 to 1e9)"};
-/// A sine between axes below this leaves too few digits to tell the front from the back.
+/// The least sine between axes: below it too few digits are left to distinguish front and back.
 constexpr double kLeastRegularity = 1e-6;
 
 geometry::Transform read_matrix(const TomlItem& item) {
@@ -35,7 +35,7 @@ geometry::Transform read_matrix(const TomlItem& item) {
     const geometry::Transform transform{
         {m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}, {m[3], m[7], m[11]}};
     if (transform.regularity() < kLeastRegularity) {
-        item.fail("the matrix is singular: it squashes the object flat. Allowed: any invertible one.");
+        item.fail("the matrix is singular: it flattens the object. Allowed: any invertible matrix.");
     }
     return transform;
 }
@@ -167,7 +167,7 @@ void add_face(const TomlItem& face, MeshBuilder& builder) {
 void warn_of_degenerate(const TomlTable& table, const MeshFile& mesh, SceneFile& file) {
     if (mesh.degenerate_triangles == 0) return;
     file.warnings.push_back(
-        fmt::format("{}: {} triangles of no area are left out.", table.where(), mesh.degenerate_triangles));
+        fmt::format("{}: {} triangles without area are left out.", table.where(), mesh.degenerate_triangles));
 }
 
 Mesh read_polygons(const TomlTable& table, SceneFile& file) {
@@ -201,7 +201,7 @@ MeshFile read_mesh(const TomlTable& table, const std::filesystem::path& director
     return read_mesh_file(file.sources.back());
 }
 
-/// The materials that a scene gives to the parts of a mesh, by the mesh file's own names.
+/// The assignment of the scene's materials to the parts of a mesh, by the names in the mesh file.
 class PartMaterials {
   public:
     PartMaterials(const TomlTable& object, const MeshFile& mesh, const Scene& scene)
@@ -215,7 +215,8 @@ class PartMaterials {
         }
     }
 
-    /// One for each triangle. The file's material names come before its groups, and both before `material`.
+    /// One material for each triangle. The file's material names take precedence over its groups, and both
+    /// over `material`.
     std::vector<MaterialId> of_triangles(const TomlTable& object) const {
         std::vector<MaterialId> materials;
         for (std::size_t t = 0; t < mesh_.mesh.triangles.size(); ++t) {
@@ -234,9 +235,9 @@ class PartMaterials {
 
     static bool assign(const std::vector<std::string>& names, Assigned& assigned, std::string_view part,
                        MaterialId material) {
-        const auto place = std::find(names.begin(), names.end(), part);
-        if (place == names.end()) return false;
-        assigned[static_cast<std::size_t>(place - names.begin())] = material;
+        const auto found = std::find(names.begin(), names.end(), part);
+        if (found == names.end()) return false;
+        assigned[static_cast<std::size_t>(found - names.begin())] = material;
         return true;
     }
 
@@ -252,10 +253,10 @@ class PartMaterials {
     }
 
     [[noreturn]] void fail_unassigned(const TomlTable& object, std::uint32_t material) const {
-        object.fail(
-            fmt::format("the mesh file's material {} has no material of the scene. Allowed: an entry in "
-                        "\"materials\" for it, or \"material\" for all that is not in \"materials\".",
-                        in_quotes(mesh_.material_names[material])));
+        object.fail(fmt::format(
+            "the mesh file's material {} is not assigned to a material of the scene. Allowed: an entry in "
+            "\"materials\" for it, or \"material\" for all parts that are not in \"materials\".",
+            in_quotes(mesh_.material_names[material])));
     }
 
     const MeshFile& mesh_;
@@ -318,12 +319,13 @@ void expect_possible(const geometry::Transform& transform, const Shape& shape, c
     if ((is_round || is_harmonic) && !transform.is_similarity()) {
         table.at("transform")
             .fail(
-                "stretches or shears a curved shape. Allowed for spheres, disks and harmonics: what keeps "
-                "angles (moves, turns, mirrors, one scale for all axes).");
+                "stretches or shears a curved shape. Allowed for spheres, disks and harmonics: "
+                "transformations that keep "
+                "angles (translation, rotation, reflection, one scale for all axes).");
     }
 }
 
-/// A series with a centre is scaled and turned about it.
+/// Scales and rotates a series about its centre, if it has one.
 geometry::Transform transform_of(const Shape& shape, const TomlTable& table) {
     geometry::Transform transform = read_transform(table);
     if (std::holds_alternative<Harmonics>(shape)) {

@@ -81,7 +81,7 @@ Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings) {
     const Vec3 normal = item.made_unit(given);
     constexpr double rounding = 1e-3;  // three digits are enough to say that a unit vector is meant
     if (std::abs(length(given) - 1) > rounding) {
-        warnings.push_back(fmt::format("{}: of length {:.4g}; its direction is used, with length 1.",
+        warnings.push_back(fmt::format("{}: the vector has length {:.4g}; it is normalised to length 1.",
                                        item.where(), length(given)));
     }
     return normal;
@@ -93,7 +93,7 @@ Rectangle read_rectangle(const TomlTable& table) {
     const Vec3 front = cross(edge_u.made_unit(rectangle.edge_u), edge_v.made_unit(rectangle.edge_v));
     constexpr double flattest = 1e-6;  // sine of the angle between the edges
     if (length(front) < flattest) {
-        edge_v.fail("is parallel to edge_u, so that they span no area. Allowed: any other direction.");
+        edge_v.fail("is parallel to edge_u, so the edges span no area. Allowed: any other direction.");
     }
     return rectangle;
 }
@@ -151,10 +151,10 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
 SceneFile read_scene_file(const std::filesystem::path& path) {
     for (const std::string_view other : {".obj", ".ply", ".ies", ".ldt"}) {
         if (extension_of(path) != other) continue;
-        throw InputError(fmt::format("not a scene but a {} file: a scene (.toml) names it as the file of {}. "
-                                     "`stilb info` shows what it holds.",
-                                     other, other == ".obj" || other == ".ply" ? "an object" : "a light"),
-                         {path.string()});
+        throw InputError(
+            fmt::format("not a scene but a {} file: a scene (.toml) refers to it as the file of {}.", other,
+                        other == ".obj" || other == ".ply" ? "an object" : "a light"),
+            {path.string()});
     }
     SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path());
     file.sources.insert(file.sources.begin(), path);

@@ -1,4 +1,4 @@
-// The scene file: TOML, the contract with users (docs/scene-format.md).
+// The scene file: TOML in the format of docs/scene-format.md.
 #pragma once
 
 #include <filesystem>
@@ -17,19 +17,20 @@ struct SceneFile {
     Scene scene;
     std::vector<Sensor> sensors;
     RunOptions run;
-    /// The scene file and all files that it refers to (none where it was read from memory).
+    /// The scene file and all files that it refers to (none for a scene read from memory).
     std::vector<std::filesystem::path> sources;
-    /// What is odd but not wrong (degenerate triangles dropped, normals made unit, ...), for `info` and
+    /// Unusual but valid contents (degenerate triangles dropped, normals normalised, ...), for `info` and
     /// stderr.
     std::vector<std::string> warnings;
 };
 
-/// Throws InputError naming file, line, key, what was found and what is allowed.
+/// Throws InputError with file, line, key, the value found and the allowed values.
 SceneFile read_scene_file(const std::filesystem::path& path);
 
-/// The reader itself; `directory` is where the scene's file paths start, `name` is used in messages.
+/// The reader for content in memory; `directory` is the base of the scene's file paths, `name` is used in
+/// messages.
 SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory);
-/// The same of a tree that was made in code: its lines are 0, and messages leave an empty name out.
+/// The same for a tree that was built in code: its lines are 0, and messages leave an empty name out.
 SceneFile read_scene(const TomlMembers& members, const std::string& name,
                      const std::filesystem::path& directory);
 

@@ -15,7 +15,7 @@ struct NamedTable {
     std::string name;
     TomlTable table;
 };
-/// The tables that the section consists of; throws for names that could not be part of a file's name.
+/// The tables of the section; throws for names that cannot be part of a file name.
 std::vector<NamedTable> named_tables(const TomlTable& section);
 
 std::vector<NamedMaterial> read_materials(const TomlTable& section);
@@ -29,10 +29,10 @@ RunOptions read_run(TomlTable section);
 /// The keys scale, rotate, translate or transform of an object.
 geometry::Transform read_transform(const TomlTable& object);
 
-/// A direction made a unit vector, with a warning where it was far from one.
+/// A direction as a unit vector, with a warning where its length was far from 1.
 Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings);
-/// The keys file or coefficients, degree, intersection, lod. The centre is the file's, or the
-/// origin where there is a key for it.
+/// The keys file or coefficients, degree, intersection, lod. The centre comes from the file; with
+/// coefficients it is the origin.
 Harmonics read_harmonic_shape(const TomlTable& table, const std::filesystem::path& directory,
                               SceneFile& file);
 /// The keys corner, edge_u, edge_v.

@@ -38,7 +38,7 @@ sensors::SensorKind read_kind(TomlTable& table, Warnings& warnings) {
     return read_by_fields<Kind>(table, warnings);
 }
 
-/// Reads a sensor of the type that has this place in SensorKind.
+/// Reads a sensor of the type with this index in SensorKind.
 template <typename... Kinds>
 sensors::SensorKind read_nth(std::size_t n, TomlTable& table, Warnings& warnings,
                              std::type_identity<std::variant<Kinds...>>) {
@@ -48,8 +48,8 @@ sensors::SensorKind read_nth(std::size_t n, TomlTable& table, Warnings& warnings
 
 sensors::SensorKind read_sensor(TomlTable& table, Warnings& warnings) {
     const std::string_view type = table.choose("type", sensors::kSensorTypeNames);
-    const auto place = std::ranges::find(sensors::kSensorTypeNames, type);
-    return read_nth(static_cast<std::size_t>(place - sensors::kSensorTypeNames.begin()), table, warnings,
+    const auto found = std::ranges::find(sensors::kSensorTypeNames, type);
+    return read_nth(static_cast<std::size_t>(found - sensors::kSensorTypeNames.begin()), table, warnings,
                     std::type_identity<sensors::SensorKind>{});
 }
 
@@ -88,12 +88,12 @@ std::array<int, 2> read_counts(const TomlItem& item, const sensors::CountLimit& 
     return {static_cast<int>(a), static_cast<int>(b)};
 }
 
-Vec3 read_way_to(const TomlItem& target, const Vec3& position) {
-    const Vec3 way = target.vector() - position;
+Vec3 read_direction_to(const TomlItem& target, const Vec3& position) {
+    const Vec3 offset = target.vector() - position;
     constexpr double shortest_m = 1e-9;
-    if (length(way) < shortest_m)
-        target.fail("lies at the position, so that there is no direction to it. Allowed: any other point.");
-    return normalized(way);
+    if (length(offset) < shortest_m)
+        target.fail("equals the position, so there is no direction to it. Allowed: any other point.");
+    return normalized(offset);
 }
 
 std::vector<Measurand> read_sights(const FieldSource& source) {
@@ -102,10 +102,10 @@ std::vector<Measurand> read_sights(const FieldSource& source) {
     std::vector<Vec3> directions;
     if (key == "direction") directions = {read_direction(item, source.warnings)};
     if (key == "directions") directions = read_directions(item, source.warnings);
-    if (key == "target") directions = {read_way_to(item, position)};
+    if (key == "target") directions = {read_direction_to(item, position)};
     if (key == "targets") {
         for (const TomlItem& target : read_list(item, "target"))
-            directions.push_back(read_way_to(target, position));
+            directions.push_back(read_direction_to(target, position));
     }
     std::vector<Measurand> sights;
     for (const Vec3& direction : directions) sights.emplace_back(LineOfSight{position, direction});
@@ -118,8 +118,8 @@ void read_sensors(const TomlTable& section, SceneFile& file) {
         file.sensors.push_back({name, read_sensor(table, file.warnings)});
         readings += static_cast<std::int64_t>(file.sensors.back().size());
         if (readings > sensors::kMostReadings) {
-            table.fail(fmt::format("the sensors so far have {} readings. Allowed: {} in all.", readings,
-                                   sensors::kMostReadings));
+            table.fail(fmt::format("the sensors up to this one have {} readings. Allowed: {} in all.",
+                                   readings, sensors::kMostReadings));
         }
     }
 }

@@ -26,7 +26,7 @@ TomlArray converted_array(const toml::array& array) {
     return result;
 }
 
-/// toml++ keeps a table sorted by its keys; the order of the file is in their positions.
+/// toml++ keeps a table sorted by its keys; positions give back the order of the file.
 TomlMembers converted_table(const toml::table& table) {
     std::vector<std::pair<const toml::key*, const toml::node*>> members;
     for (const auto& [key, node] : table) members.emplace_back(&key, &node);
@@ -64,8 +64,8 @@ TomlValue converted(const toml::node& node) {
     return value;
 }
 
-/// toml++ limits the nesting of brackets, but follows a.b.c... by recursion until the stack is full. Between
-/// the dots of one key stands none of the separators.
+/// toml++ limits the nesting of brackets, but follows a.b.c... by recursion until the stack overflows. No
+/// separator occurs between the dots of one key.
 void expect_shallow_keys(std::string_view text, const std::string& name) {
     constexpr int most_dots = 1000;
     constexpr std::string_view separators = "\n=,[]{}";
@@ -74,7 +74,7 @@ void expect_shallow_keys(std::string_view text, const std::string& name) {
     for (const char c : text) {
         if (c == '.' && ++dots > most_dots) {
             throw InputError(
-                fmt::format("a key of more than {} parts. No key needs more than four.", most_dots),
+                fmt::format("a key has more than {} parts. No key needs more than four.", most_dots),
                 {name, line});
         }
         if (separators.find(c) != std::string_view::npos) dots = 0;
@@ -203,7 +203,7 @@ Vec3 TomlItem::vector() const {
 Vec3 TomlItem::made_unit(const Vec3& v) const {
     const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     constexpr double smallest = 1e-100;  // its square is still a number
-    if (size < smallest) fail("[0, 0, 0] points nowhere. Allowed: any other direction.");
+    if (size < smallest) fail("[0, 0, 0] has no direction. Allowed: any other vector.");
     return normalized(v);
 }
 
@@ -232,8 +232,8 @@ TomlTable TomlItem::table() const {
 std::size_t TomlItem::index_in(std::span<const std::string_view> names, std::string_view what,
                                std::span<const std::string_view> later) const {
     const std::string& found = text();
-    const auto place = std::find(names.begin(), names.end(), found);
-    if (place != names.end()) return static_cast<std::size_t>(place - names.begin());
+    const auto match = std::find(names.begin(), names.end(), found);
+    if (match != names.end()) return static_cast<std::size_t>(match - names.begin());
     const bool known = std::find(later.begin(), later.end(), found) != later.end();
     if (known)
         fail(fmt::format("{} {} is not supported yet.{}", what, in_quotes(found), suggestion("", names)));
@@ -242,7 +242,7 @@ std::size_t TomlItem::index_in(std::span<const std::string_view> names, std::str
 
 std::filesystem::path TomlItem::existing_file(const std::filesystem::path& directory) const {
     std::filesystem::path path = directory / text();
-    std::error_code error;  // whatever it is, the file cannot be read
+    std::error_code error;  // any error means that the file cannot be read
     if (!std::filesystem::is_regular_file(path, error)) {
         fail(fmt::format("there is no file {}. Paths are relative to the scene file; looked for {}.",
                          in_quotes(text()), path.string()));

@@ -1,4 +1,4 @@
-// A TOML file as a tree of plain values that know their lines. The only header of the TOML parser's wrapper.
+// A TOML file as a tree of plain values with their line numbers. The only interface to the TOML parser.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct TomlValue;
 using TomlArray = std::vector<TomlValue>;
 /// In the order of the file.
 using TomlMembers = std::vector<TomlMember>;
-/// Dates and times, which no key takes.
+/// Dates and times, which no key accepts.
 struct TomlDate {};
 
 struct TomlValue {
@@ -36,11 +36,11 @@ struct TomlMember {
     TomlValue value;
 };
 
-/// The top table of a TOML 1.0 text. Throws InputError for what is not TOML; `name` is used in messages.
+/// The top table of a TOML 1.0 text. Throws InputError for invalid TOML; `name` is used in messages.
 TomlValue parse_toml(std::string_view text, const std::string& name);
 
-// Typed access to a TOML document. Whatever is missing, unknown, of the wrong type or out of range throws an
-// InputError that says where it stands, what was found and what is allowed.
+// Typed access to a TOML document. Missing, unknown, mistyped or out-of-range values throw an
+// InputError with the position, the value found and the allowed values.
 
 /// Metres; the limit keeps squares and products of lengths far from overflow.
 inline constexpr Range kCoordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
@@ -53,12 +53,12 @@ class TomlTable;
 /// A value and its full name, such as objects.room.translate.
 class TomlItem {
   public:
-    /// The value and the file's name outlive the item.
+    /// The value and the file's name must outlive the item.
     TomlItem(const TomlValue& value, std::string path, const std::string& file)
         : value_(&value), path_(std::move(path)), file_(&file) {}
 
     double number(const Range& range) const;
-    /// A whole number; 1e6 will do for 1000000.
+    /// A whole number; 1e6 is accepted for 1000000.
     std::int64_t integer(std::int64_t min, std::int64_t max) const;
     const std::string& text() const;
     /// true or false.
@@ -67,7 +67,7 @@ class TomlItem {
     Rgb rgb(const Range& range) const;
     /// [x, y, z].
     Vec3 vector() const;
-    /// [x, y, z] but not zero, made a unit vector.
+    /// [x, y, z], not zero, as a unit vector.
     Vec3 direction() const { return made_unit(vector()); }
     /// The value's direction as a unit vector; fails where it is zero.
     Vec3 made_unit(const Vec3& v) const;
@@ -78,11 +78,11 @@ class TomlItem {
 
     bool is_text() const { return std::holds_alternative<std::string>(value_->content); }
 
-    /// Index of the text among the names. `what` it names is for the message; names in `later` are said to be
-    /// not supported yet.
+    /// Index of the text among the names. `what` is the kind of name for the message; names in `later` are
+    /// reported as not supported yet.
     std::size_t index_in(std::span<const std::string_view> names, std::string_view what,
                          std::span<const std::string_view> later = {}) const;
-    /// A regular file, its path relative to `directory`.
+    /// An existing regular file, its path relative to `directory`.
     std::filesystem::path existing_file(const std::filesystem::path& directory) const;
 
     [[noreturn]] void fail(std::string_view message) const;
@@ -101,11 +101,11 @@ class TomlItem {
 
 class TomlTable {
   public:
-    /// The members and the file's name outlive the table. `line` is where the table begins.
+    /// The members and the file's name must outlive the table. `line` is where the table begins.
     TomlTable(const TomlMembers& members, std::string path, const std::string& file, std::size_t line)
         : members_(&members), path_(std::move(path)), file_(&file), line_(line) {}
 
-    /// Throws for any other key. `kind` is what has these keys, as in `for type "phong"`; may be empty.
+    /// Throws for any other key. `kind` is the owner of these keys, as in `for type "phong"`; may be empty.
     void expect_keys(const std::vector<std::string_view>& keys, std::string_view kind = "");
 
     struct NamedItem;
@@ -114,12 +114,12 @@ class TomlTable {
     bool has(std::string_view key) const { return find(key).has_value(); }
     std::optional<TomlItem> find(std::string_view key) const;
     TomlItem at(std::string_view key) const;
-    /// The one of the names that stands at the key; `later` as in TomlItem::index_in().
+    /// The name given by the key; `later` as in TomlItem::index_in().
     std::string_view choose(std::string_view key, std::span<const std::string_view> names,
                             std::span<const std::string_view> later = {}) const;
-    /// Whichever of the keys is there; throws where several or none are.
+    /// The one of the keys that is present; throws where several or none are.
     NamedItem one_of(const std::vector<std::string_view>& keys) const;
-    /// Throws where both are there.
+    /// Throws where both keys are present.
     void expect_not_both(std::string_view first, std::string_view second) const;
 
     [[noreturn]] void fail(std::string_view message) const;

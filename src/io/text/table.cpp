@@ -17,7 +17,7 @@ namespace {
 
 InputError cannot_write(const std::filesystem::path& path) {
     return InputError(
-        fmt::format("cannot write '{}'. Does its folder exist, and may you write there?", path.string()));
+        fmt::format("cannot write '{}'. Check that its folder exists and is writable.", path.string()));
 }
 
 }  // namespace
@@ -25,9 +25,9 @@ InputError cannot_write(const std::filesystem::path& path) {
 void require_folder_of(const std::filesystem::path& path) {
     const std::filesystem::path folder = path.parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-        throw InputError(
-            fmt::format("it cannot be written: there is no folder '{}'. Make it first.", folder.string()),
-            {path.string()});
+        throw InputError(fmt::format("the file cannot be written: there is no folder '{}'. Create it first.",
+                                     folder.string()),
+                         {path.string()});
     }
 }
 

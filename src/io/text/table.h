@@ -12,14 +12,14 @@ namespace stilb::io {
 
 // Whole files written at once.
 
-/// Throws InputError where `path` is in a folder that does not exist. For a look before a long computation.
+/// Throws InputError where the folder of `path` does not exist. For a check before a long computation.
 void require_folder_of(const std::filesystem::path& path);
 
-/// Throws InputError naming the file where it cannot be written.
+/// Throws InputError with the file's name where it cannot be written.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// Likewise, in one step: who reads meanwhile finds the old content or the new one, never half of it. (What
-/// is no plain file, such as a link or a device, is written to as it is.)
+/// The same in one step: concurrent readers find the old content or the new one, never a part. (A path
+/// that is not a plain file, such as a link or a device, is written to directly.)
 void replace_file(const std::filesystem::path& path, std::string_view content);
 
 struct Column {
@@ -27,7 +27,7 @@ struct Column {
     std::variant<std::vector<double>, std::vector<std::string>> cells;
 };
 
-/// RFC 4180 with a header line. Numbers are written so that reading them gives the same double; NaN (no
+/// RFC 4180 with a header line. Numbers have enough digits to read back the same double; NaN (no
 /// value) is an empty cell. Throws std::invalid_argument for columns of different lengths.
 std::string to_csv(std::span<const Column> columns);
 

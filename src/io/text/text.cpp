@@ -44,7 +44,9 @@ std::string read_whole_file(const std::filesystem::path& path) {
     std::string content(size, '\0');
     std::ifstream stream(path, std::ios::binary);
     if (!stream.read(content.data(), static_cast<std::streamsize>(size)))
-        throw InputError("cannot be read (is it readable for you, and not changing?)", {path.string()});
+        throw InputError(
+            "cannot be read completely. Check its permissions, and that no other program writes to it.",
+            {path.string()});
     return content;
 }
 
@@ -109,10 +111,8 @@ std::string listed(std::span<const std::string_view> names) {
 }  // namespace
 
 std::string suggestion(std::string_view found, std::span<const std::string_view> allowed) {
-    if (allowed.empty()) return " There is none to choose from.";
-    const std::string near = nearest_name(found, allowed);
-    const std::string question = near.empty() ? "" : fmt::format(" Did you mean {}?", in_quotes(near));
-    return fmt::format("{} Allowed: {}.", question, listed(allowed));
+    if (allowed.empty()) return " No name is allowed here.";
+    return fmt::format("{} Allowed: {}.", did_you_mean(found, allowed), listed(allowed));
 }
 
 namespace {
@@ -126,7 +126,7 @@ std::uint64_t hash_of_files(std::span<const std::filesystem::path> files, std::u
 
 std::string digits(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
-/// Appends the value in one way of writing, whatever that of the file: 1 and 1.0 are the same.
+/// Appends the value in a canonical form, independent of its form in the file: 1 and 1.0 are the same.
 struct CanonicalText {
     std::string& text;
 
@@ -134,7 +134,7 @@ struct CanonicalText {
     void operator()(bool truth) const { text += truth ? "true" : "false"; }
     void operator()(std::int64_t integer) const { (*this)(static_cast<double>(integer)); }
     void operator()(double number) const { text += fmt::format("{}", number); }
-    /// With its length: no text looks like two.
+    /// Appends the text with its length, so that two texts never read as one.
     void operator()(const std::string& words) const { text += fmt::format("{}:{}", words.size(), words); }
     void operator()(const TomlArray& array) const {
         text += '[';

@@ -1,4 +1,4 @@
-// Small parts that the readers of text formats share.
+// Common parts of the readers of text formats.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@ std::string read_whole_file(const std::filesystem::path& path);
 /// The extension with its dot, in lower case.
 std::string extension_of(const std::filesystem::path& path);
 
-/// `text` in quotes for a message: shortened, bytes that are not printable ASCII as \xNN.
+/// `text` in quotes for a message: shortened, with bytes other than printable ASCII as \\xNN.
 std::string in_quotes(std::string_view text);
 
-/// The finite number that the whole of `text` is ("+1", "1e-3"); none for anything else.
+/// The finite number that all of `text` represents ("+1", "1e-3"); none for any other text.
 std::optional<double> parse_number(std::string_view text);
-/// Likewise a whole number.
+/// The same for a whole number.
 std::optional<long long> parse_integer(std::string_view text);
 
-/// Without blanks at either end.
+/// The text without blanks at either end.
 std::string_view trimmed(std::string_view text);
 
-/// Cuts the next word off the front of `text`: words are separated by blanks and tabs. Empty at the end.
+/// Takes the next word off the front of `text`: words are separated by blanks and tabs. Empty at the end.
 std::string_view next_word(std::string_view& text);
 
-/// Goes through a text line by line; lines end with LF or CR LF.
+/// Reads a text line by line; lines end with LF or CR LF.
 class TextLines {
   public:
     /// `first_line` is the number of the text's first line in its file.
@@ -39,10 +39,10 @@ class TextLines {
 
     /// Moves to the next line; false at the end.
     bool next();
-    /// Without its end.
+    /// The line without its end.
     std::string_view line() const { return line_; }
     std::size_t number() const { return number_; }
-    /// What follows the line.
+    /// The text after the line.
     std::string_view rest() const { return rest_; }
 
   private:
@@ -50,27 +50,27 @@ class TextLines {
     std::size_t number_;
 };
 
-// Wording that error messages share.
+// Common wording of error messages.
 
 /// ` Did you mean "wall"? Allowed: wall, floor.` (the question only where a name is near), to follow a
 /// sentence.
 std::string suggestion(std::string_view found, std::span<const std::string_view> allowed);
 
-// What tells one version of a scene from another: 64 bits, FNV-1a, against mistakes, not against forgery.
+// Fingerprints of scenes: 64 bits, FNV-1a. They detect changes by mistake, not forgery.
 
 inline constexpr std::uint64_t kEmptyHash = 0xcbf29ce484222325;
 
-/// Of what has the hash `before`, and the bytes after it.
+/// The hash of a text with the hash `before`, followed by these bytes.
 std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = kEmptyHash);
 
-/// Of the files' contents, one after another, as 16 hexadecimal digits. Throws InputError where one cannot be
-/// read.
+/// The hash of the files' contents, one after another, as 16 hexadecimal digits. Throws InputError where one
+/// cannot be read.
 std::string content_hash(std::span<const std::filesystem::path> files);
 
-/// Of all that a scene's light depends on: the materials, objects and lights of the scene file, by their keys
-/// and values, and the contents of the files that it refers to. Sensors, [run], the title, comments and
-/// layout do not count. `sources`: the scene file and the others (SceneFile). Throws InputError where one
-/// cannot be read.
+/// The hash of everything that a scene's light depends on: the materials, objects and lights of the scene
+/// file, by their keys and values, and the contents of the files that it refers to. Sensors, [run], the
+/// title, comments and layout do not count. `sources`: the scene file and the others (SceneFile). Throws
+/// InputError where one cannot be read.
 std::string light_hash(std::span<const std::filesystem::path> sources);
 
 }  // namespace stilb::io

@@ -1,4 +1,4 @@
-// Who fills item buffers and casts bundles.
+// Construction of the visibility backends for item buffers and bundles.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace stilb::patches {
 
-/// Both keep a reference to the caster or its patches. Throw InputError where OpenGL is asked for and
+/// Both keep a reference to the caster or its patches. Throw InputError where OpenGL is requested but
 /// missing.
 std::unique_ptr<ItemBuffers> make_item_buffers(BufferBackend backend, const PatchCaster& caster);
 std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& caster);

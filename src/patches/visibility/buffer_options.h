@@ -1,4 +1,4 @@
-// What item buffers may look like, and who may fill them: names for options, without the machinery.
+// Shapes and backends of item buffers: names for options, without the machinery.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ constexpr std::string_view name_of(BufferShape shape) {
     return kBufferShapeNames[static_cast<std::size_t>(shape)];
 }
 
-/// Visibility by rays on the processor, or by a graphics library.
+/// Visibility by rays on the processor, or by OpenGL.
 enum class BufferBackend { rays, opengl };
 inline constexpr std::array<std::string_view, 2> kBufferBackendNames{"rays", "opengl"};
 constexpr std::string_view name_of(BufferBackend backend) {

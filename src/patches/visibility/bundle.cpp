@@ -14,7 +14,7 @@ namespace stilb::patches {
 namespace {
 
 constexpr double kRelativeTolerance = 0x1p-19;
-/// Surfaces that are seen more edge-on than this cosine are crossed too seldom to matter.
+/// The cosine below which surfaces count as edge-on: they are crossed too seldom to matter.
 constexpr double kLeastCosine = 1e-3;
 
 }  // namespace
@@ -29,7 +29,7 @@ void CoincidentCrossings::remove_from(std::vector<Crossing>& crossings) const {
 
 bool CoincidentCrossings::is_same(const Crossing& before, const Crossing& after) const {
     const double gap_m = double{after.distance} - double{before.distance};
-    // Looking for normals all over the patches takes time, and most are far apart.
+    // Comparing all normals takes time, and most crossings are far apart.
     if (gap_m * kLeastCosine > tolerance_m_) return false;
     return patches_.is_front(before.side) == patches_.is_front(after.side) &&
            gap_m * std::abs(dot(direction_, patches_.normal_of(after.side))) <= tolerance_m_;
@@ -37,7 +37,7 @@ bool CoincidentCrossings::is_same(const Crossing& before, const Crossing& after)
 
 namespace {
 
-/// Room before and behind the patches, for rounding.
+/// The margin before and behind the patches, for rounding.
 constexpr double kRelativeMargin = 0x1p-18;
 
 double half_extent_along(const Vec3& axis, const Vec3& half) {
@@ -48,7 +48,7 @@ int line_count(double extent_m, double spacing_m) {
     const double count = std::ceil(extent_m / spacing_m);
     if (spacing_m > 0 && count <= kMostLines) return static_cast<int>(count);
     throw InputError(
-        fmt::format("the rays of a bundle are {} m apart: {} m must be covered by {} of them at most. Take "
+        fmt::format("the spacing of a bundle's rays is {} m, too small to cover {} m by at most {} rays. Use "
                     "{:.2g} m or more.",
                     spacing_m, extent_m, kMostLines, extent_m / kMostLines));
 }
@@ -89,11 +89,11 @@ LineGrid::LineGrid(const Bounds& bounds, const Bundle& bundle) {
 
 namespace {
 
-/// A packet is a square of the grid, whose rays stay closest together.
+/// A packet is a square of the grid, whose rays are the most coherent.
 constexpr int kTile = 4;
 static_assert(kTile * kTile == kPacketWidth);
 
-/// The rays of a tile. All go the same way.
+/// The parallel rays of a tile.
 class GridRays {
   public:
     GridRays(const LineGrid& grid, const Vec3& direction) : grid_(grid) {
@@ -116,7 +116,7 @@ class GridRays {
         return rays;
     }
 
-    /// Those that are on the grid.
+    /// The lanes that are on the grid.
     LaneMask lanes(int x0, int y0) const {
         LaneMask lanes{};
         for (int lane = 0; lane < kPacketWidth; ++lane) {

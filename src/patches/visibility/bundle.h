@@ -23,11 +23,11 @@ namespace stilb::patches {
 
 // Rays that go through the edge between two patches meet both of them, though they cross one surface.
 
-/// Keeps one crossing of those that are one and the same: where the next one has the same orientation (both
-/// fronts or both backs) and lies no farther behind than 2^-19 of half the bounding box, as measured across
-/// the patch. Left alone, the two patches would see each other, one from its wrong side. What is thicker
-/// keeps both its sides, and so does everything closed, however thin, whose two sides are of different
-/// orientation.
+/// Merges crossings of one surface at an edge between patches: where the next crossing has the same
+/// orientation (both fronts or both backs) and lies no farther behind than 2^-19 of half the bounding box,
+/// measured across the patch. Otherwise the two patches would see each other, one from its wrong side.
+/// Thicker bodies keep both sides, and so do all closed bodies, however thin, because their two sides have
+/// different orientations.
 class CoincidentCrossings {
   public:
     /// For rays along a unit vector. Keeps a reference to the patches.
@@ -44,20 +44,20 @@ class CoincidentCrossings {
 };
 
 struct Bundle {
-    Frame frame;                     ///< w: where the rays go; u and v: the axes of the grid
+    Frame frame;                     ///< w: direction of the rays; u and v: the axes of the grid
     double spacing_m = 0;            ///< of neighbouring rays
     std::array<double, 2> offset{};  ///< of the grid along u and v, in spacings; in [0, 1)
 };
 
-/// What one line of a bundle goes through. Neighbours in `sides` see each other: of patch i the side
-/// other_side(sides[i]) faces along the line, and sees sides[i + 1].
+/// The crossings of one line of a bundle. Neighbours in `sides` see each other: side other_side(sides[i])
+/// of patch i faces along the line, and sees sides[i + 1].
 struct CrossedLine {
     Vec3 origin;                           ///< world; before all patches
-    std::span<const std::uint32_t> sides;  ///< those that are met on the way along w
+    std::span<const std::uint32_t> sides;  ///< crossed sides in the order along w
     std::span<const float> distances_m;    ///< from the origin
 };
 
-/// Some lines, without those that meet nothing.
+/// Lines of a bundle; lines without crossings are left out.
 class CrossedLines {
   public:
     std::size_t count() const { return origins_.size(); }
@@ -87,10 +87,10 @@ void for_each_pair(const Patches& patches, const CrossedLines& lines, const Visi
     }
 }
 
-/// Called for one block of lines after another; they last as long as the call.
+/// Called for one block of lines after another; their data are valid during the call.
 using LineVisitor = std::function<void(const CrossedLines&)>;
 
-/// One way of casting bundles. All ways agree but in lines that meet a boundary between patches.
+/// The interface of bundle backends. They agree except for lines that meet a boundary between patches.
 class Bundles {
   public:
     Bundles() = default;
@@ -98,7 +98,7 @@ class Bundles {
     Bundles& operator=(const Bundles&) = delete;
     virtual ~Bundles() = default;
 
-    /// Hands all lines that meet something to `visit`, each once, on the calling thread. Throws InputError
+    /// Passes all lines with crossings to `visit`, each once, on the calling thread. Throws InputError
     /// where the spacing is not above 0, or so small that there would be more than kMostLines along an edge
     /// of the grid.
     virtual void cast(const Bundle& bundle, const LineVisitor& visit) const = 0;
@@ -106,7 +106,7 @@ class Bundles {
 
 inline constexpr int kMostLines = 65'536;
 
-/// The lines of a bundle: as many as it takes to cover the projection of the patches' bounding box. Line
+/// The lines of a bundle: enough to cover the projection of the patches' bounding box. Line
 /// (x, y) begins at `first` + x `step_x` + y `step_y`.
 struct LineGrid {
     Vec3 first, step_x, step_y;  ///< relative to Patches::center

@@ -28,9 +28,9 @@ double longest_edge_m(const Patches& patches, std::uint32_t patch) {
 
 }  // namespace
 
-Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& place) {
+Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& barycentric) {
     const std::uint32_t patch = patches.patch_of(side);
-    const Vec3 wanted = patches.position(patch, place), middle = patches.middle(patch);
+    const Vec3 wanted = patches.position(patch, barycentric), middle = patches.middle(patch);
     const double longest_m = longest_edge_m(patches, patch);
     const double lift_m = kRelativeLift * std::max(largest_coordinate(wanted - patches.center), longest_m);
     // A third of the least height is how far the middle is from an edge.
@@ -52,7 +52,7 @@ std::vector<BufferFace> sides_and_top(int resolution, int side_height, double bo
     return {{kX, -kY, kZ, -1, -1, resolution, resolution, 0}, side(kX), side(kY), side(-kX), side(-kY)};
 }
 
-/// The axes of the cube whose corner w points to.
+/// The axes of the cube whose corner points along w.
 std::vector<BufferFace> tetrahedron_faces(int resolution) {
     const double third = std::sqrt(1. / 3), sixth = std::sqrt(1. / 6), half = std::sqrt(1. / 2);
     const Vec3 a{2 * sixth, 0, third}, b{-sixth, half, third}, c{-sixth, -half, third};
@@ -74,8 +74,8 @@ void check(int resolution) {
     constexpr int kMost = 16384;
     if (resolution >= 2 && resolution <= kMost && resolution % 2 == 0) return;
     throw InputError(
-        fmt::format("the resolution of item buffers is {}: the horizon must lie between two rows of "
-                    "pixels. Take an even number from 2 to {}, such as 512.",
+        fmt::format("the resolution of item buffers is {}, but the horizon must lie between two rows of "
+                    "pixels. Use an even number from 2 to {}, such as 512.",
                     resolution, kMost));
 }
 
@@ -101,8 +101,8 @@ BufferPixel ItemBufferLayout::pixel(const BufferFace& face, int x, int y) const 
         return face.forward + (face.left + (x + dx) * pixel_size_) * face.right +
                (face.bottom + (y + dy) * pixel_size_) * face.up;
     };
-    // The horizon is the diagonal of a tetrahedron's faces: pixels on it count by half, at the centre of the
-    // half that is in front.
+    // The horizon is the diagonal of a tetrahedron's faces: a pixel on it counts by half, at the centre of
+    // the half in front.
     const bool is_on_horizon = shape_ == BufferShape::cubic_tetrahedron && x == first_column(face, y);
     const double part = is_on_horizon ? 0.5 : 1, centre = is_on_horizon ? 2. / 3 : 0.5;
     const Vec3 counted = point(centre, centre);
@@ -112,11 +112,11 @@ BufferPixel ItemBufferLayout::pixel(const BufferFace& face, int x, int y) const 
 
 namespace {
 
-/// A packet is a square of pixels, whose rays stay closest together.
+/// A packet is a square of pixels, whose rays are the most coherent.
 constexpr int kTile = 4;
 static_assert(kTile * kTile == kPacketWidth);
 
-/// The rays through the pixels of a face: they all begin in one place, and their directions are linear in x
+/// The rays through the pixels of a face: they share their origin, and their directions are linear in x
 /// and y.
 class FaceRays {
   public:
@@ -148,7 +148,7 @@ class FaceRays {
         return rays;
     }
 
-    /// Those whose pixels are on the face and in front of the horizon.
+    /// The lanes whose pixels are on the face and in front of the horizon.
     LaneMask lanes(int x0, int y0) const {
         LaneMask lanes{};
         for (int lane = 0; lane < kPacketWidth; ++lane) {

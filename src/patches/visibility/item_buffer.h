@@ -1,10 +1,10 @@
-// Item buffers: pictures all around a place, of which every pixel holds the side of the patch seen in it.
+// Item buffers: pictures in all directions from a viewpoint, whose pixels hold the visible sides of patches.
 //
-// A face of a buffer is a plane picture at distance 1, seen from the place. A pixel whose middle is at
-// distance r and whose area is dA fills the solid angle dA / r^3, and the cosine at the place is that of its
-// direction to the axis w (theory: [FirstShot (15)-(20)]). Both are the midpoint rule over pixels: what is
-// summed up over a buffer is wrong by a share in proportion to 1 / resolution^2, and at boundaries of patches
-// by 1 / resolution.
+// A face of a buffer is a plane picture at distance 1 from the viewpoint. A pixel whose middle is at
+// distance r and whose area is dA subtends the solid angle dA / r^3, and the cosine at the viewpoint is that
+// of its direction to the axis w (theory: [FirstShot (15)-(20)]). Both are the midpoint rule over pixels:
+// sums over a buffer are wrong by a share in proportion to 1 / resolution^2, and at boundaries of patches by
+// 1 / resolution.
 #pragma once
 
 #include <cstddef>
@@ -20,19 +20,19 @@
 
 namespace stilb::patches {
 
-// Places to look from.
+// Viewpoints.
 
-/// A place in world coordinates, and the axes that it looks along; w is where a hemisphere is seen.
+/// A position in world coordinates, with axes; w is the axis of a hemisphere.
 struct Viewpoint {
     Vec3 position;
     Frame frame;
 };
 
-/// A place on a side of a patch, looking along its normal: a light sample on an area light. It is lifted off
-/// the surface, and drawn in from the patch's edges by eight times as much, as RayCaster does (ray_caster.h,
-/// for the reasons): so it does not see its own plane, nor past a wall that begins at an edge of the patch. A
-/// place may be a corner of the patch.
-Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& place);
+/// A viewpoint on a side of a patch, facing along its normal: a light sample on an area light. It is lifted
+/// off the surface, and moved inwards from the patch's edges by eight times as much, as RayCaster does
+/// (ray_caster.h gives the reasons): so it sees neither its own plane, nor past a wall that begins at an edge
+/// of the patch. The position may be a corner of the patch.
+Viewpoint viewpoint_on(const Patches& patches, std::uint32_t side, const math::Barycentric& barycentric);
 
 /// In the frame of the viewpoint. Pixel (0, 0) is at the lower left, rows follow one another upwards.
 struct BufferFace {
@@ -54,7 +54,7 @@ struct BufferPixel {
     double cosine = 0;  ///< of the angle to w; below 0 behind
 };
 
-/// Where the pixels of a buffer are. Plain and immutable; one for any number of viewpoints.
+/// The layout of the pixels of a buffer. Plain and immutable; one for any number of viewpoints.
 class ItemBufferLayout {
   public:
     /// `resolution` is the number of pixels along the longest edge of a face: 2 units of length in cubes, 3
@@ -68,12 +68,12 @@ class ItemBufferLayout {
     std::size_t pixel_count() const;
 
     /// Row y of a face begins with so many pixels that lie wholly behind the horizon, in the corner that a
-    /// tetrahedron cuts off. They belong to no direction, and see nothing.
+    /// tetrahedron cuts off. They have no direction, and see nothing.
     int first_column(const BufferFace& face, int y) const {
         return shape_ == BufferShape::cubic_tetrahedron ? face.width - 1 - y : 0;
     }
     BufferPixel pixel(const BufferFace& face, int x, int y) const;
-    /// Calls `visit(index, pixel)` for all pixels in front of the horizon, by their place in the buffer.
+    /// Calls `visit(index, pixel)` for all pixels in front of the horizon, with their index in the buffer.
     template <typename Visitor>
     void for_each_pixel(const Visitor& visit) const {
         for (const BufferFace& face : faces_) {
@@ -92,8 +92,8 @@ class ItemBufferLayout {
     std::vector<BufferFace> faces_;
 };
 
-/// One way of filling buffers. All ways agree but in pixels whose middle lies on the boundary between
-/// patches, and where patches lie in one another.
+/// The interface of item buffer backends. They agree except for pixels whose middle lies on the boundary
+/// between patches, and where patches overlap.
 class ItemBuffers {
   public:
     ItemBuffers() = default;
@@ -101,15 +101,15 @@ class ItemBuffers {
     ItemBuffers& operator=(const ItemBuffers&) = delete;
     virtual ~ItemBuffers() = default;
 
-    /// Sets all pixels: `sides` has layout.pixel_count() places and becomes sides of patches (Patches), or
-    /// kNoSide. Patches are seen from both sides.
+    /// Sets all pixels: `sides` has layout.pixel_count() elements, which become sides of patches (Patches),
+    /// or kNoSide. Patches are seen from both sides.
     virtual void fill(const ItemBufferLayout& layout, const Viewpoint& viewpoint,
                       std::span<std::uint32_t> sides) = 0;
 };
 
 // Item buffers by rays.
 
-/// Fills buffers on one thread; each thread may have an object of its own, they are light. Keeps a reference
+/// Fills buffers on one thread; each thread may have a cheap object of its own. Keeps a reference
 /// to the caster.
 class RayItemBuffers : public ItemBuffers {
   public:

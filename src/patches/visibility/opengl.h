@@ -1,4 +1,4 @@
-// Patches in OpenGL: what all drawings of them share.
+// Patches in OpenGL: the common part of all drawings.
 #pragma once
 
 #include <initializer_list>
@@ -13,17 +13,18 @@ namespace stilb::patches {
 
 // OpenGL without a window.
 
-/// An OpenGL 4.5 context by EGL: of the first device that has one (a graphics card where there is one), else
+/// An OpenGL 4.5 context by EGL: of the first device that has one (a graphics card if there is one), else
 /// of Mesa without a device. Functions of OpenGL work in the thread that holds a Current.
 class OpenGlContext {
   public:
-    /// Throws InputError, with what to install, where there is no EGL or none of its drivers has OpenGL 4.5.
+    /// Throws InputError, with the packages to install, where there is no EGL or none of its drivers has
+    /// OpenGL 4.5.
     OpenGlContext();
     ~OpenGlContext();
     OpenGlContext(const OpenGlContext&) = delete;
     OpenGlContext& operator=(const OpenGlContext&) = delete;
 
-    /// While it lives, the context is the calling thread's; one at a time.
+    /// During its lifetime, the context is the calling thread's; one at a time.
     class Current {
       public:
         explicit Current(const OpenGlContext& context);
@@ -41,13 +42,13 @@ class OpenGlContext {
 };
 
 /// Shaders in GLSL. The vertex shader gets each patch's corners in location 0, relative to Patches::center;
-/// the fragment shader knows the patch by gl_PrimitiveID.
+/// the fragment shader identifies the patch by gl_PrimitiveID.
 struct ShaderSources {
     const char* vertex;
     const char* fragment;
 };
 
-/// A context of OpenGL with copies of the patches and one program, which are in use wherever the context is
+/// A context of OpenGL with copies of the patches and one program, which are active whenever the context is
 /// current. Keeps a reference to the patches.
 class OpenGlPatches {
   public:
@@ -56,12 +57,12 @@ class OpenGlPatches {
 
     const OpenGlContext& context() const { return context_; }
     const Patches& patches() const { return patches_; }
-    /// Who draws, for reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    /// The renderer, for reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
     const std::string& renderer() const { return renderer_; }
-    /// The longest edge of a picture that can be drawn to, in pixels.
+    /// The longest edge of a picture that can be rendered, in pixels.
     int largest_picture() const { return largest_picture_; }
 
-    /// Draws all, in the order of their numbers. The context must be current.
+    /// Draws all patches in order. The context must be current.
     void draw() const;
 
   private:
@@ -71,17 +72,17 @@ class OpenGlPatches {
     int largest_picture_ = 0;
 };
 
-/// Throws std::runtime_error where OpenGL has failed since it was asked last, in the current context.
+/// Throws std::runtime_error where OpenGL has failed since the last check, in the current context.
 void check_opengl();
 
-/// Of the program in use: vec3 at `location`, or an array of them.
+/// Sets a uniform of the active program: vec3 at `location`, or an array of them.
 void set_uniform(int location, std::initializer_list<Vec3> vectors);
 
 // Bundles by the graphics card.
 
-/// Draws the patches without perspective, layer behind layer, until nothing is left to draw; without a card
+/// Draws the patches without perspective, layer behind layer, until no patch is left; without a card
 /// by Mesa's software. A pixel's middle is a line. Casts may run in parallel, but draw one after another.
-/// Copies of the patches' geometry go to the driver. Distances are right to 2^-8 of the spacing, as measured
+/// Copies of the patches' geometry go to the driver. Distances are accurate to 2^-8 of the spacing, measured
 /// across the patch.
 class OpenGlBundles : public Bundles {
   public:
@@ -92,7 +93,7 @@ class OpenGlBundles : public Bundles {
     /// Throws std::runtime_error too, where OpenGL fails (out of memory).
     void cast(const Bundle& bundle, const LineVisitor& visit) const override;
 
-    /// Who draws, for reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    /// The renderer, for reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
     const std::string& renderer() const;
 
   private:
@@ -102,7 +103,7 @@ class OpenGlBundles : public Bundles {
 
 // Item buffers by the graphics card.
 
-/// Draws the patches with their number as colour, without a window, by Mesa's software where there is no
+/// Draws the patches with their number as colour, without a window, by Mesa's software if there is no
 /// card. One buffer at a time, from any thread. Copies of the patches' geometry go to the driver.
 class OpenGlItemBuffers : public ItemBuffers {
   public:
@@ -110,12 +111,12 @@ class OpenGlItemBuffers : public ItemBuffers {
     explicit OpenGlItemBuffers(const Patches& patches);
     ~OpenGlItemBuffers() override;
 
-    /// Throws InputError where the driver has no pictures of that size, std::runtime_error where OpenGL fails
-    /// (out of memory).
+    /// Throws InputError where the driver does not support pictures of that size, std::runtime_error where
+    /// OpenGL fails (out of memory).
     void fill(const ItemBufferLayout& layout, const Viewpoint& viewpoint,
               std::span<std::uint32_t> sides) override;
 
-    /// Who draws, for reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    /// The renderer, for reports: "llvmpipe (LLVM 15.0.6, 256 bits)".
     const std::string& renderer() const;
 
   private:

@@ -1,7 +1,7 @@
 // Depth peeling [Everitt 2001, Interactive order-independent transparency]: a layer is the nearest of all
-// that lies behind the layer before, pixel by pixel. Behind means farther or, at the same depth, of a higher
-// number: so two patches in one place both get their layer. Depth is the share of the grid's depth, in single
-// precision; the same patch has exactly the same depth in every layer.
+// surfaces behind the layer before, pixel by pixel. Behind means farther or, at the same depth, of a higher
+// number: so two patches at the same position both get their layer. Depth is the share of the grid's depth,
+// in single precision; the same patch has exactly the same depth in every layer.
 //
 // Agreement with rays is that of item buffers (opengl_item_buffers.cpp): a line that is nearer than 1/256 of
 // the spacing to an edge may fall to the other side of it.
@@ -21,13 +21,13 @@ namespace {
 
 /// `axes` are the bundle's u, v and w, `corner` is that of the picture; `scale` maps the picture to [0, 1]^3.
 constexpr const char* kVertexShader = R"(#version 450 core
-layout(location = 0) in vec3 place;
+layout(location = 0) in vec3 position;
 layout(location = 0) uniform vec3 corner;
 layout(location = 1) uniform vec3 axes[3];
 layout(location = 4) uniform vec3 scale;
 void main() {
-    vec3 way = place - corner;
-    vec3 seen = scale * vec3(dot(axes[0], way), dot(axes[1], way), dot(axes[2], way));
+    vec3 offset = position - corner;
+    vec3 seen = scale * vec3(dot(axes[0], offset), dot(axes[1], offset), dot(axes[2], offset));
     gl_Position = vec4(2 * seen.xy - 1, seen.z, 1);
 }
 )";
@@ -48,8 +48,8 @@ void main() {
 
 constexpr GLint kCorner = 0, kAxes = 1, kScale = 4, kCount = 5;
 
-/// Larger grids are drawn in parts of so many lines along an edge at most: all layers of one stay in memory.
-/// Every OpenGL 4.5 has pictures of 16384.
+/// Larger grids are drawn in parts of at most so many lines along an edge: all layers of one part stay in
+/// memory. Every OpenGL 4.5 has pictures of 16384.
 constexpr int kLargestTile = 2048;
 
 struct LayerPixel {
@@ -79,7 +79,7 @@ std::vector<Tile> tiles_of(const LineGrid& grid) {
     return tiles;
 }
 
-/// What one line crosses, by its pixel in all layers.
+/// The crossings of one line, from its pixel in all layers.
 void collect(const std::vector<Layer>& layers, std::size_t pixel, double depth_m,
              std::vector<Crossing>& crossings) {
     crossings.clear();
@@ -138,7 +138,7 @@ struct OpenGlBundles::Implementation {
         glClearBufferuiv(GL_COLOR, 0, colour.data());
     }
 
-    void look_at(const LineGrid& grid, const Frame& frame, const Tile& tile) const {
+    void set_view(const LineGrid& grid, const Frame& frame, const Tile& tile) const {
         const double width_m = tile.width * length(grid.step_x), height_m = tile.height * length(grid.step_y);
         const Vec3 to_corner = -0.5 * (grid.step_x + grid.step_y);  // from the middle of a pixel
         set_uniform(kCorner, {grid.origin(tile.x, tile.y) + to_corner});
@@ -147,7 +147,7 @@ struct OpenGlBundles::Implementation {
         glViewport(0, 0, tile.width, tile.height);
     }
 
-    /// The last layer is the last that has anything.
+    /// The last layer is the last one with any crossing.
     std::vector<Layer> peeled(const Tile& tile) const {
         std::vector<Layer> all;
         clear_layer(1, kBeforeAll);
@@ -170,7 +170,7 @@ struct OpenGlBundles::Implementation {
         const std::scoped_lock alone(in_use);
         const OpenGlContext::Current current(drawing.context());
         provide_pictures(tile.width, tile.height);
-        look_at(grid, frame, tile);
+        set_view(grid, frame, tile);
         return peeled(tile);
     }
 };

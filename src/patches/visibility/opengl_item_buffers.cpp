@@ -1,12 +1,12 @@
-// Depth. What is written is near / z, z being the distance along the face's axis, in single precision and
+// Depth. The depth value is near / z, z being the distance along the face's axis, in single precision and
 // with nearer being larger: a relative precision of 2^-24 at every distance, whatever the near plane is
 // [Upchurch, Desbrun 2012, Tightening the precision of perspective rendering]. So the near plane can lie
-// closer than anything is seen from: a viewpoint on a surface is lifted by 2^-19 of the scene's size
+// closer than any viewpoint is to a surface: a viewpoint on a surface is lifted by 2^-19 of the scene's size
 // (viewpoint.h), the near plane is at 2^-23.
 //
-// Agreement with rays. Both see a pixel's middle from the same place, rounded alike, through vertices rounded
-// alike. OpenGL rounds them once more on the screen, usually to 1/256 of a pixel: the middle of a pixel that
-// is nearer than that to an edge may fall to the other side of it.
+// Agreement with rays. Both see a pixel's middle from the same viewpoint, with the same rounding of viewpoint
+// and vertices. OpenGL rounds vertices once more on the screen, usually to 1/256 of a pixel: the middle of a
+// pixel that is nearer than that to an edge may fall to the other side of it.
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
@@ -22,15 +22,15 @@ namespace {
 
 /// `axes` are the face's right, up and forward; the window maps the picture's plane to [-1, 1]^2.
 constexpr const char* kVertexShader = R"(#version 450 core
-layout(location = 0) in vec3 place;
-layout(location = 0) uniform vec3 eye;
+layout(location = 0) in vec3 position;
+layout(location = 0) uniform vec3 viewpoint;
 layout(location = 1) uniform vec3 axes[3];
 layout(location = 4) uniform vec2 scale;
 layout(location = 5) uniform vec2 shift;
 layout(location = 6) uniform float near_plane;
 void main() {
-    vec3 way = place - eye;
-    vec3 seen = vec3(dot(axes[0], way), dot(axes[1], way), dot(axes[2], way));
+    vec3 offset = position - viewpoint;
+    vec3 seen = vec3(dot(axes[0], offset), dot(axes[1], offset), dot(axes[2], offset));
     gl_Position = vec4(scale * seen.xy + shift * seen.z, near_plane, seen.z);
 }
 )";
@@ -41,7 +41,7 @@ layout(location = 0) out uint side;
 void main() { side = uint(gl_PrimitiveID) + (gl_FrontFacing ? 0u : count); }
 )";
 
-constexpr GLint kEye = 0, kAxes = 1, kScale = 4, kShift = 5, kNearPlane = 6, kCount = 7;
+constexpr GLint kViewpoint = 0, kAxes = 1, kScale = 4, kShift = 5, kNearPlane = 6, kCount = 7;
 
 }  // namespace
 
@@ -65,8 +65,8 @@ struct OpenGlItemBuffers::Implementation {
         if (size == picture_size) return;
         if (size > drawing.largest_picture()) {
             throw InputError(
-                fmt::format("item buffers of {} pixels are more than the {} that {} can draw. Take "
-                            "that many or fewer, or have them filled by rays.",
+                fmt::format("item buffers of {} pixels exceed the limit of {} pixels of {}. Use "
+                            "a lower resolution, or visibility by rays.",
                             size, drawing.largest_picture(), drawing.renderer()));
         }
         const auto replace = [&](GLuint& picture, GLenum attachment, GLenum format) {
@@ -84,7 +84,7 @@ struct OpenGlItemBuffers::Implementation {
 
     void draw(const BufferFace& face, double pixel_size, const Viewpoint& viewpoint) const {
         const auto world = [&](const Vec3& axis) { return viewpoint.frame.to_world(axis); };
-        set_uniform(kEye, {viewpoint.position - drawing.patches().center});
+        set_uniform(kViewpoint, {viewpoint.position - drawing.patches().center});
         set_uniform(kAxes, {world(face.right), world(face.up), world(face.forward)});
         const double width = face.width * pixel_size, height = face.height * pixel_size;
         glUniform2f(kScale, static_cast<float>(2 / width), static_cast<float>(2 / height));

@@ -17,9 +17,9 @@ namespace {
 
 [[noreturn]] void throw_missing(const std::string& what) {
     throw InputError(
-        "there is no OpenGL here to draw patches with: " + what +
+        "OpenGL is not available for drawing patches: " + what +
         " Install a driver (in Debian: libegl1, libgl1 and libgl1-mesa-dri, which needs no graphics card), "
-        "or take rays instead.");
+        "or use visibility by rays.");
 }
 
 std::vector<EGLDisplay> displays() {
@@ -40,7 +40,7 @@ std::vector<EGLDisplay> displays() {
     return found;
 }
 
-/// EGL_NO_CONTEXT where the display has none that would do.
+/// EGL_NO_CONTEXT where the display has no suitable context.
 EGLContext context_of(EGLDisplay display) {
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
         return EGL_NO_CONTEXT;
@@ -71,7 +71,7 @@ OpenGlContext::OpenGlContext() {
         context_ = context;
         return;
     }
-    throw_missing("no driver has OpenGL 4.5 without a window (EGL is there).");
+    throw_missing("EGL is present, but no driver has OpenGL 4.5 without a window.");
 }
 
 OpenGlContext::~OpenGlContext() { eglDestroyContext(display_, context_); }
@@ -134,7 +134,7 @@ void upload(const Patches& patches) {
 
 }  // namespace
 
-/// Objects of OpenGL live and die with the context.
+/// Objects of OpenGL have the lifetime of the context.
 OpenGlPatches::OpenGlPatches(const Patches& patches, const ShaderSources& shaders) : patches_(patches) {
     const OpenGlContext::Current current(context_);
     renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

@@ -43,7 +43,7 @@ struct CollectingContext : RTCIntersectContext {
     PacketCrossings& crossings;
 };
 
-/// Keeps what is met and lets the rays go on.
+/// Records the crossings and continues the rays.
 void collect(const RTCFilterFunctionNArguments* args) {
     const auto& context = *static_cast<const CollectingContext*>(args->context);
     for (unsigned i = 0; i < args->N; ++i) {
@@ -69,7 +69,7 @@ struct PatchCaster::Implementation {
 
     explicit Implementation(const Patches& all) : patches(all) {
         device = rtcNewDevice(nullptr);
-        if (device == nullptr) throw std::runtime_error("Embree: no device could be made");
+        if (device == nullptr) throw std::runtime_error("Embree: no device could be created");
         rtcSetDeviceErrorFunction(device, throw_error, nullptr);
         rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
         scene = rtcNewScene(device);
@@ -86,13 +86,13 @@ struct PatchCaster::Implementation {
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
 
-    /// One geometry: its primitives are the patches.
+    /// One geometry, whose primitives are the patches.
     void add_patches() const {
         const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                  sizeof(Float3), patches.vertices.size());
         std::ranges::copy(patches.vertices, static_cast<Float3*>(vertices));
-        // Embree only reads what is shared with it.
+        // Embree only reads shared buffers.
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                    patches.corners.data(), 0, sizeof(Triangle), patches.count());
         rtcCommitGeometry(geometry);

@@ -1,4 +1,4 @@
-// Rays against patches: which side of which patch does a ray meet first, and which ones are on its whole way.
+// Rays against patches: the first side that a ray meets, and all sides along the ray.
 #pragma once
 
 #include <array>
@@ -13,18 +13,19 @@
 
 namespace stilb::patches {
 
-/// What sixteen rays met first.
+/// The first hits of sixteen rays.
 struct PatchHits {
-    std::array<std::uint32_t, kPacketWidth> sides;  ///< kNoSide where a ray met nothing, or is not asked for
-    RayPacket::Floats b1, b2;                       ///< where on the patch, of those that met one
+    std::array<std::uint32_t, kPacketWidth>
+        sides;                 ///< kNoSide where a ray met nothing, or its lane is not set
+    RayPacket::Floats b1, b2;  ///< barycentric coordinates on the patch, for lanes with a hit
 
-    math::Barycentric place(std::size_t lane) const {
+    math::Barycentric barycentric(std::size_t lane) const {
         const double u = b1[lane], v = b2[lane];
         return {1 - u - v, u, v};
     }
 };
 
-/// A patch on the way of a ray.
+/// A crossing of a ray with a patch.
 struct Crossing {
     float distance = 0;            ///< in units of the ray's direction
     std::uint32_t side = kNoSide;  ///< the one that faces the ray's origin
@@ -32,7 +33,7 @@ struct Crossing {
     auto operator<=>(const Crossing&) const = default;
 };
 
-/// For each ray of a packet.
+/// Crossings for each ray of a packet.
 using PacketCrossings = std::array<std::vector<Crossing>, kPacketWidth>;
 
 /// Immutable after construction; all queries may run in parallel. Keeps a reference to the patches. Rays that
@@ -45,14 +46,14 @@ class PatchCaster {
     PatchCaster(const PatchCaster&) = delete;
     PatchCaster& operator=(const PatchCaster&) = delete;
 
-    /// For lanes that are set: what is met first between `start` and `end`; `end` becomes how far it is.
+    /// First hits between `start` and `end`, for lanes that are set; `end` becomes the distance of the hit.
     /// Coordinates are relative to Patches::center. Embree divides packets where the processor has narrower
     /// vectors.
     PatchHits closest(RayPacket& packet, const LaneMask& lanes,
                       rays::Coherence coherence = rays::Coherence::coherent) const;
 
-    /// For lanes that are set: all that is met between `start` and `end`, by distance; other lanes have
-    /// nothing. Takes the place of what was in `crossings`, whose memory can so be used again. A ray on the
+    /// All crossings between `start` and `end`, by distance, for lanes that are set; other lanes have
+    /// none. Overwrites `crossings`, whose memory is reused. A ray on the
     /// edge between patches meets one or more of them.
     void all(const RayPacket& packet, const LaneMask& lanes, PacketCrossings& crossings) const;
 

@@ -13,13 +13,13 @@
 namespace stilb::estimators {
 namespace {
 
-/// A side that a sample sees.
+/// A side that is seen from a sample.
 struct Lit {
     std::uint32_t side = 0;
     float illuminance_lx = 0;
 };
 
-/// What one thread shoots with.
+/// The buffers of one thread.
 class Shooter {
   public:
     Shooter(const patches::PatchCaster& caster, const ShootingOptions& options)
@@ -65,7 +65,7 @@ class Shooter {
     std::vector<std::uint32_t> touched_;  ///< sides with flux
 };
 
-/// Sides that every sample sees. Those of a sample do not depend on who else works.
+/// The sides seen from every sample. The result for a sample does not depend on other threads' work.
 std::vector<std::vector<Lit>> shoot_all(const patches::PatchCaster& caster,
                                         std::span<const LightSample> samples, const ShootingOptions& options,
                                         const Monitor& monitor) {

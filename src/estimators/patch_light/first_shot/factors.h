@@ -1,12 +1,13 @@
-// What each side of each patch receives from each light sample: [FirstShot (17), (20)], theory (T.3), (T.4).
+// The illuminance of each side of each patch by each light sample: [FirstShot (17), (20)], theory (T.3),
+// (T.4).
 //
 //     e_ij = (1 / A_j) sum over pixels p in P_j of I_i(w_p) dW_p     [lx]
 //
 // P_j are the pixels of an item buffer around sample i in which side j of a patch is seen, I_i is the
 // sample's intensity towards a pixel, dW_p the pixel's solid angle. In a closed scene the sum of e_ij A_j
-// over all sides is the flux that leaves the sample, but for the midpoint rule over pixels. A patch's own
-// e_ij is wrong by its boundary pixels; one that lies between the middles of pixels gets nothing, though it
-// is seen, and its share goes to its neighbours.
+// over all sides is the flux that leaves the sample, except for the error of the midpoint rule over pixels. A
+// patch's own e_ij is wrong by its boundary pixels; one that lies between the middles of pixels gets nothing,
+// though it is seen, and its share goes to its neighbours.
 #pragma once
 
 #include <cstddef>
@@ -22,11 +23,11 @@
 
 namespace stilb::estimators {
 
-/// An even number of pixels along a face that leaves 100 pixels or more of a cube for each patch in the mean,
-/// 2048 at most: from 250,000 patches on they are fewer.
+/// An even number of pixels along a face, such that a cube has 100 pixels or more per patch in the mean,
+/// but at most 2048: from 250,000 patches on there are fewer.
 int first_shot_resolution(std::size_t patches);
 
-/// Rows of different lengths, one for each side: only samples that see it are in.
+/// Rows of different lengths, one for each side, with the samples that see it.
 class FirstShotFactors {
   public:
     struct Factor {
@@ -35,10 +36,10 @@ class FirstShotFactors {
     };
 
     /// Fills a buffer around every sample, by rays with all threads. Throws InputError where the resolution
-    /// is none (ItemBufferLayout) and where OpenGL is missing; Cancelled as the monitor says.
+    /// is invalid (ItemBufferLayout) and where OpenGL is missing; Cancelled as the monitor says.
     FirstShotFactors(const patches::PatchCaster& caster, std::span<const LightSample> samples,
                      const ShootingOptions& options, const Monitor& monitor = Monitor::none());
-    /// What rows() and all() gave: rows ascend from 0 to the number of factors.
+    /// The data that rows() and all() gave: rows ascend from 0 to the number of factors.
     FirstShotFactors(std::vector<std::uint32_t> rows, std::vector<Factor> factors)
         : first_(std::move(rows)), factors_(std::move(factors)) {}
 
@@ -46,7 +47,7 @@ class FirstShotFactors {
     std::span<const Factor> of(std::uint32_t side) const {
         return std::span(factors_).subspan(first_[side], first_[side + 1] - first_[side]);
     }
-    /// Where in all() the factors of each side begin, and their number.
+    /// The start of each side's factors in all(), and their number.
     std::span<const std::uint32_t> rows() const { return first_; }
     std::span<const Factor> all() const { return factors_; }
     std::size_t bytes() const {

@@ -126,12 +126,12 @@ FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays
 void FirstShotPatches::add_to(std::span<transport::Path* const> paths, rays::Coherence coherence) const {
     std::vector<ViewedHit> points;
     for (const transport::Path* path : paths) points.push_back({path->hit, path->outgoing});
-    const auto places = find_patch_locations(patch_caster, points, coherence);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!places[i]) continue;
+    const auto locations = find_patch_locations(patch_caster, points, coherence);
+    for (std::size_t i = 0; i < locations.size(); ++i) {
+        if (!locations[i]) continue;
         transport::Path& path = *paths[i];
-        const std::uint32_t side = places[i]->side;
-        // Many paths stand at the same place: each has points of its own on lights.
+        const std::uint32_t side = locations[i]->side;
+        // Many paths share a position: each needs its own points on lights.
         const math::RandomKey key{
             first_shot.needs_position(side) ? std::bit_cast<std::uint64_t>(path.stream.next()) : 0};
         path.luminance_cd_m2 +=

@@ -5,17 +5,17 @@
 //
 //     Lnp = L* + T Lnp,    L* = (Le - Lep) + T Lep                                   [FirstShot (11), (12)]
 //
-// where T Lep is what FirstShot::reflected() gives, in one of four ways. Whoever uses it leaves the emission
-// of replaced lights out and adds Lep to what the eye sees at the end.
+// where FirstShot::reflected() gives T Lep, by one of four variants. Its callers leave the emission
+// of replaced lights out and add Lep to the light seen at the end.
 //
-// - classical: the reflected radiance is stored, in directional bins. Wrong by what it varies over a bin.
-// - diffuse: the diffuse part of the reflection is stored, the rest found by shadow rays. Only where the rest
-//   is a summand: Rough and Plastic are left to shadow rays as a whole.
-// - incoming: what arrives from each light sample is stored, and reflected when asked for. Any BRDF.
-// - on the fly: nothing is stored, shadow rays from every position. Any BRDF; without error but for the noise
-//   of points drawn on area lights.
+// - classical: the reflected radiance is stored, in directional bins. Its error is the variation over a bin.
+// - diffuse: the diffuse part of the reflection is stored, the rest found by shadow rays. Only for models
+//   where the rest is a summand: RoughConductor and Plastic are left to shadow rays as a whole.
+// - incoming: the light that arrives from each light sample is stored, and reflected when needed. Any BRDF.
+// - on the fly: nothing is stored, shadow rays from every position. Any BRDF; without error except for the
+//   noise of points drawn on area lights.
 //
-// The first three know a mean over each patch, by item buffers: their light ends at panes, while shadow rays
+// The first three store a mean over each patch, by item buffers: their light ends at panes, while shadow rays
 // pass them. Mirrors, glass and panes reflect nothing in any of them.
 #pragma once
 
@@ -42,12 +42,12 @@ struct NoFirstShot {
     std::size_t bytes() const { return 0; }
 };
 
-/// Immutable once made; all queries may run in parallel. Keeps references to the arguments but the options
-/// and the monitor.
+/// Immutable after construction; all queries may run in parallel. Keeps references to the arguments except
+/// the options and the monitor.
 class FirstShot {
   public:
-    /// Throws InputError where the options make no sense (ItemBufferLayout, HemisphereBins) and where OpenGL
-    /// is asked for and missing; Cancelled as the monitor says.
+    /// Throws InputError where the options are invalid (ItemBufferLayout, HemisphereBins) and where OpenGL
+    /// is requested but missing; Cancelled as the monitor says.
     FirstShot(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& sampler,
               const patches::PatchCaster& patch_caster, const FirstShotOptions& options,
               const Monitor& monitor = Monitor::none());
@@ -60,36 +60,36 @@ class FirstShot {
     /// Whether the emission of a light (of Scene::lights) is replaced.
     bool replaces(std::size_t light) const { return lights_.lights[light].is_replaced; }
 
-    /// Of a side, by the light of the replaced lights that it reflects towards the unit world direction `out`
-    /// [cd/m2]; nothing towards directions behind the side. `position` is on the side's patch; where light is
-    /// stored it does not matter. Shadow rays end at points on area lights that are drawn by key and
-    /// position: another key for each sample, where positions are always the same.
+    /// The light of the replaced lights that a side reflects towards the unit world direction `out`
+    /// [cd/m2]; nothing towards directions behind the side. `position` is on the side's patch; it does not
+    /// matter where light is stored. Shadow rays end at points on area lights that are drawn by key and
+    /// position: use another key for each sample, where positions are always the same.
     Rgb reflected(std::uint32_t side, const Vec3& position, math::RandomKey key, const Vec3& out) const;
-    /// The same added to `sums` for several directions: what arrives is found once.
+    /// The same added to `sums` for several directions: the arriving light is computed once.
     void add_reflected(std::uint32_t side, const Vec3& position, math::RandomKey key,
                        std::span<const Vec3> outs, std::span<Rgb> sums) const;
-    /// Whether that is the same for all positions and all directions in front of the side: one call is then
-    /// enough for all steps.
+    /// Whether the light is the same for all positions and all directions in front of the side: one call is
+    /// then enough for all steps.
     bool is_constant(std::uint32_t side) const;
 
-    /// Whether position and key matter: shadow rays start there.
+    /// Whether position and key matter, because shadow rays start at the position.
     bool needs_position(std::uint32_t side) const {
         return std::holds_alternative<ShadowRays>(stored_) ||
                (std::holds_alternative<DiffuseFirstShot>(stored_) && !is_constant(side));
     }
 
     FirstShotVariant variant() const { return static_cast<FirstShotVariant>(stored_.index()); }
-    /// Of the item buffers that were filled, if any.
+    /// The resolution of the item buffers, if there are any.
     std::optional<int> resolution() const { return resolution_; }
-    /// What was decided of each light, as Scene::lights.
+    /// The decision on each light, as Scene::lights.
     std::span<const FirstShotLight> lights() const { return lights_.lights; }
     std::span<const LightSample> samples() const { return lights_.samples; }
     /// Factors of incoming first shot; none in other variants.
     const IncomingFirstShot* incoming() const { return std::get_if<IncomingFirstShot>(&stored_); }
-    /// Pairs of a side and a light sample that see one another and have no pixel (FirstShotFactors): none
-    /// where nothing was shot.
+    /// Pairs of a side and a light sample that see one another but have no pixel (FirstShotFactors): none
+    /// without item buffers.
     std::size_t missed() const { return missed_; }
-    /// What is stored for the patches.
+    /// The memory of the stored light.
     std::size_t bytes() const;
     double set_up_s() const { return set_up_s_; }
 
@@ -106,18 +106,18 @@ class FirstShot {
     double set_up_s_ = 0;
 };
 
-// A scene whose surfaces are patches, and whose small lights first shot replaces on them.
+// A scene whose surfaces are replaced by patches, and whose small lights are replaced by first shot on them.
 
-/// Keeps references to scene and caster. Immutable once made.
+/// Keeps references to scene and caster. Immutable after construction.
 struct FirstShotPatches : transport::StoredReflection {
     FirstShotPatches(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
                      const Monitor& monitor = Monitor::none());
-    /// With what others of the same scene made: patches, and factors of incoming first shot; without factors
+    /// From patches and factors of incoming first shot that were made for the same scene; without factors
     /// there is no first shot.
     FirstShotPatches(const Scene& scene, const rays::RayCaster& caster, patches::Patches patches,
                      std::optional<FirstShotFactors> factors);
 
-    /// Surfaces reflect what the patches that stand for them do.
+    /// Surfaces reflect as the patches do that represent them.
     void add_to(std::span<transport::Path* const> paths, rays::Coherence coherence) const override;
 
     PatchReport report() const;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "math/random.h"
 #include "patches/patches.h"
@@ -12,8 +11,6 @@
 
 namespace stilb::estimators {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Mesh fan(const Vec3& middle, const std::vector<Vec3>& rim) {
     Mesh mesh{{middle}, {}};
@@ -23,7 +20,7 @@ Mesh fan(const Vec3& middle, const std::vector<Vec3>& rim) {
     return mesh;
 }
 
-/// The shape as the light's own patches begin.
+/// The shape as the starting mesh of the light's own patches.
 Shape coarse(const Shape& shape) {
     if (const auto* rectangle = std::get_if<Rectangle>(&shape)) {
         return fan(rectangle->corner + 0.5 * (rectangle->edge_u + rectangle->edge_v),
@@ -42,8 +39,8 @@ Shape coarse(const Shape& shape) {
     return shape;
 }
 
-/// The light alone. Places are relative to the centre of all patches, as viewpoints are lifted by how far
-/// they are from it.
+/// The light alone. Positions are relative to the centre of all patches, because viewpoints are lifted by
+/// their distance from it. they are from it.
 patches::Patches light_patches(const Shape& shape, double longest_edge_m, const Vec3& center) {
     Scene alone;
     alone.objects.push_back({"", shape, {MaterialId{}}});
@@ -56,8 +53,8 @@ patches::Patches light_patches(const Shape& shape, double longest_edge_m, const 
     return patches;
 }
 
-/// The distance that half of the flux of an area light flies at least; what leaves the scene counts as flying
-/// through all of it.
+/// The least distance that half of the flux of an area light travels; flux that leaves the scene counts as
+/// travelling through all of it.
 double median_flight_m(const Object& light, const rays::RayCaster& caster) {
     constexpr std::uint64_t kRays = 256;
     Scene alone;
@@ -75,15 +72,15 @@ double median_flight_m(const Object& light, const rays::RayCaster& caster) {
     return flights_m[kRays / 2];
 }
 
-/// Turned by no particular angle about w: rows of pixels that run along the edges of patches, as those of
-/// rooms would from places in the middle, are all counted to the same side.
+/// Turned by an arbitrary angle about w: otherwise rows of pixels would run along the edges of patches in
+/// rooms, and from positions in the middle would all be counted to the same side.
 Frame turned_about(const Vec3& w) {
     const Frame frame = Frame::around(w);
     const Vec3 u = std::cos(0.7) * frame.u + std::sin(0.7) * frame.v;
     return {u, cross(w, u), w};
 }
 
-/// For points, which any direction will do for.
+/// For points, which have no preferred direction.
 Frame turned() { return turned_about(normalized(Vec3{0.3, -0.5, 0.8})); }
 
 /// Makes the samples of one light after the other.
@@ -119,16 +116,16 @@ class Chooser {
         chosen_.samples.push_back({light, is_point, viewpoint, std::move(intensity)});
     }
 
-    /// Adds the samples of a light, or none where it is not small, and says why.
+    /// Adds the samples of a light, or none where it is not small, with the reason.
     template <lights::LightKind Source>
     std::string shoot_from(const Light& light, const Source& source) {
-        if constexpr (Source::kPlace == LightPlace::point) {
+        if constexpr (Source::kLocation == LightLocation::point) {
             return shoot_from_point(
                 typename Source::Emitter(source, scene::LightSurroundings(scene_), caster_.lift()));
-        } else if constexpr (Source::kPlace == LightPlace::surface) {
+        } else if constexpr (Source::kLocation == LightLocation::surface) {
             return shoot_from_surface(*surface_emission(light));
         } else {
-            static_assert(Source::kPlace == LightPlace::infinity);
+            static_assert(Source::kLocation == LightLocation::infinity);
             return "it surrounds the scene";
         }
     }
@@ -148,7 +145,7 @@ class Chooser {
         const auto* sphere = std::get_if<Sphere>(&shape);
         const bool is_small = sphere != nullptr ? shoot_from_sphere(*sphere, luminance_cd_m2, spacing_m)
                                                 : shoot_from_vertices(shape, luminance_cd_m2, spacing_m);
-        return is_small ? fmt::format("small: vertices {:.2g} m apart stand for it", spacing_m)
+        return is_small ? fmt::format("small: replaced by vertices {:.2g} m apart", spacing_m)
                         : fmt::format("large: it would take more than {} vertices {:.2g} m apart",
                                       kMostLightSamples, spacing_m);
     }

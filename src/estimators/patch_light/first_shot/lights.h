@@ -1,15 +1,15 @@
-// Which lights the first shot replaces, and the points that it shoots their light from.
+// The choice of lights that the first shot replaces, and the points that represent them.
 //
-// Point lights and luminaires are one point each. An area light is replaced where few points can stand for
+// Point lights and luminaires are one point each. An area light is replaced where few points can represent
 // it: the vertices of a triangle mesh of its own, no farther apart than kVertexSpacing of the distance that
-// half of its light flies at least. What a vertex i stands for is a third of the area S_i of the triangles
+// half of its light travels at least. A vertex i represents a third of the area S_i of the triangles
 // around it [FirstShot (20)]: the trapezoidal rule, whose flux is exact and whose illuminance at a distance
 // d, from squares of edge h, is wrong by a share of about (h/d)^2 / 3. Rectangles and disks begin as
 // triangles around their middle, a disk as a hexagon; areas are scaled to the true one.
 //
-// A sphere is the twelve vertices of the inscribed icosahedron, looking outwards. They share the light of
-// each direction among those that it leaves from, in proportion to their cosines: so that all of them
-// together have the sphere's intensity in every direction.
+// A sphere is represented by the twelve vertices of the inscribed icosahedron, facing outwards. They share
+// the light of each direction among the vertices that face it, in proportion to their cosines, so that all of
+// them together have the sphere's intensity in every direction.
 #pragma once
 
 #include <cstdint>
@@ -24,23 +24,24 @@
 
 namespace stilb::estimators {
 
-/// Of the distance that half of an area light's light flies at least.
+/// The largest spacing of vertices, as a share of the distance that half of an area light's light travels at
+/// least.
 inline constexpr double kVertexSpacing = 0.25;
-/// An area light that takes more is not small.
+/// The largest number of vertices of a small area light.
 inline constexpr std::size_t kMostLightSamples = 32;
 
 /// The intensities of light samples. Each is called with a pixel of an item buffer around the sample and
 /// gives the sample's share of the light's luminous intensity [cd] towards it, the cosine of area lights
-/// included; nothing comes where it is below 0.
+/// included; negative values count as 0.
 struct PointIntensity {
-    lights::Emitter emitter;  ///< of a point, in the coordinates of the buffer
+    lights::Emitter emitter;  ///< a point, in the coordinates of the buffer
     double operator()(const patches::BufferPixel& pixel) const;
 };
 struct VertexIntensity {
     double normal_cd = 0;
     double operator()(const patches::BufferPixel& pixel) const { return normal_cd * pixel.cosine; }
 };
-/// Of one of the vertices that share the light of a sphere.
+/// One of the vertices that share the light of a sphere.
 struct SphereVertexIntensity {
     double sphere_cd = 0;       ///< of the sphere
     std::vector<Vec3> normals;  ///< of all vertices, in the coordinates of the buffer
@@ -48,10 +49,10 @@ struct SphereVertexIntensity {
 };
 using SampleIntensity = std::variant<PointIntensity, VertexIntensity, SphereVertexIntensity>;
 
-/// A point that light is shot from.
+/// A point that represents a light or a part of it.
 struct LightSample {
-    std::uint32_t light = 0;       ///< of Scene::lights
-    bool is_point = false;         ///< shines all around, else to the hemisphere about the viewpoint's w
+    std::uint32_t light = 0;  ///< of Scene::lights
+    bool is_point = false;    ///< emits in all directions, else to the hemisphere about the viewpoint's w
     patches::Viewpoint viewpoint;  ///< lifted off the light
     SampleIntensity intensity;
 
@@ -65,7 +66,7 @@ struct FirstShotLights {
     std::vector<LightSample> samples;    ///< one light after the other
 };
 
-/// Decides for every light. `center` is that of the patches which will be seen from the samples. The samples
+/// Decides on every light. `center` is that of the patches seen from the samples. The samples
 /// keep references to the scene.
 FirstShotLights choose_first_shot_lights(const Scene& scene, const rays::RayCaster& caster,
                                          const Vec3& center);

@@ -12,7 +12,7 @@ namespace stilb::estimators {
 
 namespace {
 
-/// Another one for every position of every side.
+/// A different key for every position of every side.
 math::RandomKey key_at(math::RandomKey key, std::uint32_t side, const Vec3& position) {
     key = key.derived(side);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -25,19 +25,19 @@ math::RandomKey key_at(math::RandomKey key, std::uint32_t side, const Vec3& posi
 
 Vec3 lifted_off(const Scene& scene, const patches::Patches& patches, const rays::RayCaster& caster,
                 std::uint32_t side, const Vec3& position) {
-    Vec3 normal = patches.normal_of(side), place = position;
+    Vec3 normal = patches.normal_of(side), start = position;
     const ObjectId object = patches.object_of(patches.patch_of(side));
     if (const auto* sphere = std::get_if<Sphere>(&scene.object(object).shape)) {
         const Vec3 outwards = normalized(position - sphere->center);
-        place = sphere->center + sphere->radius * outwards;
+        start = sphere->center + sphere->radius * outwards;
         normal = patches.is_front(side) ? outwards : -outwards;
     }
     if (const auto* harmonics = std::get_if<Harmonics>(&scene.object(object).shape)) {
         const Vec3 direction = position - harmonics->center, outwards = harmonics->normal_towards(direction);
-        place = harmonics->point_towards(direction);
+        start = harmonics->point_towards(direction);
         normal = patches.is_front(side) ? outwards : -outwards;
     }
-    return place + caster.offset_m(place, caster.half_extent_m()) * normal;
+    return start + caster.offset_m(start, caster.half_extent_m()) * normal;
 }
 
 void ShadowRays::add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position,
@@ -67,7 +67,7 @@ void ShadowRays::add_reflected_by(const Material& material, std::uint32_t side, 
 
 namespace {
 
-/// Looks from the sides' middles.
+/// Tests visibility from the sides' middles.
 class LineOfSightFollower {
   public:
     LineOfSightFollower(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
@@ -97,11 +97,11 @@ class LineOfSightFollower {
   private:
     bool is_small_and_lit(std::uint32_t side, const LightSample& sample) const {
         const std::uint32_t patch = patches_.patch_of(side);
-        const Vec3 middle = patches_.middle(patch), way = middle - sample.viewpoint.position;
-        const double squared = squared_length(way), distance = std::sqrt(squared);
-        const double cosine = -dot(way, patches_.normal_of(side)) / distance;
+        const Vec3 middle = patches_.middle(patch), offset = middle - sample.viewpoint.position;
+        const double squared = squared_length(offset), distance = std::sqrt(squared);
+        const double cosine = -dot(offset, patches_.normal_of(side)) / distance;
         if (!(cosine > 0) || patches_.areas_m2[patch] * cosine > small_sr_ * squared) return false;
-        const Vec3 local = sample.viewpoint.frame.to_local(way / distance);
+        const Vec3 local = sample.viewpoint.frame.to_local(offset / distance);
         if (!(sample.intensity_cd({local, 0, local.z}) > 0)) return false;
         return !caster_.occluded(lifted_off(scene_, patches_, caster_, side, middle),
                                  sample.viewpoint.position);
@@ -120,7 +120,7 @@ class LineOfSightFollower {
 std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
                          std::span<const LightSample> samples, const FirstShotFactors& factors,
                          int resolution, const Monitor& monitor) {
-    // Of four pixels in the middle of a cube's face, where they are largest.
+    // The pixel size in the middle of a cube's face, where pixels are largest.
     const double small_sr = 16. / (static_cast<double>(resolution) * resolution);
     const LineOfSightFollower follower(scene, caster, patches, samples, factors, small_sr);
     const std::size_t sides = 2 * patches.count();

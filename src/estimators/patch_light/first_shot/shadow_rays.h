@@ -1,4 +1,4 @@
-// First shot on the fly: light of the replaced lights at any position, by shadow rays when it is asked for.
+// First shot on the fly: light of the replaced lights at any position, by shadow rays when needed.
 //
 // Point-like lights are exact. An area light is the mean of as many points drawn on it as it has samples: of
 // low discrepancy in one call, and without bias over keys and over positions.
@@ -18,35 +18,35 @@
 
 namespace stilb::estimators {
 
-// Sides of patches as surfaces that reflect.
+// Sides of patches as reflecting surfaces.
 
 inline const Material& material_of(const Scene& scene, const patches::Patches& patches, std::uint32_t side) {
     return scene.material(patches.materials[patches.patch_of(side)]);
 }
 
-/// The frame that the material of a side knows directions in, by world coordinates.
+/// The local frame of a side's material, in world coordinates.
 inline Frame frame_of(const patches::Patches& patches, std::uint32_t side) {
     return Frame::of_surface(patches.normal_of(side));
 }
 
-/// Bands in single precision, for what is stored per side.
+/// Bands in single precision, for data stored per side.
 inline patches::Float3 in_floats(const Rgb& s) {
     return {static_cast<float>(s[0]), static_cast<float>(s[1]), static_cast<float>(s[2])};
 }
 inline Rgb to_spectrum(const patches::Float3& bands) { return {{bands.x, bands.y, bands.z}}; }
 
-/// Mirrors, glass and panes too: they have no BRDF.
+/// True for mirrors, glass and panes, too: they have no BRDF.
 inline bool reflects_nothing(const Material& material) {
     return std::holds_alternative<Black>(material) || is_specular(material);
 }
-/// Whether what is reflected, if anything, is the same in all directions.
+/// Whether the reflected light, if any, is the same in all directions.
 inline bool reflects_alike(const Material& material) {
     return std::holds_alternative<Diffuse>(material) || reflects_nothing(material);
 }
 
-/// Adds to each of `sums` what the material reflects towards the unit world direction in `outs` at the same
-/// place [cd/m2]. `for_each_arrival(visit)` calls `visit(in, illuminance_lx)` for all light that arrives,
-/// `in` being the unit world direction that it comes from.
+/// Adds to each of `sums` the light that the material reflects towards the unit world direction in `outs` at
+/// the same index [cd/m2]. `for_each_arrival(visit)` calls `visit(in, illuminance_lx)` for all light that
+/// arrives from the unit world direction `in`.
 template <typename ForEachArrival>
 void reflect(const Material& any, const Frame& frame, const ForEachArrival& for_each_arrival,
              std::span<const Vec3> outs, std::span<Rgb> sums) {
@@ -65,7 +65,7 @@ void reflect(const Material& any, const Frame& frame, const ForEachArrival& for_
 
 // Shadow rays.
 
-/// Where rays from a position on a patch start: lifted off the true surface on that side. Spheres bulge out
+/// The start of rays from a position on a patch: lifted off the true surface on that side. Spheres bulge out
 /// beyond their patches.
 Vec3 lifted_off(const Scene& scene, const patches::Patches& patches, const rays::RayCaster& caster,
                 std::uint32_t side, const Vec3& position);
@@ -82,10 +82,10 @@ class ShadowRays {
                        std::span<const Vec3> outs, std::span<Rgb> sums) const {
         add_reflected_by(material_of(scene_, patches_, side), side, position, key, outs, sums);
     }
-    /// As if the side were of another material.
+    /// As if the side had another material.
     void add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position,
                           math::RandomKey key, std::span<const Vec3> outs, std::span<Rgb> sums) const;
-    /// Where nothing is reflected: light differs from position to position.
+    /// For sides that reflect nothing: the light differs between positions.
     bool is_constant(std::uint32_t side) const {
         return reflects_nothing(material_of(scene_, patches_, side));
     }
@@ -99,10 +99,10 @@ class ShadowRays {
     const FirstShotLights& lights_;
 };
 
-// How often item buffers were too coarse.
+// Detection of item buffers that were too coarse.
 
-/// Pairs of a side and a light sample that has no pixel on it, though light of it reaches the side's middle.
-/// Only sides of a few pixels' size are looked at.
+/// The number of pairs of a side and a light sample that has no pixel on it, though its light reaches the
+/// side's middle. Only sides of a few pixels' size are tested.
 std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
                          std::span<const LightSample> samples, const FirstShotFactors& factors,
                          int resolution, const Monitor& monitor);

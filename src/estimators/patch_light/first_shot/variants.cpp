@@ -17,8 +17,8 @@ namespace stilb::estimators {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-/// The mean over a bin is that of these directions.
-constexpr std::array<std::pair<double, double>, 4> kPlaces{
+/// Directions whose mean represents a bin.
+constexpr std::array<std::pair<double, double>, 4> kBinSamples{
     {{0.25, 0.25}, {0.25, 0.75}, {0.75, 0.25}, {0.75, 0.75}}};
 
 }  // namespace
@@ -27,7 +27,7 @@ HemisphereBins::HemisphereBins(int rings) : rings_(static_cast<std::uint32_t>(ri
     constexpr int kMost = 256;
     if (rings >= 1 && rings <= kMost) return;
     throw InputError(fmt::format(
-        "classical first shot with {} rings of bins: reflected light needs a ring to be stored in. Take 1 "
+        "classical first shot with {} rings of bins: reflected light needs at least one ring. Use 1 "
         "to {}; r rings are 4 r^2 bins of directions for each patch.",
         rings, kMost));
 }
@@ -36,10 +36,10 @@ std::uint32_t HemisphereBins::bin_of(const Vec3& local) const {
     const double squared_sine = local.x * local.x + local.y * local.y;
     const double angle = std::atan2(local.y, local.x);
     const double turn = angle < 0 ? angle + kTurn : angle;
-    const auto place = [](double share, std::uint32_t count) {
+    const auto index = [](double share, std::uint32_t count) {
         return std::min(static_cast<std::uint32_t>(share * count), count - 1);
     };
-    return place(squared_sine, rings_) * sectors_ + place(turn / kTurn, sectors_);
+    return index(squared_sine, rings_) * sectors_ + index(turn / kTurn, sectors_);
 }
 
 Vec3 HemisphereBins::direction(std::uint32_t bin, double u1, double u2) const {
@@ -71,7 +71,7 @@ void ClassicalFirstShot::store(std::uint32_t side, const IncomingFirstShot& inco
     std::vector<Vec3> outs;
     if (count == 1) outs.push_back(frame.w);
     for (std::uint32_t bin = 0; count > 1 && bin < count; ++bin) {
-        for (const auto& [u1, u2] : kPlaces) outs.push_back(frame.to_world(bins_.direction(bin, u1, u2)));
+        for (const auto& [u1, u2] : kBinSamples) outs.push_back(frame.to_world(bins_.direction(bin, u1, u2)));
     }
     std::vector<Rgb> sums(outs.size());
     incoming.add_reflected(side, {}, {}, outs, sums);
@@ -98,8 +98,8 @@ void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, math::Ra
 
 namespace {
 
-// A BRDF as a sum: a part that is the same for all directions, of which pi times stands here, and the rest.
-// Rough and Plastic are all rest: what they reflect diffusely depends on both angles.
+// A BRDF as a sum of a part that is the same for all directions, stored here times pi, and the rest.
+// For RoughConductor and Plastic all is rest: their diffuse reflection depends on both angles.
 
 struct SplitMaterial {
     Rgb diffuse;

@@ -1,4 +1,4 @@
-// The variants of first shot that store what arrives at patches, or what they reflect.
+// The variants of first shot that store the light arriving at patches, or the light that they reflect.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace stilb::estimators {
 
-// Incoming first shot [FirstShot 3, 4]: what arrives is stored, and reflected when it is asked for.
+// Incoming first shot [FirstShot 3, 4]: arriving light is stored, and reflected when needed.
 //
 //     L*_j(w) = sum over samples i of e_ij f_j(w_i, w)
 //
@@ -47,8 +47,8 @@ class IncomingFirstShot {
     FirstShotFactors factors_;
 };
 
-// Classical first shot: the reflected radiance is stored for each side, in bins of outgoing directions in
-// which it counts as constant; in one where the material reflects alike in all directions.
+// Classical first shot: the reflected radiance is stored for each side, in bins of outgoing directions with
+// a constant value each; in one bin where the material reflects equally in all directions.
 
 /// The hemisphere in bins of equal projected solid angle, so that all weigh the same in flux: rings of equal
 /// steps in sin^2(theta), each in four times as many sectors as there are rings, from the frame's u on.
@@ -58,7 +58,7 @@ class HemisphereBins {
     explicit HemisphereBins(int rings);
 
     std::uint32_t count() const { return rings_ * sectors_; }
-    /// Of a unit direction above the horizon.
+    /// The bin of a unit direction above the horizon.
     std::uint32_t bin_of(const Vec3& local) const;
     /// Uniform in projected solid angle over the bin for u1, u2 in [0, 1).
     Vec3 direction(std::uint32_t bin, double u1, double u2) const;
@@ -82,7 +82,7 @@ class ClassicalFirstShot {
     }
 
   private:
-    /// None where a side gets no light or reflects none.
+    /// Empty where a side gets no light or reflects none.
     std::size_t bins_of(std::uint32_t side) const { return first_[side + 1] - first_[side]; }
     void store(std::uint32_t side, const IncomingFirstShot& incoming);
 

@@ -1,6 +1,6 @@
-// Direct simulation: particles.h has how the patches are lit, patch_readings.h and patch_picture.h what is
-// made of it. A sample is a particle. Each batch of readings makes a map of its own; a pass over a picture is
-// the map of some particles.
+// Direct simulation: particles.h describes the light of the patches, patch_readings.h and patch_picture.h
+// readings and pictures of it. A sample is a particle. Each batch of readings makes a map of its own; a pass
+// over a picture is the map of some particles.
 #include "estimators/patch_light/particles/particles.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ IlluminationMap::Particle IlluminationMap::leave_light(math::SampleStream stream
     return {stream, emitted.origin, emitted.direction, emitted.flux_lm};
 }
 
-/// Particles that share a packet of rays, to the end of the last one.
+/// Particles that share a packet of rays, until the last one ends.
 void IlluminationMap::walk(std::vector<Particle>& particles) {
     while (!particles.empty()) {
         RayPacket packet;
@@ -50,7 +50,7 @@ void IlluminationMap::walk(std::vector<Particle>& particles) {
         std::size_t alive = 0;
         for (std::size_t lane = 0; lane < particles.size(); ++lane) {
             if (hits.sides[lane] == patches::kNoSide ||
-                !land(particles[lane], hits.sides[lane], hits.place(lane)))
+                !land(particles[lane], hits.sides[lane], hits.barycentric(lane)))
                 continue;
             particles[alive++] = particles[lane];
         }
@@ -58,14 +58,14 @@ void IlluminationMap::walk(std::vector<Particle>& particles) {
     }
 }
 
-/// Counts the particle; whether it goes on.
-bool IlluminationMap::land(Particle& particle, std::uint32_t side, const math::Barycentric& place) {
+/// Counts the particle; returns whether it survives.
+bool IlluminationMap::land(Particle& particle, std::uint32_t side, const math::Barycentric& barycentric) {
     add_to(flux_lm_[side], particle.flux_lm);
     const patches::Patches& patches = transport_.patches;
     const Rgb reflectance = std::numbers::pi * to_rgb(transport_.constant_brdf[patches.patch_of(side)]);
     const double survival = transport::survival_probability(particle.flux_lm, reflectance);
     if (particle.stream.next() >= survival) return false;
-    const patches::Viewpoint viewpoint = viewpoint_on(patches, side, place);
+    const patches::Viewpoint viewpoint = viewpoint_on(patches, side, barycentric);
     const auto [u1, u2] = particle.stream.next_two();
     particle.origin = viewpoint.position;
     particle.direction = viewpoint.frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
@@ -88,13 +88,13 @@ std::vector<FloatRgb> IlluminationMap::reflected_cd_m2() const {
 namespace {
 
 constexpr std::string_view kName = "particles";
-/// Particles for each look from a reading at the map.
-constexpr std::uint64_t kParticlesPerLook = 64;
+/// Particles for each evaluation of the map by a reading.
+constexpr std::uint64_t kParticlesPerEvaluation = 64;
 constexpr std::uint64_t kLeastParticles = 4096;
 
-enum Purpose : std::uint64_t { kWalks = kPixels + 1, kLooks };
+enum Purpose : std::uint64_t { kWalks = kPixels + 1, kEvaluations };
 
-/// All lights shine by particles.
+/// All lights emit particles.
 PatchTransport transport_for(const Problem& problem) {
     require_diffuse(problem.scene, kName);
     require_all_reflections(problem.max_reflections, kName);
@@ -114,13 +114,14 @@ class Particles final : public Estimator {
         IlluminationMap map(transport_);
         map.add(batch.key.derived(kWalks), batch.first, batch.count);
         const ReflectedSides light(map.reflected_cd_m2());
-        const std::uint64_t first = batch.first / kParticlesPerLook, looks = batch.count / kParticlesPerLook;
+        const std::uint64_t first = batch.first / kParticlesPerEvaluation,
+                            evaluations = batch.count / kParticlesPerEvaluation;
         ReadingSums seen(sums.sum.size());
-        for (std::uint64_t i = first; i < first + looks; ++i) {
-            readings_.add(light, batch.key.derived(kLooks), i, seen);
+        for (std::uint64_t i = first; i < first + evaluations; ++i) {
+            readings_.add(light, batch.key.derived(kEvaluations), i, seen);
         }
         for (std::size_t j = 0; j < seen.sum.size(); ++j)
-            sums.add(j, seen.sum[j] * double{kParticlesPerLook});
+            sums.add(j, seen.sum[j] * double{kParticlesPerEvaluation});
         sums.invalid += seen.invalid;
         sums.rays += map.rays();
     }
@@ -129,8 +130,8 @@ class Particles final : public Estimator {
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::uint64_t batch_granularity() const override { return kLeastParticles; }
     double rays_per_sample() const override {
-        constexpr double reflections = 5, looks = 2. / kParticlesPerLook;
-        return reflections + looks * static_cast<double>(known_part().size());
+        constexpr double reflections = 5, evaluations = 2. / kParticlesPerEvaluation;
+        return reflections + evaluations * static_cast<double>(known_part().size());
     }
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
@@ -152,13 +153,13 @@ class Particles final : public Estimator {
     std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
-    /// Of a pass, each a task of its own.
+    /// Particle groups of a pass, each a task of its own.
     static constexpr std::uint64_t kMaps = 4;
 
     PatchTransport transport_;
     PatchReadings readings_;
     std::optional<PictureTracing> tracing_;
-    /// Of a map for pictures.
+    /// Particles of a map for pictures.
     std::uint64_t particles_ = std::max<std::uint64_t>(kLeastParticles, transport_.patches.count());
 };
 

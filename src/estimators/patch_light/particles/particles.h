@@ -1,10 +1,10 @@
-// Direct simulation: particles of light leave the lights, go from patch to patch until they are absorbed, and
-// are counted wherever they land (theory 9, [LocalEstimation 1], [Arvo 1986]). A side's illuminance is the
-// flux that was counted there over its area: every particle counts before it may be absorbed, and again after
-// each reflection, so that direct light is in it.
+// Direct simulation: particles of light leave the lights, travel from patch to patch until they are absorbed,
+// and are counted wherever they land (theory 9, [LocalEstimation 1], [Arvo 1986]). A side's illuminance is
+// the flux counted on it over its area: every particle counts before it may be absorbed, and again after each
+// reflection, so direct light is included.
 //
-// Unbiased means over patches. The variance is finite; a patch's relative one is one over the particles that
-// came to it, whatever the lights are like.
+// Unbiased means over patches. The variance is finite; a patch's relative variance is one over the number of
+// particles that reached it, for all kinds of lights.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class IlluminationMap {
     /// Adds particles number `first` ... `first + count - 1` of the streams of `key`.
     void add(math::RandomKey key, std::uint64_t first, std::uint64_t count);
 
-    /// What every side reflects [cd/m2], by all particles so far.
+    /// The luminance that every side reflects [cd/m2], by all particles so far.
     std::vector<FloatRgb> reflected_cd_m2() const;
     std::uint64_t rays() const { return rays_; }
 
@@ -36,7 +36,7 @@ class IlluminationMap {
 
     Particle leave_light(math::SampleStream stream) const;
     void walk(std::vector<Particle>& particles);
-    bool land(Particle& particle, std::uint32_t side, const math::Barycentric& place);
+    bool land(Particle& particle, std::uint32_t side, const math::Barycentric& barycentric);
 
     const PatchTransport& transport_;
     std::vector<FloatRgb> flux_lm_;  ///< of every side, by all particles

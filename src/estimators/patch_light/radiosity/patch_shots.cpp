@@ -16,7 +16,7 @@ namespace {
 patches::Viewpoint turned_viewpoint(const patches::Patches& patches, std::uint32_t side) {
     constexpr double kThird = 1. / 3;
     patches::Viewpoint viewpoint = viewpoint_on(patches, side, {kThird, kThird, kThird});
-    // Multiples of the golden section are spread evenly over the circle, in whatever order.
+    // Multiples of the golden section are spread evenly over the circle, in any order.
     const double turn = 2 * std::numbers::pi * std::fmod(side / std::numbers::phi, 1.0);
     const auto [u, v, w] = viewpoint.frame;
     viewpoint.frame.u = std::cos(turn) * u + std::sin(turn) * v;
@@ -24,7 +24,7 @@ patches::Viewpoint turned_viewpoint(const patches::Patches& patches, std::uint32
     return viewpoint;
 }
 
-/// What one thread shoots with.
+/// The buffers of one thread.
 class Shooter {
   public:
     Shooter(const patches::PatchCaster& caster, patches::BufferBackend backend,

@@ -1,8 +1,8 @@
-// Radiosity: radiosity.h has how the patches are lit, patch_readings.h and patch_picture.h what is made of
-// it.
+// Radiosity: radiosity.h describes the light of the patches, patch_readings.h and patch_picture.h readings
+// and pictures of it.
 //
-// Nothing is left to chance, so there are no standard errors. What is wrong is the patches: light that varies
-// over one, form factors from its middle. Nobody knows by how much; smaller patches tell.
+// The method is deterministic, so there are no standard errors. Its error is the discretisation: light that
+// varies over a patch, and form factors from its middle. It is unknown; a run with smaller patches shows it.
 #include "estimators/patch_light/radiosity/radiosity.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ namespace stilb::estimators {
 namespace {
 
 constexpr std::size_t kMostAtATime = 256;
-/// Of the sides that have something to send: few, so that those which shoot together hardly light one
+/// The share of the sides with unshot flux that shoot together: few, so that they hardly illuminate one
 /// another.
 constexpr std::size_t kPartAtATime = 32;
 constexpr std::uint64_t kMostShotsOfASide = 1000;
@@ -52,7 +52,7 @@ class Shooting {
     }
 
     RadiositySolution run(const Monitor& monitor) {
-        const double all = look(), enough = kUnshotShare * all;
+        const double all = find_unshot(), enough = kUnshotShare * all;
         const std::uint64_t most = kMostShotsOfASide * unshot_.size();
         double left = all;
         while (left > enough && !monitor.is_time_over()) {
@@ -62,11 +62,11 @@ class Shooting {
                     "Lower them, or use method auto.",
                     done_));
             }
-            // What is left falls about exponentially.
+            // The unshot flux falls about exponentially.
             monitor.report("shooting",
                            std::clamp(std::log(all / left) / std::log(1 / kUnshotShare), 0.0, 1.0));
             shoot();
-            left = look();
+            left = find_unshot();
         }
         return {ReflectedSides(std::move(reflected_)), done_, done_ * shots_.rays_per_shot(),
                 left > enough ? left / all : 0};
@@ -79,8 +79,8 @@ class Shooting {
         auto operator<=>(const Candidate&) const = default;
     };
 
-    /// Finds who has something to send; returns how much all have [lm].
-    double look() {
+    /// Finds the sides with unshot flux; returns its total [lm].
+    double find_unshot() {
         double sum_lm = 0;
         candidates_.clear();
         for (std::uint32_t side = 0; side < unshot_.size(); ++side) {
@@ -138,10 +138,11 @@ PatchTransport transport_for(const Problem& problem) {
     const FirstShotVariant variant = problem.patches.first_shot.variant.value_or(kUsualFirstShot);
     require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kName);
     if (variant == FirstShotVariant::on_the_fly) {
-        throw InputError(fmt::format(
-            "first shot \"{}\": method radiosity needs the light of small lights as means over patches. Use "
-            "first shot \"incoming\".",
-            name_of(variant)));
+        throw InputError(
+            fmt::format("first shot \"{}\": method radiosity needs the light of small lights as a mean over "
+                        "each patch. Use "
+                        "first shot \"incoming\".",
+                        name_of(variant)));
     }
     return {problem.scene, problem.caster, problem.patches, problem.monitor};
 }
@@ -149,7 +150,7 @@ PatchTransport transport_for(const Problem& problem) {
 /// Samples of a point's hemisphere: Sobol' points, the same ones in every run.
 constexpr std::uint64_t kBlocks = 32, kSamplesOfABlock = 128;
 
-/// Beside the known part: sums over fixed directions from points, and points on lights.
+/// The part beside the known one: sums over fixed directions from points, and points on lights.
 ReadingSums sum_readings(const PatchReadings& readings, const PatchLight& light, const Monitor& monitor) {
     std::vector<ReadingSums> blocks(kBlocks, ReadingSums(readings.known_part().size()));
     std::atomic<std::uint64_t> done = 0;
@@ -217,7 +218,7 @@ class Radiosity final : public Estimator {
     std::vector<Rgb> values_;  ///< of the readings
     std::uint64_t invalid_ = 0;
     std::optional<PictureTracing> tracing_;
-    std::vector<FloatRgb> sides_cd_m2_;  ///< towards the eye
+    std::vector<FloatRgb> sides_cd_m2_;  ///< towards the camera
 };
 
 }  // namespace

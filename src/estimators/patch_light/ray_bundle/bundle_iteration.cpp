@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "math/random.h"
@@ -10,11 +9,10 @@
 namespace stilb::estimators {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-/// Numbers of a step: three for the frame, two for each axis' offset.
+/// Dimensions of a step: three for the frame, two for each axis' offset.
 constexpr unsigned kDimensions = 12;
-/// Points of the low-discrepancy sequence are used in a random order within blocks of so many: steps that
-/// follow one another must be independent of each other, or their product would be biased.
+/// The low-discrepancy sequence is used in a random order within blocks of this many points: consecutive
+/// steps must be independent of each other, or their product would be biased.
 constexpr std::uint64_t kShuffled = 256;
 enum Purpose : std::uint64_t { kPoints, kOrder };
 
@@ -28,7 +26,7 @@ Frame random_frame(double u1, double u2, double u3) {
             {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}};
 }
 
-/// Where number `step` stands in the random order of its block.
+/// The position of number `step` in the random order of its block.
 std::uint64_t shuffled(std::uint64_t step, math::RandomKey key) {
     const std::uint64_t block = step / kShuffled;
     std::array<std::uint16_t, kShuffled> order;
@@ -40,7 +38,7 @@ std::uint64_t shuffled(std::uint64_t step, math::RandomKey key) {
     return block * kShuffled + order[step % kShuffled];
 }
 
-/// With the axis as w.
+/// A frame with the axis as w.
 Frame frame_along(const Frame& frame, std::size_t axis) {
     if (axis == 0) return frame;
     return axis == 1 ? Frame{frame.v, frame.w, frame.u} : Frame{frame.w, frame.u, frame.v};
@@ -48,7 +46,7 @@ Frame frame_along(const Frame& frame, std::size_t axis) {
 
 std::size_t axes_of(BundleDirections directions) { return directions == BundleDirections::frame ? 3 : 1; }
 
-/// Of each axis (theory 8).
+/// The weight of each axis (theory 8).
 double weight_of(BundleDirections directions) {
     switch (directions) {
         case BundleDirections::single:
@@ -90,7 +88,7 @@ void BundleIteration::step() {
     received_along_ = frame;
 }
 
-/// Step n lacks about r^n of the reflected light, where r is the mean reflectance; all from step m on,
+/// Step n lacks about r^n of the reflected light, where r is the mean reflectance; all steps from m on,
 /// averaged over m steps, r^m / (m (1 - r)).
 std::uint64_t first_steps(const PatchTransport& transport) {
     constexpr double most_missing = 1e-3;

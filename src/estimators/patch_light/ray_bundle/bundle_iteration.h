@@ -1,7 +1,8 @@
 // Stochastic iteration with bundles of parallel rays (theory 8, [FirstShot 3]).
 //
 // Every step draws a global direction or a frame of three, lets every side of every patch radiate along it
-// what it reflects of the step before, and transfers that along bundles of parallel rays: side j receives
+// the light that it reflects of the step before, and transfers that along bundles of parallel rays: side j
+// receives
 //
 //   J_j = sum over the rays that come to it of L dA / A_j = mean over the patch of L(w) cos(theta),
 //
@@ -13,7 +14,7 @@
 // The rays bring light from outside of the scene to the first surface that they meet, in every step.
 //
 // Biased by the patches: everything is a mean over a patch, reflected as from its middle. Mirrors and glass
-// let nothing through and reflect nothing: light by them is missing but on the lines of sight of sensors.
+// transmit and reflect nothing: light by them is missing except on the lines of sight of sensors.
 #pragma once
 
 #include <array>
@@ -29,16 +30,16 @@ namespace stilb::estimators {
 /// One walk of the iteration. Keeps a reference to the transport. One thread at a time.
 class BundleIteration final : public PatchLight {
   public:
-    /// Starts from darkness. What follows depends on the key alone.
+    /// Starts from darkness. The steps depend on the key alone.
     BundleIteration(const PatchTransport& transport, math::RandomKey key);
 
     void step();
 
-    /// Of the light that was received in the last step.
+    /// The illuminance received in the last step.
     Rgb reflected(std::uint32_t side, const Vec3& out) const override;
 
-    /// Calls `visit(in, illuminance_lx)` for the light that a side received in the last step, `in` being the
-    /// unit world direction that it came from. Of sides that reflect alike only the sum is known: once, with
+    /// Calls `visit(in, illuminance_lx)` for the light that a side received in the last step from the
+    /// unit world direction `in`. Of sides with constant reflection only the sum is known: once, with
     /// their normal.
     template <typename Visit>
     void for_each_arrival(std::uint32_t side, const Visit& visit) const;
@@ -64,10 +65,9 @@ class BundleIteration final : public PatchLight {
     Frame received_along_;  ///< the axes that `received_` came along
     std::vector<FloatRgb>
         radiance_;  ///< of every side along the present axis; see FirstShot::needs_position()
-    std::vector<FloatRgb>
-        received_;  ///< sum over the axes of J, of sides that reflect alike in all directions
-    std::vector<FloatRgb> receiving_;  ///< the same of the step that is under way
-    /// J of the other sides, for each axis by itself.
+    std::vector<FloatRgb> received_;   ///< sum over the axes of J, of sides with constant reflection
+    std::vector<FloatRgb> receiving_;  ///< the same of the unfinished step
+    /// J of the other sides, for each axis separately.
     std::vector<FloatRgb> glossy_received_, glossy_receiving_;
 };
 
@@ -84,7 +84,7 @@ void BundleIteration::for_each_arrival(std::uint32_t side, const Visit& visit) c
     }
 }
 
-/// Steps to leave out of a walk's mean: what they lack of the light is less than 1e-3 of it in a mean over
+/// Steps to leave out of a walk's mean: the light that they lack is less than 1e-3 in a mean over
 /// as many more.
 std::uint64_t first_steps(const PatchTransport& transport);
 

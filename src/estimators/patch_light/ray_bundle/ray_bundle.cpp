@@ -1,6 +1,6 @@
-// Stochastic iteration with ray bundles and first shot: bundle_iteration.h has the iteration,
-// patch_readings.h and patch_picture.h what is made of it. For readings each batch is a walk of its own,
-// which leaves out its first steps; a pass over a picture is the mean over the steps of some walks.
+// Stochastic iteration with ray bundles and first shot: bundle_iteration.h describes the iteration,
+// patch_readings.h and patch_picture.h readings and pictures. For readings each batch is a walk of its own,
+// without its first steps; a pass over a picture is the mean over the steps of some walks.
 
 #include <algorithm>
 #include <array>
@@ -64,9 +64,9 @@ class RayBundle final : public Estimator {
     std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
-    /// Of a pass, each a task of its own.
+    /// Walks of a pass, each a task of its own.
     static constexpr std::uint64_t kWalks = 4;
-    /// Of a walk, that count.
+    /// Counted steps of a walk.
     static constexpr std::uint64_t kLeastSteps = 8;
 
     std::vector<FloatRgb> mean_of_walks(const Pass& pass) const {
