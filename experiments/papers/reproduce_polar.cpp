@@ -19,7 +19,7 @@ namespace stilb::papers {
 namespace {
 
 // What the paper leaves open: everything but the kinds of surface and source.
-constexpr exact::ParallelPlanes kPlanes{0.5, 0.5, 0.5, 0.5, 1};
+constexpr exact::ParallelPlanes kPolarPlanes{0.5, 0.5, 0.5, 0.5, 1};
 constexpr double kSpecular = 0.3;  // of the reflectances
 constexpr double kSourceRadius_m = 0.1;
 constexpr double kRadius_m = 1;
@@ -34,14 +34,14 @@ Material phong(double reflectance, double exponent) {
 
 /// The surfaces are `first` and `second`, the source is a sphere of the same intensity.
 Scene scene_with(const Material& first, const Material& second) {
-    Scene scene = verification::make_sobolev_scene(kPlanes, kRadius_m);
+    Scene scene = verification::make_sobolev_scene(kPolarPlanes, kRadius_m);
     scene.materials[0].material = first;
     scene.materials[1].material = second;
     scene.materials.push_back({"source", Black{}});
     scene.objects.push_back(
-        {"source", Sphere{{0, 0, kPlanes.distance_1_m}, kSourceRadius_m}, {MaterialId{2}}});
+        {"source", Sphere{{0, 0, kPolarPlanes.distance_1_m}, kSourceRadius_m}, {MaterialId{2}}});
     const double disk_m2 = std::numbers::pi * kSourceRadius_m * kSourceRadius_m;
-    scene.lights = {{"source", AreaLight{ObjectId{2}, Rgb::grey(kPlanes.intensity_cd / disk_m2)}}};
+    scene.lights = {{"source", AreaLight{ObjectId{2}, Rgb::grey(kPolarPlanes.intensity_cd / disk_m2)}}};
     return scene;
 }
 
@@ -60,13 +60,13 @@ std::vector<statistics::Estimate> measure(const Scene& scene, const Sensor& sens
 }
 
 std::vector<Distribution> distributions(const Sensor& sensor) {
-    const Material diffuse_1 = Diffuse{Rgb::grey(kPlanes.reflectance_1)};
-    const Material diffuse_2 = Diffuse{Rgb::grey(kPlanes.reflectance_2)};
+    const Material diffuse_1 = Diffuse{Rgb::grey(kPolarPlanes.reflectance_1)};
+    const Material diffuse_2 = Diffuse{Rgb::grey(kPolarPlanes.reflectance_2)};
     std::vector<Distribution> all{
         {"diffuse 0.5", "diffuse", measure(scene_with(diffuse_1, diffuse_2), sensor)}};
     for (const int exponent : {5, 15, 40}) {
-        const Scene scene =
-            scene_with(phong(kPlanes.reflectance_1, exponent), phong(kPlanes.reflectance_2, exponent));
+        const Scene scene = scene_with(phong(kPolarPlanes.reflectance_1, exponent),
+                                       phong(kPolarPlanes.reflectance_2, exponent));
         all.push_back({fmt::format("diffuse 0.2 and Phong 0.3, exponent {}", exponent),
                        fmt::format("phong_{}", exponent), measure(scene, sensor)});
     }

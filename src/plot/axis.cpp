@@ -211,7 +211,7 @@ namespace {
 
 constexpr double kTickLength = 5;
 constexpr double kMinorLength = 2.5;
-constexpr double kGap = 4;
+constexpr double kLabelGap = 4;
 Stroke tick_stroke() { return {kInk, 0.8}; }
 
 /// The point `distance` outside the frame.
@@ -244,7 +244,7 @@ void draw_axis(Canvas& canvas, const Scale& scale, const Ticks& ticks, Side side
     for (const double value : ticks.minor) mark(value, kMinorLength);
     for (const Tick& tick : ticks.major) {
         const double along = mark(tick.value, kTickLength);
-        canvas.text(outside(side, frame, along, kTickLength + kGap), tick.label, style);
+        canvas.text(outside(side, frame, along, kTickLength + kLabelGap), tick.label, style);
     }
 }
 
@@ -255,7 +255,7 @@ double axis_extent(const Ticks& ticks, Side side) {
             labels = std::max(labels, text_width(tick.label, kAxisTextSize));
         }
     }
-    return kTickLength + kGap + labels;
+    return kTickLength + kLabelGap + labels;
 }
 
 }  // namespace stilb::plot

@@ -16,13 +16,6 @@
 
 namespace stilb::plot {
 
-namespace {
-
-constexpr double kPixelsPerUnit = 2;
-constexpr const char* kFont = "DejaVu Sans";
-/// Height of capitals and digits over the font's size.
-constexpr double kCapHeight = 0.73;
-
 struct SurfaceDeleter {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
 };
@@ -31,6 +24,13 @@ struct ContextDeleter {
 };
 using Surface = std::unique_ptr<cairo_surface_t, SurfaceDeleter>;
 using Context = std::unique_ptr<cairo_t, ContextDeleter>;
+
+namespace {
+
+constexpr double kPixelsPerUnit = 2;
+constexpr const char* kFont = "DejaVu Sans";
+/// Height of capitals and digits over the font's size.
+constexpr double kCapHeight = 0.73;
 
 void require_success(cairo_status_t status) {
     if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(cairo_status_to_string(status));
@@ -244,7 +244,7 @@ double text_width(const std::string& text, double size, Weight weight) {
 namespace {
 
 constexpr double kUnitsPerPixel = 0.5;  // a PNG has two pixels to the unit
-constexpr double kGap = 4, kLabel = 14;
+constexpr double kPageGap = 4, kLabel = 14;
 constexpr double kTextSize = 8;
 
 PixelImage image_of(const io::Picture& picture, const io::ToneCurve& curve) {
@@ -264,11 +264,12 @@ void draw_picture_sheet(const std::vector<LabelledPicture>& pictures, std::size_
     const double height = kUnitsPerPixel * pictures.front().picture.height;
     const std::size_t across = std::min(columns, pictures.size());
     const std::size_t down = (pictures.size() + columns - 1) / columns;
-    Canvas canvas(path, kGap + static_cast<double>(across) * (width + kGap),
-                  kGap + static_cast<double>(down) * (height + kLabel));
+    Canvas canvas(path, kPageGap + static_cast<double>(across) * (width + kPageGap),
+                  kPageGap + static_cast<double>(down) * (height + kLabel));
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        const PageRectangle place{kGap + static_cast<double>(i % columns) * (width + kGap),
-                                  kGap + static_cast<double>(i / columns) * (height + kLabel), width, height};
+        const PageRectangle place{kPageGap + static_cast<double>(i % columns) * (width + kPageGap),
+                                  kPageGap + static_cast<double>(i / columns) * (height + kLabel), width,
+                                  height};
         canvas.image(place, image_of(pictures[i].picture, curve));
         canvas.text({place.center().x, place.bottom() + kLabel - 4}, pictures[i].label,
                     {.size = kTextSize, .colour = kInk, .horizontal = HorizontalPart::center});

@@ -18,7 +18,7 @@ namespace stilb::plot {
 namespace {
 
 constexpr const char* kUnit = "cd/m²";
-constexpr double kPixelsPerUnit = 2;
+constexpr double kGridPixelsPerUnit = 2;
 /// Pixels of a PNG: pictures are magnified up to the first, averaged beyond the second.
 constexpr int kMagnifiedSide = 1000, kLongestSide = 4096;
 constexpr int kIsolineColumns = 160;
@@ -102,7 +102,7 @@ FalseColourPanel drawable(const FalseColourPanel& panel) {
 PageRectangle frame_of(const FalseColourPanel& panel) {
     const int magnification = std::max(1, kMagnifiedSide / std::max(panel.nu, panel.nv));
     return {kSheetMargin, kSheetMargin + kTitleHeight + kHeaderHeight,
-            panel.nu * magnification / kPixelsPerUnit, panel.nv * magnification / kPixelsPerUnit};
+            panel.nu * magnification / kGridPixelsPerUnit, panel.nv * magnification / kGridPixelsPerUnit};
 }
 
 std::string headline_of(const io::Picture& picture, const FalseColourPanel& panel) {

@@ -155,7 +155,7 @@ void draw_plot(const Plot& plot, const std::filesystem::path& path) {
         frames.emplace_back(x, y_scale_of(panel), panel.height);
         extent = std::max(extent, axis_extent(frames.back().y_ticks, Side::left));
     }
-    double bottom = kMargin + (plot.title.empty() ? 0 : kTitleSize + 14);
+    double bottom = kMargin + (plot.title.empty() ? 0 : kPlotTitleSize + 14);
     for (Frame& frame : frames) {
         frame.place.left = kMargin + kLabelSize + 12 + extent;
         frame.place.top = bottom;
@@ -165,8 +165,8 @@ void draw_plot(const Plot& plot, const std::filesystem::path& path) {
     const double x_label = last.bottom() + axis_extent(frames.back().x_ticks, Side::bottom) + 8 + kLabelSize;
 
     Canvas canvas(path, last.right() + kMargin + 8, x_label + kMargin);
-    canvas.text({last.left, kMargin + kTitleSize}, plot.title,
-                {.size = kTitleSize, .colour = kInk, .weight = Weight::bold});
+    canvas.text({last.left, kMargin + kPlotTitleSize}, plot.title,
+                {.size = kPlotTitleSize, .colour = kInk, .weight = Weight::bold});
     // Only the lowest panel's x axis carries numbers.
     for (Frame& frame : std::span(frames).first(frames.size() - 1)) {
         for (Tick& tick : frame.x_ticks.major) tick.label.clear();
@@ -264,7 +264,7 @@ void draw_series(Canvas& canvas, const std::vector<PlacedSeries>& all) {
 void draw_polar_plot(const PolarPlot& plot, const std::filesystem::path& path) {
     require_consistency(plot.series);
     require_angles(plot.series);
-    const double top = kMargin + (plot.title.empty() ? 0 : kTitleSize + 14) + kAngleGap + kAxisTextSize;
+    const double top = kMargin + (plot.title.empty() ? 0 : kPlotTitleSize + 14) + kAngleGap + kAxisTextSize;
     const PolarFrame frame{scale_of(plot.series), {kMargin + kAngleRoom + kRadius, top + kRadius}};
     const Ticks ticks = nice_ticks(frame.scale, 6);
     std::vector<PlacedSeries> all;
@@ -278,9 +278,11 @@ void draw_polar_plot(const PolarPlot& plot, const std::filesystem::path& path) {
 
     Canvas canvas(path, frame.centre.x + kRadius + kAngleRoom + kMargin,
                   (legend.height > 0 ? legend.bottom() : label) + kMargin);
-    canvas.text(
-        {frame.centre.x, kMargin + kTitleSize}, plot.title,
-        {.size = kTitleSize, .colour = kInk, .weight = Weight::bold, .horizontal = HorizontalPart::center});
+    canvas.text({frame.centre.x, kMargin + kPlotTitleSize}, plot.title,
+                {.size = kPlotTitleSize,
+                 .colour = kInk,
+                 .weight = Weight::bold,
+                 .horizontal = HorizontalPart::center});
     draw_grid(canvas, frame, ticks);
     draw_series(canvas, all);
     draw_outline(canvas, frame);

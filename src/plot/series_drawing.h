@@ -12,7 +12,7 @@
 namespace stilb::plot {
 
 inline constexpr double kMargin = 20;  // of the sheet
-inline constexpr double kTitleSize = 15;
+inline constexpr double kPlotTitleSize = 15;
 inline constexpr double kLabelSize = 11.5;
 inline constexpr io::Colour kGridColour = io::grey(0.9);
 /// The extent of markers beyond their point.

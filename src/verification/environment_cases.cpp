@@ -11,7 +11,7 @@
 namespace stilb::verification {
 namespace {
 
-constexpr double kLuminance = 1000;
+constexpr double kSkyLuminance_cd_m2 = 1000;
 constexpr const char* kNote =
     "Constant luminance from all directions, minus the part that black objects hide by their configuration "
     "factors; convex "
@@ -38,10 +38,10 @@ VerificationCase hidden_case(const std::string& variant, const Shape& shape, Hid
     VerificationCase result{"environment", variant, {}, {}};
     result.note = kNote;
     add_object(result.scene, shape, Black{});
-    add_environment(result.scene, kLuminance);
+    add_environment(result.scene, kSkyLuminance_cd_m2);
     for (const exact::Receiver& element : elements()) {
-        result.readings.push_back(
-            {MeasuringPoint{element.position, element.normal}, kPi * kLuminance - hidden_lx(element)});
+        result.readings.push_back({MeasuringPoint{element.position, element.normal},
+                                   kPi * kSkyLuminance_cd_m2 - hidden_lx(element)});
     }
     return result;
 }
@@ -49,14 +49,14 @@ VerificationCase hidden_case(const std::string& variant, const Shape& shape, Hid
 VerificationCase behind_sphere() {
     const Sphere s{{}, 0.3};
     return hidden_case("behind a sphere", s, [s](const exact::Receiver& element) {
-        return exact::illuminance_by_sphere_lx(element, s.center, s.radius, kLuminance);
+        return exact::illuminance_by_sphere_lx(element, s.center, s.radius, kSkyLuminance_cd_m2);
     });
 }
 
 VerificationCase behind_rectangle() {
     const Rectangle r{{-0.5, -0.3, 0}, {1, 0, 0}, {0.2, 0.6, 0}};
     return hidden_case("behind a rectangle", r, [r](const exact::Receiver& element) {
-        return exact::illuminance_by_rectangle_lx(element, r.corner, r.edge_u, r.edge_v, kLuminance);
+        return exact::illuminance_by_rectangle_lx(element, r.corner, r.edge_u, r.edge_v, kSkyLuminance_cd_m2);
     });
 }
 
@@ -74,15 +74,15 @@ VerificationCase under_a_hole() {
     add_object(result.scene, walls, Black{});
     add_ceiling(0, 0, 1.2, 3), add_ceiling(2.2, 0, 1.8, 3), add_ceiling(1.2, 0, 1, 1.1);
     add_ceiling(1.2, 1.7, 1, 1.3);
-    add_environment(result.scene, kLuminance);
+    add_environment(result.scene, kSkyLuminance_cd_m2);
     const std::array<exact::Receiver, 5> points{{{{1.7, 1.4, 0}, {0, 0, 1}},
                                                  {{0.4, 2.6, 0.8}, {0, 0, 1}},
                                                  {{3, 1, 1.5}, normalized(Vec3{-1, 0.3, 0.2})},
                                                  {{1.5, 1.2, 2.3}, normalized(Vec3{1, 0, 0.3})},
                                                  {{2, 2, 1}, {0, 0, -1}}}};
     for (const exact::Receiver& point : points) {
-        const double exact_lx =
-            exact::illuminance_by_rectangle_lx(point, {1.2, 1.1, 2.5}, {0, 0.6, 0}, {1, 0, 0}, kLuminance);
+        const double exact_lx = exact::illuminance_by_rectangle_lx(point, {1.2, 1.1, 2.5}, {0, 0.6, 0},
+                                                                   {1, 0, 0}, kSkyLuminance_cd_m2);
         result.readings.push_back({MeasuringPoint{point.position, point.normal}, exact_lx});
     }
     return result;
@@ -94,13 +94,13 @@ VerificationCase seen_case(const std::string& variant, const Shape& shape, const
     VerificationCase result{"environment", variant + ", luminance", {}, {}};
     result.note = kNote;
     add_object(result.scene, shape, material);
-    add_environment(result.scene, kLuminance);
+    add_environment(result.scene, kSkyLuminance_cd_m2);
     for (const Vec3& direction : spread_directions(6)) {
         const Vec3 position = 2 * direction, target = 0.15 * Vec3{direction.y, direction.z, direction.x};
         result.readings.push_back(
             {LineOfSight{position, normalized(target - position)}, luminance_cd_m2, tolerance});
     }
-    result.readings.push_back({LineOfSight{{2, 0, 0}, normalized(Vec3{0.4, 1, 0.2})}, kLuminance});
+    result.readings.push_back({LineOfSight{{2, 0, 0}, normalized(Vec3{0.4, 1, 0.2})}, kSkyLuminance_cd_m2});
     return result;
 }
 
@@ -113,13 +113,13 @@ std::vector<VerificationCase> seen_cases() {
     const Sphere ball{{}, 0.5};
     const Rgb white = Rgb::grey(1);
     return {
-        seen_case("diffuse ball", ball, diffuse(0.6), 0.6 * kLuminance, 0),
-        seen_case("mirror ball", ball, Mirror{Rgb::grey(0.85)}, 0.85 * kLuminance, 0),
-        seen_case("glass ball", ball, Dielectric{1.5}, kLuminance, kRareEnds),
-        seen_case("glass box", Box{{-0.4, -0.3, -0.5}, {0.4, 0.3, 0.5}}, Dielectric{1.5}, kLuminance,
+        seen_case("diffuse ball", ball, diffuse(0.6), 0.6 * kSkyLuminance_cd_m2, 0),
+        seen_case("mirror ball", ball, Mirror{Rgb::grey(0.85)}, 0.85 * kSkyLuminance_cd_m2, 0),
+        seen_case("glass ball", ball, Dielectric{1.5}, kSkyLuminance_cd_m2, kRareEnds),
+        seen_case("glass box", Box{{-0.4, -0.3, -0.5}, {0.4, 0.3, 0.5}}, Dielectric{1.5}, kSkyLuminance_cd_m2,
                   kRareEnds),
-        seen_case("white rough ball", ball, RoughConductor({white, 0.3}), kLuminance, 0.003),
-        seen_case("white plastic ball", ball, Plastic({white, 1.5, 0.2}), kLuminance, 0.001),
+        seen_case("white rough ball", ball, RoughConductor({white, 0.3}), kSkyLuminance_cd_m2, 0.003),
+        seen_case("white plastic ball", ball, Plastic({white, 1.5, 0.2}), kSkyLuminance_cd_m2, 0.001),
     };
 }
 

@@ -88,7 +88,7 @@ std::vector<VerificationCase> source_cases() {
 
 namespace {
 
-constexpr double kLuminance = 1000;
+constexpr double kSourceLuminance_cd_m2 = 1000;
 constexpr double kReflectance = 0.85;
 constexpr exact::PaneOptics kPane{1.52, 0.96};
 
@@ -111,9 +111,11 @@ LineOfSight towards(const Vec3& target, const Vec3& from_there, double distance_
 
 void add_straight(VerificationCase& result, Back back) {
     for (const double azimuth_deg : {10.0, 130.0, 250.0}) {
-        result.readings.push_back({towards(kTarget, direction_at(50, azimuth_deg), 2), kLuminance});
+        result.readings.push_back(
+            {towards(kTarget, direction_at(50, azimuth_deg), 2), kSourceLuminance_cd_m2});
     }
-    result.readings.push_back({towards(kTarget, {0, 0, -1}, 2), back == Back::bright ? kLuminance : 0});
+    result.readings.push_back(
+        {towards(kTarget, {0, 0, -1}, 2), back == Back::bright ? kSourceLuminance_cd_m2 : 0});
 }
 
 /// A small mirror between source and sensor, and a luminance sensor that sees it.
@@ -122,7 +124,7 @@ void add_in_mirror(VerificationCase& result) {
     const Vec3 middle = kTarget + to_mirror;
     add_object(result.scene, Disk{middle, normalized(to_meter - to_mirror), 0.05},
                Mirror{Rgb::grey(kReflectance)});
-    result.readings.push_back({towards(middle, to_meter, 0.7), kReflectance * kLuminance});
+    result.readings.push_back({towards(middle, to_meter, 0.7), kReflectance * kSourceLuminance_cd_m2});
 }
 
 void add_through_pane(VerificationCase& result, double azimuth_deg, double angle_deg) {
@@ -132,8 +134,8 @@ void add_through_pane(VerificationCase& result, double azimuth_deg, double angle
     const Vec3 normal = std::cos(angle_rad) * to_meter + std::sin(angle_rad) * across;
     add_object(result.scene, Disk{kTarget + 0.8 * to_meter, normal, 0.1},
                ThinDielectric{kPane.ior, Rgb::grey(kPane.internal_transmittance)});
-    result.readings.push_back(
-        {towards(kTarget, to_meter, 1.5), exact::pane_transmittance(kPane, angle_rad) * kLuminance});
+    result.readings.push_back({towards(kTarget, to_meter, 1.5),
+                               exact::pane_transmittance(kPane, angle_rad) * kSourceLuminance_cd_m2});
 }
 
 VerificationCase seen_source_case(const std::string& shape_name, const Shape& shape, Back back) {
@@ -142,7 +144,7 @@ VerificationCase seen_source_case(const std::string& shape_name, const Shape& sh
         "Seen directly, from behind, in a mirror of {}, and through a pane (ior {}, internal\n"
         "  transmittance {}) at 0 and 60 degrees.",
         kReflectance, kPane.ior, kPane.internal_transmittance);
-    add_area_light(result.scene, add_object(result.scene, shape, Black{}), kLuminance);
+    add_area_light(result.scene, add_object(result.scene, shape, Black{}), kSourceLuminance_cd_m2);
     add_straight(result, back);
     add_in_mirror(result);
     add_through_pane(result, 180, 0);

@@ -54,7 +54,7 @@ struct HarmonicCells::FloatCell {
 
     FloatCell(const Outline& cell, const Span& column, const Span& row, const PacketPlacement& placement);
     Classification classification(const Vec3f& origin, const Vec3f& direction, float start, float end) const;
-    LaneVerdicts classifications(const RayPacket& rays) const;
+    LaneClassifications classifications(const RayPacket& rays) const;
 };
 
 HarmonicCells::FloatCell::FloatCell(const Outline& cell, const Span& column, const Span& row,
@@ -133,7 +133,7 @@ STILB_VECTORIZED LaneClassifications HarmonicCells::FloatCell::classifications(c
     return classifications;
 }
 
-LaneVerdicts HarmonicCells::classifications(std::size_t number, const RayPacket& rays,
+LaneClassifications HarmonicCells::classifications(std::size_t number, const RayPacket& rays,
                                             const PacketPlacement& placement) const {
     const Outline& outline = outlines_[number];
     return FloatCell(outline, spans_[outline.column], spans_[outline.row], placement).classifications(rays);

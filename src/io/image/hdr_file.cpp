@@ -22,7 +22,7 @@ constexpr int kExponentBias = 128;
 /// Other widths are stored flat: the marker of a run-length encoded scanline has 15 bits for the width.
 constexpr int kLeastEncoded = 8, kMostEncoded = 32767;
 constexpr std::size_t kShortestRun = 4, kLongestRun = 127, kLongestLiteral = 128;
-constexpr std::string_view kFormat = "32-bit_rle_rgbe";
+constexpr std::string_view kPixelFormat = "32-bit_rle_rgbe";
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
@@ -73,7 +73,7 @@ std::string to_header(const Picture& picture) {
     }
     header += "EXPOSURE= 1\nPRIMARIES=";
     for (const auto& [x, y] : kRadiance) header += fmt::format(" {:.4f} {:.4f}", x, y);
-    return header + fmt::format("\nFORMAT={}\n\n-Y {} +X {}\n", kFormat, picture.height, picture.width);
+    return header + fmt::format("\nFORMAT={}\n\n-Y {} +X {}\n", kPixelFormat, picture.height, picture.width);
 }
 
 std::size_t run_length(const std::vector<Rgbe>& pixels, std::size_t channel, std::size_t begin) {
@@ -150,8 +150,8 @@ class HdrReader {
     }
 
     void read_variable(std::string_view variable, std::string_view text) {
-        if (variable == "FORMAT" && text != kFormat) {
-            fail(fmt::format("FORMAT={} cannot be read. Only {} can.", in_quotes(text), kFormat));
+        if (variable == "FORMAT" && text != kPixelFormat) {
+            fail(fmt::format("FORMAT={} cannot be read. Only {} can.", in_quotes(text), kPixelFormat));
         } else if (variable == "EXPOSURE") {
             exposure_ *= parse_number(text).value_or(0);
             if (!(exposure_ > 1e-30 && exposure_ < 1e30))

@@ -17,9 +17,9 @@
 namespace stilb::io {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "stilb-harmonics";
+constexpr const char* kSeriesFormat = "stilb-harmonics";
 constexpr int kVersion = 1;
 
 class Reader {
@@ -83,7 +83,7 @@ class Reader {
                                    : json.type_name();
     }
     static std::string expected(std::string_view key) {
-        if (key == "format") return fmt::format("\"{}\"", kFormat);
+        if (key == "format") return fmt::format("\"{}\"", kSeriesFormat);
         if (key == "version") return fmt::format("{}", kVersion);
         if (key == "degree") return fmt::format("a whole number from 0 to {}", math::kMostHarmonicDegree);
         if (key == "center") return "x, y and z";
@@ -112,11 +112,11 @@ std::string list_text(std::span<const double> values) {
 HarmonicsFile parse_harmonics(std::string_view content, const std::string& name) {
     const Reader reader(name);
     const Json json = reader.parsed(content);
-    if (!json.is_object() || json.value("format", Json()) != Json(kFormat)) {
+    if (!json.is_object() || json.value("format", Json()) != Json(kSeriesFormat)) {
         reader.fail(
             fmt::format("JSON, but not a surface by spherical harmonics: it lacks \"format\": "
                         "\"{}\".",
-                        kFormat));
+                        kSeriesFormat));
     }
     const int version = reader.whole(json, "version");
     if (version != kVersion) {
@@ -146,7 +146,7 @@ HarmonicsFile read_harmonics(const std::filesystem::path& path) {
 
 std::string to_text(const HarmonicsFile& file) {
     const int degree = math::HarmonicSeries<double>(file.coefficients).degree();
-    std::string text = fmt::format("{{\n\"format\": \"{}\",\n\"version\": {},\n", kFormat, kVersion);
+    std::string text = fmt::format("{{\n\"format\": \"{}\",\n\"version\": {},\n", kSeriesFormat, kVersion);
     if (!file.mesh.empty()) {
         text += fmt::format("\"mesh\": {},\n",
                             Json(file.mesh).dump(-1, ' ', true, Json::error_handler_t::replace));

@@ -172,7 +172,7 @@ PlyHeader read_ply_header(std::string_view content, const std::string& name) {
 namespace {
 
 /// The position of the reader, for messages.
-struct Location {
+struct PlyLocation {
     const std::string& file;
     const PlyElement* element = nullptr;
     std::uint64_t row = 0;
@@ -193,7 +193,7 @@ bool is_index(double value) {
 /// Values as text: each row of an element has a line of its own.
 class TextBody {
   public:
-    TextBody(const PlyHeader& header, Location& location)
+    TextBody(const PlyHeader& header, PlyLocation& location)
         : lines_(header.body, header.body_line), location_(location) {}
 
     std::string_view rest() const { return lines_.rest(); }
@@ -234,14 +234,15 @@ class TextBody {
     }
 
     TextLines lines_;
-    Location& location_;
+    PlyLocation& location_;
     std::string_view row_;  // the unread rest of the row
 };
 
 template <std::endian order>
 class BinaryBody {
   public:
-    BinaryBody(const PlyHeader& header, const Location& location) : rest_(header.body), location_(location) {}
+    BinaryBody(const PlyHeader& header, const PlyLocation& location)
+        : rest_(header.body), location_(location) {}
 
     std::string_view rest() const { return rest_; }
     static std::size_t least_size(const PlyProperty& property) {
@@ -293,7 +294,7 @@ class BinaryBody {
     }
 
     std::string_view rest_;
-    const Location& location_;
+    const PlyLocation& location_;
 };
 
 template <class Body>
@@ -477,7 +478,7 @@ class PlyReader {
     }
 
     const PlyHeader& header_;
-    Location location_;
+    PlyLocation location_;
     Body body_;
     MeshBuilder builder_;
     std::vector<double> list_;
