@@ -49,7 +49,7 @@ void RunFlags::add_those_of_one_method(Command& command) {
              "(path), steps (ray-bundle), particles (particles); pictures: passes")
         .from_to(1, kMostPaths)
         .value_name("N");
-    command.add("--seed", seed, "Another seed gives an independent result")
+    command.add("--seed", seed, "Seed of the random numbers: another seed gives an independent result")
         .from_to(0, kGreatestSeed)
         .value_name("N");
     command.add("--threads", threads, "Processor threads (default: all); the result does not depend on it")

@@ -13,9 +13,9 @@ namespace stilb::plot {
 
 /// Draws the luminances of the pixels, one in a PNG for each (small pictures magnified, very large ones
 /// averaged), as .png or .svg. Pixels of NaN and outside of a fisheye's circle are hatched. Isolines are
-/// those of averages over small squares, lest they follow the noise of single pixels; numbers stand on a
-/// coarse grid, each the mean about its middle. Throws InputError for a scale that is empty or does not fit,
-/// or a file that cannot be written.
+/// those of averages over small squares, so that they do not follow the noise of single pixels; numbers stand
+/// on a coarse grid, each the mean about its middle. Throws InputError for a scale that is empty or does not
+/// fit, or a file that cannot be written.
 void draw_false_colour(const io::Picture& picture, const std::string& title,
                        const FalseColourOptions& options, const std::filesystem::path& path);
 

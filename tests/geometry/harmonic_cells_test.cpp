@@ -79,7 +79,7 @@ TEST(HarmonicCells, HaveTheSurfacesPointsAndNormals) {
         for (int i = 0; i < 500; ++i) {
             const Vec3 direction = numbers.direction();
             const Vec3 point = surface.radius().at(direction) * direction;
-            const auto place = cells.place_at(cell_of(cells, direction), (1 + 1e-4 * numbers.next()) * point);
+            const auto place = cells.point_at(cell_of(cells, direction), (1 + 1e-4 * numbers.next()) * point);
             EXPECT_NEAR(length(place.position - point), 0, 2e-7) << degree;
             EXPECT_NEAR(length(place.normal - surface.normal_at(direction)), 0, 1e-5) << degree;
         }

@@ -81,7 +81,7 @@ TEST(HarmonicsFile, TakesForeignKeysAndNeedsOnlyItsOwn) {
 }
 
 TEST(HarmonicsFile, NamesWhatIsWrong) {
-    expect_refusal("", {"not JSON", "stilb fit"});
+    expect_refusal("", {"not JSON", "not a surface by spherical harmonics"});
     expect_refusal("{\n\"format\": \n,", {"a.json:3: not JSON"});
     expect_refusal("[1]", {"not a surface by spherical harmonics", "stilb-harmonics"});
     expect_refusal(with("stilb-harmonics", "other"), {"not a surface by spherical harmonics"});

@@ -175,8 +175,8 @@ TEST(IesFile, WrongInputIsNamedWithItsLine) {
     const auto changed = [&](const std::string& from, const std::string& to, const std::string& message) {
         expect(with(kFile, from, to), message);
     };
-    expect("", "a.ies: has no line TILT=");
-    expect("no photometry\nat all\n", "a.ies:2: has no line TILT=");
+    expect("", "a.ies: the line TILT= is missing");
+    expect("no photometry\nat all\n", "a.ies:2: the line TILT= is missing");
     changed("IESNA:LM-63-2002", "IESNA:LM-63-2012",
             "a.ies:1: \"IESNA:LM-63-2012\" is not a known version of LM-63");
     changed("1 1000", "1.5 1000", "a.ies:6: the number of lamps is 1.5: a whole number");
@@ -186,7 +186,7 @@ TEST(IesFile, WrongInputIsNamedWithItsLine) {
     changed("2 3 2 1 2", "2 3 2 1 3", "a.ies:6: the unit of length (1: feet, 2: metres) is 3");
     changed("2 3 2 1 2", "2 900000000 2 1 2", "a.ies:6: the number of vertical angles is 900000000");
     changed("2 3 2 1 2", "2 3 -2 1 2", "a.ies:6: the number of horizontal angles is -2");
-    changed("2 3 2 1 2", "2 1 2 1 2", "a.ies:7: one vertical angle");
+    changed("2 3 2 1 2", "2 1 2 1 2", "a.ies:7: there is one vertical angle");
     changed("0.5 1 40", "0 1 40", "a.ies:7: the ballast factor is 0");
     changed("0.5 1 40", "0.5 1 watts",
             "a.ies:7: \"watts\" is not a number: the input watts is expected here");
@@ -196,7 +196,7 @@ TEST(IesFile, WrongInputIsNamedWithItsLine) {
     changed("\n0 90\n", "\n0 100\n", "a.ies:9: the horizontal angles run from 0 to 100");
     changed("\n0 90\n", "\n90 0\n", "a.ies:9: horizontal angle 0 follows 90");
     changed("100 80 10", "100 -80 10", "a.ies:10: intensity -80 is negative");
-    changed("100 80 10", "100 1e300 10", "beyond any luminaire");
+    changed("100 80 10", "100 1e300 10", "too large for a luminaire");
     changed("100 80 10", "100 1e999 10", "a.ies:10: \"1e999\" is not a number");
     changed("100 80 10",
             "100 8\x01\xFF"

@@ -198,15 +198,13 @@ TEST(ObjFile, what_is_no_obj) {
 }
 
 TEST(ObjFile, no_triangle) {
-    expect_refusal(
-        "", ": the file has no triangle, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
-    expect_refusal(
-        kSquare,
-        ": the file has no triangle, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
-    expect_refusal(
-        kSquare + "f 1 1 2\n",
-        ": the file has no triangle (1 without area left out), so there is no surface; an OBJ file "
-        "needs faces, such as: f 1 2 3");
+    expect_refusal("",
+                   ": no triangle found, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
+    expect_refusal(kSquare,
+                   ": no triangle found, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
+    expect_refusal(kSquare + "f 1 1 2\n",
+                   ": no triangle found (1 without area left out), so there is no surface; an OBJ file "
+                   "needs faces, such as: f 1 2 3");
 }
 
 struct SharedMesh {

@@ -372,9 +372,9 @@ TEST(PlyFile, what_follows_the_last_row) {
 TEST(PlyFile, no_triangle) {
     const std::string remedy =
         ", so there is no surface; a PLY file needs an element vertex and an element face (or tristrips)";
-    expect_refusal(text_file(kVertices, kSquare), ": the file has no triangle" + remedy);
+    expect_refusal(text_file(kVertices, kSquare), ": no triangle found" + remedy);
     expect_refusal(text_file(kVertices + kFaces, kSquare + "3 0 1 1\n"),
-                   ": the file has no triangle (1 without area left out)" + remedy);
+                   ": no triangle found (1 without area left out)" + remedy);
 }
 
 TEST(PlyFile, igea_is_a_closed_head) {

@@ -89,8 +89,8 @@ MeshFile MeshBuilder::finish(const std::string& name, std::string_view remedy) &
             file_.degenerate_triangles == 0
                 ? ""
                 : fmt::format(" ({} without area left out)", file_.degenerate_triangles);
-        throw InputError(
-            fmt::format("the file has no triangle{}, so there is no surface; {}", dropped, remedy), {name});
+        throw InputError(fmt::format("no triangle found{}, so there is no surface; {}", dropped, remedy),
+                         {name});
     }
     drop_unused_normals();
     file_.material_names = std::move(materials_).names();
