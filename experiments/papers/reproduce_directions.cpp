@@ -19,7 +19,7 @@ namespace {
 constexpr std::array kReflectances{0.3, 0.5, 0.7, 0.8, 0.9, 0.95};
 constexpr std::array kWays{estimators::BundleDirections::single, estimators::BundleDirections::pair,
                            estimators::BundleDirections::frame};
-constexpr std::uint64_t kWalks = 32, kReferenceWalks = 32;
+constexpr std::uint64_t kWalks = 32, kDirectionReferenceWalks = 32;
 constexpr int kMostSteps = 1024;
 constexpr double kEdge_m = 4, kPatch_m = 1.2;
 
@@ -79,9 +79,9 @@ std::vector<double> reference(const Scene& scene, const rays::RayCaster& caster)
     const estimators::PatchTransport transport =
         make_transport(scene, caster, estimators::BundleDirections::frame);
     std::vector<double> mean(transport.patches.count());
-    for (const auto& looks : walks(transport, math::RandomKey{1}, kReferenceWalks)) {
+    for (const auto& looks : walks(transport, math::RandomKey{1}, kDirectionReferenceWalks)) {
         for (std::size_t patch = 0; patch < mean.size(); ++patch) {
-            mean[patch] += looks.back().sums_cd_m2[patch] / (double{kReferenceWalks} * kMostSteps);
+            mean[patch] += looks.back().sums_cd_m2[patch] / (double{kDirectionReferenceWalks} * kMostSteps);
         }
     }
     return mean;

@@ -9,7 +9,6 @@
 #include "cli/progress.h"
 #include "io/text/table.h"
 #include "papers/estimate_series.h"
-#include "papers/multiply_reflected.h"
 #include "papers/reproduce.h"
 #include "plot/plot.h"
 #include "sensors/goniometer.h"

@@ -2,6 +2,8 @@
 // facets.
 #pragma once
 
+#include <algorithm>
+
 #include "materials/albedo_table.h"
 #include "materials/ggx.h"
 #include "materials/model.h"
@@ -39,6 +41,22 @@ class RoughConductor {
     std::optional<ScatterSample> sample(const Vec3& in, double u1, double u2) const;
 
   private:
+    /// Share of the light from this direction that remains between white facets after the first reflection.
+    static double loss_at(const Ggx& facets, double cosine) {
+        return mean_over_visible_normals(facets, cosine, [&](const Vec3& in, const Vec3& normal) {
+            const Vec3 out = reflected(in, normal);
+            return out.z > 0 ? 1 - facets.passing(in, out) : 1;
+        });
+    }
+
+    static Rgb multiple_reflectance(const Rgb& reflectance, double lost) {
+        Rgb result;
+        for (std::size_t b = 0; b < kBands; ++b) {
+            result[b] = reflectance[b] * reflectance[b] * (1 - lost) / (1 - reflectance[b] * lost);
+        }
+        return result;
+    }
+
     /// `loss_in` and `loss_out`: values of the table for both directions. `loss_in` is the probability of
     /// sampling the multiply reflected light, because it is its share of the albedo of a white material.
     Rgb brdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half, double loss_in,
@@ -51,6 +69,60 @@ class RoughConductor {
     Rgb multiple_;      ///< M
     double concentration_ = 0;
 };
+
+inline RoughConductor::RoughConductor(const Parameters& parameters)
+    : parameters_(parameters),
+      facets_(parameters.roughness),
+      loss_(parameters.roughness, [this](double cosine) { return loss_at(facets_, cosine); }),
+      multiple_(multiple_reflectance(parameters.reflectance, loss_.average())) {
+    concentration_ = concentration_at_normal_incidence(*this);
+}
+
+inline Rgb RoughConductor::brdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half,
+                                                double loss_in, double loss_out) const {
+    const double once = facets_.brdf_per_sr(in, out, half);
+    const double more = loss_in * loss_out / (kPi * loss_.average());
+    return parameters_.reflectance * once + multiple_ * more;
+}
+
+inline double RoughConductor::pdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half,
+                                                  double loss_in) const {
+    return (1 - loss_in) * facets_.pdf_per_sr(in, half) + loss_in * loss_.pdf_of_cosine(out.z) / (2 * kPi);
+}
+
+inline Rgb RoughConductor::brdf_per_sr(const Vec3& in, const Vec3& out) const {
+    return brdf_by_facet_per_sr(in, out, half_vector(in, out), loss_.at(in.z), loss_.at(out.z));
+}
+
+inline double RoughConductor::pdf_per_sr(const Vec3& in, const Vec3& out) const {
+    return pdf_by_facet_per_sr(in, out, half_vector(in, out), loss_.at(in.z));
+}
+
+inline ScatterValue RoughConductor::evaluate(const Vec3& in, const Vec3& out) const {
+    const Vec3 half = half_vector(in, out);
+    const double loss_in = loss_.at(in.z), loss_out = loss_.at(out.z);
+    return {brdf_by_facet_per_sr(in, out, half, loss_in, loss_out),
+            pdf_by_facet_per_sr(out, in, half, loss_out)};
+}
+
+inline std::optional<ScatterSample> RoughConductor::sample(const Vec3& in, double u1, double u2) const {
+    if (parameters_.reflectance.max() <= 0) return std::nullopt;
+    const double multiple = loss_.at(in.z);
+    Vec3 out;
+    if (u1 < multiple) {
+        const double cosine = loss_.sample_cosine(u1 / multiple);
+        const double sine = std::sqrt((1 - cosine) * (1 + cosine)), phi = 2 * kPi * u2;
+        out = {sine * std::cos(phi), sine * std::sin(phi), cosine};
+    } else {
+        const double u_facet = std::min((u1 - multiple) / (1 - multiple), math::kBelowOne);
+        out = normalized(reflected(in, facets_.visible_normal(in, math::sample_unit_disk(u_facet, u2))));
+    }
+    if (out.z <= 0) return std::nullopt;
+    const Vec3 half = half_vector(in, out);
+    const double density = pdf_by_facet_per_sr(in, out, half, multiple);
+    const Rgb brdf = brdf_by_facet_per_sr(in, out, half, multiple, loss_.at(out.z));
+    return ScatterSample{out, brdf * (out.z / density), density};
+}
 
 }  // namespace stilb::materials
 

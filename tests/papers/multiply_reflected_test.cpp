@@ -1,4 +1,4 @@
-#include "papers/multiply_reflected.h"
+#include "papers/estimate_series.h"
 
 #include <gtest/gtest.h>
 

@@ -87,7 +87,7 @@ std::vector<FloatRgb> IlluminationMap::reflected_cd_m2() const {
 
 namespace {
 
-constexpr std::string_view kName = "particles";
+constexpr std::string_view kParticles = "particles";
 /// Particles for each evaluation of the map by a reading.
 constexpr std::uint64_t kParticlesPerEvaluation = 64;
 constexpr std::uint64_t kLeastParticles = 4096;
@@ -95,9 +95,9 @@ constexpr std::uint64_t kLeastParticles = 4096;
 enum Purpose : std::uint64_t { kWalks = kPixels + 1, kEvaluations };
 
 /// All lights emit particles.
-PatchTransport transport_for(const Problem& problem) {
-    require_diffuse(problem.scene, kName);
-    require_all_reflections(problem.max_reflections, kName);
+PatchTransport particle_transport(const Problem& problem) {
+    require_diffuse(problem.scene, kParticles);
+    require_all_reflections(problem.max_reflections, kParticles);
     PatchOptions options = problem.patches;
     options.first_shot.variant = FirstShotVariant::none;
     return {problem.scene, problem.caster, options, problem.monitor};
@@ -106,7 +106,7 @@ PatchTransport transport_for(const Problem& problem) {
 class Particles final : public Estimator {
   public:
     explicit Particles(const Problem& problem)
-        : transport_(transport_for(problem)), readings_(transport_, problem.measurands) {
+        : transport_(particle_transport(problem)), readings_(transport_, problem.measurands) {
         if (problem.camera) tracing_.emplace(problem, transport_.lights);
     }
 

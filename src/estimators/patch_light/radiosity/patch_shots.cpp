@@ -24,11 +24,27 @@ patches::Viewpoint turned_viewpoint(const patches::Patches& patches, std::uint32
     return viewpoint;
 }
 
+/// cos dW of every pixel over the sum of all.
+std::vector<float> shares_of_pixels(const patches::ItemBufferLayout& layout) {
+    double sum = 0;
+    const auto weight = [](const patches::BufferPixel& pixel) {
+        return std::max(pixel.cosine, 0.0) * pixel.solid_angle_sr;
+    };
+    layout.for_each_pixel([&](std::size_t, const patches::BufferPixel& pixel) { sum += weight(pixel); });
+    std::vector<float> shares(layout.pixel_count());
+    layout.for_each_pixel([&](std::size_t index, const patches::BufferPixel& pixel) {
+        shares[index] = static_cast<float>(weight(pixel) / sum);
+    });
+    return shares;
+}
+
+}  // namespace
+
 /// The buffers of one thread.
-class Shooter {
+class PatchShooter {
   public:
-    Shooter(const patches::PatchCaster& caster, patches::BufferBackend backend,
-            const patches::ItemBufferLayout& layout, std::span<const float> weights)
+    PatchShooter(const patches::PatchCaster& caster, patches::BufferBackend backend,
+                 const patches::ItemBufferLayout& layout, std::span<const float> weights)
         : patches_(caster.patches()),
           layout_(layout),
           weights_(weights),
@@ -58,33 +74,17 @@ class Shooter {
     std::vector<float> shares_;  ///< per side; 0 before and after
 };
 
-/// cos dW of every pixel over the sum of all.
-std::vector<float> shares_of_pixels(const patches::ItemBufferLayout& layout) {
-    double sum = 0;
-    const auto weight = [](const patches::BufferPixel& pixel) {
-        return std::max(pixel.cosine, 0.0) * pixel.solid_angle_sr;
-    };
-    layout.for_each_pixel([&](std::size_t, const patches::BufferPixel& pixel) { sum += weight(pixel); });
-    std::vector<float> shares(layout.pixel_count());
-    layout.for_each_pixel([&](std::size_t index, const patches::BufferPixel& pixel) {
-        shares[index] = static_cast<float>(weight(pixel) / sum);
-    });
-    return shares;
-}
-
-}  // namespace
-
 struct PatchShots::Shooters {
     patches::BufferBackend backend;
-    tbb::enumerable_thread_specific<Shooter> of_threads;
+    tbb::enumerable_thread_specific<PatchShooter> of_threads;
 };
 
 PatchShots::PatchShots(const patches::PatchCaster& caster, const ShootingOptions& options)
     : caster_(caster),
       layout_(options.window, options.resolution),
       weights_(shares_of_pixels(layout_)),
-      shooters_(new Shooters{options.backend, tbb::enumerable_thread_specific<Shooter>([this, options] {
-                                 return Shooter(caster_, options.backend, layout_, weights_);
+      shooters_(new Shooters{options.backend, tbb::enumerable_thread_specific<PatchShooter>([this, options] {
+                                 return PatchShooter(caster_, options.backend, layout_, weights_);
                              })}) {}
 
 PatchShots::~PatchShots() = default;

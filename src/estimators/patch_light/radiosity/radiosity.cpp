@@ -129,14 +129,14 @@ class Shooting {
     std::uint64_t done_ = 0;
 };
 
-constexpr std::string_view kName = "radiosity";
+constexpr std::string_view kRadiosity = "radiosity";
 
-PatchTransport transport_for(const Problem& problem) {
-    require_diffuse(problem.scene, kName);
-    require_no_light_from_outside(problem.scene, kName);
-    require_all_reflections(problem.max_reflections, kName);
+PatchTransport radiosity_transport(const Problem& problem) {
+    require_diffuse(problem.scene, kRadiosity);
+    require_no_light_from_outside(problem.scene, kRadiosity);
+    require_all_reflections(problem.max_reflections, kRadiosity);
     const FirstShotVariant variant = problem.patches.first_shot.variant.value_or(kUsualFirstShot);
-    require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kName);
+    require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kRadiosity);
     if (variant == FirstShotVariant::on_the_fly) {
         throw InputError(
             fmt::format("first shot \"{}\": method radiosity needs the light of small lights as a mean over "
@@ -171,7 +171,7 @@ ReadingSums sum_readings(const PatchReadings& readings, const PatchLight& light,
 class Radiosity final : public Estimator {
   public:
     explicit Radiosity(const Problem& problem)
-        : transport_(transport_for(problem)),
+        : transport_(radiosity_transport(problem)),
           solution_(solve_radiosity(transport_, problem.monitor)),
           readings_(transport_, problem.measurands) {
         if (!problem.measurands.empty()) read(problem.monitor);

@@ -15,22 +15,22 @@
 namespace stilb::estimators {
 namespace {
 
-constexpr std::string_view kName = "ray-bundle";
+constexpr std::string_view kRayBundle = "ray-bundle";
 
 enum ReadingPurpose : std::uint64_t { kWalk, kReadings };
 enum PicturePurpose : std::uint64_t { kWalkOfPass = kPixels + 1 };
 
-PatchTransport transport_for(const Problem& problem) {
+PatchTransport bundle_transport(const Problem& problem) {
     const FirstShotVariant variant = problem.patches.first_shot.variant.value_or(kUsualFirstShot);
-    require_all_reflections(problem.max_reflections, kName);
-    require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kName);
+    require_all_reflections(problem.max_reflections, kRayBundle);
+    require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kRayBundle);
     return {problem.scene, problem.caster, problem.patches, problem.monitor};
 }
 
 class RayBundle final : public Estimator {
   public:
     explicit RayBundle(const Problem& problem)
-        : transport_(transport_for(problem)), readings_(transport_, problem.measurands) {
+        : transport_(bundle_transport(problem)), readings_(transport_, problem.measurands) {
         if (!problem.camera) return;
         tracing_.emplace(problem, transport_.lights);
         seen_.emplace(transport_, tracing_->view.position());
@@ -60,7 +60,7 @@ class RayBundle final : public Estimator {
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<PatchPass>(*tracing_, transport_, pass, mean_of_walks(pass));
     }
-    std::vector<std::string> warnings() const override { return patch_warnings(transport_.scene, kName); }
+    std::vector<std::string> warnings() const override { return patch_warnings(transport_.scene, kRayBundle); }
     std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
