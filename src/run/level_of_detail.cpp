@@ -10,7 +10,7 @@
 namespace stilb::run {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit_m = std::numeric_limits<double>::infinity();
 constexpr double kFootprint_rad = 1e-3;  ///< of sensors other than cameras
 /// The least R, as a share of the largest, that the truncated surface may have: the surface must not reach
 /// its centre.
@@ -25,7 +25,7 @@ double pixel_rad(const Camera& camera) {
 /// Half the smallest footprint at the object; 0 where a sensor is in it or close to it.
 double allowed_m(const Harmonics& object, std::span<const Sensor> sensors) {
     const double radius_m = object.scale * object.surface->greatest_radius();
-    double allowed = kInfinity;
+    double allowed = kNoLimit_m;
     const auto include = [&](const Vec3& position, double footprint_rad) {
         const double distance_m = std::max(0.0, length(position - object.center) - radius_m);
         allowed = std::min(allowed, 0.5 * footprint_rad * distance_m);

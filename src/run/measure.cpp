@@ -27,10 +27,8 @@ constexpr std::uint64_t kLongestBatch = 1 << 16;
 constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 /// Granules before the first error estimate: an estimate from fewer may be far too small.
 constexpr std::uint64_t kLeastCheck = 4;
-/// The number of non-finite contributions that ends a run.
-constexpr double kInvalidRate = 1e-6;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-enum Purpose : std::uint64_t { kPreparation, kReplicates };
+enum ReadingPurpose : std::uint64_t { kReadingPreparation, kReadingReplicates };
 
 /// The sums of all replicates, and their progress.
 class Campaign final : public Work {
@@ -42,7 +40,7 @@ class Campaign final : public Work {
           granularity_(estimator.batch_granularity()),
           sums_(static_cast<std::size_t>(replicates), estimators::ReadingSums(readings)) {
         for (std::size_t r = 0; r < sums_.size(); ++r) {
-            keys_.push_back(math::RandomKey{seed}.derived(kReplicates).derived(r));
+            keys_.push_back(math::RandomKey{seed}.derived(kReadingReplicates).derived(r));
         }
         const double per_batch = kRaysPerRound / (replicates * estimator.rays_per_sample());
         std::uint64_t batch = granularity_;
@@ -98,12 +96,7 @@ class Campaign final : public Work {
         std::uint64_t invalid = 0;
         for (const estimators::ReadingSums& s : sums_) invalid += s.invalid;
         const double all = static_cast<double>(samples_in_all()) * static_cast<double>(sums_[0].sum.size());
-        if (static_cast<double>(invalid) > kInvalidRate * all) {
-            throw std::runtime_error(
-                fmt::format("{} of {} contributions are not finite: this is a defect of Stilb, "
-                            "please report the scene",
-                            invalid, all));
-        }
+        require_mostly_finite(invalid, all);
     }
 
     /// Replicates x readings of one sensor, luminance-weighted [lx].
@@ -171,7 +164,7 @@ void require_surfaces(std::span<const Sensor> sensors, const rays::RayCaster& ca
 
 /// The options with defaults for a run without targets. A deterministic method computes its result
 /// once.
-RunOptions with_target(RunOptions options, const estimators::EstimatorEntry& method) {
+RunOptions with_reading_target(RunOptions options, const estimators::EstimatorEntry& method) {
     if (method.is_deterministic) {
         options.error.reset();
         options.paths.reset();
@@ -274,12 +267,12 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     const Wanted wanted(sensors);
     require_valid(asked_options);
     const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
-    const RunOptions options = with_target(asked_options, method);
+    const RunOptions options = with_reading_target(asked_options, method);
     require_measurable(sensors, method);
 
     Session session(scene, asked_options, options, progress, interrupt);
     require_surfaces(sensors, session.caster());
-    estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kPreparation));
+    estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kReadingPreparation));
     problem.measurands = wanted.measurands;
     problem.weights = wanted.weights;
     std::unique_ptr<estimators::Estimator> estimator;

@@ -24,13 +24,11 @@ namespace stilb::run {
 namespace {
 
 /// Fewer replicates than for readings: a pixel's error matters less than the memory for all of them.
-constexpr std::uint64_t kReplicates = 16;
+constexpr std::uint64_t kPictureReplicates = 16;
 constexpr double kDefaultTime_s = 60;
 /// Passes for smooth edges.
 constexpr std::uint64_t kSmoothingPasses = 16;
-/// The number of non-finite samples that ends a run.
-constexpr double kInvalidRate = 1e-6;
-enum Purpose : std::uint64_t { kPreparation, kSamples, kOffset };
+enum PicturePurpose : std::uint64_t { kPicturePreparation, kPictureSamples, kPictureOffset };
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
@@ -120,7 +118,7 @@ double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
 
 /// The number of passes at the next error estimate: 1, 2, 3, 4, 6, 8, 12 ... of each replicate.
 std::uint64_t next_checkpoint(std::uint64_t passes) {
-    return kReplicates * statistics::next_check(passes / kReplicates, 1);
+    return kPictureReplicates * statistics::next_check(passes / kPictureReplicates, 1);
 }
 
 /// A picture that accumulates one pass after another over all blocks.
@@ -135,8 +133,8 @@ class Passes final : public Work {
           replicates_(replicates),
           resolution_(camera.resolution),
           width_(static_cast<std::size_t>(camera.resolution[0])),
-          key_(math::RandomKey{seed}.derived(kSamples)),
-          offset_key_(math::RandomKey{seed}.derived(kOffset)),
+          key_(math::RandomKey{seed}.derived(kPictureSamples)),
+          offset_key_(math::RandomKey{seed}.derived(kPictureOffset)),
           pixels_(width_ * static_cast<std::size_t>(camera.resolution[1])),
           sums_(pixels_.size(), replicates) {}
 
@@ -166,11 +164,7 @@ class Passes final : public Work {
         if (is_interrupted()) return false;
         sums_.add(pixels_);
         const double all = static_cast<double>(sums_.passes()) * static_cast<double>(pixels_.size());
-        if (static_cast<double>(invalid_) > kInvalidRate * all) {
-            throw std::runtime_error(fmt::format(
-                "{} of {} samples are not finite: this is a defect of Stilb, please report the scene",
-                invalid_, all));
-        }
+        require_mostly_finite(invalid_, all);
         return true;
     }
 
@@ -246,7 +240,7 @@ void add_means(const PictureSums& sums, const std::vector<bool>& blind, RenderRe
 
 /// The options with defaults for a picture without targets. Passes of a deterministic method
 /// differ only by their sample positions in the pixels.
-RunOptions with_target(RunOptions options, const estimators::EstimatorEntry& method) {
+RunOptions with_picture_target(RunOptions options, const estimators::EstimatorEntry& method) {
     if (method.is_deterministic) options.error.reset();
     if (!options.error && !options.time_s && !options.paths) {
         if (method.is_deterministic) {
@@ -270,7 +264,8 @@ RenderResult render_by(const MakeEstimator& make, std::uint64_t replicates, cons
     const std::vector<bool> blind = blind_pixels(camera);
     RenderResult result;
     session.on_threads([&] {
-        estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kPreparation));
+        estimators::Problem problem =
+            session.problem(math::RandomKey{options.seed}.derived(kPicturePreparation));
         problem.camera = camera;
         const auto estimator = make(problem);
         Passes passes(*estimator, camera, blind, replicates, options.seed, sink);
@@ -300,13 +295,13 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
     }
     require_valid(asked_options);
     const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
-    const RunOptions options = with_target(asked_options, method);
+    const RunOptions options = with_picture_target(asked_options, method);
     if (!method.measures_luminance) {
         throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
                                      fmt::join(estimators::luminance_methods(), ", ")));
     }
-    RenderResult result = render_by(method.make, method.is_deterministic ? 1 : kReplicates, scene, camera,
-                                    asked_options, options, sink, interrupt);
+    RenderResult result = render_by(method.make, method.is_deterministic ? 1 : kPictureReplicates, scene,
+                                    camera, asked_options, options, sink, interrupt);
     if (method.has_heavy_tails) {
         result.warnings.push_back(
             fmt::format("method {} has infinite variance in corners: the standard errors of pixels there are "

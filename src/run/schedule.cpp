@@ -1,5 +1,7 @@
 #include "run/schedule.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -78,6 +80,13 @@ double remaining_time_s(const RunOptions& options, double elapsed_s, double atta
     if (options.time_s) remaining_s = std::min(remaining_s, std::max(0.0, *options.time_s - elapsed_s));
     if (options.paths) remaining_s = std::min(remaining_s, elapsed_s * (1 / share_done - 1));
     return remaining_s;
+}
+
+void require_mostly_finite(std::uint64_t invalid, double all) {
+    constexpr double tolerated = 1e-6;
+    if (static_cast<double>(invalid) <= tolerated * all) return;
+    throw std::runtime_error(fmt::format(
+        "{} of {} samples are not finite: this is a defect of Stilb, please report the scene", invalid, all));
 }
 
 Session::Session(const Scene& scene, const RunOptions& asked, const RunOptions& options, ProgressSink* sink,

@@ -90,6 +90,9 @@ class Schedule {
 double remaining_time_s(const RunOptions& options, double elapsed_s, double attained_error,
                         double share_done);
 
+/// Throws std::runtime_error where more than one sample in a million is not finite. These are left out.
+void require_mostly_finite(std::uint64_t invalid, double all);
+
 /// One run from its beginning. The user's time limit includes the set-up; a default one does not.
 class Session {
   public:

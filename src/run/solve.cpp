@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kMethod = "ray-bundle";
 /// The number of replicates; each has its own light in the file.
-constexpr std::size_t kReplicates = 8;
+constexpr std::size_t kSolutionReplicates = 8;
 /// Steps of each walk before the first error estimate.
 constexpr std::uint64_t kFirstCheck = 16;
 constexpr std::uint64_t kStepsAtOnce = 4;
@@ -29,10 +29,10 @@ class Walks final : public Work {
   public:
     Walks(const estimators::PatchTransport& transport, const estimators::TermLayout& layout,
           std::uint64_t seed, const Monitor& monitor)
-        : transport_(transport), layout_(layout), walks_(kReplicates) {
+        : transport_(transport), layout_(layout), walks_(kSolutionReplicates) {
         const std::uint64_t dark = first_steps(transport);
-        Stage stage(monitor, "first steps", kReplicates * dark);
-        parallel_for(kReplicates, [&](std::size_t w) {
+        Stage stage(monitor, "first steps", kSolutionReplicates * dark);
+        parallel_for(kSolutionReplicates, [&](std::size_t w) {
             walks_[w] = std::make_unique<Walk>(transport, layout, math::RandomKey{seed}.derived(w));
             for (std::uint64_t i = 0; i < dark; ++i) {
                 walks_[w]->iteration.step();
@@ -43,18 +43,18 @@ class Walks final : public Work {
 
     /// Steps of each walk.
     std::uint64_t samples() const override { return walks_[0]->sums.steps(); }
-    std::uint64_t samples_in_all() const override { return samples() * kReplicates; }
+    std::uint64_t samples_in_all() const override { return samples() * kSolutionReplicates; }
     std::uint64_t samples_for(std::uint64_t paths) const override {
-        return (paths + kReplicates - 1) / kReplicates;
+        return (paths + kSolutionReplicates - 1) / kSolutionReplicates;
     }
     std::uint64_t most_samples() const override {
-        return std::numeric_limits<std::uint64_t>::max() / kReplicates;
+        return std::numeric_limits<std::uint64_t>::max() / kSolutionReplicates;
     }
     std::uint64_t next_check() const override { return statistics::next_check(samples(), kFirstCheck); }
     std::uint64_t most_at_once() const override { return kStepsAtOnce; }
 
     bool advance(std::uint64_t steps, const std::atomic<bool>*) override {
-        parallel_for(kReplicates, [&](std::size_t w) {
+        parallel_for(kSolutionReplicates, [&](std::size_t w) {
             for (std::uint64_t i = 0; i < steps; ++i) {
                 walks_[w]->iteration.step();
                 walks_[w]->sums.add(walks_[w]->iteration);
@@ -124,7 +124,7 @@ class Walks final : public Work {
     std::vector<std::unique_ptr<Walk>> walks_;
 };
 
-RunOptions with_target(RunOptions options) {
+RunOptions with_solution_target(RunOptions options) {
     constexpr double default_time_s = 60;
     if (!options.error && !options.time_s && !options.paths) options.time_s = default_time_s;
     return options;
@@ -153,7 +153,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
                   const std::atomic<bool>* interrupt) {
     require_valid(asked_options);
     require_storable(scene, asked_options, degree);
-    RunOptions options = with_target(asked_options);
+    RunOptions options = with_solution_target(asked_options);
     options.method = kMethod;
     Session session(scene, asked_options, options, progress, interrupt);
     SolveResult result;
@@ -171,7 +171,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
         solution.lit_sides = walks.lit_sides();
         solution.replicates = walks.terms_of(solution.lit_sides);
     });
-    result.replicates = static_cast<int>(kReplicates);
+    result.replicates = static_cast<int>(kSolutionReplicates);
     result.warnings = estimators::patch_warnings(scene, kMethod);
     session.finish(result);
     return result;
