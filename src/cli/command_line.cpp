@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -21,6 +22,33 @@ InputError no_command(const CLI::App& app) {
     const std::string question =
         did_you_mean(extras[0], std::vector<std::string_view>(names.begin(), names.end()));
     return InputError(fmt::format("there is no command \"{}\".{} {}", extras[0], question, all));
+}
+
+/// The first argument that no flag or position takes; empty where there is none.
+std::string first_extra(const CLI::App& app) {
+    const std::vector<std::string> extras = app.remaining();
+    const auto flag = std::ranges::find_if(extras, [](const std::string& e) { return e.starts_with('-'); });
+    if (flag != extras.end()) return *flag;
+    return extras.empty() ? "" : extras.front();
+}
+
+/// The message where the arguments of a command cannot be used.
+InputError wrong_arguments(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    const CLI::App& command = commands.empty() ? app : *commands.front();
+    const std::string name = commands.empty() ? "stilb" : "stilb " + command.get_name();
+    std::string problem = error.what();
+    if (const std::string extra = first_extra(command); extra.starts_with('-')) {
+        std::vector<std::string> flags;
+        for (const CLI::Option* option : command.get_options()) flags.push_back(option->get_name());
+        problem = fmt::format("there is no flag {}.{}", extra,
+                              did_you_mean(extra, std::vector<std::string_view>(flags.begin(), flags.end())));
+    } else if (!extra.empty()) {
+        problem = fmt::format("\"{}\" is one argument too many.", extra);
+    } else if (!problem.ends_with('.')) {
+        problem += '.';
+    }
+    return InputError(fmt::format("{} See {} --help.", problem, name));
 }
 
 }  // namespace
@@ -115,7 +143,8 @@ int CommandLine::run(int argument_count, const char* const* arguments) {
     try {
         app_->parse(argument_count, arguments);
     } catch (const CLI::ParseError& error) {
-        return app_->exit(error) == 0 ? kExitDone : kExitWrongInput;
+        if (error.get_exit_code() != 0) throw wrong_arguments(*app_, error);
+        return app_->exit(error);  // prints the help or the version
     }
     if (app_->get_subcommands().empty()) throw no_command(*app_);
     return exit_code_;

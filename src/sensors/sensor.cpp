@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <stdexcept>
 
@@ -137,10 +138,11 @@ std::vector<Sensor> choose_meters(const std::vector<Sensor>& all, const std::vec
                                   const std::string& file) {
     std::vector<Sensor> chosen;
     for (const std::string& name : names) {
-        chosen.push_back(sensor_named(all, name, "sensor", file, [](const Sensor&) { return true; }));
-        if (!is_camera(chosen.back())) continue;
-        throw InputError(fmt::format("sensor \"{}\" is a camera, which makes a picture: render it.", name),
-                         {file});
+        if (std::ranges::any_of(all, [&](const Sensor& s) { return s.name == name && is_camera(s); })) {
+            throw InputError(
+                fmt::format("sensor \"{}\" is a camera, which makes a picture: render it.", name), {file});
+        }
+        chosen.push_back(sensor_named(all, name, "sensor", file, std::not_fn(is_camera)));
     }
     if (names.empty()) std::ranges::remove_copy_if(all, std::back_inserter(chosen), is_camera);
     if (chosen.empty() && !all.empty()) {

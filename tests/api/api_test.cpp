@@ -18,8 +18,10 @@ wall = { type = "diffuse", reflectance = 0.6 }
 floor = { type = "phong", diffuse = [0.2, 0.3, 0.4], specular = 0.3, exponent = 20 }
 [objects]
 room = { shape = "box", min = [0, 0, 0], max = [4, 3, 2.5], material = "wall" }
-floor = { shape = "polygons", vertices = [[0, 0, 0.01], [4, 0, 0.01], [4, 3, 0.01], [0, 3, 0.01]],
-          faces = [[0, 1, 2], [0, 2, 3]], material = "floor" }
+floor.shape = "polygons"
+floor.vertices = [[0, 0, 0.01], [4, 0, 0.01], [4, 3, 0.01], [0, 3, 0.01]]
+floor.faces = [[0, 1, 2], [0, 2, 3]]
+floor.material = "floor"
 [lights]
 bulb = { type = "point", position = [2, 1.5, 2.3], flux = 800 }
 [sensors]
@@ -53,7 +55,7 @@ stilb::SceneBuilder room() {
 
 stilb::Options few_samples() {
     stilb::Options options;
-    options.samples = 1024;
+    options.samples = 4096;
     return options;
 }
 
@@ -91,7 +93,7 @@ TEST(Library, BuiltScenesMeasureWhatReadScenesDo) {
     EXPECT_LT(desk.minimum.value, desk.mean.value);
     EXPECT_NEAR(desk.uniformity.value, desk.minimum.value / desk.mean.value, 1e-12);
     EXPECT_EQ(built["spot"].unit, "cd/m2");
-    EXPECT_EQ(built.samples, 1024u);
+    EXPECT_EQ(built.samples, 4096u);
     EXPECT_NE(built.json.find("\"desk\""), std::string::npos);
 }
 
@@ -143,15 +145,15 @@ TEST(Library, ValidateFindsWhatIsWrongAndWhatIsOdd) {
 
 TEST(Library, OptionsAreThoseOfTheSceneUnlessOthersAreGiven) {
     const stilb::Scene scene =
-        stilb::Scene::parse(std::string(kRoom) + "[run]\nmethod = \"path\"\npaths = 256\nseed = 7\n");
+        stilb::Scene::parse(std::string(kRoom) + "[run]\nmethod = \"path\"\npaths = 2048\nseed = 7\n");
     EXPECT_EQ(scene.name(), "room");
     EXPECT_EQ(scene.sensors(), (std::vector<std::string>{"desk", "spot", "view"}));
     const stilb::Options options = scene.options();
     EXPECT_EQ(options.method, "path");
-    EXPECT_EQ(options.samples, 256u);
+    EXPECT_EQ(options.samples, 2048u);
     const stilb::Result result = stilb::measure(scene);
     EXPECT_EQ(result.method, "path");
-    EXPECT_EQ(result.samples, 256u);
+    EXPECT_EQ(result.samples, 2048u);
     EXPECT_EQ(result.seed, 7u);
 }
 
@@ -212,12 +214,12 @@ TEST(Library, SolutionsShowWhatRenderingDoes) {
     std::ofstream(folder / "room.toml") << kRoom;
     const stilb::Scene scene = stilb::Scene::load(folder / "room.toml");
     stilb::Options options;
-    options.samples = 4096;
-    options.patch_m = 0.3;
+    options.samples = 512;
+    options.patch_m = 0.5;
     const stilb::Solution solution = stilb::solve(scene, options);
     const stilb::Picture stored = solution.render("view");
     options.method = "ray-bundle";
-    options.samples = 64;
+    options.samples = 32;
     const stilb::Picture direct = stilb::render(scene, "view", options);
     double stored_sum = 0, direct_sum = 0;
     for (std::size_t i = 0; i < stored.luminance_cd_m2.size(); ++i) {

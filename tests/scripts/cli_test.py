@@ -128,6 +128,13 @@ class WrongInputTest(CommandLineTest):
         scene = self.write("views.toml", ROOM[: ROOM.index("[sensors.desk]")] + CAMERA)
         self.expect_wrong_input(["measure", scene], "views.toml: no sensor to measure: all are cameras", "Render")
 
+    def test_wrong_arguments(self):
+        self.expect_wrong_input(["measure", self.scene, "--eror", "1%"], "no flag --eror", 'Did you mean "--error"?',
+                                "stilb measure --help")
+        self.expect_wrong_input(["measure", self.scene, "other.toml"], '"other.toml" is one argument too many')
+        self.expect_wrong_input(["solve", self.scene], "--output is required", "stilb solve --help")
+        self.expect_wrong_input(["measure", self.scene, "--paths", "0"], "--paths", "not in range")
+
     def test_misspelt_method(self):
         self.expect_wrong_input(["measure", self.scene, "--method", "locl"], "locl", "local")
 
