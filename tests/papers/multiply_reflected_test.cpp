@@ -1,10 +1,9 @@
-#include "papers/estimate_series.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "papers/estimate_series.h"
 #include "verification/verification.h"
 
 namespace stilb::papers {

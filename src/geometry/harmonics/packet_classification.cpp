@@ -134,7 +134,7 @@ STILB_VECTORIZED LaneClassifications HarmonicCells::FloatCell::classifications(c
 }
 
 LaneClassifications HarmonicCells::classifications(std::size_t number, const RayPacket& rays,
-                                            const PacketPlacement& placement) const {
+                                                   const PacketPlacement& placement) const {
     const Outline& outline = outlines_[number];
     return FloatCell(outline, spans_[outline.column], spans_[outline.row], placement).classifications(rays);
 }

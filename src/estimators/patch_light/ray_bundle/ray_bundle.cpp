@@ -60,7 +60,9 @@ class RayBundle final : public Estimator {
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<PatchPass>(*tracing_, transport_, pass, mean_of_walks(pass));
     }
-    std::vector<std::string> warnings() const override { return patch_warnings(transport_.scene, kRayBundle); }
+    std::vector<std::string> warnings() const override {
+        return patch_warnings(transport_.scene, kRayBundle);
+    }
     std::optional<PatchReport> patch_report() const override { return transport_.report(); }
 
   private:
