@@ -16,10 +16,10 @@ configure = test -f build/$(1)/build.ninja || cmake --preset $(1)
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' Makefile
 
-setup: ## install what building and testing need (apt), or name it
+setup: ## install what building, testing and installing need (apt), or name it
 	@scripts/setup build test install
 
-setup-lint: ## the same for format, lint and fuzz
+setup-lint: ## install also what format, lint and fuzz need
 	@scripts/setup build test lint
 
 build: setup ## the optimised program: build/release/stilb
@@ -59,7 +59,7 @@ format: setup-lint ## rewrite all sources in the project's format
 format-check: setup-lint ## fail where a source is not in the project's format
 	@clang-format-14 --dry-run -Werror $(SOURCES)
 
-lint: setup-lint ## clang-tidy, and the directions of includes
+lint: setup-lint odr ## clang-tidy, the directions of includes, and one definition of each name
 	@scripts/check-includes
 	@cmake --preset release -B build/lint -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSTILB_UNITY=OFF
 	@run-clang-tidy-14 -quiet -j $(JOBS) -p build/lint '^$(CURDIR)/(src|experiments)/'

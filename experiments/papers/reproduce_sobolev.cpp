@@ -89,13 +89,14 @@ std::vector<statistics::Estimate> separate_double_local_lx(const std::vector<dou
 constexpr std::uint64_t kCommonSeed = 2;
 
 std::vector<Profile> profiles_of(const std::vector<double>& radii) {
-    return {{"local estimation, 2,000 chains for all radii", "local_2000", 50, local_lx(radii, kFewPaths)},
-            {"double local estimation, 2,000 chains for each radius", "double_local_each_2000", 50,
-             separate_double_local_lx(radii)},
-            {"double local estimation, 2,000 chains for all radii", "double_local_2000", 50,
-             double_local_lx(radii, kCommonSeed)},
-            {"local estimation, 1,000,000 chains for all radii", "local_1000000", 1.5,
-             local_lx(radii, kManyPaths)}};
+    return {
+        {"local estimation, 2,000 light paths for all radii", "local_2000", 50, local_lx(radii, kFewPaths)},
+        {"double local estimation, 2,000 light paths for each radius", "double_local_each_2000", 50,
+         separate_double_local_lx(radii)},
+        {"double local estimation, 2,000 light paths for all radii", "double_local_2000", 50,
+         double_local_lx(radii, kCommonSeed)},
+        {"local estimation, 1,000,000 light paths for all radii", "local_1000000", 1.5,
+         local_lx(radii, kManyPaths)}};
 }
 
 plot::Series deviation_series(const Profile& profile, const std::vector<double>& radii,
