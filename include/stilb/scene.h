@@ -94,8 +94,8 @@ class SceneBuilder {
     /// The folder that file names are relative to; the working directory by default.
     SceneBuilder& directory(const std::filesystem::path& path);
 
-    /// Throws InputError with the scene reader's message, such as "materials.wall.reflectance: 2 is not a
-    /// number from 0 to 1".
+    /// Throws InputError with the scene reader's message, such as "materials.wall.reflectance: 2 is not
+    /// allowed. Allowed: from 0 to 1 (...)".
     Scene build() const;
 
   private:
