@@ -25,10 +25,10 @@ template <typename Sources>
 struct EmittersOf;
 template <LightKind... Kinds>
 struct EmittersOf<std::variant<Kinds...>> {
-    using type = std::variant<typename Kinds::Emitter...>;
+    using Type = std::variant<typename Kinds::Emitter...>;
 };
 /// The functions for a light of any kind, in the order of LightSource.
-using Emitter = EmittersOf<LightSource>::type;
+using Emitter = EmittersOf<LightSource>::Type;
 
 Emitter make_emitter(const Light& light, const Surroundings& surroundings, const Lift& lift);
 LightLocation location_of(const Light& light);

@@ -17,6 +17,8 @@
 
 namespace stilb::sensors {
 
+// Deduction guides are written out: compilers before clang 17 deduce none for aggregates.
+
 /// The limit of all sensors together: 10 million measurands take 0.8 gigabytes.
 inline constexpr std::int64_t kMostReadings = 10'000'000;
 
@@ -27,6 +29,8 @@ struct PositionField {
     Vec3 Owner::*member;
     std::string_view meaning;
 };
+template <typename Owner>
+PositionField(std::string_view, Vec3 Owner::*, std::string_view) -> PositionField<Owner>;
 
 /// [x, y, z] in m, different from another position.
 template <typename Owner>
@@ -36,6 +40,8 @@ struct TargetField {
     Vec3 Owner::*position;
     std::string_view meaning;
 };
+template <typename Owner>
+TargetField(std::string_view, Vec3 Owner::*, Vec3 Owner::*, std::string_view) -> TargetField<Owner>;
 
 /// A unit vector, of any length but 0 in files. Value: Vec3, or std::optional<Vec3>.
 template <typename Owner, typename Value>
@@ -60,6 +66,8 @@ struct PositionsField {
     std::vector<Vec3> Owner::*member;
     std::string_view meaning;
 };
+template <typename Owner>
+PositionsField(std::vector<Vec3> Owner::*, std::string_view) -> PositionsField<Owner>;
 
 /// Positions as in PositionsField, and one "normal" for all of them.
 template <typename Owner>
@@ -67,6 +75,8 @@ struct MeasuringPointsField {
     std::vector<MeasuringPoint> Owner::*member;
     std::string_view meaning;
 };
+template <typename Owner>
+MeasuringPointsField(std::vector<MeasuringPoint> Owner::*, std::string_view) -> MeasuringPointsField<Owner>;
 
 /// A "position", and one or many directions or targets from there.
 template <typename Owner>
@@ -74,6 +84,8 @@ struct SightsField {
     std::vector<Measurand> Owner::*member;
     std::string_view meaning;
 };
+template <typename Owner>
+SightsField(std::vector<Measurand> Owner::*, std::string_view) -> SightsField<Owner>;
 
 /// A parallelogram by "corner", "edge_u" and "edge_v".
 template <typename Owner>
@@ -83,6 +95,9 @@ struct ParallelogramField {
     Vec3 Owner::*edge_v;
     std::string_view meaning;
 };
+template <typename Owner>
+ParallelogramField(Vec3 Owner::*, Vec3 Owner::*, Vec3 Owner::*, std::string_view)
+    -> ParallelogramField<Owner>;
 
 /// The limit of the number of elements given by a pair of counts.
 struct CountLimit {
@@ -98,6 +113,9 @@ struct CountsField {
     CountLimit limit;
     std::string_view meaning;
 };
+template <typename Owner>
+CountsField(std::string_view, std::array<int, 2> Owner::*, CountLimit, std::string_view)
+    -> CountsField<Owner>;
 
 /// One of the names, in the order of the enumeration.
 template <typename Owner, typename Enumeration>
