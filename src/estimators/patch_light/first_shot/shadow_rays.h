@@ -44,23 +44,28 @@ inline bool reflects_alike(const Material& material) {
     return std::holds_alternative<Diffuse>(material) || reflects_nothing(material);
 }
 
+/// As reflect(), for one model. It is not inlined, so that simple models are not slowed by the registers that
+/// others need.
+template <typename M, typename ForEachArrival>
+[[gnu::noinline]] void reflect_by(const M& material, const Frame& frame,
+                                  const ForEachArrival& for_each_arrival, std::span<const Vec3> outs,
+                                  std::span<Rgb> sums) {
+    for_each_arrival([&](const Vec3& in, const Rgb& illuminance_lx) {
+        const Vec3 local_in = frame.to_local(in);
+        for (std::size_t i = 0; i < outs.size(); ++i) {
+            const Vec3 out = frame.to_local(outs[i]);
+            sums[i] += evaluate_brdf_per_sr(material, local_in, out) * illuminance_lx;
+        }
+    });
+}
+
 /// Adds to each of `sums` the light that the material reflects towards the unit world direction in `outs` at
 /// the same index [cd/m2]. `for_each_arrival(visit)` calls `visit(in, illuminance_lx)` for all light that
 /// arrives from the unit world direction `in`.
 template <typename ForEachArrival>
 void reflect(const Material& any, const Frame& frame, const ForEachArrival& for_each_arrival,
              std::span<const Vec3> outs, std::span<Rgb> sums) {
-    std::visit(
-        [&](const auto& material) {
-            for_each_arrival([&](const Vec3& in, const Rgb& illuminance_lx) {
-                const Vec3 local_in = frame.to_local(in);
-                for (std::size_t i = 0; i < outs.size(); ++i) {
-                    const Vec3 out = frame.to_local(outs[i]);
-                    sums[i] += evaluate_brdf_per_sr(material, local_in, out) * illuminance_lx;
-                }
-            });
-        },
-        any);
+    std::visit([&](const auto& material) { reflect_by(material, frame, for_each_arrival, outs, sums); }, any);
 }
 
 // Shadow rays.
