@@ -1,0 +1,116 @@
+"""stilb info."""
+
+import json
+import math
+import unittest
+
+from command_line import CAMERA, ROOM, ROOT, CommandLineTest, run
+
+
+class InfoTest(CommandLineTest):
+    def info(self, path):
+        result = run("info", path, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def test_scene(self):
+        report = self.info(self.scene)
+        self.assertEqual(report["name"], "A room")
+        self.assertEqual(report["warnings"], [])
+        room, cabinet = report["objects"]
+        self.assertEqual((room["triangles"], room["closed"], room["extent"]), (12, True, [[0, 0, 0], [4, 3, 2.5]]))
+        self.assertAlmostEqual(room["area_m2"], 59)
+        self.assertEqual(cabinet["materials"], ["wall"])
+        self.assertAlmostEqual(report["total_flux_lm"], 1000)
+        self.assertAlmostEqual(report["lights"][0]["intensity_cd"], 1000 / (4 * math.pi))
+        self.assertAlmostEqual(report["materials"][0]["reflectance"], 0.2126 * 0.7 + 0.7152 * 0.5 + 0.0722 * 0.3)
+        self.assertEqual([s["points"] for s in report["sensors"]], [6, 1])
+        self.assertGreater(report["memory"]["peak_bytes"], report["memory"]["meshes_bytes"])
+
+    def test_sensors_of_luminance(self):
+        scene = self.write("view.toml", ROOM + CAMERA + """
+[sensors.glare]
+type = "luminance"
+position = [0.5, 2.5, 1.2]
+targets = [[2, 1.5, 2], [4, 1, 1]]
+
+[sensors.floor]
+type = "goniometer"
+point = [2, 2, 0]
+normal = [0, 0, 1]
+plane = 0
+step = 5
+""")
+        report = self.info(scene)
+        self.assertEqual(report["warnings"], [])
+        _, _, view, glare, floor = report["sensors"]
+        self.assertEqual(view, {"name": "view", "type": "camera", "resolution": [640, 480], "projection": "fisheye",
+                                "fov_deg": 180, "filter": "box", "position": [0.5, 2.5, 1.6], "target": [4, 1, 1]})
+        self.assertEqual((glare["type"], glare["points"]), ("luminance", 2))
+        self.assertEqual((floor["type"], floor["points"], floor["extent"]), ("goniometer", 35, [[2, 2, 0]] * 2))
+        text = run("info", scene).stdout
+        for part in ("640 x 480 pixels, fisheye, 180 degrees across, from (0.5, 2.5, 1.6) to (4, 1, 1)",
+                     "2 lines of sight, at (0.5, 2.5, 1.2)", "35 directions, at (2, 2, 0)"):
+            self.assertIn(part, text)
+
+    def test_text_shows_all_sections(self):
+        result = run("info", self.scene)
+        self.assertEqual(result.returncode, 0)
+        for part in ("A room", "Materials (1)", "Objects (2)", "Lights (1), 1000 lm in all", "Sensors (2)", "Run:",
+                     "Memory:", "No warnings"):
+            self.assertIn(part, result.stdout)
+
+    def test_text_shows_every_material(self):
+        parameters = {"diffuse": "reflectance = 0.5", "phong": "diffuse = 0.2\nspecular = 0.3\nexponent = 20",
+                      "rough": "reflectance = 0.8\nroughness = 0.2", "mirror": "reflectance = 0.9",
+                      "ward": "diffuse = 0.2\nspecular = 0.3\nroughness = [0.1, 0.2]",
+                      "plastic": "diffuse = 0.3\nior = 1.5\nroughness = 0.1", "glass": "ior = 1.5",
+                      "pane": "ior = 1.52\ninternal_transmittance = 0.96", "black": ""}
+        scene = self.write("materials.toml", "\n".join(
+            f'[materials.my_{name}]\ntype = "{name}"\n{lines}' for name, lines in parameters.items()))
+        text = run("info", scene).stdout
+        for name in parameters:
+            self.assertRegex(text, rf"my_{name} +{name} +reflectance")
+        self.assertIn("(transmittance 0.881, ior 1.52)", text)
+
+    def test_warnings(self):
+        scene = self.write("odd.toml", ROOM.replace("corner = [1.5, 1, 0.75]", "corner = [0.2, 0, 0.75]") + """
+[materials.rug]
+type = "black"
+[objects.rug]
+shape = "rectangle"
+corner = [2, 1, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 1, 0]
+material = "rug"
+[objects.outside]
+shape = "sphere"
+center = [9, 9, 9]
+radius = 1
+material = "rug"
+""")
+        rug, desk, outside = self.info(scene)["warnings"]
+        self.assertRegex(rug, '"room" and "rug" overlap')
+        self.assertRegex(desk, 'sensor "desk": .* of 6 points lie inside object "cabinet"')
+        self.assertRegex(outside, '"outside": no light reaches it')
+
+    def test_luminaire(self):
+        for name in ("luminaire.ies", "luminaire.ldt"):
+            luminaire = self.info(ROOT / "scenes/office" / name)["luminaires"][0]
+            self.assertAlmostEqual(luminaire["flux_lm"], 3800, delta=20)
+            self.assertIn("3800 lm", luminaire["flux_check"])
+
+    def test_mesh(self):
+        mesh = self.write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng side\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 1 2\n")
+        part = self.info(mesh)["objects"][0]
+        self.assertEqual((part["triangles"], part["vertices"], part["open_edges"]), (3, 4, 3))
+        self.assertEqual((part["degenerate_triangles_left_out"], part["groups"]), (1, ["side"]))
+        self.assertAlmostEqual(part["area_m2"], 1 + math.sqrt(3) / 2)
+
+    def test_garbage_is_wrong_input(self):
+        for name in ("x.ies", "x.ldt", "x.obj", "x.ply", "x.toml"):
+            self.expect_wrong_input(["info", self.write(name, "\x00\x01 nothing")], name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,195 @@
+"""stilb measure: tables, JSON, CSV, limits, interruption."""
+
+import csv
+import json
+import math
+import signal
+import subprocess
+import time
+import unittest
+
+from command_line import CAMERA, MOST_SECONDS, PROGRAM, ROOM, CommandLineTest, run
+
+
+class MeasureTest(CommandLineTest):
+    def test_json_has_all_that_the_contract_names(self):
+        document = self.measure("--error", "5%")
+        for key in ("stilb", "scene", "method", "seed", "elapsed_s", "paths", "replicates", "converged", "sensors"):
+            self.assertIn(key, document)
+        self.assertIs(document["converged"], True)
+        self.assertEqual([s["name"] for s in document["sensors"]], ["desk", "wall"])
+        for sensor in document["sensors"]:
+            self.assertEqual((sensor["quantity"], sensor["unit"]), ("illuminance", "lx"))
+            self.assertLessEqual({"mean", "minimum", "maximum", "uniformity"}, set(sensor["summary"]))
+            for value in sensor["values"]:
+                self.assertEqual(
+                    set(value), {"position", "normal", "value", "standard_error", "interval", "rgb"})
+                low, high = value["interval"]
+                self.assertLess(low, value["value"])
+                self.assertGreater(high, value["value"])
+                red, green, blue = value["rgb"]
+                self.assertAlmostEqual(0.2126 * red + 0.7152 * green + 0.0722 * blue, value["value"], 6)
+        desk, wall = document["sensors"]
+        self.assertEqual((desk["type"], desk["count"], wall["type"]), ("grid", [3, 2], "illuminance"))
+        positions = [value["position"] for value in desk["values"]]
+        self.assertEqual([p[0] for p in positions], [1.75, 2.25, 2.75] * 2)  # u fastest
+        self.assertEqual([p[1] for p in positions], [1.25] * 3 + [1.75] * 3)
+
+    def test_one_sensor(self):
+        document = self.measure("--error", "5%", "--sensor", "wall")
+        self.assertEqual([s["name"] for s in document["sensors"]], ["wall"])
+
+    def test_cameras_are_left_out(self):
+        self.scene = self.write("view.toml", ROOM + CAMERA)
+        document = self.measure("--error", "5%")
+        self.assertEqual([s["name"] for s in document["sensors"]], ["desk", "wall"])
+
+    def test_no_reflections_is_the_inverse_square_law(self):
+        document = self.measure("--bounces", "0", "--sensor", "wall", "--paths", "1024")
+        squared = 2**2 + 0.8**2
+        exact = 1000 / (4 * math.pi) / squared * 2 / math.sqrt(squared)
+        self.assertAlmostEqual(document["sensors"][0]["values"][0]["value"], exact, delta=1e-4 * exact)
+
+    def test_target_not_reached(self):
+        document = self.measure("--error", "0.0001%", "--time", "1", code=3)
+        self.assertIs(document["converged"], False)
+        self.assertEqual(len(document["sensors"][0]["values"]), 6)
+
+    def test_interrupted(self):
+        for name in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen([PROGRAM, "measure", self.scene, "--json", "--error", "0.00001%", "--time", "50"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            time.sleep(0.5)
+            process.send_signal(name)
+            output, errors = process.communicate(timeout=MOST_SECONDS)
+            self.assertEqual(process.returncode, 3, errors)
+            document = json.loads(output)
+            self.assertIs(document["converged"], False)
+            self.assertLess(document["elapsed_s"], 40)
+            self.assertGreater(document["sensors"][0]["values"][0]["value"], 0)
+
+    def test_interrupted_during_set_up(self):
+        process = subprocess.Popen([PROGRAM, "measure", self.scene, "--json", "--method", "radiosity", "--patch", "0.02"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=MOST_SECONDS)
+        self.assertEqual((process.returncode, output), (3, ""), errors)
+        self.assertIn("interrupted during set-up", errors)
+        self.assertIn("no result", errors)
+
+    def test_time_holds_for_the_set_up(self):
+        start = time.monotonic()
+        result = run("measure", self.scene, "--method", "radiosity", "--patch", "0.02", "--time", "1")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("time limit reached", result.stderr)
+        self.assertLess(time.monotonic() - start, 40)
+
+    def test_threads_and_repetitions_change_nothing(self):
+        def document(threads):
+            result = self.measure("--paths", "20000", "--threads", threads)
+            del result["elapsed_s"]
+            return result
+
+        first = document(1)
+        for threads in (1, 1, 2, 2, 2):
+            self.assertEqual(document(threads), first)
+
+    def test_seeds_differ(self):
+        values = [self.measure("--paths", "5000", "--seed", seed)["sensors"][0]["values"] for seed in (1, 2)]
+        self.assertNotEqual(*values)
+
+    def test_methods_agree(self):
+        means = {}
+        for method in ("auto", "local", "path"):
+            summary = self.measure("--method", method, "--error", "3%", "--sensor", "desk")["sensors"][0]["summary"]
+            means[method] = summary["mean"]
+        for method in ("local", "path"):
+            self.assertAlmostEqual(means[method] / means["auto"], 1, delta=0.05)
+
+    def test_radiosity_has_no_errors(self):
+        document = self.measure("--method", "radiosity", "--patch", "1", "--resolution", "32", "--csv", self.folder / "tables")
+        self.assertEqual((document["converged"], document["attained_error"], document["paths"]), (True, None, 0))
+        for sensor in document["sensors"]:
+            for value in sensor["values"]:
+                self.assertGreater(value["value"], 0)
+                self.assertEqual((value["standard_error"], value["interval"]), (None, [None, None]))
+        for line in (self.folder / "tables/wall.csv").read_text().splitlines()[1:]:
+            self.assertIn(",,,", line)
+
+    def test_patch_flags_of_other_methods(self):
+        for method, flag, right in (("particles", "--window", "radiosity"), ("radiosity", "--directions", "ray-bundle"),
+                                    ("path", "--directions", "ray-bundle"), ("path", "--patch", "--first-shot")):
+            value = {"--window": "hemicube", "--directions": "pair", "--patch": "1"}[flag]
+            result = run("measure", self.scene, "--method", method, flag, value)
+            self.assertEqual(result.returncode, 2)
+            for part in (flag, method, right):
+                self.assertIn(part, result.stderr)
+
+    def test_patches_and_lights_are_reported(self):
+        for method, options in (("ray-bundle", ()), ("radiosity", ("--window", "cube")), ("path", ("--first-shot", "auto"))):
+            def document(threads):
+                result = self.measure("--method", method, "--patch", "1", "--resolution", "32", *options,
+                                      *(() if method == "radiosity" else ("--paths", "2048")), "--threads", threads)
+                del result["elapsed_s"]
+                self.assertGreater(result.pop("first_shot_set_up_s"), 0)
+                return result
+
+            with self.subTest(method=method):
+                first = document(1)
+                self.assertEqual(document(2), first)
+                patches, shot = first["patches"], first["patches"]["first_shot"]
+                self.assertGreater(patches["count"], 10)
+                self.assertEqual((patches["size_m"], shot["variant"], shot["resolution"]), (1, "incoming", 32))
+                self.assertGreater(shot["bytes_per_patch"], 0)
+                self.assertEqual(shot["lights"], [{"name": "bulb", "replaced": True, "samples": 1, "reason": "a point"}])
+
+    def test_path_has_no_patches_unless_told(self):
+        self.assertNotIn("patches", self.measure("--method", "path", "--paths", "2048"))
+
+    def test_csv_files_hold_the_readings(self):
+        document = self.measure("--error", "5%", "--csv", self.folder / "tables")
+        for sensor in document["sensors"]:
+            with open(self.folder / "tables" / f"{sensor['name']}.csv", newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(len(rows), len(sensor["values"]))
+            for row, value in zip(rows, sensor["values"]):
+                self.assertAlmostEqual(float(row["illuminance_lx"]), value["value"], delta=1e-4 * value["value"])
+                self.assertAlmostEqual(float(row["x_m"]), value["position"][0], 5)
+
+    def test_without_lights_everything_is_dark(self):
+        lights = ROOM.index("[lights.bulb]")
+        self.scene = self.write("dark.toml", ROOM[:lights] + ROOM[ROOM.index("[sensors.desk]"):])
+        for method in ("auto", "local", "path", "radiosity", "particles"):
+            with self.subTest(method=method):
+                result = self.measure("--method", method, "--paths", "1")
+                self.assertEqual({value["value"] for sensor in result["sensors"] for value in sensor["values"]}, {0})
+
+    def test_picture(self):
+        picture = self.folder / "desk.png"
+        self.measure("--error", "5%", "--falsecolor", picture)
+        self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_picture_is_that_of_the_results_file(self):
+        straight, results, read = (self.folder / name for name in ("straight.png", "room.json", "read.png"))
+        document = run("measure", self.scene, "--paths", "4096", "--json", "--falsecolor", straight).stdout
+        results.write_text(document, encoding="utf-8")
+        self.assertEqual(run("falsecolor", results, "-o", read, "--isolines").returncode, 0)
+        self.assertEqual(straight.read_bytes(), read.read_bytes())
+
+    def test_table(self):
+        result = run("measure", self.scene, "--error", "5%")
+        self.assertEqual(result.returncode, 0)
+        for part in ("desk", "wall", "mean", "uniformity", "±"):
+            self.assertIn(part, result.stdout)
+        self.assertEqual(result.stderr, "")  # no progress where stderr is no terminal
+
+    def test_warnings_and_quiet(self):
+        scene = self.write("spare.toml", ROOM + '[materials.spare]\ntype = "black"\n')
+        arguments = ["measure", scene, "--error", "5%"]
+        self.assertRegex(run(*arguments).stderr, r"^warning: .*spare")
+        self.assertEqual(run(*arguments, "--quiet").stderr, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
