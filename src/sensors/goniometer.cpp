@@ -49,8 +49,8 @@ PolarAngles Goniometer::angles(std::size_t j) const {
     if (plane_deg) return {static_cast<double>(i - steps_below(90, step_deg)) * step_deg, *plane_deg};
     if (i == 0) return {0, 0};
     const std::int64_t azimuths = steps_below(360, step_deg) + 1;
-    return {static_cast<double>(1 + (i - 1) / azimuths) * step_deg,
-            static_cast<double>((i - 1) % azimuths) * step_deg};
+    const std::int64_t rings = (i - 1) / azimuths;
+    return {static_cast<double>(1 + rings) * step_deg, static_cast<double>((i - 1) % azimuths) * step_deg};
 }
 
 Measurand Goniometer::measurand(std::size_t j) const {

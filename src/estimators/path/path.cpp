@@ -157,7 +157,7 @@ class PathEstimator final : public Estimator {
     /// along a line of sight.
     void add_reading(std::uint32_t reading, const Measurand& measurand) {
         if (auto receiver = transport::receiver_of_illuminance(reading, measurand, caster_)) {
-            points_.push_back(std::move(*receiver));
+            points_.push_back(*receiver);
             known_part_[reading] = direct_from_points(points_.back(), caster_, paths_.lights);
             return;
         }
