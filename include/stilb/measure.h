@@ -36,7 +36,7 @@ struct SensorResult {
     double attained_error = 0;  ///< relative half-width of the intervals of 95 % of the readings, at most
 };
 
-/// What measure(), render() and solve() say of their run.
+/// A run of measure(), render() or solve(): its options, its effort and its success.
 struct Summary {
     std::string method;
     std::uint64_t seed = 0;

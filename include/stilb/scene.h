@@ -103,10 +103,10 @@ class SceneBuilder {
     std::unique_ptr<Data> data_;
 };
 
-/// What is odd about a scene though it can be computed: holes in closed surfaces, overlapping surfaces,
-/// lights and sensors on the wrong side of a wall, objects that no light reaches, and what the reader
-/// noticed. The sentences of `stilb info`; empty where nothing is odd. Traces rays, which takes about a
-/// second.
+/// Warns of faults that a scene probably has, though it can be computed: holes in closed surfaces,
+/// overlapping surfaces, lights and sensors on the wrong side of a wall, objects that no light reaches. The
+/// warnings of the reader come first. These are the sentences of `stilb info`; there are none where nothing
+/// is odd. Traces rays, which takes about a second.
 std::vector<std::string> validate(const Scene& scene);
 /// The same of a scene that is being built; the message of build() where it cannot be built.
 std::vector<std::string> validate(const SceneBuilder& builder);

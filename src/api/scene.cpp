@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "api/scene_data.h"
 #include "checks/checks.h"
@@ -176,10 +175,7 @@ std::vector<std::string> validate(const Scene& scene) {
     const io::SceneFile& file = scene.data().file;
     const rays::RayCaster caster(file.scene);
     const checks::Enclosures enclosures(file.scene, caster);
-    std::vector<std::string> warnings = file.warnings;
-    std::ranges::move(checks::scene_warnings(file.scene, caster, enclosures, file.sensors),
-                      std::back_inserter(warnings));
-    return warnings;
+    return checks::scene_warnings(file.scene, caster, enclosures, file.sensors, file.warnings);
 }
 
 std::vector<std::string> validate(const SceneBuilder& builder) {

@@ -1,4 +1,4 @@
-// What the library's scenes hold.
+// The content of the library's scenes.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The parameters of materials, lights and sensors. Each type lists its own once; the scene reader,
+// The parameters of materials and sensors. Each type lists its own once; the scene reader,
 // validate(), `info` and the tables of the documents use that list.
 //
 //     struct Mirror {

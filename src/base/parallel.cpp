@@ -13,11 +13,9 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 
 struct ThreadPool::Arena {
     explicit Arena(int count)
-        : threads(count),
-          limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)),
+        : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)),
           arena(count) {}
 
-    int threads;
     tbb::global_control limit;
     tbb::task_arena arena;
 };
@@ -25,8 +23,6 @@ struct ThreadPool::Arena {
 ThreadPool::ThreadPool(int threads)
     : arena_(std::make_unique<Arena>(threads > 0 ? threads : tbb::info::default_concurrency())) {}
 ThreadPool::~ThreadPool() = default;
-
-int ThreadPool::threads() const { return arena_->threads; }
 
 void ThreadPool::execute(const std::function<void()>& action) { arena_->arena.execute(action); }
 

@@ -20,7 +20,6 @@ class ThreadPool {
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
-    int threads() const;
     /// Calls `action`, whose parallel loops then take these threads.
     void execute(const std::function<void()>& action);
 

@@ -110,10 +110,11 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
 /// the positions of the particles. A lit object can be listed only where almost no light reaches it.
 std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& caster);
 
-// All of it.
+// All checks.
 
-/// What all checks warn of, in sentences for users.
+/// The warnings of all checks, after those that the reader of the scene has given.
 std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                        const Enclosures& enclosures, std::span<const Sensor> sensors);
+                                        const Enclosures& enclosures, std::span<const Sensor> sensors,
+                                        std::vector<std::string> of_reader);
 
 }  // namespace stilb::checks

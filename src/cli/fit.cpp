@@ -8,6 +8,7 @@
 
 #include "cli/command_line.h"
 #include "cli/fit_report.h"
+#include "cli/progress.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/table.h"
@@ -85,7 +86,7 @@ int run_fit(const FitRequest& request) {
     report.output_bytes = std::filesystem::file_size(request.output);
     if (!request.plot.empty()) draw_plot(error_plot(report), request.plot);
     if (!request.quiet) {
-        for (const std::string& warning : warnings_of(report)) fmt::print(stderr, "warning: {}\n", warning);
+        print_warnings(warnings_of(report));
     }
     fmt::print("{}", request.json ? to_json(report) : to_text(report));
     return kExitDone;

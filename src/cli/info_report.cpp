@@ -172,14 +172,6 @@ Json list_json(const List& list, const Describe& describe) {
     return json;
 }
 
-std::vector<std::string> warnings_of(const io::SceneFile& file, const rays::RayCaster& caster,
-                                     const checks::Enclosures& enclosures) {
-    std::vector<std::string> warnings = file.warnings;
-    std::ranges::move(checks::scene_warnings(file.scene, caster, enclosures, file.sensors),
-                      std::back_inserter(warnings));
-    return warnings;
-}
-
 }  // namespace
 
 InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
@@ -201,7 +193,7 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     json["luminaires"] = list_json(scene.solids, luminaire_json);
     json["sensors"] = list_json(file.sensors, sensor_json);
     json["run"] = run_json(file.run);
-    json["warnings"] = warnings_of(file, caster, enclosures);
+    json["warnings"] = checks::scene_warnings(file.scene, caster, enclosures, file.sensors, file.warnings);
     json["memory"] = {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}};
     return json;
 }

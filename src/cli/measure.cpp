@@ -40,10 +40,8 @@ int run_measure(const MeasureRequest& request) {
         result = run::measure(file.scene, sensors, options, request.flags.quiet ? nullptr : &progress,
                               &watch_for_interrupt());
     }
-    result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
-    if (!request.flags.quiet) {
-        for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    }
+    add_warnings(result, file.warnings);
+    if (!request.flags.quiet) print_warnings(result.warnings);
     fmt::print("{}", request.json ? io::to_json(result, request.scene) : to_table(result));
     if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
     if (!request.picture.empty()) {

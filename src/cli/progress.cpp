@@ -45,6 +45,14 @@ void TerminalProgress::report(const Progress& progress) {
     line_.show(progress.elapsed_s, fmt::format("{} {}{}{}", progress.samples, samples_, error, left));
 }
 
+void add_warnings(RunSummary& result, std::span<const std::string> of_file) {
+    result.warnings.insert(result.warnings.begin(), of_file.begin(), of_file.end());
+}
+
+void print_warnings(std::span<const std::string> warnings) {
+    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
 const std::atomic<bool>& watch_for_interrupt() {
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);

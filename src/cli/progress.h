@@ -1,7 +1,8 @@
-// One line of progress on a terminal.
+// The progress and the warnings of a command, on stderr.
 #pragma once
 
 #include <atomic>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -36,6 +37,10 @@ class TerminalProgress : public PictureSink {
     std::string samples_;
     ProgressLine line_;
 };
+
+/// Puts the warnings of a scene's file before those of a run.
+void add_warnings(RunSummary& result, std::span<const std::string> of_file);
+void print_warnings(std::span<const std::string> warnings);
 
 /// The flag that the first Ctrl-C after this call sets; a second Ctrl-C ends the program at once.
 const std::atomic<bool>& watch_for_interrupt();

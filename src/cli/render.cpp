@@ -142,10 +142,8 @@ int run_render(RenderRequest request) {
     origin.command = request.command;
     origin.version = STILB_VERSION;
     RenderResult result = rendered(request, file, sensor, std::move(stored), origin);
-    result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
-    if (!request.flags.quiet) {
-        for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    }
+    add_warnings(result, file.warnings);
+    if (!request.flags.quiet) print_warnings(result.warnings);
     const io::Picture picture = picture_of(result, *sensor.camera(), origin);
     const auto curve = write_picture(picture, request.output, request.tone);
     if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);

@@ -47,10 +47,8 @@ int run_solve(const SolveRequest& request) {
         result = solve(file.scene, options, request.degree, request.flags.quiet ? nullptr : &progress,
                        &watch_for_interrupt());
     }
-    result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
-    if (!request.flags.quiet) {
-        for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    }
+    add_warnings(result, file.warnings);
+    if (!request.flags.quiet) print_warnings(result.warnings);
     const io::StoredSolution solution =
         io::stored_solution(result, std::move(result.solution), file.sources, request.output);
     write_solution_file(solution, request.output);

@@ -13,7 +13,7 @@
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "estimators/estimator_list.h"
-#include "io/results/places.h"
+#include "io/results/locations.h"
 #include "run/options.h"
 #include "stilb/error.h"
 #include "verification/verification.h"

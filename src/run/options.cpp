@@ -15,7 +15,10 @@ void require_valid(const RunOptions& options) {
             throw InputError(fmt::format("{} = {}: expected a number above 0", name, value));
         }
     };
-    if (options.error) positive("error", *options.error);
+    if (options.error && !(*options.error > 0 && *options.error < 1)) {
+        throw InputError(
+            fmt::format("error = {}: expected a share between 0 and 1, such as 0.01", *options.error));
+    }
     if (options.time_s) positive("time", *options.time_s);
     if (options.paths) positive("paths", static_cast<double>(*options.paths));
     if (options.bounces && *options.bounces < 0) throw InputError("bounces: expected 0 or more");

@@ -98,7 +98,7 @@ std::optional<std::array<int, 2>> Sensor::count() const {
 
 namespace {
 
-/// Of those that `is_wanted`, the one of this name; `what` they are, for messages.
+/// The sensor of this name among those that `is_wanted`. `what`: their name in messages.
 template <typename IsWanted>
 const Sensor& sensor_named(const std::vector<Sensor>& all, const std::string& name, std::string_view what,
                            const std::string& file, const IsWanted& is_wanted) {

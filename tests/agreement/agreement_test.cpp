@@ -103,7 +103,7 @@ struct TwoRuns {
 
 TwoRuns measure_twice(const Scene& scene, const AgreementScene& of, const std::string& method,
                       std::uint64_t seed) {
-    const std::uint64_t paths = of.rarity * paths_needed(scene, of, method, seed) / 2;
+    const std::uint64_t paths = of.path_factor * paths_needed(scene, of, method, seed) / 2;
     TwoRuns runs{measure(scene, of, method, seed + 1, paths),
                  measure(scene, of, method, seed + 2, paths),
                  {method, {}}};

@@ -89,8 +89,8 @@ TEST(CoverageInACorner, OfAFurnace) {
     expect_to_hold(coverage_of(scene, corner, exact_lx, "auto", 32 * 64));
 }
 
-/// By the mean illuminance on a sphere about the middle of the photometric sphere: all walls have the same
-/// illuminance of reflected light, so that their luminance is uniform beside the direct light.
+/// The sensor is the mean illuminance on a sphere about the middle of the photometric sphere: all walls have
+/// the same illuminance of reflected light, so that their luminance is uniform beside the direct light.
 TEST(CoverageOfABody, AtTheMiddleOfThePhotometricSphere) {
     constexpr double kReflectance = 0.7, kIntensity_cd = 100, kRadius_m = 2;
     const Vec3 source{0.5, 0.3, -0.4};

@@ -27,7 +27,7 @@ struct AgreementScene {
     std::vector<Measurand> sights;  ///< of luminance
     std::vector<Sensor> bodies{};   ///< cylindrical illuminance and the like
     /// A factor on the number of paths, where light is so rare that a pilot run underestimates its noise.
-    std::uint64_t rarity = 1;
+    std::uint64_t path_factor = 1;
 
     /// Points, sights and bodies.
     std::vector<Sensor> sensors() const;

@@ -71,8 +71,8 @@ TEST(Light, SaysWhatItIs) {
     EXPECT_EQ(keys_of(scene.lights[2], scene), (Keys{"luminance_cd_m2", "horizontal_illuminance_lx"}));
 }
 
-/// Of an environment: what enters the scene's bounding box, pi L for each square metre of it. The box spans
-/// the rectangle and the point light, and is enlarged by a thousandth of its half extent.
+/// The flux of an environment is that which enters the scene's bounding box, pi L for each square metre of
+/// it. The box spans the rectangle and the point light, and is enlarged by a thousandth of its half extent.
 TEST(Light, HasItsFlux) {
     const Scene scene = three_lights();
     constexpr double pi = std::numbers::pi;

@@ -1,5 +1,4 @@
-// What every model has to have, tested for all that there are: a new one is in here by being in the list of
-// material.h.
+// Every model of the list in material.h must pass these tests. A new one is tested by being in that list.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

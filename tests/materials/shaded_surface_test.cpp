@@ -92,7 +92,7 @@ TEST(ShadedSurface, ShowsAMattSurfaceAsTheShadingNormalWould) {
     EXPECT_GT(compared, 700);
 }
 
-/// What would be seen along `out` in surroundings of luminance 1, by quadrature.
+/// The luminance along `out` in surroundings of luminance 1, by quadrature.
 double seen_in_furnace(const Case& of, const ShadedSurface& surface, const Vec3& out) {
     const Vec3 mirrored_out = reflected(out, surface.shading().w);
     return DirectionGrid(0, mirrored_out, of.concentration).integrate_all([&](const Vec3& in) {

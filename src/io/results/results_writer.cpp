@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "io/results/places.h"
+#include "io/results/locations.h"
 #include "io/text/table.h"
 #include "stilb/error.h"
 

@@ -22,7 +22,7 @@ struct StoredSolution {
     estimators::PatchSolution solution;
 };
 
-/// What a file at `path` keeps of a solution. `sources`: of the scene (SceneFile), its file first.
+/// The content of a file at `path` with a solution. `sources`: of the scene (SceneFile), its file first.
 StoredSolution stored_solution(const RunSummary& run, estimators::PatchSolution solution,
                                std::span<const std::filesystem::path> sources,
                                const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// Reads the parameters of a material, a light or a sensor from the field list of its type.
+// Reads the parameters of a material or a sensor from the field list of its type.
 #pragma once
 
 #include <fmt/format.h>

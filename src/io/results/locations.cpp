@@ -1,4 +1,4 @@
-#include "io/results/places.h"
+#include "io/results/locations.h"
 
 namespace stilb::io {
 
