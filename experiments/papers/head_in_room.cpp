@@ -88,7 +88,8 @@ std::vector<HeadPoint> visible_points(const Scene& room_with_mesh, const Camera&
         for (int x = 0; x < width; ++x) {
             const auto hit = caster.closest(view.position(), *view.direction_at(x + 0.5, y + 0.5));
             if (!hit || index_of(hit->object) + 1 != room_with_mesh.objects.size()) continue;
-            const auto pixel = static_cast<std::size_t>(y * width + x);
+            const auto pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
             points.push_back({pixel, hit->position, smooth_normal_at(*hit, mesh, normals)});
         }
     }

@@ -98,7 +98,8 @@ Json object_json(const Object& object, const geometry::ConnectedComponents& comp
 Json light_json(const Light& light, const Scene& scene) {
     Json json{{"name", light.name}, {"type", type_of(light)}};
     for (const auto& [key, value] : details_of(light, scene::LightSurroundings(scene))) {
-        std::visit([&](const auto& is) { json[std::string(key)] = is; }, value);
+        Json& member = json[std::string(key)];
+        std::visit([&](const auto& is) { member = is; }, value);
     }
     if (location_of(light) != LightLocation::infinity) json["flux_lm"] = flux_lm(scene, light).luminance();
     return json;

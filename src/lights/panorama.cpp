@@ -69,8 +69,10 @@ void Panorama::divide() {
             const int right = std::min(left + edge, image_.width);
             Rgb sum;
             for (int row = top; row < bottom; ++row) {
+                const std::size_t first =
+                    static_cast<std::size_t>(row) * static_cast<std::size_t>(image_.width);
                 for (int column = left; column < right; ++column)
-                    sum += pixel_sr(row) * rgb_of(static_cast<std::size_t>(row * image_.width + column));
+                    sum += pixel_sr(row) * rgb_of(first + static_cast<std::size_t>(column));
             }
             parts_.push_back({direction_at((left + right) / 2.0, middle_z), sum});
         }

@@ -267,9 +267,9 @@ void draw_picture_sheet(const std::vector<LabelledPicture>& pictures, std::size_
     Canvas canvas(path, kPageGap + static_cast<double>(across) * (width + kPageGap),
                   kPageGap + static_cast<double>(down) * (height + kLabel));
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        const PageRectangle place{kPageGap + static_cast<double>(i % columns) * (width + kPageGap),
-                                  kPageGap + static_cast<double>(i / columns) * (height + kLabel), width,
-                                  height};
+        const std::size_t row = i / columns, column = i % columns;
+        const PageRectangle place{kPageGap + static_cast<double>(column) * (width + kPageGap),
+                                  kPageGap + static_cast<double>(row) * (height + kLabel), width, height};
         canvas.image(place, image_of(pictures[i].picture, curve));
         canvas.text({place.center().x, place.bottom() + kLabel - 4}, pictures[i].label,
                     {.size = kTextSize, .colour = kInk, .horizontal = HorizontalPart::center});

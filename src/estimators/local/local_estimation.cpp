@@ -150,7 +150,7 @@ class LocalReadings {
         for (std::uint32_t reading = 0; reading < measurands.size(); ++reading) {
             const Measurand& measurand = measurands[reading];
             if (auto receiver = transport::receiver_of_illuminance(reading, measurand, transport_.caster)) {
-                seen.receivers.push_back(std::move(*receiver));
+                seen.receivers.push_back(*receiver);
                 continue;
             }
             const transport::VisibleSurfaces sight =

@@ -31,7 +31,7 @@ PatchReadings::PatchReadings(const PatchTransport& transport, std::span<const Me
 void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measurand) {
     const rays::RayCaster& caster = transport_.caster;
     if (auto receiver = transport::receiver_of_illuminance(reading, measurand, caster)) {
-        points_.push_back(std::move(*receiver));
+        points_.push_back(*receiver);
         known_part_[reading] = direct_from_points(points_.back(), caster, transport_.lights);
         return;
     }

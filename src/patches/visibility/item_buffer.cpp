@@ -101,13 +101,15 @@ BufferPixel ItemBufferLayout::pixel(const BufferFace& face, int x, int y) const 
         return face.forward + (face.left + (x + dx) * pixel_size_) * face.right +
                (face.bottom + (y + dy) * pixel_size_) * face.up;
     };
+    const auto seen_along = [&](const Vec3& counted, double area) -> BufferPixel {
+        const double r = length(counted);
+        return {point(0.5, 0.5), area / (r * r * r), counted.z / r};
+    };
+    const double area = pixel_size_ * pixel_size_;
     // The horizon is the diagonal of a tetrahedron's faces: a pixel on it counts by half, at the centre of
     // the half in front.
     const bool is_on_horizon = shape_ == BufferShape::cubic_tetrahedron && x == first_column(face, y);
-    const double part = is_on_horizon ? 0.5 : 1, centre = is_on_horizon ? 2. / 3 : 0.5;
-    const Vec3 counted = point(centre, centre);
-    const double r = length(counted);
-    return {point(0.5, 0.5), part * pixel_size_ * pixel_size_ / (r * r * r), counted.z / r};
+    return is_on_horizon ? seen_along(point(2. / 3, 2. / 3), area / 2) : seen_along(point(0.5, 0.5), area);
 }
 
 namespace {

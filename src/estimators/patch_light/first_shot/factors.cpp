@@ -33,18 +33,24 @@ class Shooter {
         const patches::ItemBufferLayout& layout = sample.is_point ? whole_ : half_;
         seen_.resize(layout.pixel_count());
         buffers_->fill(layout, sample.viewpoint, seen_);
-        layout.for_each_pixel([&](std::size_t index, const patches::BufferPixel& pixel) {
-            const std::uint32_t side = seen_[index];
-            if (side == patches::kNoSide) return;
-            const double flux_lm = sample.intensity_cd(pixel) * pixel.solid_angle_sr;
-            if (!(flux_lm > 0)) return;
-            if (flux_lm_[side] == 0) touched_.push_back(side);
-            flux_lm_[side] += flux_lm;
-        });
+        std::visit([&](const auto& intensity_cd) { add_flux(layout, intensity_cd); }, sample.intensity);
         return take_lit();
     }
 
   private:
+    /// Adds what all seen sides receive.
+    template <typename Intensity>
+    void add_flux(const patches::ItemBufferLayout& layout, const Intensity& intensity_cd) {
+        layout.for_each_pixel([&](std::size_t index, const patches::BufferPixel& pixel) {
+            const std::uint32_t side = seen_[index];
+            if (side == patches::kNoSide) return;
+            const double flux_lm = intensity_cd(pixel) * pixel.solid_angle_sr;
+            if (!(flux_lm > 0)) return;
+            if (flux_lm_[side] == 0) touched_.push_back(side);
+            flux_lm_[side] += flux_lm;
+        });
+    }
+
     std::vector<Lit> take_lit() {
         std::vector<Lit> lit;
         lit.reserve(touched_.size());
