@@ -21,6 +21,12 @@ ProbeRay probe_ray_off(const Vec3& position, const Vec3& normal, double size_m,
     return {position + caster.offset_m(position, size_m) * normal, normal};
 }
 
+/// Whether light gets through the surface: glass encloses nothing.
+bool transmits(const Material& material) {
+    const auto branches = specular_branches(material, materials::LightSide::outside, {0, 0, 1});
+    return std::ranges::any_of(branches.list(), [](const auto& branch) { return branch.direction.z < 0; });
+}
+
 /// One probe from every component, off its front.
 struct ProbeRaysOfShape {
     const geometry::ConnectedComponents& components;
@@ -91,7 +97,8 @@ Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const V
         if (!hit) break;
         const geometry::ConnectedComponents& components = components_[index_of(hit->object)];
         const std::uint32_t component = components.of_triangle[hit->triangle];
-        if (components.is_closed(component)) crossed.push_back({hit->object, component});
+        if (components.is_closed(component) && !transmits(scene_.material(hit->material)))
+            crossed.push_back({hit->object, component});
         from = hit->position - (hit->lifted - hit->position);  // just behind the surface
     }
     std::sort(crossed.begin(), crossed.end());

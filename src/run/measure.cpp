@@ -13,8 +13,10 @@
 #include "run/run.h"
 #include "run/schedule.h"
 #include "statistics/interval.h"
+#include "statistics/rare.h"
 #include "stilb/error.h"
 #include "transport/line_of_sight.h"
+#include "transport/sharp_light.h"
 
 namespace stilb::run {
 namespace {
@@ -27,22 +29,27 @@ constexpr std::uint64_t kLongestBatch = 1 << 16;
 constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 /// Granules before the first error estimate: an estimate from fewer may be far too small.
 constexpr std::uint64_t kLeastCheck = 4;
+/// Samples that a run makes for the sake of sharp light before its first error estimate: some seconds of
+/// work.
+constexpr std::uint64_t kMostAwaited = 1 << 20;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 enum ReadingPurpose : std::uint64_t { kReadingPreparation, kReadingReplicates };
 
 /// The sums of all replicates, and their progress.
 class Campaign final : public Work {
   public:
+    /// `least_samples`: of all replicates, before the first error estimate.
     Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, std::size_t readings,
-             int replicates, std::uint64_t seed)
+             const RunOptions& options, std::uint64_t least_samples)
         : estimator_(estimator),
           sensors_(sensors),
           granularity_(estimator.batch_granularity()),
-          sums_(static_cast<std::size_t>(replicates), estimators::ReadingSums(readings)) {
+          sums_(static_cast<std::size_t>(options.replicates), estimators::ReadingSums(readings)),
+          first_check_(std::max(kLeastCheck * granularity_, samples_for(least_samples))) {
         for (std::size_t r = 0; r < sums_.size(); ++r) {
-            keys_.push_back(math::RandomKey{seed}.derived(kReadingReplicates).derived(r));
+            keys_.push_back(math::RandomKey{options.seed}.derived(kReadingReplicates).derived(r));
         }
-        const double per_batch = kRaysPerRound / (replicates * estimator.rays_per_sample());
+        const double per_batch = kRaysPerRound / (options.replicates * estimator.rays_per_sample());
         std::uint64_t batch = granularity_;
         while (2 * batch <= kLongestBatch && static_cast<double>(2 * batch) <= per_batch) batch *= 2;
         batch_ = batch;
@@ -56,13 +63,10 @@ class Campaign final : public Work {
         return std::min(divided_up(each, granularity_) * granularity_, kMostSamples);
     }
     std::uint64_t most_samples() const override { return kMostSamples; }
-    std::uint64_t next_check() const override {
-        return statistics::next_check(samples_, kLeastCheck * granularity_);
-    }
+    std::uint64_t next_check() const override { return statistics::next_check(samples_, first_check_); }
     std::uint64_t most_at_once() const override { return batch_; }
 
     /// The same next samples of every replicate. Each replicate's sums belong to one task: nothing depends on
-    /// threads.
     /// threads.
     bool advance(std::uint64_t count, const std::atomic<bool>*) override {
         parallel_for(sums_.size(), [&](std::size_t r) {
@@ -79,8 +83,9 @@ class Campaign final : public Work {
         for (const Sensor& sensor : sensors_) {
             const std::size_t count = sensor.size();
             const std::vector<double> means = replicate_means(first, count);
+            const std::vector<double> rare = rare_light(first, count);
             worst = std::max(worst, statistics::attained_error(statistics::estimate_readings(
-                                        {means, count}, statistics::kStoppedConfidence)));
+                                        {means, count}, statistics::kStoppedConfidence, rare)));
             first += count;
         }
         return worst;
@@ -118,13 +123,19 @@ class Campaign final : public Work {
         return estimator_.known_part()[reading] + sum * (1 / static_cast<double>(samples_in_all()));
     }
 
-    bool is_heavy_tailed(std::size_t reading) const {
-        double largest = 0, sum = 0;
-        for (const estimators::ReadingSums& s : sums_) {
-            largest = std::max(largest, s.largest[reading]);
-            sum += s.sum[reading].luminance();
-        }
-        return stilb::statistics::is_heavy_tailed(largest, sum, samples_in_all());
+    statistics::LargestContributions largest(std::size_t reading) const {
+        std::vector<double> of_replicates;
+        of_replicates.reserve(sums_.size());
+        for (const estimators::ReadingSums& s : sums_) of_replicates.push_back(s.largest[reading]);
+        return statistics::largest_contributions(of_replicates);
+    }
+
+    /// Light that the readings of one sensor may lack [lx].
+    std::vector<double> rare_light(std::size_t first, std::size_t count) const {
+        std::vector<double> rare(count);
+        for (std::size_t j = 0; j < count; ++j)
+            rare[j] = statistics::rare_light(largest(first + j), samples_in_all());
+        return rare;
     }
 
   private:
@@ -133,6 +144,7 @@ class Campaign final : public Work {
     std::uint64_t granularity_;
     std::vector<math::RandomKey> keys_;
     std::vector<estimators::ReadingSums> sums_;
+    std::uint64_t first_check_;
     std::uint64_t batch_ = 1;
     std::uint64_t samples_ = 0;
 };
@@ -185,8 +197,9 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
     const statistics::ReplicateTable table{result.replicate_means, count};
     std::vector<statistics::Estimate> estimates;
     if (table.replicates() > 1) {
-        estimates = estimate_readings(table, confidence);
-        result.summary = summarize_grid(table, confidence);
+        const std::vector<double> rare = campaign.rare_light(first, count);
+        estimates = estimate_readings(table, confidence, rare);
+        result.summary = summarize_grid(table, confidence, rare);
         result.attained_error = statistics::attained_error(estimates);
     } else {
         std::ranges::transform(result.replicate_means, std::back_inserter(estimates),
@@ -203,21 +216,43 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
     return result;
 }
 
-std::vector<std::string> heavy_tail_warnings(const Campaign& campaign, std::span<const Sensor> sensors) {
+/// " at 3 of 12 readings", where there are several.
+std::string at_readings(std::size_t count, const SensorResult& sensor) {
+    const std::size_t all = sensor.readings.size();
+    return all == 1 ? "" : fmt::format(" at {} of {} readings", count, all);
+}
+
+/// Warns of readings whose light was found by few samples, or by none. A deterministic method has no samples.
+std::vector<std::string> rarity_warnings(const Campaign& campaign, std::span<const SensorResult> sensors) {
     std::vector<std::string> warnings;
+    const std::uint64_t samples = campaign.samples_in_all();
     std::size_t first = 0;
-    for (const Sensor& sensor : sensors) {
-        std::size_t heavy = 0;
-        for (std::size_t j = 0; j < sensor.size(); ++j) heavy += campaign.is_heavy_tailed(first + j);
-        if (heavy > 0) {
-            warnings.push_back(fmt::format(
-                "sensor \"{}\": in {} of {} readings a single contribution exceeds {:.2g} % of the sum; "
-                "the variance is probably infinite there (a corner) and the interval unreliable. Use "
-                "method auto.",
-                sensor.name, heavy, sensor.size(),
-                100 * statistics::heavy_tail_share(campaign.samples_in_all())));
+    for (const SensorResult& sensor : sensors) {
+        std::size_t dark = 0, uncertain = 0;
+        for (std::size_t j = 0; j < sensor.readings.size(); ++j) {
+            const statistics::Estimate& estimate = sensor.readings[j].estimate;
+            const bool is_dark = estimate.value == 0;
+            dark += is_dark;
+            uncertain += !is_dark && rests_on_few_samples(estimate, campaign.largest(first + j), samples);
         }
-        first += sensor.size();
+        // As for the limit on the error, the worst readings of a large sensor do not count.
+        const double tolerated =
+            (1 - statistics::kReadingShare) * static_cast<double>(sensor.readings.size());
+        if (dark > 0) {
+            warnings.push_back(
+                fmt::format("sensor \"{}\": {} samples found no light{}. If light gets there, the run needs "
+                            "more paths or "
+                            "more time to find it.",
+                            sensor.sensor.name, samples, at_readings(dark, sensor)));
+        }
+        if (static_cast<double>(uncertain) > tolerated) {
+            warnings.push_back(fmt::format(
+                "sensor \"{}\": a few rare light paths make up much of the light{} or of its error. More of "
+                "them "
+                "may be missing, so that the interval is too narrow: give the run more paths or more time.",
+                sensor.sensor.name, at_readings(uncertain, sensor)));
+        }
+        first += sensor.readings.size();
     }
     return warnings;
 }
@@ -239,19 +274,31 @@ struct Wanted {
     std::vector<double> weights;
 };
 
+/// Warns where the run has too few samples for the highlights of small lamps.
+std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp, std::uint64_t samples,
+                                              const Scene& scene) {
+    if (samples >= sharp.samples) return {};
+    return {
+        fmt::format("object \"{}\" reflects or refracts small lamps sharply, and few samples find such "
+                    "light. The intervals "
+                    "may be too narrow with fewer than {:.2g} paths; this run had {}.",
+                    scene.object(sharp.object).name, static_cast<double>(sharp.samples), samples)};
+}
+
 void add_warnings(const Campaign& campaign, std::span<const Sensor> sensors, const Scene& scene,
                   const rays::RayCaster& caster, const estimators::EstimatorEntry& method,
-                  const RunOptions& asked, std::vector<std::string>& warnings) {
+                  const transport::SharpLight& sharp, const RunOptions& asked, RunResult& result) {
     const auto append = [&](std::vector<std::string> more) {
-        std::ranges::move(more, std::back_inserter(warnings));
+        std::ranges::move(more, std::back_inserter(result.warnings));
     };
     if (method.is_deterministic && (asked.error || asked.paths)) {
-        warnings.push_back(fmt::format(
+        result.warnings.push_back(fmt::format(
             "method {} is deterministic and ends by itself: limits on error and paths have no effect.",
             method.name));
     }
     append(checks::placement_warnings(scene, caster, sensors));
-    if (method.has_heavy_tails) append(heavy_tail_warnings(campaign, sensors));
+    if (!method.is_deterministic) append(rarity_warnings(campaign, result.sensors));
+    append(sharp_light_warnings(sharp, result.samples, scene));
 }
 
 }  // namespace
@@ -277,7 +324,12 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     problem.weights = wanted.weights;
     std::unique_ptr<estimators::Estimator> estimator;
     session.on_threads([&] { estimator = method.make(problem); });
-    Campaign campaign(*estimator, sensors, wanted.measurands.size(), options.replicates, options.seed);
+    // Patches store the light of highlights: each sample then contains it.
+    const transport::SharpLight sharp = method.lights_patches
+                                            ? transport::SharpLight{}
+                                            : transport::find_sharp_light(scene, session.caster());
+    Campaign campaign(*estimator, sensors, wanted.measurands.size(), options,
+                      std::min(sharp.samples, kMostAwaited));
     RunResult result;
     session.on_threads([&] {
         if (!method.is_deterministic) return session.run(campaign, result);
@@ -298,7 +350,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
         result.sensors.push_back(sensor_result(campaign, sensor, first, estimator->sight_ends(), confidence));
         first += sensor.size();
     }
-    add_warnings(campaign, sensors, scene, session.caster(), method, asked_options, result.warnings);
+    add_warnings(campaign, sensors, scene, session.caster(), method, sharp, asked_options, result);
     session.finish(result);
     return result;
 }

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "statistics/interval.h"
@@ -45,18 +46,24 @@ class ExtremeFinder {
     }
 
     /// The interval of the extreme of quantities that are in the same order as the readings.
-    Estimate estimate(std::span<const double> values, std::span<const double> standard_errors) const {
+    Estimate estimate(std::span<const double> values, std::span<const double> standard_errors,
+                      std::span<const double> rare_light) const {
         const double contenders = static_cast<double>(contenders_.size());
         const double outward = quantile(kSideShare * error_rate_);
         const double inward = quantile(kSideShare * error_rate_ / contenders);
-        double outer = std::numeric_limits<double>::infinity();
-        double inner = outer;
+        const bool is_minimum = sign_ > 0;
+        double lower = sign_ * std::numeric_limits<double>::infinity();
+        double upper = lower;
+        const auto take = [&](double& end, double candidate) {
+            end = is_minimum ? std::min(end, candidate) : std::max(end, candidate);
+        };
         for (const std::size_t j : contenders_) {
-            outer = std::min(outer, sign_ * values[j] - outward * standard_errors[j]);
-            inner = std::min(inner, sign_ * values[j] + inward * standard_errors[j]);
+            const double missing = rare_light.empty() ? 0 : rare_light[j];
+            take(lower, values[j] - (is_minimum ? outward : inward) * standard_errors[j]);
+            take(upper,
+                 values[j] + std::hypot((is_minimum ? inward : outward) * standard_errors[j], missing));
         }
-        return {values[selected_], standard_errors[selected_], std::min(sign_ * outer, sign_ * inner),
-                std::max(sign_ * outer, sign_ * inner)};
+        return {values[selected_], standard_errors[selected_], lower, upper};
     }
 
   private:
@@ -93,7 +100,7 @@ class ExtremeFinder {
 /// The uniformity's errors by the delta method: x_j / X moves by (dx_j - (x_j / X) dX) / X.
 Estimate estimate_uniformity(const ReplicateTable& table, std::span<const double> means,
                              std::span<const double> grid_means, const Estimate& mean,
-                             const ExtremeFinder& smallest) {
+                             const ExtremeFinder& smallest, std::span<const double> rare_light) {
     if (!(mean.value > 0)) {
         constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
         return {kNone, kNone, kNone, kNone};
@@ -104,7 +111,9 @@ Estimate estimate_uniformity(const ReplicateTable& table, std::span<const double
     for (double& residual : mean_residuals) residual -= mean.value;
     std::vector<double> errors = residual_standard_errors(table, means, ratios, mean_residuals);
     for (double& error : errors) error /= mean.value;
-    Estimate uniformity = smallest.estimate(ratios, errors);
+    std::vector<double> missing(rare_light.begin(), rare_light.end());
+    for (double& light : missing) light /= mean.value;
+    Estimate uniformity = smallest.estimate(ratios, errors, missing);
     uniformity.upper = std::min(uniformity.upper, 1.0);  // no minimum exceeds the mean
     return uniformity;
 }
@@ -121,17 +130,22 @@ std::vector<double> compute_grid_means(const ReplicateTable& table) {
 
 }  // namespace
 
-GridSummary summarize_grid(const ReplicateTable& table, double confidence) {
+GridSummary summarize_grid(const ReplicateTable& table, double confidence,
+                           std::span<const double> rare_light) {
     const ReplicateMoments moments = compute_replicate_moments(table);
     const std::vector<double> grid_means = compute_grid_means(table);
     const ExtremeFinder smallest(table, moments, Extreme::minimum, confidence);
     const ExtremeFinder largest(table, moments, Extreme::maximum, confidence);
 
     GridSummary summary;
-    summary.mean = estimate_from_replicates(grid_means, confidence);
-    summary.minimum = smallest.estimate(moments.means, moments.standard_errors);
-    summary.maximum = largest.estimate(moments.means, moments.standard_errors);
-    summary.uniformity = estimate_uniformity(table, moments.means, grid_means, summary.mean, smallest);
+    // The same samples may be missing at all readings.
+    const double missing = std::accumulate(rare_light.begin(), rare_light.end(), 0.0) /
+                           static_cast<double>(std::max<std::size_t>(rare_light.size(), 1));
+    summary.mean = estimate_from_replicates(grid_means, confidence, missing);
+    summary.minimum = smallest.estimate(moments.means, moments.standard_errors, rare_light);
+    summary.maximum = largest.estimate(moments.means, moments.standard_errors, rare_light);
+    summary.uniformity =
+        estimate_uniformity(table, moments.means, grid_means, summary.mean, smallest, rare_light);
     return summary;
 }
 

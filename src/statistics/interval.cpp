@@ -14,21 +14,24 @@ double student_t_quantile(double probability, int degrees_of_freedom) {
     return boost::math::quantile(boost::math::students_t(degrees_of_freedom), probability);
 }
 
-std::vector<Estimate> estimate_readings(const ReplicateTable& table, double confidence) {
+std::vector<Estimate> estimate_readings(const ReplicateTable& table, double confidence,
+                                        std::span<const double> rare_light) {
     const ReplicateMoments moments = compute_replicate_moments(table);
     const double quantile =
         student_t_quantile(1 - (1 - confidence) / 2, static_cast<int>(table.replicates()) - 1);
     std::vector<Estimate> estimates(table.readings);
     for (std::size_t j = 0; j < estimates.size(); ++j) {
         const double half_width = quantile * moments.standard_errors[j];
+        const double upper = rare_light.empty() ? half_width : std::hypot(half_width, rare_light[j]);
         estimates[j] = {moments.means[j], moments.standard_errors[j], moments.means[j] - half_width,
-                        moments.means[j] + half_width};
+                        moments.means[j] + upper};
     }
     return estimates;
 }
 
-Estimate estimate_from_replicates(std::span<const double> replicate_means, double confidence) {
-    return estimate_readings({replicate_means, 1}, confidence).front();
+Estimate estimate_from_replicates(std::span<const double> replicate_means, double confidence,
+                                  double rare_light) {
+    return estimate_readings({replicate_means, 1}, confidence, {&rare_light, 1}).front();
 }
 
 Estimate without_error(double value) {

@@ -35,15 +35,17 @@ struct ReplicateTable {
 /// probability < 1).
 double student_t_quantile(double probability, int degrees_of_freedom);
 
-/// Mean, standard error and two-sided Student-t interval. Throws std::invalid_argument for fewer than two
-/// replicates.
-Estimate estimate_from_replicates(std::span<const double> replicate_means, double confidence = 0.95);
+/// Mean, standard error and two-sided Student-t interval, whose upper end allows for rare light (rare.h; in
+/// quadrature). Throws std::invalid_argument for fewer than two replicates.
+Estimate estimate_from_replicates(std::span<const double> replicate_means, double confidence = 0.95,
+                                  double rare_light = 0);
 
 /// A value with unknown error: the other members are NaN.
 Estimate without_error(double value);
 
-/// The same for every reading of a table.
-std::vector<Estimate> estimate_readings(const ReplicateTable& table, double confidence = 0.95);
+/// The same for every reading of a table. `rare_light`: one for each reading, or none.
+std::vector<Estimate> estimate_readings(const ReplicateTable& table, double confidence = 0.95,
+                                        std::span<const double> rare_light = {});
 
 /// Half the interval's width over the value: 0 where both are 0 (a dark point is known exactly), infinite
 /// where only the value is 0.
@@ -63,23 +65,6 @@ ReplicateMoments compute_replicate_moments(const ReplicateTable& table);
 /// common_r, where the residuals `common` have mean 0 over the replicates.
 std::vector<double> residual_standard_errors(const ReplicateTable& table, std::span<const double> means,
                                              std::span<const double> slopes, std::span<const double> common);
-
-// Detection of single contributions that dominate a sum, whose interval then cannot be trusted.
-
-/// The acceptable share of the largest one in a sum of `count` independent contributions: 1/sqrt(count).
-///
-/// Where the contributions' variance is finite, the largest one's share times sqrt(count) falls to 0 with
-/// their number; where it is infinite (tails of index below 2, as in local estimation in corners), it
-/// grows without limit. At this share the largest contribution alone moves the sum by the standard error of
-/// contributions that vary as much as their mean. A fixed share would miss slowly converging sums at large
-/// counts and raise false alarms at small counts.
-inline double heavy_tail_share(std::uint64_t count) { return 1 / std::sqrt(static_cast<double>(count)); }
-
-/// Whether the result deserves a warning. A sum of 0 does not; `count` includes contributions of
-/// 0.
-inline bool is_heavy_tailed(double largest, double sum, std::uint64_t count) {
-    return std::abs(largest) > heavy_tail_share(count) * std::abs(sum);
-}
 
 // The stopping rule: when a run is accurate enough, and its progress.
 

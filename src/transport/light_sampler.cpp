@@ -55,7 +55,7 @@ EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const 
     const auto [origin, direction, share] =
         std::visit([&](const auto& emitter) { return emitter.emit(stream); }, emitters_[choice.index]);
     return {origin, direction, share * (flux_lm_[choice.index] * (1 / choice.probability)),
-            is_point(choice.index)};
+            is_point(choice.index), static_cast<std::uint32_t>(choice.index)};
 }
 
 std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const ReceivingPoint& at,

@@ -23,6 +23,7 @@ struct EmittedParticle {
     Vec3 direction;
     Rgb flux_lm;              ///< total flux of the scene's lights, coloured by the chosen one
     bool from_point = false;  ///< from a light that no ray can hit
+    std::uint32_t light = 0;  ///< of Scene::lights
 };
 
 /// All lights of a scene. The kinds of lights (lights/) define their light; the sampler chooses among lights.

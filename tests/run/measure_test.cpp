@@ -89,5 +89,62 @@ TEST(Measure, ResultsOwnTheirSensorsAndTheMeansOfTheirReplicates) {
     }
 }
 
+/// Two rooms, a lamp in one of them, a hole of 4 cm x 6 cm in the wall between them.
+Scene keyhole() {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {6, 4, 2.5}}, diffuse(0.5));
+    for (const Box& part : {Box{{3, 0, 0}, {3.1, 2, 2.5}}, Box{{3, 2.04, 0}, {3.1, 4, 2.5}},
+                            Box{{3, 2, 0}, {3.1, 2.04, 1}}, Box{{3, 2, 1.06}, {3.1, 2.04, 2.5}}}) {
+        add_object(scene, part, diffuse(0.5));
+    }
+    add_area_light(scene, Sphere{{1, 1.2, 1.8}, 0.05}, Rgb::grey(1e5));
+    return scene;
+}
+
+Sensor at_point(const Vec3& position, const Vec3& normal) {
+    return {"point", Illuminance{{position}, normal}};
+}
+
+bool has_warning(const RunResult& result, std::string_view part) {
+    return std::ranges::any_of(
+        result.warnings, [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
+}
+
+TEST(Measure, WarnsWhereItFoundNoLight) {
+    const Sensor sensor = at_point({4.5, 0.5, 0}, {0, 0, 1});
+    const RunResult result = measure(keyhole(), {&sensor, 1}, options_for("auto"));
+    EXPECT_EQ(result.sensors[0].readings[0].estimate.value, 0);
+    EXPECT_TRUE(has_warning(result, "4096 samples found no light"));
+}
+
+TEST(Measure, WarnsWhereFewPathsCarryTheLight) {
+    RunOptions options = options_for("path");
+    options.paths = 1 << 17;
+    const Sensor sensor = at_point({4, 2, 0}, {0, 0, 1});
+    EXPECT_TRUE(has_warning(measure(keyhole(), {&sensor, 1}, options), "a few rare light paths"));
+    const Sensor lit = at_point({1, 2, 0}, {0, 0, 1});
+    for (const char* method : {"auto", "path", "local"}) {
+        EXPECT_TRUE(measure(keyhole(), {&lit, 1}, options_for(method)).warnings.empty()) << method;
+    }
+}
+
+/// A small lamp above smooth metal: the first error estimate waits for its highlights, and shorter runs warn.
+TEST(Measure, WaitsForSharpLight) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 4, 2.5}}, diffuse(0.5));
+    add_object(scene, Rectangle{{0, 0, 0.01}, {4, 0, 0}, {0, 4, 0}},
+               RoughConductor(RoughConductor::Parameters{Rgb::grey(0.8), 0.05}));
+    add_area_light(scene, Sphere{{2, 2, 1.01}, 0.005}, Rgb::grey(1e6));
+    const Sensor sensor = at_point({0, 2, 1.2}, {1, 0, 0});
+    RunOptions options = options_for("auto");
+    EXPECT_TRUE(
+        has_warning(measure(scene, {&sensor, 1}, options), "reflects or refracts small lamps sharply"));
+    options.paths.reset();
+    options.error = 0.5;
+    const RunResult waited = measure(scene, {&sensor, 1}, options);
+    EXPECT_GT(waited.samples, 16384U);
+    EXPECT_FALSE(has_warning(waited, "sharply"));
+}
+
 }  // namespace
 }  // namespace stilb::run

@@ -1,0 +1,185 @@
+// How often 95 % intervals hold, and how often a run is wrong without a word: verify_coverage [SEEDS]
+// [SCENE]. Scenes whose light is hard to find (tests/long/coverage) and those of the agreement suite; the
+// truth comes from one long run of each. Prints the table of docs/statistics.md, and fails where more than 8
+// % of a reading's runs miss the truth without a warning.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "agreement/scenes.h"
+#include "io/scene/scene_file.h"
+#include "run/run.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kMostWrong = 0.08;
+/// Seeds of other runs.
+constexpr std::uint64_t kTruthSeed = 1'000'000;
+
+struct Case {
+    std::string_view scene;  ///< a file in tests/long/coverage
+    std::string_view method;
+    std::uint64_t paths = 0;
+    double error = 0;  ///< instead of paths
+    std::string_view truth_method;
+    std::uint64_t truth_paths = 0;
+};
+
+constexpr std::uint64_t kMillion = 1 << 20;
+constexpr Case kCases[] = {
+    {"plastic", "auto", 8192, 0, "path", 4 * kMillion},
+    {"plastic", "auto", 0, 0.05, "path", 4 * kMillion},
+    {"plastic", "path", 0, 0.05, "path", 4 * kMillion},
+    {"metal", "auto", 8192, 0, "path", 4 * kMillion},
+    {"metal", "path", 8192, 0, "path", 4 * kMillion},
+    {"smooth_metal", "auto", 8192, 0, "auto", 16 * kMillion},
+    {"smooth_metal", "path", 8192, 0, "auto", 16 * kMillion},
+    {"glass_ball", "auto", 8192, 0, "auto", 32 * kMillion},
+    {"baffle", "auto", 8192, 0, "auto", 64 * kMillion},
+    {"keyhole", "auto", 8192, 0, "path", 16 * kMillion},
+    {"corridor", "auto", 65536, 0, "path", 16 * kMillion},
+    {"gap", "auto", 2048, 0, "path", 4 * kMillion},
+    {"white_box", "auto", 2048, 0, "auto", 1 * kMillion},
+    {"white_box", "path", 2048, 0, "auto", 1 * kMillion},
+    {"beam", "double-local", 8192, 0, "auto", 4 * kMillion},
+    {"beam", "auto", 8192, 0, "auto", 4 * kMillion},
+};
+
+RunOptions options_of(std::string_view method, std::uint64_t seed) {
+    RunOptions options;
+    options.method = method;
+    options.seed = seed;
+    return options;
+}
+
+/// One reading, over all seeds.
+struct Tally {
+    std::string name;
+    double truth = 0, truth_error = 0;
+    std::size_t held = 0, warned = 0, wrong = 0;
+    std::vector<double> half_widths{};
+
+    void add(const statistics::Estimate& estimate, bool is_warned) {
+        const bool holds = estimate.lower <= truth && truth <= estimate.upper;
+        held += holds;
+        warned += is_warned;
+        wrong += !holds && !is_warned;
+        half_widths.push_back(relative_half_width(estimate));
+    }
+    double median_half_width() {
+        const auto middle = half_widths.begin() + static_cast<std::ptrdiff_t>(half_widths.size() / 2);
+        std::nth_element(half_widths.begin(), middle, half_widths.end());
+        return *middle;
+    }
+};
+
+/// A warning of the sensor, or of the whole run.
+bool is_warned(const RunResult& result, const std::string& sensor) {
+    return std::ranges::any_of(result.warnings, [&](const std::string& warning) {
+        return !warning.starts_with("sensor ") || warning.find('"' + sensor + '"') != std::string::npos;
+    });
+}
+
+std::vector<Tally> tallies_of(const Scene& scene, std::span<const Sensor> sensors, RunOptions truth) {
+    truth.seed = kTruthSeed;
+    std::vector<Tally> tallies;
+    for (const SensorResult& sensor : run::measure(scene, sensors, truth).sensors) {
+        for (std::size_t j = 0; j < sensor.readings.size(); ++j) {
+            const statistics::Estimate& estimate = sensor.readings[j].estimate;
+            tallies.push_back({sensor.readings.size() > 1 ? fmt::format("{} {}", sensor.sensor.name, j + 1)
+                                                          : sensor.sensor.name,
+                               estimate.value, estimate.standard_error});
+        }
+    }
+    return tallies;
+}
+
+/// Runs all seeds on all processors, one thread each. Returns whether no reading is wrong too often.
+bool cover(std::string_view name, const Scene& scene, std::span<const Sensor> sensors, RunOptions options,
+           const RunOptions& truth, std::size_t seeds) {
+    std::vector<Tally> tallies = tallies_of(scene, sensors, truth);
+    std::vector<RunResult> results(seeds);
+    std::atomic<std::size_t> next = 0;
+    std::vector<std::jthread> workers;
+    for (unsigned t = 0; t < std::max(1u, std::thread::hardware_concurrency()); ++t) {
+        workers.emplace_back([&, mine = options]() mutable {
+            mine.threads = 1;
+            for (std::size_t i = next++; i < seeds; i = next++) {
+                mine.seed = i + 1;
+                results[i] = run::measure(scene, sensors, mine);
+            }
+        });
+    }
+    workers.clear();
+    for (const RunResult& result : results) {
+        std::size_t reading = 0;
+        for (const SensorResult& sensor : result.sensors) {
+            const bool warned = is_warned(result, sensor.sensor.name);
+            for (const Reading& r : sensor.readings) tallies[reading++].add(r.estimate, warned);
+        }
+    }
+    const std::string limit = options.paths ? fmt::format("{} paths", *options.paths)
+                                            : fmt::format("error {:.0f} %", 100 * *options.error);
+    bool all_hold = true;
+    for (Tally& tally : tallies) {
+        const auto share = [&](std::size_t count) {
+            return 100.0 * static_cast<double>(count) / static_cast<double>(seeds);
+        };
+        const bool holds = static_cast<double>(tally.wrong) <= kMostWrong * static_cast<double>(seeds);
+        fmt::print("| {} | {}, {} | {} | {:.3g} ± {:.1g} % | {:.2g} % | {:.1f} % | {:.1f} % | {:.1f} %{} |\n",
+                   name, options.method, limit, tally.name, tally.truth,
+                   100 * tally.truth_error / tally.truth, 100 * tally.median_half_width(), share(tally.held),
+                   share(tally.warned), share(tally.wrong), holds ? "" : " TOO MANY");
+        std::fflush(stdout);
+        all_hold = all_hold && holds;
+    }
+    return all_hold;
+}
+
+bool cover_file(const Case& of, std::size_t seeds) {
+    const io::SceneFile file =
+        io::read_scene_file(std::filesystem::path(STILB_COVERAGE_SCENES) / fmt::format("{}.toml", of.scene));
+    RunOptions options = options_of(of.method, 0), truth = options_of(of.truth_method, 0);
+    if (of.paths > 0) options.paths = of.paths;
+    if (of.error > 0) options.error = of.error;
+    truth.paths = of.truth_paths;
+    return cover(of.scene, file.scene, file.sensors, options, truth, seeds);
+}
+
+bool cover_agreement_scene(const AgreementScene& of, std::size_t seeds) {
+    RunOptions options = options_of("auto", 0), truth = options_of("auto", 0);
+    options.bounces = truth.bounces = of.bounces;
+    options.paths = 2048;
+    truth.paths = kMillion;
+    return cover(of.name, of.make(), of.sensors(), options, truth, seeds);
+}
+
+int verify(std::size_t seeds, std::string_view only) {
+    fmt::print(
+        "| scene | run | reading | truth | median ± | holds | warned | wrong without a warning |\n"
+        "|---|---|---|---|---|---|---|---|\n");
+    bool all_hold = true;
+    for (const Case& of : kCases) {
+        if (only.empty() || only == of.scene) all_hold = cover_file(of, seeds) && all_hold;
+    }
+    for (const AgreementScene& of : agreement_scenes()) {
+        if (only.empty() || only == of.name) all_hold = cover_agreement_scene(of, seeds) && all_hold;
+    }
+    return all_hold ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace stilb
+
+int main(int count, char** arguments) {
+    const std::size_t seeds = count > 1 ? std::strtoull(arguments[1], nullptr, 10) : 400;
+    return stilb::verify(seeds, count > 2 ? arguments[2] : "");
+}
