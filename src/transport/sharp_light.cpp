@@ -102,7 +102,7 @@ class SharpParticle {
 }  // namespace
 
 SharpLight find_sharp_light(const Scene& scene, const rays::RayCaster& caster) {
-    constexpr double kLeastShare = 0.005, kTimesFound = 20;
+    constexpr double kLeastShare = 0.005, kTimesFound = 40;
     const LightSampler lights(scene, caster);
     if (lights.count() == 0) return {};
     std::vector<Highlight> highlights;

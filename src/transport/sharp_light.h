@@ -12,7 +12,7 @@
 namespace stilb::transport {
 
 struct SharpLight {
-    std::uint64_t samples = 0;  ///< that find it about twenty times; 0 where there is no sharp light
+    std::uint64_t samples = 0;  ///< that find it about forty times; 0 where there is no sharp light
     ObjectId object{};          ///< that reflects or refracts it
 };
 
