@@ -54,8 +54,8 @@ struct SimulatedRun {
     bool is_warned() const { return rests_on_few_samples(estimate, largest, samples); }
 };
 
-/// Half of the light comes from few samples. A plain interval holds in 63 % of the runs that have found it
-/// where once is expected, in 80 % for twice, 86 % for four times and 91 % for eight times.
+/// Half of the light comes from few samples. Of the runs that have found any of them, plain intervals hold in
+/// 92 % where four are expected and in 91 % where eight are, the raised ones in 99.7 % and 97.7 %.
 TEST(RareLight, IsContainedInTheIntervalWhereItWasFound) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> uniform;
@@ -73,7 +73,7 @@ TEST(RareLight, IsContainedInTheIntervalWhereItWasFound) {
             held += run.estimate.lower <= 2 && 2 <= run.estimate.upper;
             warned += run.is_warned();
         }
-        EXPECT_GT(held, 0.93 * found) << expected;
+        EXPECT_GT(held, 0.96 * found) << expected;
         EXPECT_GT(warned, 0.99 * found) << expected;
     }
 }
