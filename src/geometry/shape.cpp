@@ -89,6 +89,16 @@ Vec3 shading_normal(const Mesh& mesh, std::uint32_t triangle, const Vec3& baryce
     return sum / std::copysign(size, along);
 }
 
+Vec3 barycentric_of(const Mesh& mesh, std::uint32_t triangle, const Vec3& point) {
+    const auto [i, j, k] = mesh.triangles[triangle];
+    const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+    const Vec3 doubled = cross(b - a, c - a);
+    const double squared = dot(doubled, doubled);
+    const double of_b = dot(cross(point - a, c - a), doubled) / squared;
+    const double of_c = dot(cross(b - a, point - a), doubled) / squared;
+    return {1 - of_b - of_c, of_b, of_c};
+}
+
 void turn_over(Mesh& mesh, std::uint32_t triangle) {
     std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
     if (!mesh.corner_normals.empty())

@@ -91,6 +91,8 @@ struct Harmonics {
 /// barycentric coordinates: unit, on the side of the unit vector `geometric`, the triangle's own normal. The
 /// latter is returned where there is no other, or one that deviates from it by more than 84 degrees.
 Vec3 shading_normal(const Mesh& mesh, std::uint32_t triangle, const Vec3& barycentric, const Vec3& geometric);
+/// The barycentric coordinates of a point in the plane of a triangle.
+Vec3 barycentric_of(const Mesh& mesh, std::uint32_t triangle, const Vec3& point);
 /// Swaps the front and the back of a triangle.
 void turn_over(Mesh& mesh, std::uint32_t triangle);
 

@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "base/rays.h"
 #include "base/vec.h"
@@ -51,8 +53,14 @@ std::unique_ptr<CurvedSurface> curved_surface(const Shape& shape, const Vec3& or
 struct EmbreeGeometry {
     const std::array<float, 3>* vertices = nullptr;  ///< owned by Embree, as are the triangles; or null
     const Triangle* triangles = nullptr;
-    const Mesh* smooth = nullptr;  ///< owned by the scene, where it has vertex normals; or null
+    std::vector<std::uint32_t> parents;  ///< of triangles that are parts of larger ones; empty where none is
+    const Mesh* smooth = nullptr;        ///< owned by the scene, where it has vertex normals; or null
     std::unique_ptr<CurvedSurface> curved;
+
+    /// The shape's own triangle.
+    std::uint32_t triangle_of(std::uint32_t primitive) const {
+        return parents.empty() ? primitive : parents[primitive];
+    }
 };
 
 /// The shape relative to `origin`, not committed yet. `kept` is filled and must outlive the geometry and stay

@@ -189,21 +189,28 @@ struct RayCaster::Implementation {
                 hit.lifted = origin + std::max(ray.tfar - back, 0.0) * direction;
             }
         }
-        hit.shading_normal = geometry.smooth != nullptr
-                                 ? shading_normal(*geometry.smooth, met.primID, {1 - u - v, u, v}, hit.normal)
-                                 : hit.normal;
+        hit.triangle = geometry.curved ? 0 : geometry.triangle_of(met.primID);
+        hit.material = material_of(met.geomID, hit.triangle);
         hit.lifted += center;
         hit.position += center;
+        hit.shading_normal = shading_normal_of(hit, geometry, {1 - u - v, u, v});
         hit.distance_m = ray.tfar;
         hit.object = ObjectId{met.geomID};
-        hit.triangle = geometry.curved ? 0 : met.primID;
-        hit.material = material_of(met.geomID, met.primID);
         return hit;
     }
 
-    MaterialId material_of(std::uint32_t object, std::uint32_t primitive) const {
+    /// `barycentric`: in the triangle that Embree has met.
+    static Vec3 shading_normal_of(const Hit& hit, const EmbreeGeometry& geometry, const Vec3& barycentric) {
+        if (geometry.smooth == nullptr) return hit.normal;
+        const Vec3 in_parent = geometry.parents.empty()
+                                   ? barycentric
+                                   : geometry::barycentric_of(*geometry.smooth, hit.triangle, hit.position);
+        return shading_normal(*geometry.smooth, hit.triangle, in_parent, hit.normal);
+    }
+
+    MaterialId material_of(std::uint32_t object, std::uint32_t triangle) const {
         const auto& materials = scene.objects[object].materials;
-        return materials.size() == 1 ? materials[0] : materials[primitive];
+        return materials.size() == 1 ? materials[0] : materials[triangle];
     }
 
     bool is_pane(const Hit& hit) const { return passes_straight(scene.material(hit.material)); }

@@ -30,25 +30,8 @@ double half_size_m(const exact::ParallelPlanes& planes, double radius_m) {
     return half_size;
 }
 
-/// A square around the z axis whose cells double in size outwards: where cells are small, so are the
-/// distances by which the ray caster lifts points off them.
-Mesh graded_square(double z, double smallest_cell_m, double half_size) {
-    std::vector<double> grid{0, half_size, -half_size};
-    for (double x = smallest_cell_m; x < half_size; x *= 2) grid.insert(grid.end(), {x, -x});
-    std::sort(grid.begin(), grid.end());
-    const auto n = static_cast<std::uint32_t>(grid.size());
-    Mesh mesh;
-    for (double y : grid) {
-        for (double x : grid) mesh.vertices.push_back({x, y, z});
-    }
-    for (std::uint32_t j = 0; j + 1 < n; ++j) {
-        for (std::uint32_t i = 0; i + 1 < n; ++i) {
-            const std::uint32_t corner = j * n + i;
-            mesh.triangles.push_back({corner, corner + 1, corner + n + 1});
-            mesh.triangles.push_back({corner, corner + n + 1, corner + n});
-        }
-    }
-    return mesh;
+Rectangle square(double z, double half_size) {
+    return {{-half_size, -half_size, z}, {2 * half_size, 0, 0}, {0, 2 * half_size, 0}};
 }
 
 }  // namespace
@@ -59,8 +42,8 @@ Scene make_sobolev_scene(const exact::ParallelPlanes& planes, double largest_rad
     Scene scene;
     scene.materials = {{"plane 1", Diffuse{Rgb::grey(planes.reflectance_1)}},
                        {"plane 2", Diffuse{Rgb::grey(planes.reflectance_2)}}};
-    scene.objects = {{"plane 1", graded_square(0, separation_m, half_size), {MaterialId{0}}},
-                     {"plane 2", graded_square(separation_m, separation_m, half_size), {MaterialId{1}}}};
+    scene.objects = {{"plane 1", square(0, half_size), {MaterialId{0}}},
+                     {"plane 2", square(separation_m, half_size), {MaterialId{1}}}};
     scene.lights = {{"source", PointLight{{0, 0, planes.distance_1_m}, Rgb::grey(planes.intensity_cd)}}};
     return scene;
 }

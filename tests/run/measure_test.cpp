@@ -102,7 +102,7 @@ Scene keyhole() {
 }
 
 Sensor at_point(const Vec3& position, const Vec3& normal) {
-    return {"point", Illuminance{{position}, normal}};
+    return {"point", IlluminancePoints{{{position, normal}}}};
 }
 
 bool has_warning(const RunResult& result, std::string_view part) {
