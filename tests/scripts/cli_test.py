@@ -44,6 +44,16 @@ class WrongInputTest(CommandLineTest):
         self.expect_wrong_input(["solve", self.scene], "--output is required", "stilb solve --help")
         self.expect_wrong_input(["measure", self.scene, "--paths", "0"], "--paths", "not in range")
 
+    def test_arguments_before_the_command(self):
+        for arguments in (["--json", "measure", self.scene], ["--json", "measure"]):
+            self.expect_wrong_input(arguments, "--json stands before the command", "stilb measure ... --json")
+        for flag in (["--error", "1%"], ["--error=1%"]):
+            self.expect_wrong_input([*flag, "measure", self.scene], "--error stands before the command")
+        self.expect_wrong_input(["--bogus", "measure", self.scene], "no flag --bogus", "stilb measure --help")
+        self.expect_wrong_input(["--eror", "1%", "measure", self.scene], "no flag --eror", 'Did you mean "--error"?')
+        self.expect_wrong_input([self.scene, "measure"], "is one argument too many", "follow the name of the command, measure")
+        self.expect_wrong_input(["--hlp"], "no flag --hlp", 'Did you mean "--help"?')
+
     def test_misspelt_method(self):
         self.expect_wrong_input(["measure", self.scene, "--method", "locl"], "locl", "local")
 
