@@ -44,6 +44,14 @@ class WrongInputTest(CommandLineTest):
         self.expect_wrong_input(["solve", self.scene], "--output is required", "stilb solve --help")
         self.expect_wrong_input(["measure", self.scene, "--paths", "0"], "--paths", "not in range")
 
+    def test_the_first_unexpected_argument_is_named(self):
+        suggestion = 'no flag --errors. Did you mean "--error"?'
+        for arguments in (["--errors", "1%"], ["--errors=1%"], ["--errors", "1%", "--bogus"]):
+            for typed in ([self.scene, *arguments], [*arguments, self.scene]):
+                self.expect_wrong_input(["measure", *typed], suggestion)
+        self.expect_wrong_input(["measure", self.scene, "1%", "--errors"], '"1%" is one argument too many')
+        self.expect_wrong_input(["measure", self.scene, "-json"], 'no flag -json. Did you mean "--json"?')
+
     def test_arguments_before_the_command(self):
         for arguments in (["--json", "measure", self.scene], ["--json", "measure"]):
             self.expect_wrong_input(arguments, "--json stands before the command", "stilb measure ... --json")
