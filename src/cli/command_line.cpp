@@ -4,9 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
+#include "io/text/text.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
@@ -81,6 +84,36 @@ InputError wrong_arguments(const CLI::App& app, const CLI::ParseError& error) {
     return InputError(fmt::format("{}{} See {} --help.", problem, is_sentence ? "" : ".", program));
 }
 
+/// Rewrites a whole number such as "1e4", which scene files take too, in digits. Returns a message where it
+/// is not whole, or else an empty text.
+std::string write_in_digits(std::string& typed) {
+    if (const auto integer = io::parse_integer(typed)) {
+        typed = fmt::format("{}", *integer);
+        return "";
+    }
+    const auto number = io::parse_number(typed);
+    if (!number || *number != std::floor(*number)) {
+        return fmt::format("{} is not a whole number. Write it as 20000 or 2e4, for example.",
+                           io::in_quotes(typed));
+    }
+    constexpr double kLargestExact = 9007199254740992.0;  // 2^53
+    if (std::abs(*number) > kLargestExact) {
+        return fmt::format("{} is not exact, because it is larger than 2^53. Write all of its digits.",
+                           io::in_quotes(typed));
+    }
+    typed = fmt::format("{:.0f}", *number);
+    return "";
+}
+
+template <typename T>
+struct ValueOf {
+    using Type = T;
+};
+template <typename T>
+struct ValueOf<std::optional<T>> {
+    using Type = T;
+};
+
 }  // namespace
 
 Flag& Flag::required() {
@@ -127,7 +160,10 @@ Flag Command::add(const std::string& names, T& value, const std::string& descrip
     if constexpr (std::is_same_v<T, bool>) {
         return Flag(*app_->add_flag(names, value, description));
     } else {
-        return Flag(*app_->add_option(names, value, description));
+        CLI::Option* const option = app_->add_option(names, value, description);
+        if constexpr (std::is_integral_v<typename ValueOf<T>::Type>)
+            option->transform(CLI::Validator(write_in_digits, ""));
+        return Flag(*option);
     }
 }
 template Flag Command::add(const std::string&, bool&, const std::string&);

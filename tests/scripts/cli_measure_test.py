@@ -95,6 +95,16 @@ class MeasureTest(CommandLineTest):
         for threads in (1, 1, 2, 2, 2):
             self.assertEqual(document(threads), first)
 
+    def test_whole_numbers_are_written_as_in_scene_files(self):
+        def document(*arguments):
+            result = self.measure(*arguments)
+            del result["elapsed_s"]
+            return result
+
+        self.assertEqual(document("--paths", "1e4", "--seed", "1.2e1", "--bounces", "3.0", "--threads", "1e0"),
+                         document("--paths", "10000", "--seed", "12", "--bounces", "3", "--threads", "1"))
+        self.assertEqual(document("--paths", "4096", "--seed", "010")["seed"], 10)  # not octal
+
     def test_seeds_differ(self):
         values = [self.measure("--paths", "5000", "--seed", seed)["sensors"][0]["values"] for seed in (1, 2)]
         self.assertNotEqual(*values)

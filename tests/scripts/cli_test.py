@@ -44,6 +44,13 @@ class WrongInputTest(CommandLineTest):
         self.expect_wrong_input(["solve", self.scene], "--output is required", "stilb solve --help")
         self.expect_wrong_input(["measure", self.scene, "--paths", "0"], "--paths", "not in range")
 
+    def test_whole_numbers(self):
+        for typed in ("1.5", "1e-3", "many", "1e4x"):
+            self.expect_wrong_input(["measure", self.scene, "--paths", typed], f'--paths: "{typed}" is not a whole number', "2e4")
+        self.expect_wrong_input(["measure", self.scene, "--bounces", "0.5"], '--bounces: "0.5" is not a whole number')
+        self.expect_wrong_input(["measure", self.scene, "--seed", "1e30"], "--seed", "Write all of its digits")
+        self.expect_wrong_input(["measure", self.scene, "--paths", "-1e4"], "--paths", "-10000 not in range")
+
     def test_the_first_unexpected_argument_is_named(self):
         suggestion = 'no flag --errors. Did you mean "--error"?'
         for arguments in (["--errors", "1%"], ["--errors=1%"], ["--errors", "1%", "--bogus"]):
