@@ -141,7 +141,7 @@ Flag& Flag::above_zero() {
     return *this;
 }
 Flag& Flag::repeatable() {
-    option_->allow_extra_args(false);
+    option_->expected(1)->take_all()->allow_extra_args(false);
     return *this;
 }
 Flag& Flag::show_default() {
@@ -191,7 +191,7 @@ void Command::run(std::function<int()> command) {
 CommandLine::CommandLine()
     : app_(std::make_unique<CLI::App>("Stilb: illuminance and luminance, each value with its error bar")) {
     app_->name("stilb");
-    app_->set_version_flag("--version", STILB_VERSION);
+    app_->set_version_flag("-V,--version", STILB_VERSION);
     app_->require_subcommand(0, 1);
 }
 
@@ -199,6 +199,31 @@ CommandLine::~CommandLine() = default;
 
 Command CommandLine::add_command(const std::string& name, const std::string& summary) {
     return Command(*app_->add_subcommand(name, summary), exit_code_);
+}
+
+void CommandLine::add_help() {
+    Command command = add_command("help", "Print this help, or that of a command");
+    command.set_examples(
+        "  stilb help\n"
+        "  stilb help measure\n");
+    auto name = std::make_shared<std::string>();
+    command.add("COMMAND", *name, "Command to explain (default: all in short)");
+    command.run([this, name] {
+        print_help(*name);
+        return kExitDone;
+    });
+}
+
+void CommandLine::print_help(const std::string& command) const {
+    const CLI::App* about = app_.get();
+    std::string program = "stilb";
+    if (!command.empty()) {
+        const auto named = app_->get_subcommands([&](CLI::App* c) { return c->get_name() == command; });
+        if (named.empty()) throw no_command(*app_, command);
+        about = named.front();
+        program += " " + command;
+    }
+    fmt::print("{}", about->get_formatter()->make_help(about, program, CLI::AppFormatMode::Normal));
 }
 
 int CommandLine::run(int argument_count, const char* const* arguments) {

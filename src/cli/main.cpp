@@ -20,6 +20,7 @@ int main(int argument_count, char** arguments) {
         cli::add_falsecolor(line);
         cli::add_verify(line);
         papers::add_reproduce(line);
+        line.add_help();
         return line.run(argument_count, arguments);
     } catch (const Cancelled& cancelled) {
         fmt::print(stderr, "stilb: {}\n", cancelled.what());

@@ -39,6 +39,11 @@ class MeasureTest(CommandLineTest):
         document = self.measure("--error", "5%", "--sensor", "wall")
         self.assertEqual([s["name"] for s in document["sensors"]], ["wall"])
 
+    def test_several_sensors(self):
+        document = self.measure("--error", "5%", "--sensor", "wall", "--sensor", "desk")
+        self.assertEqual({s["name"] for s in document["sensors"]}, {"desk", "wall"})
+        self.expect_wrong_input(["measure", self.scene, "--sensor", "wall", "desk"], '"desk" is one argument too many')
+
     def test_cameras_are_left_out(self):
         self.scene = self.write("view.toml", ROOM + CAMERA)
         document = self.measure("--error", "5%")

@@ -150,10 +150,23 @@ class HelpTest(CommandLineTest):
             self.assertIn(f"  stilb {command} ", examples)
             self.assertIn("Options:", rest)
 
+    def test_a_flag_that_may_be_repeated_takes_one_value_at_a_time(self):
+        for command, flag in (("measure", "--sensor"), ("verify", "--case"), ("verify", "--method")):
+            self.assertRegex(run(command, "--help").stdout, f"{flag} NAME +[A-Z].* \\(may be repeated\\)\n")
+
+    def test_help_is_a_command_too(self):
+        for command in ([], ["measure"], ["help"]):
+            result = run("help", *command)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertEqual(result.stdout, run(*command, "--help").stdout)
+        self.assertIn("  help  ", run("--help").stdout)
+        self.expect_wrong_input(["help", "mesure"], 'no command "mesure"', 'Did you mean "measure"?')
+
     def test_version(self):
-        result = run("--version")
-        self.assertEqual(result.returncode, 0)
-        self.assertRegex(result.stdout, r"^\d+\.\d+\.\d+\n$")
+        for flag in ("--version", "-V"):
+            result = run(flag)
+            self.assertEqual(result.returncode, 0)
+            self.assertRegex(result.stdout, r"^\d+\.\d+\.\d+\n$")
 
 
 if __name__ == "__main__":
