@@ -2,10 +2,11 @@
 
 import csv
 import json
-import time
+import os
+import subprocess
 import unittest
 
-from command_line import CAMERA, ROOM, ROOT, CommandLineTest, run
+from command_line import CAMERA, MOST_SECONDS, PROGRAM, ROOM, ROOT, CommandLineTest, run
 
 
 class WrongInputTest(CommandLineTest):
@@ -83,6 +84,19 @@ class WrongInputTest(CommandLineTest):
         for name in ("desk.jpg", "no/folder/desk.png"):
             with self.subTest(name=name):
                 self.expect_wrong_input(["measure", self.scene, "--falsecolor", self.folder / name], name)
+
+
+@unittest.skipUnless(os.path.exists("/dev/full"), "this system has no /dev/full")
+class FullDiskTest(CommandLineTest):
+    def test_output_that_is_not_written_is_noticed(self):
+        results = self.write("long.toml", ROOM.replace("count = [3, 2]", "count = [60, 40]"))  # longer than the buffer
+        for command in (["measure", self.scene], ["measure", results, "--paths", "1", "--json"], ["info", self.scene], ["help"],
+                        ["--version"]):
+            with self.subTest(command=command), open("/dev/full", "w") as full:
+                result = subprocess.run([PROGRAM, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True,
+                                        timeout=MOST_SECONDS)
+                self.assertEqual(result.returncode, 1)
+                self.assertRegex(result.stderr, r"^stilb: standard output cannot be written[^\n]*\n$")
 
 
 class FalsecolorTest(CommandLineTest):
