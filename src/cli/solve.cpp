@@ -40,7 +40,7 @@ int run_solve(const SolveRequest& request) {
     io::SceneFile file = io::read_scene_file(request.scene);
     file.run.method = "ray-bundle";
     const RunOptions options = request.flags.over(file.run);
-    io::require_folder_of(request.output);
+    io::require_writable(request.output);
     SolveResult result;
     {
         TerminalProgress progress("steps");

@@ -79,11 +79,23 @@ class WrongInputTest(CommandLineTest):
             with self.subTest(flag=flag, value=value):
                 self.expect_wrong_input(["measure", self.scene, f"{flag}={value}"], flag.lstrip("-"))
 
+    def test_files_that_cannot_be_written_are_named_before_computing(self):
+        (self.folder / "folder.png").mkdir()
+        pictures = ["desk.jpg", "no/folder/desk.png", "room.toml/desk.png", "folder.png", "/proc/desk.png"]
+        folders = ["room.toml", "room.toml/tables", "/proc/tables", "/proc"]
+        for flag, names in (("--falsecolor", pictures), ("--csv", folders)):
+            for name in names:
+                with self.subTest(flag=flag, name=name):  # the table is printed first, but nothing may be printed
+                    self.expect_wrong_input(["measure", self.scene, flag, self.folder / name], name)
+        self.scene.write_text(ROOM + CAMERA)
+        self.expect_wrong_input(["render", self.scene, "-o", "/proc/view.exr"], "/proc/view.exr", "writable")
+        self.expect_wrong_input(["solve", self.scene, "-o", "/proc/room.solution"], "/proc/room.solution", "writable")
 
-    def test_pictures_that_cannot_be_written_are_named_before_measuring(self):
-        for name in ("desk.jpg", "no/folder/desk.png"):
-            with self.subTest(name=name):
-                self.expect_wrong_input(["measure", self.scene, "--falsecolor", self.folder / name], name)
+    def test_a_check_before_computing_leaves_files_alone(self):
+        picture = self.write("desk.png", "old")
+        files = set(self.folder.iterdir())
+        self.expect_wrong_input(["measure", self.scene, "--falsecolor", picture, "--csv", self.scene], "room.toml")
+        self.assertEqual((picture.read_text(), set(self.folder.iterdir())), ("old", files))
 
 
 @unittest.skipUnless(os.path.exists("/dev/full"), "this system has no /dev/full")
