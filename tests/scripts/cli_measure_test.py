@@ -100,6 +100,16 @@ class MeasureTest(CommandLineTest):
         for threads in (1, 1, 2, 2, 2):
             self.assertEqual(document(threads), first)
 
+    def test_paths_are_rounded_up_as_the_help_says(self):
+        text = run("measure", "--help").stdout
+        for method, multiple in (("auto", 2048), ("local", 2048), ("path", 2048), ("ray-bundle", 512), ("particles", 131072)):
+            with self.subTest(method=method):
+                self.assertRegex(text, rf"multiple of .*\b{multiple}\b")
+                patch = ("--patch", "1") if method in ("ray-bundle", "particles") else ()
+                done = self.measure("--method", method, "--paths", "1", *patch)["paths"]
+                self.assertGreaterEqual(done, multiple)
+                self.assertEqual(done % multiple, 0)
+
     def test_whole_numbers_are_written_as_in_scene_files(self):
         def document(*arguments):
             result = self.measure(*arguments)
