@@ -209,6 +209,31 @@ class MeasureTest(CommandLineTest):
             self.assertIn(part, result.stdout)
         self.assertEqual(result.stderr, "")  # no progress where stderr is no terminal
 
+    def printed_grid(self, *arguments):
+        """The decimals that the table shows, checked against the values in the JSON; and the summary there."""
+        arguments = ("--sensor", "desk", *arguments)
+        lines = run("measure", self.scene, *arguments).stdout.splitlines()
+        first = next(i for i, line in enumerate(lines) if "mean" in line) + 1
+        rows = [line.split() for line in lines[first:first + 2]]
+        (sensor,) = self.measure(*arguments)["sensors"]
+        decimals = len(rows[0][0].partition(".")[2])
+        cells = [f"{value['value']:.{decimals}f}" for value in sensor["values"]]
+        self.assertEqual(rows, [cells[3:], cells[:3]])  # v points upwards
+        return decimals, sensor["summary"]
+
+    def test_grids_show_three_digits_of_their_largest_value(self):
+        for flux, decimals in ((1e5, 0), (1e4, 0), (1e3, 1), (1e2, 2), (10, 3)):  # 7 to 8 lx at 100 lm
+            with self.subTest(flux=flux):
+                self.scene = self.write("room.toml", ROOM.replace("flux = 1000", f"flux = {flux}"))
+                self.assertEqual(self.printed_grid("--error", "0.5%")[0], decimals)
+
+    def test_grids_show_no_digits_beyond_the_error(self):
+        decimals, summary = self.printed_grid("--method", "particles", "--patch", "0.05", "--paths", "1")
+        low, high = summary["maximum_interval"]
+        self.assertTrue(1 < (high - low) / 2 < 10, summary)
+        self.assertLess(summary["maximum"], 99)  # three digits would be one decimal
+        self.assertEqual(decimals, 0)
+
     def test_warnings_and_quiet(self):
         scene = self.write("spare.toml", ROOM + '[materials.spare]\ntype = "black"\n')
         arguments = ["measure", scene, "--error", "5%"]
