@@ -4,52 +4,115 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
+#include "io/text/text.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
 namespace {
 
-/// The message where a command is missing or unknown.
-InputError no_command(const CLI::App& app) {
+bool is_flag(std::string_view argument) { return argument.starts_with('-'); }
+
+/// The message where a command is missing (`typed` is empty) or unknown.
+InputError no_command(const CLI::App& app, const std::string& typed) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
     const std::string all = fmt::format("Commands: {}. See stilb --help.", fmt::join(names, ", "));
-    const std::vector<std::string> extras = app.remaining();
-    if (extras.empty()) return InputError("a command is missing. " + all);
+    if (typed.empty()) return InputError("a command is missing. " + all);
     const std::string question =
-        did_you_mean(extras[0], std::vector<std::string_view>(names.begin(), names.end()));
-    return InputError(fmt::format("there is no command \"{}\".{} {}", extras[0], question, all));
+        did_you_mean(typed, std::vector<std::string_view>(names.begin(), names.end()));
+    return InputError(fmt::format("there is no command \"{}\".{} {}", typed, question, all));
 }
 
-/// The first argument that no flag or position takes; empty where there is none.
+/// The first argument in the order typed that no flag or position takes, a flag without its "=VALUE"; empty
+/// where there is none.
 std::string first_extra(const CLI::App& app) {
     const std::vector<std::string> extras = app.remaining();
-    const auto flag = std::ranges::find_if(extras, [](const std::string& e) { return e.starts_with('-'); });
-    if (flag != extras.end()) return *flag;
-    return extras.empty() ? "" : extras.front();
+    const auto first = std::ranges::find_if(extras, [](const std::string& e) { return e != "--"; });
+    if (first == extras.end()) return "";
+    return is_flag(*first) ? first->substr(0, first->find('=')) : *first;
 }
 
-/// The message where the arguments of a command cannot be used.
+/// "there is no flag --eror. Did you mean "--error"?"
+std::string no_flag(const std::string& typed, const CLI::App& app) {
+    std::vector<std::string> flags;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+    }
+    return fmt::format("there is no flag {}.{}", typed,
+                       did_you_mean(typed, std::vector<std::string_view>(flags.begin(), flags.end())));
+}
+
+/// What is wrong with an argument that neither the program nor its command takes.
+std::string refusal_outside(const std::string& extra, const CLI::App& command) {
+    if (!is_flag(extra)) {
+        return fmt::format("\"{}\" is one argument too many. Arguments follow the name of the command, {}.",
+                           extra, command.get_name());
+    }
+    if (command.get_option_no_throw(extra) == nullptr) return no_flag(extra, command);
+    return fmt::format("{0} stands before the command. Write it after the command: stilb {1} ... {0}", extra,
+                       command.get_name());
+}
+
+/// What is wrong with the arguments of a command. Arguments that nothing takes are named before all else.
+std::string refusal(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
+    if (const std::string extra = first_extra(app); !extra.empty()) return refusal_outside(extra, command);
+    const std::string extra = first_extra(command);
+    if (extra.empty()) return error.what();
+    return is_flag(extra) ? no_flag(extra, command) : fmt::format("\"{}\" is one argument too many", extra);
+}
+
+/// The message where the arguments cannot be used.
 InputError wrong_arguments(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<CLI::App*> commands = app.get_subcommands();
-    const CLI::App& command = commands.empty() ? app : *commands.front();
-    const std::string name = commands.empty() ? "stilb" : "stilb " + command.get_name();
-    std::string problem = error.what();
-    if (const std::string extra = first_extra(command); extra.starts_with('-')) {
-        std::vector<std::string> flags;
-        for (const CLI::Option* option : command.get_options()) flags.push_back(option->get_name());
-        problem = fmt::format("there is no flag {}.{}", extra,
-                              did_you_mean(extra, std::vector<std::string_view>(flags.begin(), flags.end())));
+    std::string problem, program = "stilb";
+    if (!commands.empty()) {
+        problem = refusal(app, *commands.front(), error);
+        program += " " + commands.front()->get_name();
+    } else if (const std::string extra = first_extra(app); is_flag(extra)) {
+        problem = no_flag(extra, app);
     } else if (!extra.empty()) {
-        problem = fmt::format("\"{}\" is one argument too many.", extra);
-    } else if (!problem.ends_with('.')) {
-        problem += '.';
+        return no_command(app, extra);
+    } else {
+        problem = error.what();
     }
-    return InputError(fmt::format("{} See {} --help.", problem, name));
+    const bool is_sentence = problem.ends_with('.') || problem.ends_with('?');
+    return InputError(fmt::format("{}{} See {} --help.", problem, is_sentence ? "" : ".", program));
 }
+
+/// Rewrites a whole number such as "1e4", which scene files take too, in digits. Returns a message where it
+/// is not whole, or else an empty text.
+std::string write_in_digits(std::string& typed) {
+    if (const auto integer = io::parse_integer(typed)) {
+        typed = fmt::format("{}", *integer);
+        return "";
+    }
+    const auto number = io::parse_number(typed);
+    if (!number || *number != std::floor(*number)) {
+        return fmt::format("{} is not a whole number. Write it as 20000 or 2e4, for example.",
+                           io::in_quotes(typed));
+    }
+    constexpr double kLargestExact = 9007199254740992.0;  // 2^53
+    if (std::abs(*number) > kLargestExact) {
+        return fmt::format("{} is not exact, because it is larger than 2^53. Write all of its digits.",
+                           io::in_quotes(typed));
+    }
+    typed = fmt::format("{:.0f}", *number);
+    return "";
+}
+
+template <typename T>
+struct ValueOf {
+    using Type = T;
+};
+template <typename T>
+struct ValueOf<std::optional<T>> {
+    using Type = T;
+};
 
 }  // namespace
 
@@ -78,7 +141,7 @@ Flag& Flag::above_zero() {
     return *this;
 }
 Flag& Flag::repeatable() {
-    option_->allow_extra_args(false);
+    option_->expected(1)->take_all()->allow_extra_args(false);
     return *this;
 }
 Flag& Flag::show_default() {
@@ -97,7 +160,10 @@ Flag Command::add(const std::string& names, T& value, const std::string& descrip
     if constexpr (std::is_same_v<T, bool>) {
         return Flag(*app_->add_flag(names, value, description));
     } else {
-        return Flag(*app_->add_option(names, value, description));
+        CLI::Option* const option = app_->add_option(names, value, description);
+        if constexpr (std::is_integral_v<typename ValueOf<T>::Type>)
+            option->transform(CLI::Validator(write_in_digits, ""));
+        return Flag(*option);
     }
 }
 template Flag Command::add(const std::string&, bool&, const std::string&);
@@ -125,17 +191,39 @@ void Command::run(std::function<int()> command) {
 CommandLine::CommandLine()
     : app_(std::make_unique<CLI::App>("Stilb: illuminance and luminance, each value with its error bar")) {
     app_->name("stilb");
-    app_->set_version_flag("--version", STILB_VERSION);
+    app_->set_version_flag("-V,--version", STILB_VERSION);
     app_->require_subcommand(0, 1);
-    app_->allow_extras();  // so that an unknown command gets a message of its own; no command takes extras
 }
 
 CommandLine::~CommandLine() = default;
 
 Command CommandLine::add_command(const std::string& name, const std::string& summary) {
-    CLI::App* const command = app_->add_subcommand(name, summary);
-    command->allow_extras(false);
-    return Command(*command, exit_code_);
+    return Command(*app_->add_subcommand(name, summary), exit_code_);
+}
+
+void CommandLine::add_help() {
+    Command command = add_command("help", "Print this help, or that of a command");
+    command.set_examples(
+        "  stilb help\n"
+        "  stilb help measure\n");
+    auto name = std::make_shared<std::string>();
+    command.add("COMMAND", *name, "Command to explain (default: all in short)");
+    command.run([this, name] {
+        print_help(*name);
+        return kExitDone;
+    });
+}
+
+void CommandLine::print_help(const std::string& command) const {
+    const CLI::App* about = app_.get();
+    std::string program = "stilb";
+    if (!command.empty()) {
+        const auto named = app_->get_subcommands([&](CLI::App* c) { return c->get_name() == command; });
+        if (named.empty()) throw no_command(*app_, command);
+        about = named.front();
+        program += " " + command;
+    }
+    fmt::print("{}", about->get_formatter()->make_help(about, program, CLI::AppFormatMode::Normal));
 }
 
 int CommandLine::run(int argument_count, const char* const* arguments) {
@@ -146,7 +234,7 @@ int CommandLine::run(int argument_count, const char* const* arguments) {
         if (error.get_exit_code() != 0) throw wrong_arguments(*app_, error);
         return app_->exit(error);  // prints the help or the version
     }
-    if (app_->get_subcommands().empty()) throw no_command(*app_);
+    if (app_->get_subcommands().empty()) throw no_command(*app_, "");
     return exit_code_;
 }
 

@@ -75,6 +75,8 @@ class CommandLine {
     CommandLine& operator=(const CommandLine&) = delete;
 
     Command add_command(const std::string& name, const std::string& summary);
+    /// Adds the command `help`, after the commands that precede it in the list of commands.
+    void add_help();
     /// Parses the arguments and runs the chosen command; returns the program's exit code. Throws InputError
     /// where there is no such command, and passes on the command's exceptions.
     int run(int argument_count, const char* const* arguments);
@@ -82,6 +84,9 @@ class CommandLine {
     const std::string& text() const { return text_; }
 
   private:
+    /// Prints the help of a command, or of the program where the name is empty.
+    void print_help(const std::string& command) const;
+
     std::unique_ptr<CLI::App> app_;
     std::string text_;
     int exit_code_ = kExitDone;

@@ -56,7 +56,7 @@ fit::MeshFitOptions options_of(const FitRequest& request) {
 }
 
 void check_outputs(const FitRequest& request) {
-    io::require_folder_of(request.output);
+    io::require_writable(request.output);
     if (request.plot.empty()) return;
     plot::require_picture_path(request.plot);
     if (request.degree == 0)

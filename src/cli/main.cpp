@@ -8,19 +8,41 @@
 #include "papers/reproduce.h"
 #include "stilb/error.h"
 
+namespace {
+
+using namespace stilb;
+
+int run(int argument_count, const char* const* arguments) {
+    cli::CommandLine line;
+    cli::add_measure(line);
+    cli::add_solve(line);
+    cli::add_render(line);
+    cli::add_fit(line);
+    cli::add_info(line);
+    cli::add_falsecolor(line);
+    cli::add_verify(line);
+    papers::add_reproduce(line);
+    line.add_help();
+    return line.run(argument_count, arguments);
+}
+
+/// Whether all that was printed has arrived. Short output is written only now, so that nothing before can
+/// tell.
+bool is_stdout_written() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+
+int complain_of_stdout() {
+    fmt::print(stderr,
+               "stilb: standard output cannot be written, so what was printed is incomplete. Check that "
+               "its disk has space left and that it is open.\n");
+    return cli::kExitCheckFailed;
+}
+
+}  // namespace
+
 int main(int argument_count, char** arguments) {
-    using namespace stilb;
     try {
-        cli::CommandLine line;
-        cli::add_measure(line);
-        cli::add_solve(line);
-        cli::add_render(line);
-        cli::add_fit(line);
-        cli::add_info(line);
-        cli::add_falsecolor(line);
-        cli::add_verify(line);
-        papers::add_reproduce(line);
-        return line.run(argument_count, arguments);
+        const int exit_code = run(argument_count, arguments);
+        return is_stdout_written() ? exit_code : complain_of_stdout();
     } catch (const Cancelled& cancelled) {
         fmt::print(stderr, "stilb: {}\n", cancelled.what());
         return cli::kExitStoppedEarly;
@@ -28,6 +50,8 @@ int main(int argument_count, char** arguments) {
         fmt::print(stderr, "stilb: {}\n", error.what());
         return cli::kExitWrongInput;
     } catch (const std::exception& error) {
+        // A failure to print long output arrives here, with a message that does not name stdout.
+        if (!is_stdout_written()) return complain_of_stdout();
         fmt::print(stderr, "stilb: {}\n", error.what());
         return cli::kExitCheckFailed;
     }

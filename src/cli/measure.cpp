@@ -34,6 +34,7 @@ int run_measure(const MeasureRequest& request) {
     const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, request.sensors, request.scene);
     const RunOptions options = request.flags.over(file.run);
     if (!request.picture.empty()) plot::require_picture_path(request.picture);
+    if (!request.csv_directory.empty()) io::prepare_results_csv(sensors, request.csv_directory);
     RunResult result;
     {
         TerminalProgress progress;

@@ -44,13 +44,31 @@ std::string reading_text(const SensorResult& result, const Sensor& sensor, std::
     return fmt::format("{}   {}\n", angles_text(location), value);
 }
 
+/// Decimals for all values of a grid: three digits of its largest value, but none beyond the first digit of
+/// that value's error.
+int grid_decimals(const statistics::Estimate& largest) {
+    const auto decimals_after = [](double number, int digits) {
+        return digits - 1 - static_cast<int>(std::floor(std::log10(number)));
+    };
+    if (!(largest.value > 0) || !std::isfinite(largest.value)) return 0;
+    const int of_value = decimals_after(largest.value, 3);
+    const double error = half_width(largest);
+    const bool has_error = error > 0 && std::isfinite(error);
+    return std::clamp(has_error ? std::min(of_value, decimals_after(error, 1)) : of_value, 0, 6);
+}
+
 std::string grid_values(const SensorResult& result, const std::array<int, 2>& count) {
     const auto columns = static_cast<std::size_t>(count[0]);
+    const statistics::Estimate& largest = result.summary.maximum;
+    const int decimals = grid_decimals(largest);
+    const std::size_t width =
+        std::max<std::size_t>(5, fmt::formatted_size("{:.{}f}", largest.value, decimals));
     std::string text;
     for (auto v = static_cast<std::size_t>(count[1]); v-- > 0;) {  // v points upwards, as on a plan
         text += "   ";
         for (std::size_t u = 0; u < columns; ++u) {
-            text += fmt::format(" {:5.0f}", result.readings[v * columns + u].estimate.value);
+            const double value = result.readings[v * columns + u].estimate.value;
+            text += fmt::format(" {:{}.{}f}", value, width, decimals);
         }
         text += '\n';
     }

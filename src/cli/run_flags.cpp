@@ -45,8 +45,9 @@ void RunFlags::add_those_of_one_method(Command& command) {
     command.add("--time", time_s, "Stop after this many seconds").value_name("S");
     command
         .add("--paths", paths,
-             "Stop after this many samples: light paths (auto, local, double-local), paths per reading "
-             "(path), steps (ray-bundle), particles (particles); pictures: passes")
+             "Stop after this many samples, rounded up: light paths (auto, local, double-local) or paths per "
+             "reading (path) to a multiple of 2048 or more, steps (ray-bundle) of 512 or more, particles "
+             "(particles) of 131072; pictures: passes, at least 2")
         .from_to(1, kMostPaths)
         .value_name("N");
     command.add("--seed", seed, "Seed of the random numbers: another seed gives an independent result")

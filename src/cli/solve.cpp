@@ -40,7 +40,7 @@ int run_solve(const SolveRequest& request) {
     io::SceneFile file = io::read_scene_file(request.scene);
     file.run.method = "ray-bundle";
     const RunOptions options = request.flags.over(file.run);
-    io::require_folder_of(request.output);
+    io::require_writable(request.output);
     SolveResult result;
     {
         TerminalProgress progress("steps");
@@ -81,7 +81,8 @@ void add_solve(CommandLine& line) {
         "Stop when 95 % of the light falls on sides of patches with a 95 % interval within this share of "
         "their "
         "illuminance: 1% or 0.01");
-    command.find("--paths").description("Stop after this many steps of ray-bundle iteration");
+    command.find("--paths").description(
+        "Stop after this many steps of ray-bundle iteration, rounded up to a multiple of 8");
     command.find("--first-shot")
         .description("First shot that replaces small lights: incoming (default) or none");
     command.run([request] { return run_solve(*request); });

@@ -86,7 +86,7 @@ std::string picture_extension(const std::filesystem::path& path) {
 
 void require_picture_path(const std::filesystem::path& path) {
     picture_extension(path);
-    io::require_folder_of(path);
+    io::require_writable(path);
 }
 
 struct Canvas::Cairo {
@@ -225,7 +225,7 @@ void Canvas::save() {
     if (!is_svg) require_success(cairo_surface_write_to_png_stream(surface, append, &png));
     cairo_surface_finish(surface);
     require_success(cairo_surface_status(surface));
-    io::write_file(path_, is_svg ? cairo_->svg : png);
+    io::replace_file(path_, is_svg ? cairo_->svg : png);
 }
 
 void Canvas::trace(std::span<const Point> points) {

@@ -64,7 +64,7 @@ inline constexpr double kUpwards = -std::numbers::pi / 2;
 double text_width(const std::string& text, double size, Weight weight = Weight::regular);
 
 /// Throws InputError where no picture can be written to `path`: another extension than .png or .svg (any
-/// case), or a folder that does not exist. For a check before a long computation.
+/// case), or a folder that is missing or not writable. For a check before a long computation.
 void require_picture_path(const std::filesystem::path& path);
 
 class Canvas {

@@ -39,6 +39,11 @@ class MeasureTest(CommandLineTest):
         document = self.measure("--error", "5%", "--sensor", "wall")
         self.assertEqual([s["name"] for s in document["sensors"]], ["wall"])
 
+    def test_several_sensors(self):
+        document = self.measure("--error", "5%", "--sensor", "wall", "--sensor", "desk")
+        self.assertEqual({s["name"] for s in document["sensors"]}, {"desk", "wall"})
+        self.expect_wrong_input(["measure", self.scene, "--sensor", "wall", "desk"], '"desk" is one argument too many')
+
     def test_cameras_are_left_out(self):
         self.scene = self.write("view.toml", ROOM + CAMERA)
         document = self.measure("--error", "5%")
@@ -94,6 +99,26 @@ class MeasureTest(CommandLineTest):
         first = document(1)
         for threads in (1, 1, 2, 2, 2):
             self.assertEqual(document(threads), first)
+
+    def test_paths_are_rounded_up_as_the_help_says(self):
+        text = run("measure", "--help").stdout
+        for method, multiple in (("auto", 2048), ("local", 2048), ("path", 2048), ("ray-bundle", 512), ("particles", 131072)):
+            with self.subTest(method=method):
+                self.assertRegex(text, rf"multiple of .*\b{multiple}\b")
+                patch = ("--patch", "1") if method in ("ray-bundle", "particles") else ()
+                done = self.measure("--method", method, "--paths", "1", *patch)["paths"]
+                self.assertGreaterEqual(done, multiple)
+                self.assertEqual(done % multiple, 0)
+
+    def test_whole_numbers_are_written_as_in_scene_files(self):
+        def document(*arguments):
+            result = self.measure(*arguments)
+            del result["elapsed_s"]
+            return result
+
+        self.assertEqual(document("--paths", "1e4", "--seed", "1.2e1", "--bounces", "3.0", "--threads", "1e0"),
+                         document("--paths", "10000", "--seed", "12", "--bounces", "3", "--threads", "1"))
+        self.assertEqual(document("--paths", "4096", "--seed", "010")["seed"], 10)  # not octal
 
     def test_seeds_differ(self):
         values = [self.measure("--paths", "5000", "--seed", seed)["sensors"][0]["values"] for seed in (1, 2)]
@@ -183,6 +208,31 @@ class MeasureTest(CommandLineTest):
         for part in ("desk", "wall", "mean", "uniformity", "±"):
             self.assertIn(part, result.stdout)
         self.assertEqual(result.stderr, "")  # no progress where stderr is no terminal
+
+    def printed_grid(self, *arguments):
+        """The decimals that the table shows, checked against the values in the JSON; and the summary there."""
+        arguments = ("--sensor", "desk", *arguments)
+        lines = run("measure", self.scene, *arguments).stdout.splitlines()
+        first = next(i for i, line in enumerate(lines) if "mean" in line) + 1
+        rows = [line.split() for line in lines[first:first + 2]]
+        (sensor,) = self.measure(*arguments)["sensors"]
+        decimals = len(rows[0][0].partition(".")[2])
+        cells = [f"{value['value']:.{decimals}f}" for value in sensor["values"]]
+        self.assertEqual(rows, [cells[3:], cells[:3]])  # v points upwards
+        return decimals, sensor["summary"]
+
+    def test_grids_show_three_digits_of_their_largest_value(self):
+        for flux, decimals in ((1e5, 0), (1e4, 0), (1e3, 1), (1e2, 2), (10, 3)):  # 7 to 8 lx at 100 lm
+            with self.subTest(flux=flux):
+                self.scene = self.write("room.toml", ROOM.replace("flux = 1000", f"flux = {flux}"))
+                self.assertEqual(self.printed_grid("--error", "0.5%")[0], decimals)
+
+    def test_grids_show_no_digits_beyond_the_error(self):
+        decimals, summary = self.printed_grid("--method", "particles", "--patch", "0.05", "--paths", "1")
+        low, high = summary["maximum_interval"]
+        self.assertTrue(1 < (high - low) / 2 < 10, summary)
+        self.assertLess(summary["maximum"], 99)  # three digits would be one decimal
+        self.assertEqual(decimals, 0)
 
     def test_warnings_and_quiet(self):
         scene = self.write("spare.toml", ROOM + '[materials.spare]\ntype = "black"\n')

@@ -2,10 +2,11 @@
 
 import csv
 import json
-import time
+import os
+import subprocess
 import unittest
 
-from command_line import CAMERA, ROOM, ROOT, CommandLineTest, run
+from command_line import CAMERA, MOST_SECONDS, PROGRAM, ROOM, ROOT, CommandLineTest, run
 
 
 class WrongInputTest(CommandLineTest):
@@ -44,6 +45,31 @@ class WrongInputTest(CommandLineTest):
         self.expect_wrong_input(["solve", self.scene], "--output is required", "stilb solve --help")
         self.expect_wrong_input(["measure", self.scene, "--paths", "0"], "--paths", "not in range")
 
+    def test_whole_numbers(self):
+        for typed in ("1.5", "1e-3", "many", "1e4x"):
+            self.expect_wrong_input(["measure", self.scene, "--paths", typed], f'--paths: "{typed}" is not a whole number', "2e4")
+        self.expect_wrong_input(["measure", self.scene, "--bounces", "0.5"], '--bounces: "0.5" is not a whole number')
+        self.expect_wrong_input(["measure", self.scene, "--seed", "1e30"], "--seed", "Write all of its digits")
+        self.expect_wrong_input(["measure", self.scene, "--paths", "-1e4"], "--paths", "-10000 not in range")
+
+    def test_the_first_unexpected_argument_is_named(self):
+        suggestion = 'no flag --errors. Did you mean "--error"?'
+        for arguments in (["--errors", "1%"], ["--errors=1%"], ["--errors", "1%", "--bogus"]):
+            for typed in ([self.scene, *arguments], [*arguments, self.scene]):
+                self.expect_wrong_input(["measure", *typed], suggestion)
+        self.expect_wrong_input(["measure", self.scene, "1%", "--errors"], '"1%" is one argument too many')
+        self.expect_wrong_input(["measure", self.scene, "-json"], 'no flag -json. Did you mean "--json"?')
+
+    def test_arguments_before_the_command(self):
+        for arguments in (["--json", "measure", self.scene], ["--json", "measure"]):
+            self.expect_wrong_input(arguments, "--json stands before the command", "stilb measure ... --json")
+        for flag in (["--error", "1%"], ["--error=1%"]):
+            self.expect_wrong_input([*flag, "measure", self.scene], "--error stands before the command")
+        self.expect_wrong_input(["--bogus", "measure", self.scene], "no flag --bogus", "stilb measure --help")
+        self.expect_wrong_input(["--eror", "1%", "measure", self.scene], "no flag --eror", 'Did you mean "--error"?')
+        self.expect_wrong_input([self.scene, "measure"], "is one argument too many", "follow the name of the command, measure")
+        self.expect_wrong_input(["--hlp"], "no flag --hlp", 'Did you mean "--help"?')
+
     def test_misspelt_method(self):
         self.expect_wrong_input(["measure", self.scene, "--method", "locl"], "locl", "local")
 
@@ -53,11 +79,36 @@ class WrongInputTest(CommandLineTest):
             with self.subTest(flag=flag, value=value):
                 self.expect_wrong_input(["measure", self.scene, f"{flag}={value}"], flag.lstrip("-"))
 
+    def test_files_that_cannot_be_written_are_named_before_computing(self):
+        (self.folder / "folder.png").mkdir()
+        pictures = ["desk.jpg", "no/folder/desk.png", "room.toml/desk.png", "folder.png", "/proc/desk.png"]
+        folders = ["room.toml", "room.toml/tables", "/proc/tables", "/proc"]
+        for flag, names in (("--falsecolor", pictures), ("--csv", folders)):
+            for name in names:
+                with self.subTest(flag=flag, name=name):  # the table is printed first, but nothing may be printed
+                    self.expect_wrong_input(["measure", self.scene, flag, self.folder / name], name)
+        self.scene.write_text(ROOM + CAMERA)
+        self.expect_wrong_input(["render", self.scene, "-o", "/proc/view.exr"], "/proc/view.exr", "writable")
+        self.expect_wrong_input(["solve", self.scene, "-o", "/proc/room.solution"], "/proc/room.solution", "writable")
 
-    def test_pictures_that_cannot_be_written_are_named_before_measuring(self):
-        for name in ("desk.jpg", "no/folder/desk.png"):
-            with self.subTest(name=name):
-                self.expect_wrong_input(["measure", self.scene, "--falsecolor", self.folder / name], name)
+    def test_a_check_before_computing_leaves_files_alone(self):
+        picture = self.write("desk.png", "old")
+        files = set(self.folder.iterdir())
+        self.expect_wrong_input(["measure", self.scene, "--falsecolor", picture, "--csv", self.scene], "room.toml")
+        self.assertEqual((picture.read_text(), set(self.folder.iterdir())), ("old", files))
+
+
+@unittest.skipUnless(os.path.exists("/dev/full"), "this system has no /dev/full")
+class FullDiskTest(CommandLineTest):
+    def test_output_that_is_not_written_is_noticed(self):
+        results = self.write("long.toml", ROOM.replace("count = [3, 2]", "count = [60, 40]"))  # longer than the buffer
+        for command in (["measure", self.scene], ["measure", results, "--paths", "1", "--json"], ["info", self.scene], ["help"],
+                        ["--version"]):
+            with self.subTest(command=command), open("/dev/full", "w") as full:
+                result = subprocess.run([PROGRAM, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True,
+                                        timeout=MOST_SECONDS)
+                self.assertEqual(result.returncode, 1)
+                self.assertRegex(result.stderr, r"^stilb: standard output cannot be written[^\n]*\n$")
 
 
 class FalsecolorTest(CommandLineTest):
@@ -125,10 +176,23 @@ class HelpTest(CommandLineTest):
             self.assertIn(f"  stilb {command} ", examples)
             self.assertIn("Options:", rest)
 
+    def test_a_flag_that_may_be_repeated_takes_one_value_at_a_time(self):
+        for command, flag in (("measure", "--sensor"), ("verify", "--case"), ("verify", "--method")):
+            self.assertRegex(run(command, "--help").stdout, f"{flag} NAME +[A-Z].* \\(may be repeated\\)\n")
+
+    def test_help_is_a_command_too(self):
+        for command in ([], ["measure"], ["help"]):
+            result = run("help", *command)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertEqual(result.stdout, run(*command, "--help").stdout)
+        self.assertIn("  help  ", run("--help").stdout)
+        self.expect_wrong_input(["help", "mesure"], 'no command "mesure"', 'Did you mean "measure"?')
+
     def test_version(self):
-        result = run("--version")
-        self.assertEqual(result.returncode, 0)
-        self.assertRegex(result.stdout, r"^\d+\.\d+\.\d+\n$")
+        for flag in ("--version", "-V"):
+            result = run(flag)
+            self.assertEqual(result.returncode, 0)
+            self.assertRegex(result.stdout, r"^\d+\.\d+\.\d+\n$")
 
 
 if __name__ == "__main__":

@@ -37,7 +37,7 @@ std::string luminance_picture_extension(const std::filesystem::path& path) {
 
 void require_luminance_picture_path(const std::filesystem::path& path) {
     luminance_picture_extension(path);
-    require_folder_of(path);
+    require_writable(path);
 }
 
 std::optional<ToneCurve> write_picture(const Picture& picture, const std::filesystem::path& path,

@@ -12,7 +12,8 @@
 namespace stilb::io {
 
 /// Throws InputError where no luminance picture can be written to `path`: for an extension other than .exr,
-/// .hdr or .png (any case), or a folder that does not exist. For a check before a long computation.
+/// .hdr or .png (any case), or a folder that is missing or not writable. For a check before a long
+/// computation.
 void require_luminance_picture_path(const std::filesystem::path& path);
 
 /// Writes .exr (exr_file.h), .hdr (hdr_file.h) or .png (png_picture.h). The file is replaced in one step, so

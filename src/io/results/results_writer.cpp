@@ -202,17 +202,29 @@ void write_sensor(const SensorResult& result, const Sensor& sensor, const std::f
     write_csv(columns.columns(), path);
 }
 
-}  // namespace
-
-void write_results_csv(const RunResult& result, const std::filesystem::path& directory) {
+void create_folder(const std::filesystem::path& directory) {
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error)
         throw InputError(fmt::format("the folder cannot be created: {}", error.message()),
                          {directory.string()});
-    for (const SensorResult& sensor : result.sensors) {
-        write_sensor(sensor, sensor.sensor, directory / (sensor.sensor.name + ".csv"));
-    }
+}
+
+std::filesystem::path csv_path(const std::filesystem::path& directory, const Sensor& sensor) {
+    return directory / (sensor.name + ".csv");
+}
+
+}  // namespace
+
+void prepare_results_csv(std::span<const Sensor> sensors, const std::filesystem::path& directory) {
+    create_folder(directory);
+    for (const Sensor& sensor : sensors) require_writable(csv_path(directory, sensor));
+}
+
+void write_results_csv(const RunResult& result, const std::filesystem::path& directory) {
+    create_folder(directory);
+    for (const SensorResult& sensor : result.sensors)
+        write_sensor(sensor, sensor.sensor, csv_path(directory, sensor.sensor));
 }
 
 }  // namespace stilb::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "run/result.h"
@@ -13,6 +14,10 @@ namespace stilb::io {
 std::string to_json(const RunResult& result, const std::string& scene);
 
 // The results of a run as CSV, a file per sensor.
+
+/// Creates the folder where it is missing. Throws InputError where write_results_csv could not write there.
+/// For a check before a long computation.
+void prepare_results_csv(std::span<const Sensor> sensors, const std::filesystem::path& directory);
 
 /// Writes DIR/<sensor>.csv, a line per reading; creates the folder where it is missing. Throws InputError
 /// where a file cannot be written.

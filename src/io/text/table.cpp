@@ -20,15 +20,42 @@ InputError cannot_write(const std::filesystem::path& path) {
         fmt::format("cannot write '{}'. Check that its folder exists and is writable.", path.string()));
 }
 
+/// Whether the path is a device or a link, say, which must not be replaced by a plain file.
+bool must_stay(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+/// Writes a new file in the same folder, since a file cannot be renamed into another file system. Returns its
+/// path.
+std::filesystem::path write_beside(const std::filesystem::path& path, std::string_view content) {
+    std::filesystem::path temporary = path;
+    temporary += fmt::format(".{:08x}", std::random_device()());
+    try {
+        write_file(temporary, content);
+    } catch (const InputError&) {
+        std::error_code error;
+        std::filesystem::remove(temporary, error);
+        throw cannot_write(path);
+    }
+    return temporary;
+}
+
 }  // namespace
 
-void require_folder_of(const std::filesystem::path& path) {
+void require_writable(const std::filesystem::path& path) {
+    std::error_code error;
     const std::filesystem::path folder = path.parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
         throw InputError(fmt::format("the file cannot be written: there is no folder '{}'. Create it first.",
                                      folder.string()),
                          {path.string()});
     }
+    if (std::filesystem::is_directory(path, error)) {
+        throw InputError("the file cannot be written: this is a folder. Name a file in it.", {path.string()});
+    }
+    if (!must_stay(path)) std::filesystem::remove(write_beside(path, ""), error);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
@@ -39,19 +66,9 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
 }
 
 void replace_file(const std::filesystem::path& path, std::string_view content) {
+    if (must_stay(path)) return write_file(path, content);
+    const std::filesystem::path temporary = write_beside(path, content);
     std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        return write_file(path, content);
-    // In the same folder, since a file cannot be renamed into another file system.
-    std::filesystem::path temporary = path;
-    temporary += fmt::format(".{:08x}", std::random_device()());
-    try {
-        write_file(temporary, content);
-    } catch (const InputError&) {
-        std::filesystem::remove(temporary, error);
-        throw cannot_write(path);
-    }
     std::filesystem::rename(temporary, path, error);
     if (error) {
         std::filesystem::remove(temporary, error);
@@ -103,7 +120,7 @@ std::string to_csv(std::span<const Column> columns) {
 }
 
 void write_csv(std::span<const Column> columns, const std::filesystem::path& path) {
-    write_file(path, to_csv(columns));
+    replace_file(path, to_csv(columns));
 }
 
 }  // namespace stilb::io

@@ -12,8 +12,9 @@ namespace stilb::io {
 
 // Whole files written at once.
 
-/// Throws InputError where the folder of `path` does not exist. For a check before a long computation.
-void require_folder_of(const std::filesystem::path& path);
+/// Throws InputError where replace_file could not write: the folder is missing or not writable, or `path` is
+/// itself a folder. For a check before a long computation; it tries to create a file beside `path`.
+void require_writable(const std::filesystem::path& path);
 
 /// Throws InputError with the file's name where it cannot be written.
 void write_file(const std::filesystem::path& path, std::string_view content);
