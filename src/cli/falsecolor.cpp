@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -53,7 +54,7 @@ void draw_picture(const FalseColourRequest& request) {
 }
 
 int run_falsecolor(const FalseColourRequest& request) {
-    plot::require_picture_path(request.output);
+    plot::require_picture_path(request.output, std::array<std::filesystem::path, 1>{request.input});
     if (io::is_picture_file(request.input)) {
         draw_picture(request);
         return kExitDone;

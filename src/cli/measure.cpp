@@ -11,8 +11,8 @@
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
+#include "cli/scene_argument.h"
 #include "io/results/results_writer.h"
-#include "io/scene/scene_file.h"
 #include "plot/canvas.h"
 #include "plot/false_colour_picture.h"
 #include "run/run.h"
@@ -30,10 +30,10 @@ struct MeasureRequest {
 };
 
 int run_measure(const MeasureRequest& request) {
-    const io::SceneFile file = io::read_scene_file(request.scene);
+    const io::SceneFile file = read_scene(request.scene);
     const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, request.sensors, request.scene);
     const RunOptions options = request.flags.over(file.run);
-    if (!request.picture.empty()) plot::require_picture_path(request.picture);
+    if (!request.picture.empty()) plot::require_picture_path(request.picture, file.sources);
     RunResult result;
     {
         TerminalProgress progress;

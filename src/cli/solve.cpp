@@ -11,10 +11,9 @@
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
+#include "cli/scene_argument.h"
 #include "io/results/solution_file.h"
-#include "io/scene/scene_file.h"
-#include "io/text/table.h"
-#include "io/text/text.h"
+#include "io/text/file_kind.h"
 #include "math/zernike.h"
 
 namespace stilb::cli {
@@ -37,10 +36,10 @@ void print_summary(const SolveResult& result, const io::StoredSolution& stored, 
 }
 
 int run_solve(const SolveRequest& request) {
-    io::SceneFile file = io::read_scene_file(request.scene);
+    io::SceneFile file = read_scene(request.scene);
     file.run.method = "ray-bundle";
     const RunOptions options = request.flags.over(file.run);
-    io::require_folder_of(request.output);
+    io::require_output(request.output, io::FileKind::solution, file.sources);
     SolveResult result;
     {
         TerminalProgress progress("steps");

@@ -1,0 +1,134 @@
+"""The files of the command line: what may be written over, what is read as what, and what an interruption leaves."""
+
+import json
+import shutil
+import unittest
+
+from command_line import CAMERA, ROOM, ROOT, CommandLineTest, run
+
+BOX = """
+v 0 0 0
+v 2 0 0
+v 2 1 0
+v 0 1 0
+v 0 0 1
+v 2 0 1
+v 2 1 1
+v 0 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
+LAMP = """
+[lights.lamp]
+type = "photometry"
+file = "lamp.ldt"
+position = [1, 1, 2]
+"""
+SMALL_CAMERA = CAMERA.replace("[640, 480]", "[16, 12]")
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+class FilesTest(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        shutil.copy(ROOT / "scenes/office/luminaire.ldt", self.folder / "lamp.ldt")
+        self.scene = self.write("room.toml", ROOM + LAMP + SMALL_CAMERA)
+        self.mesh = self.write("box.obj", BOX)
+        self.picture = self.folder / "view.hdr"
+        self.picture.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
+                                 + bytes([128, 128, 128, 129, 200, 200, 200, 130]))
+
+
+class OverwritingTest(FilesTest):
+    def expect_unchanged(self, path, arguments, *parts):
+        before = path.read_bytes()
+        self.expect_wrong_input(arguments, path.name, *parts)
+        self.assertEqual(path.read_bytes(), before)
+
+    def test_files_that_are_read_stay(self):
+        (self.folder / "link.solution").symlink_to(self.scene)
+        shutil.copy(self.picture, self.folder / "panorama.hdr")
+        around = self.write("around.toml", self.scene.read_text()
+                            + '[lights.sky]\ntype = "environment"\nfile = "panorama.hdr"\n')
+        cases = (("room.toml", "solve", self.scene, "-o", self.scene),
+                 ("room.toml", "solve", self.scene, "-o", self.folder / "link.solution"),
+                 ("lamp.ldt", "solve", self.scene, "-o", self.folder / "./lamp.ldt"),
+                 ("panorama.hdr", "render", around, "-o", self.folder / "panorama.hdr"),
+                 ("panorama.hdr", "render", around, "-o", self.folder / "x.exr", "--preview", self.folder / "panorama.hdr"),
+                 ("box.obj", "fit", self.mesh, "-o", self.mesh, "--degree", 4))
+        for name, *arguments in cases:
+            with self.subTest(arguments=arguments):
+                self.expect_unchanged(self.folder / name, arguments, "cannot be written over", "another file")
+
+    def test_files_that_are_read_stay_under_another_name(self):
+        picture, link = self.picture.rename(self.folder / "view.png"), self.folder / "room.png"
+        self.expect_unchanged(picture, ["falsecolor", picture, "-o", picture], "cannot be written over")
+        link.symlink_to(self.scene)
+        for arguments in (["measure", self.scene, "--falsecolor", link], ["render", self.scene, "-o", link],
+                          ["render", self.scene, "-o", self.folder / "x.exr", "--preview", link]):
+            with self.subTest(arguments=arguments):
+                self.expect_unchanged(link, arguments, "cannot be written over", "room.toml")
+
+    def test_files_of_other_kinds_stay(self):
+        notes, series = self.write("notes.txt", "My notes\n"), self.folder / "box.json"
+        self.assertEqual(run("fit", self.mesh, "-o", series, "--degree", 4).returncode, 0)
+        cases = ((notes, "solve", self.scene, "-o", notes), (series, "solve", self.scene, "-o", series),
+                 (self.scene, "fit", self.mesh, "-o", self.scene, "--degree", 4),
+                 (self.picture, "fit", self.mesh, "-o", self.picture, "--degree", 4))
+        for path, *arguments in cases:
+            with self.subTest(arguments=arguments):
+                self.expect_unchanged(path, arguments, "exists and is", "but the result is", "another file")
+        drawing = self.write("notes.png", "My notes\n")
+        for arguments in (["measure", self.scene, "--falsecolor", drawing], ["render", self.scene, "-o", drawing],
+                          ["falsecolor", self.picture, "-o", drawing],
+                          ["fit", self.mesh, "-o", series, "--degree", 4, "--plot", drawing]):
+            with self.subTest(arguments=arguments):
+                self.expect_unchanged(drawing, arguments, "a file of another kind, but the result is a PNG picture")
+
+    def test_files_of_the_same_kind_and_empty_ones_are_replaced(self):
+        for name, *arguments in (("x.json", "fit", self.mesh, "--degree", 4), ("x.png", "falsecolor", self.picture),
+                                 ("x.svg", "falsecolor", self.picture),
+                                 ("x.hdr", "render", self.scene, "--paths", 2), ("x.exr", "render", self.scene, "--paths", 2),
+                                 ("x.solution", "solve", self.scene, "--patch", 1, "--paths", 8)):
+            output = self.write(name, "")
+            for _ in range(2):
+                with self.subTest(name=name):
+                    result = run(*arguments, "-o", output)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    self.assertGreater(output.stat().st_size, 0)
+
+
+class KindsTest(FilesTest):
+    def test_what_is_no_scene_is_named(self):
+        series, solution, results = (self.folder / name for name in ("head.json", "x.solution", "results.json"))
+        self.assertEqual(run("fit", self.mesh, "-o", series, "--degree", 4).returncode, 0)
+        self.assertEqual(run("solve", self.scene, "-o", solution, "--patch", 1, "--paths", 8).returncode, 0)
+        results.write_text(run("measure", self.scene, "--paths", 64, "--json").stdout)
+        binary = self.write("model", "glTF\x02")
+        cases = ((self.write("x.rad", "void plastic wall\n"), "a Radiance scene", "cannot read Radiance scenes yet", "OBJ"),
+                 (self.write("x.glb", "glTF\x02"), "a glTF scene", "cannot read glTF yet"),
+                 (binary, "a glTF scene", "cannot read glTF yet"),
+                 (self.write("x.gltf", "{}"), "a glTF scene", "cannot read glTF yet"),
+                 (self.write("x.exr", "\x76\x2f\x31\x01"), "an OpenEXR picture", "stilb falsecolor", "x.exr -o x.png"),
+                 (self.picture, "a Radiance picture", "stilb falsecolor", "view.hdr -o view.png"),
+                 (series, "a surface by spherical harmonics", 'of shape "harmonics"'),
+                 (solution, "a solution", "stilb render --from", "x.solution -o x.png"),
+                 (results, "a document with results", "stilb falsecolor", "results.json -o results.png"),
+                 (self.write("other.json", "{}"), "a JSON document", "TOML"))
+        for path, *parts in cases:
+            for command in (["info"], ["measure"], ["solve", "-o", "new.solution"]):
+                with self.subTest(path=path.name, command=command):
+                    self.expect_wrong_input([*command, path], f"{path.name}: not a scene but", *parts)
+
+    def test_parts_of_scenes_are_shown_by_info(self):
+        for path, part in ((self.mesh, "an OBJ mesh"), (self.folder / "lamp.ldt", "a EULUMDAT luminaire")):
+            self.expect_wrong_input(["measure", path], f"not a scene but {part}", "stilb info", path.name)
+            self.assertEqual(run("info", path).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
