@@ -5,11 +5,13 @@
 
 #include "base/monitor.h"
 #include "cli/command_line.h"
+#include "cli/progress.h"
 #include "papers/reproduce.h"
 #include "stilb/error.h"
 
 int main(int argument_count, char** arguments) {
     using namespace stilb;
+    cli::leave_no_unfinished_files();
     try {
         cli::CommandLine line;
         cli::add_measure(line);

@@ -29,6 +29,16 @@ struct MeasureRequest {
     RunFlags flags;
 };
 
+/// Writes the files that the request names.
+void write_files(const RunResult& result, const MeasureRequest& request) {
+    if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
+    if (!request.picture.empty()) {
+        plot::FalseColourOptions options;
+        options.isolines = true;
+        draw_false_colour(plot::picture_of(result, request.scene), options, request.picture);
+    }
+}
+
 int run_measure(const MeasureRequest& request) {
     const io::SceneFile file = read_scene(request.scene);
     const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, request.sensors, request.scene);
@@ -41,14 +51,9 @@ int run_measure(const MeasureRequest& request) {
                               &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
+    write_files(result, request);  // before all messages: the terminal may be closed by now
     if (!request.flags.quiet) print_warnings(result.warnings);
     fmt::print("{}", request.json ? io::to_json(result, request.scene) : to_table(result));
-    if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
-    if (!request.picture.empty()) {
-        plot::FalseColourOptions picture_options;
-        picture_options.isolines = true;
-        draw_false_colour(plot::picture_of(result, request.scene), picture_options, request.picture);
-    }
     return result.converged ? kExitDone : kExitStoppedEarly;
 }
 

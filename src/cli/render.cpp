@@ -151,10 +151,11 @@ int run_render(RenderRequest request) {
     origin.version = STILB_VERSION;
     RenderResult result = rendered(request, file, sensor, std::move(stored), origin);
     add_warnings(result, file.warnings);
-    if (!request.flags.quiet) print_warnings(result.warnings);
     const io::Picture picture = picture_of(result, *sensor.camera(), origin);
+    // The files come before all messages: the terminal may be closed by now.
     const auto curve = write_picture(picture, request.output, request.tone);
     if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
+    if (!request.flags.quiet) print_warnings(result.warnings);
     print_summary(result, sensor);
     if (curve) fmt::print("{}: exposure {:.3g} per cd/m²\n", request.output, curve->exposure());
     return result.converged ? kExitDone : kExitStoppedEarly;

@@ -47,10 +47,10 @@ int run_solve(const SolveRequest& request) {
                        &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
-    if (!request.flags.quiet) print_warnings(result.warnings);
     const io::StoredSolution solution =
         io::stored_solution(result, std::move(result.solution), file.sources, request.output);
-    write_solution_file(solution, request.output);
+    write_solution_file(solution, request.output);  // before all messages: the terminal may be closed by now
+    if (!request.flags.quiet) print_warnings(result.warnings);
     print_summary(result, solution, request.output);
     return result.converged ? kExitDone : kExitStoppedEarly;
 }

@@ -224,7 +224,7 @@ void Canvas::save() {
     if (!is_svg) require_success(cairo_surface_write_to_png_stream(surface, append, &png));
     cairo_surface_finish(surface);
     require_success(cairo_surface_status(surface));
-    io::write_file(path_, is_svg ? cairo_->svg : png);
+    io::replace_file(path_, is_svg ? cairo_->svg : png);
 }
 
 void Canvas::trace(std::span<const Point> points) {

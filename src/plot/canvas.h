@@ -90,7 +90,8 @@ class Canvas {
     /// Clips the drawing of `draw` to the rectangle.
     void clipped(const PageRectangle& rectangle, const std::function<void()>& draw);
 
-    /// Writes the file; nothing may be drawn afterwards. Throws InputError where it cannot be written.
+    /// Replaces the file in one step; nothing may be drawn afterwards. Throws InputError where it cannot be
+    /// written.
     void save();
 
   private:

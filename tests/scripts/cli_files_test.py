@@ -1,10 +1,14 @@
 """The files of the command line: what may be written over, what is read as what, and what an interruption leaves."""
 
 import json
+import os
 import shutil
+import signal
+import subprocess
+import time
 import unittest
 
-from command_line import CAMERA, ROOM, ROOT, CommandLineTest, run
+from command_line import CAMERA, MOST_SECONDS, PROGRAM, ROOM, ROOT, CommandLineTest, run
 
 BOX = """
 v 0 0 0
@@ -29,7 +33,6 @@ file = "lamp.ldt"
 position = [1, 1, 2]
 """
 SMALL_CAMERA = CAMERA.replace("[640, 480]", "[16, 12]")
-PNG = b"\x89PNG\r\n\x1a\n"
 
 
 class FilesTest(CommandLineTest):
@@ -128,6 +131,71 @@ class KindsTest(FilesTest):
         for path, part in ((self.mesh, "an OBJ mesh"), (self.folder / "lamp.ldt", "a EULUMDAT luminaire")):
             self.expect_wrong_input(["measure", path], f"not a scene but {part}", "stilb info", path.name)
             self.assertEqual(run("info", path).returncode, 0)
+
+
+class InterruptionTest(FilesTest):
+    def start(self, *arguments, **options):
+        return subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                **options)
+
+    def endless_solve(self, output):
+        return ["solve", self.scene, "-o", output, "--patch", 1, "--time", MOST_SECONDS - 10, "--error", "0.00001%"]
+
+    def test_results_survive_the_end_of_the_session(self):
+        measure = self.start("measure", self.scene, "--json", "--error", "0.00001%", "--time", MOST_SECONDS - 10)
+        solution = self.folder / "room.solution"
+        solve = self.start(*self.endless_solve(solution))
+        time.sleep(1)
+        for process in (measure, solve):
+            process.send_signal(signal.SIGHUP)
+            process.send_signal(signal.SIGHUP)  # the shell and the system send one each
+            output, errors = process.communicate(timeout=MOST_SECONDS)
+            self.assertEqual(process.returncode, 3, errors)
+            if process is measure:
+                self.assertEqual(json.loads(output)["stopped"], "interrupted")
+        self.assertEqual(solution.read_bytes()[:8], b"STILBSOL")
+
+    def test_results_survive_a_closed_terminal(self):
+        solution = self.folder / "room.solution"
+        keyboard, terminal = os.openpty()
+        process = subprocess.Popen([PROGRAM, *map(str, self.endless_solve(solution))], stdin=terminal, stdout=terminal,
+                                   stderr=terminal, start_new_session=True)
+        os.close(terminal)
+        time.sleep(1)
+        os.close(keyboard)  # from now on, writing to the terminal fails
+        process.send_signal(signal.SIGHUP)
+        process.wait(timeout=MOST_SECONDS)
+        self.assertEqual(solution.read_bytes()[:8], b"STILBSOL")
+
+    def test_nohup_goes_on(self):
+        process = self.start("measure", self.scene, "--json", "--time", 2, "--error", "0.00001%",
+                             preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        time.sleep(0.5)
+        process.send_signal(signal.SIGHUP)
+        output, errors = process.communicate(timeout=MOST_SECONDS)
+        self.assertEqual((process.returncode, json.loads(output)["stopped"]), (3, "time over"), errors)
+
+    def test_interrupted_fits_leave_whole_files_or_none(self):
+        """Signals at moments all over the run, more of them towards its end, where the files are written."""
+        series, plot = self.folder / "box.json", self.folder / "error.png"
+        fit = ["fit", self.mesh, "-o", series, "--degree", 8, "--plot", plot]
+        start = time.monotonic()
+        self.assertEqual(run(*fit).returncode, 0)
+        duration = time.monotonic() - start
+        names = {path.name for path in self.folder.iterdir()}
+        whole = series.read_bytes()
+        for i in range(24):
+            for path in (series, plot):
+                path.unlink(missing_ok=True)
+            process = self.start(*fit)
+            time.sleep(duration * (1 - (i / 24)**2))
+            process.send_signal((signal.SIGINT, signal.SIGTERM, signal.SIGHUP)[i % 3])
+            process.communicate(timeout=MOST_SECONDS)
+            self.assertLessEqual({path.name for path in self.folder.iterdir()}, names)
+            if series.exists():
+                self.assertEqual(series.read_bytes(), whole)
+            if plot.exists():
+                self.assertTrue(plot.read_bytes().endswith(b"IEND\xaeB`\x82"))
 
 
 if __name__ == "__main__":

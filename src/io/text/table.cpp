@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -38,21 +39,56 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
     if (!file) throw cannot_write(path);
 }
 
+namespace {
+
+std::atomic<const char*> unfinished = nullptr;
+static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads it");
+
+/// Makes a file the unfinished one for as long as this lives. The path must live longer.
+class Unfinished {
+  public:
+    explicit Unfinished(const std::filesystem::path& file) {
+        const char* none = nullptr;
+        is_announced_ = unfinished.compare_exchange_strong(none, file.c_str());
+    }
+    ~Unfinished() {
+        if (is_announced_) unfinished = nullptr;
+    }
+    Unfinished(const Unfinished&) = delete;
+    Unfinished& operator=(const Unfinished&) = delete;
+
+  private:
+    bool is_announced_;
+};
+
+/// The path without links at its end; as it is where it leads to no file.
+std::filesystem::path without_links(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path target = std::filesystem::canonical(path, error);
+    return error ? path : target;
+}
+
+}  // namespace
+
+const char* unfinished_file() { return unfinished; }
+
 void replace_file(const std::filesystem::path& path, std::string_view content) {
     std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
+    const std::filesystem::path target = without_links(path);
+    const std::filesystem::file_status status = std::filesystem::symlink_status(target, error);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return write_file(path, content);
     // In the same folder, since a file cannot be renamed into another file system.
-    std::filesystem::path temporary = path;
+    std::filesystem::path temporary = target;
     temporary += fmt::format(".{:08x}", std::random_device()());
+    const Unfinished announcement(temporary);
     try {
         write_file(temporary, content);
     } catch (const InputError&) {
         std::filesystem::remove(temporary, error);
         throw cannot_write(path);
     }
-    std::filesystem::rename(temporary, path, error);
+    std::filesystem::rename(temporary, target, error);
     if (error) {
         std::filesystem::remove(temporary, error);
         throw cannot_write(path);
@@ -103,7 +139,7 @@ std::string to_csv(std::span<const Column> columns) {
 }
 
 void write_csv(std::span<const Column> columns, const std::filesystem::path& path) {
-    write_file(path, to_csv(columns));
+    replace_file(path, to_csv(columns));
 }
 
 }  // namespace stilb::io
