@@ -48,7 +48,9 @@ void add_info(CommandLine& line) {
         "  stilb info downlight.ies\n"
         "  stilb info room.obj --json\n");
     auto request = std::make_shared<InfoRequest>();
-    command.add("FILE", request->file, "Scene (TOML), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
+    command
+        .add("FILE", request->file,
+             "Scene (TOML; - for standard input), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
         .required();
     command.add(
         "--json", request->json,

@@ -172,7 +172,8 @@ void add_render(CommandLine& line) {
         "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n"
         "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<RenderRequest>();
-    command.add("SCENE", request->scene, "Scene file (TOML); with --from only if it has moved");
+    command.add("SCENE", request->scene,
+                "Scene file (TOML), or - for standard input; with --from only if it has moved");
     command
         .add("--from", request->solution,
              "Take the light from this solution (written by `stilb solve`); only the view is computed")

@@ -133,6 +133,47 @@ class KindsTest(FilesTest):
             self.assertEqual(run("info", path).returncode, 0)
 
 
+class ResultsFileTest(FilesTest):
+    def test_json_as_a_file(self):
+        results = self.folder / "results.json"
+        result = run("measure", self.scene, "--paths", 64, "--json", "-o", results)
+        self.assertEqual((result.returncode, results.read_text()), (0, result.stdout))
+        result = run("measure", self.scene, "--paths", 64, "--sensor", "wall", "-o", results)
+        self.assertIn("95 % intervals", result.stdout)
+        self.assertEqual([sensor["name"] for sensor in json.loads(results.read_text())["sensors"]], ["wall"])
+        self.assertEqual(run("falsecolor", results, "-o", self.folder / "x.png").returncode, 2)  # no grid
+        for output in (self.scene, self.mesh, self.folder / "none/results.json"):
+            self.expect_wrong_input(["measure", self.scene, "-o", output], output.name)
+
+
+class StandardInputTest(FilesTest):
+    def feed(self, path, *arguments):
+        with open(path, "rb") as file:
+            piped = subprocess.Popen(["cat"], stdin=file, stdout=subprocess.PIPE)  # a pipe cannot be read twice
+            result = run(*arguments, cwd=self.folder, stdin=piped.stdout)
+            piped.stdout.close()
+            piped.wait()
+        return result
+
+    def test_scenes(self):
+        direct = run("measure", "room.toml", "--paths", 64, cwd=self.folder)
+        self.assertEqual(self.feed(self.scene, "measure", "-", "--paths", 64).stdout.rpartition(" in ")[0],
+                         direct.stdout.rpartition(" in ")[0])
+        self.assertIn("lamp.ldt", self.feed(self.scene, "info", "-").stdout)
+        result = self.feed(self.scene, "render", "-", "-o", "x.exr", "--paths", 2)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        result = self.feed(self.mesh.with_name("view.hdr"), "measure", "-")
+        self.assertIn("-: not a scene but a Radiance picture", result.stderr)
+        wrong = self.write("wrong.toml", ROOM.replace("reflectance", "reflectence"))
+        self.assertRegex(self.feed(wrong, "measure", "-").stderr, r"-:\d+: .*reflectence")
+
+    def test_pictures_and_results(self):
+        self.assertEqual(run("measure", self.scene, "--paths", 64, "-o", self.folder / "results.json").returncode, 0)
+        for path in (self.picture, self.folder / "results.json"):
+            result = self.feed(path, "falsecolor", "-", "-o", "x.png")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+
 class InterruptionTest(FilesTest):
     def start(self, *arguments, **options):
         return subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

@@ -8,6 +8,8 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iostream>
+#include <iterator>
 #include <limits>
 #include <system_error>
 
@@ -38,7 +40,19 @@ std::string extension_of(const std::filesystem::path& path) {
     return extension;
 }
 
+namespace {
+
+/// All of standard input. It is kept, because files are read more than once: for their kinds, their contents
+/// and their hashes.
+const std::string& standard_input() {
+    static const std::string content(std::istreambuf_iterator<char>(std::cin), {});
+    return content;
+}
+
+}  // namespace
+
 std::string read_beginning(const std::filesystem::path& path, std::size_t most) {
+    if (path == "-") return standard_input().substr(0, most);
     std::error_code error;
     const auto size = std::filesystem::file_size(path, error);
     if (error) throw InputError(fmt::format("cannot be read: {}", error.message()), {path.string()});
