@@ -13,6 +13,7 @@
 #include "io/image/picture.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
+#include "io/text/text.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
