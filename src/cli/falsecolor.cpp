@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -53,7 +54,7 @@ void draw_picture(const FalseColourRequest& request) {
 }
 
 int run_falsecolor(const FalseColourRequest& request) {
-    plot::require_picture_path(request.output);
+    plot::require_picture_path(request.output, std::array<std::filesystem::path, 1>{request.input});
     if (io::is_picture_file(request.input)) {
         draw_picture(request);
         return kExitDone;
@@ -70,7 +71,7 @@ void add_falsecolor(CommandLine& line) {
     Command command =
         line.add_command("falsecolor", "Draw measured grids or a luminance picture in false colours");
     command.set_examples(
-        "  stilb measure office.toml --json > office.json\n"
+        "  stilb measure office.toml -o office.json\n"
         "  stilb falsecolor office.json -o office.png --isolines\n"
         "  stilb falsecolor office.json -o desk.svg --sensor desk --numbers --min 0 --max 750\n"
         "  stilb falsecolor view.exr -o luminance.png --log --isolines\n");
@@ -78,7 +79,8 @@ void add_falsecolor(CommandLine& line) {
     plot::FalseColourOptions& options = request->options;
     command
         .add("IN", request->input,
-             "Results of 'stilb measure --json', or a luminance picture (OpenEXR or Radiance HDR)")
+             "Results of 'stilb measure --json', or a luminance picture (OpenEXR or Radiance HDR); - for "
+             "standard input")
         .required();
     command.add("-o,--output", request->output, "Picture to write: .png or .svg").required();
     command.add("--sensor", request->sensors, "Draw only this grid of the results (may be repeated)")

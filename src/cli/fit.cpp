@@ -1,6 +1,7 @@
 // stilb fit: fits a surface by spherical harmonics to a star-shaped mesh.
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,7 +12,7 @@
 #include "cli/progress.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"
-#include "io/text/table.h"
+#include "io/text/file_kind.h"
 #include "io/text/text.h"
 #include "plot/canvas.h"
 #include "run/options.h"
@@ -56,9 +57,10 @@ fit::MeshFitOptions options_of(const FitRequest& request) {
 }
 
 void check_outputs(const FitRequest& request) {
-    io::require_writable(request.output);
+    const std::array<std::filesystem::path, 1> inputs{request.mesh};
+    io::require_output(request.output, io::FileKind::series, inputs);
     if (request.plot.empty()) return;
-    plot::require_picture_path(request.plot);
+    plot::require_picture_path(request.plot, inputs);
     if (request.degree == 0)
         throw InputError(
             "--plot draws errors from degree 1 on, but --degree is 0. Leave --plot out, or raise --degree.");

@@ -13,7 +13,8 @@
 
 #include "cli/command_line.h"
 #include "cli/info_report.h"
-#include "io/text/text.h"
+#include "cli/scene_argument.h"
+#include "io/text/file_kind.h"
 
 namespace stilb::cli {
 
@@ -25,13 +26,16 @@ struct InfoRequest {
 };
 
 InfoReport report_file(const std::string& file) {
-    const std::string extension = io::extension_of(file);
-    const auto is_one_of = [&](const auto& extensions) {
-        return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
-    };
-    if (is_one_of(std::array{".ies", ".ldt"})) return report_luminaire(file);
-    if (is_one_of(std::array{".obj", ".ply"})) return report_mesh(file);
-    return report_scene(io::read_scene_file(file), file);
+    switch (io::kind_of_file(file)) {
+        case io::FileKind::ies_luminaire:
+        case io::FileKind::eulumdat_luminaire:
+            return report_luminaire(file);
+        case io::FileKind::obj_mesh:
+        case io::FileKind::ply_mesh:
+            return report_mesh(file);
+        default:
+            return report_scene(read_scene(file), file);
+    }
 }
 
 }  // namespace
@@ -44,7 +48,9 @@ void add_info(CommandLine& line) {
         "  stilb info downlight.ies\n"
         "  stilb info room.obj --json\n");
     auto request = std::make_shared<InfoRequest>();
-    command.add("FILE", request->file, "Scene (TOML), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
+    command
+        .add("FILE", request->file,
+             "Scene (TOML; - for standard input), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
         .required();
     command.add(
         "--json", request->json,

@@ -5,6 +5,7 @@
 
 #include "base/monitor.h"
 #include "cli/command_line.h"
+#include "cli/progress.h"
 #include "papers/reproduce.h"
 #include "stilb/error.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 using namespace stilb;
 
-int run(int argument_count, const char* const* arguments) {
+int run_commands(int argument_count, const char* const* arguments) {
     cli::CommandLine line;
     cli::add_measure(line);
     cli::add_solve(line);
@@ -40,8 +41,9 @@ int complain_of_stdout() {
 }  // namespace
 
 int main(int argument_count, char** arguments) {
+    cli::leave_no_unfinished_files();
     try {
-        const int exit_code = run(argument_count, arguments);
+        const int exit_code = run_commands(argument_count, arguments);
         return is_stdout_written() ? exit_code : complain_of_stdout();
     } catch (const Cancelled& cancelled) {
         fmt::print(stderr, "stilb: {}\n", cancelled.what());

@@ -11,8 +11,10 @@
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
+#include "cli/scene_argument.h"
 #include "io/results/results_writer.h"
-#include "io/scene/scene_file.h"
+#include "io/text/file_kind.h"
+#include "io/text/table.h"
 #include "plot/canvas.h"
 #include "plot/false_colour_picture.h"
 #include "run/run.h"
@@ -25,15 +27,27 @@ struct MeasureRequest {
     std::string scene;
     std::vector<std::string> sensors;
     bool json = false;
-    std::string csv_directory, picture;
+    std::string output, csv_directory, picture;
     RunFlags flags;
 };
 
+/// Writes the files that the request names.
+void write_files(const RunResult& result, const MeasureRequest& request) {
+    if (!request.output.empty()) io::replace_file(request.output, io::to_json(result, request.scene));
+    if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
+    if (!request.picture.empty()) {
+        plot::FalseColourOptions options;
+        options.isolines = true;
+        draw_false_colour(plot::picture_of(result, request.scene), options, request.picture);
+    }
+}
+
 int run_measure(const MeasureRequest& request) {
-    const io::SceneFile file = io::read_scene_file(request.scene);
+    const io::SceneFile file = read_scene(request.scene);
     const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, request.sensors, request.scene);
     const RunOptions options = request.flags.over(file.run);
-    if (!request.picture.empty()) plot::require_picture_path(request.picture);
+    if (!request.output.empty()) io::require_output(request.output, io::FileKind::results, file.sources);
+    if (!request.picture.empty()) plot::require_picture_path(request.picture, file.sources);
     if (!request.csv_directory.empty()) io::prepare_results_csv(sensors, request.csv_directory);
     RunResult result;
     {
@@ -42,14 +56,9 @@ int run_measure(const MeasureRequest& request) {
                               &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
+    write_files(result, request);  // before all messages: the terminal may be closed by now
     if (!request.flags.quiet) print_warnings(result.warnings);
     fmt::print("{}", request.json ? io::to_json(result, request.scene) : to_table(result));
-    if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
-    if (!request.picture.empty()) {
-        plot::FalseColourOptions picture_options;
-        picture_options.isolines = true;
-        draw_false_colour(plot::picture_of(result, request.scene), picture_options, request.picture);
-    }
     return result.converged ? kExitDone : kExitStoppedEarly;
 }
 
@@ -61,14 +70,16 @@ void add_measure(CommandLine& line) {
     command.set_examples(
         "  stilb measure office.toml\n"
         "  stilb measure office.toml --error 0.5% --sensor desk\n"
-        "  stilb measure office.toml --json > office.json\n"
+        "  stilb measure office.toml -o office.json\n"
         "  stilb measure office.toml --csv results --falsecolor office.png\n");
     auto request = std::make_shared<MeasureRequest>();
-    command.add("SCENE", request->scene, "Scene file (TOML)").required();
+    command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input").required();
     command.add("--sensor", request->sensors, "Measure only this sensor (may be repeated)")
         .value_name("NAME")
         .repeatable();
     command.add("--json", request->json, "One JSON document on stdout instead of the table");
+    command.add("-o,--output", request->output, "Write also the JSON document into this file")
+        .value_name("FILE");
     command.add("--csv", request->csv_directory, "Write also a CSV file per sensor into this folder")
         .value_name("DIR");
     command

@@ -7,27 +7,48 @@
 #include <csignal>
 #include <cstdio>
 
+#include "io/text/table.h"
+
 namespace stilb::cli {
 namespace {
 
 std::atomic<bool> interrupted{false};  // global, because a signal handler has no arguments for it
 
+/// Ends the program as the signal does by itself, but leaves no part of a file behind.
+void end_program(int signal_number) {
+    if (const char* file = io::unfinished_file()) unlink(file);
+    std::signal(signal_number, SIG_DFL);
+    std::raise(signal_number);
+}
+
 void on_interrupt(int signal_number) {
     interrupted = true;
-    std::signal(signal_number, SIG_DFL);
+    // A terminal that closes sends SIGHUP twice: by the shell and by the system.
+    if (signal_number != SIGHUP) std::signal(signal_number, end_program);
 }
+
+void handle_signals(void (*handler)(int)) {
+    std::signal(SIGINT, handler);
+    std::signal(SIGTERM, handler);
+    // A program that was started by nohup ignores SIGHUP, and goes on when its terminal closes.
+    if (std::signal(SIGHUP, handler) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+}
+
+/// Writes to stderr. Where that fails, as after the terminal has closed, the run goes on: its results matter
+/// more than its messages.
+void write_message(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace
 
 ProgressLine::ProgressLine() : is_terminal_(isatty(STDERR_FILENO) != 0) {}
 
 ProgressLine::~ProgressLine() {
-    if (is_terminal_) fmt::print(stderr, "\r\033[K");
+    if (is_terminal_) write_message("\r\033[K");
 }
 
 void ProgressLine::show(double elapsed_s, const std::string& text) {
     if (!is_terminal_) return;
-    fmt::print(stderr, "\r\033[K{:.1f} s  {}", elapsed_s, text);
+    write_message(fmt::format("\r\033[K{:.1f} s  {}", elapsed_s, text));
     std::fflush(stderr);
 }
 
@@ -50,13 +71,14 @@ void add_warnings(RunSummary& result, std::span<const std::string> of_file) {
 }
 
 void print_warnings(std::span<const std::string> warnings) {
-    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : warnings) write_message(fmt::format("warning: {}\n", warning));
 }
 
 const std::atomic<bool>& watch_for_interrupt() {
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    handle_signals(on_interrupt);
     return interrupted;
 }
+
+void leave_no_unfinished_files() { handle_signals(end_program); }
 
 }  // namespace stilb::cli

@@ -42,7 +42,12 @@ class TerminalProgress : public PictureSink {
 void add_warnings(RunSummary& result, std::span<const std::string> of_file);
 void print_warnings(std::span<const std::string> warnings);
 
-/// The flag that the first Ctrl-C after this call sets; a second Ctrl-C ends the program at once.
+/// The flag that is set by the first Ctrl-C after this call, by SIGTERM, and by SIGHUP (the terminal closes);
+/// a second Ctrl-C or SIGTERM ends the program at once.
 const std::atomic<bool>& watch_for_interrupt();
+
+/// Makes these signals remove a file that is being written before they end the program; until
+/// watch_for_interrupt().
+void leave_no_unfinished_files();
 
 }  // namespace stilb::cli

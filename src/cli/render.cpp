@@ -8,14 +8,15 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "cli/command_line.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
+#include "cli/scene_argument.h"
 #include "io/image/picture_file.h"
 #include "io/results/solution_file.h"
-#include "io/scene/scene_file.h"
 #include "io/text/text.h"
 #include "run/run.h"
 #include "stilb/error.h"
@@ -122,6 +123,14 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
     return render(file.scene, sensor, options, &progress, &watch_for_interrupt());
 }
 
+/// Throws InputError where a picture cannot be written, or would destroy a file that it is computed from.
+void require_pictures(const RenderRequest& request, const io::SceneFile& file) {
+    std::vector<std::filesystem::path> inputs = file.sources;
+    if (!request.solution.empty()) inputs.emplace_back(request.solution);
+    io::require_luminance_picture_path(request.output, inputs);
+    if (!request.preview.empty()) io::require_luminance_picture_path(request.preview, inputs);
+}
+
 int run_render(RenderRequest request) {
     std::optional<io::StoredSolution> stored;
     if (!request.solution.empty()) stored = read_solution_for(request);
@@ -130,11 +139,10 @@ int run_render(RenderRequest request) {
             "the scene is missing. Give a scene (stilb render SCENE -o FILE) or a solution (stilb render "
             "--from FILE -o FILE).");
     }
-    const io::SceneFile file = io::read_scene_file(request.scene);
+    const io::SceneFile file = read_scene(request.scene);
     if (stored) require_same_light(*stored, file.sources, request.solution);
     const Sensor& sensor = sensors::choose_camera(file.sensors, request.sensor, request.scene);
-    io::require_luminance_picture_path(request.output);
-    if (!request.preview.empty()) io::require_luminance_picture_path(request.preview);
+    require_pictures(request, file);
     io::PictureOrigin origin;
     origin.scene = request.scene;
     origin.scene_hash = io::content_hash(file.sources);
@@ -143,10 +151,11 @@ int run_render(RenderRequest request) {
     origin.version = STILB_VERSION;
     RenderResult result = rendered(request, file, sensor, std::move(stored), origin);
     add_warnings(result, file.warnings);
-    if (!request.flags.quiet) print_warnings(result.warnings);
     const io::Picture picture = picture_of(result, *sensor.camera(), origin);
+    // The files come before all messages: the terminal may be closed by now.
     const auto curve = write_picture(picture, request.output, request.tone);
     if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
+    if (!request.flags.quiet) print_warnings(result.warnings);
     print_summary(result, sensor);
     if (curve) fmt::print("{}: exposure {:.3g} per cd/m²\n", request.output, curve->exposure());
     return result.converged ? kExitDone : kExitStoppedEarly;
@@ -163,7 +172,8 @@ void add_render(CommandLine& line) {
         "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n"
         "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<RenderRequest>();
-    command.add("SCENE", request->scene, "Scene file (TOML); with --from only if it has moved");
+    command.add("SCENE", request->scene,
+                "Scene file (TOML), or - for standard input; with --from only if it has moved");
     command
         .add("--from", request->solution,
              "Take the light from this solution (written by `stilb solve`); only the view is computed")

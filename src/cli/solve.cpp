@@ -11,10 +11,9 @@
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
+#include "cli/scene_argument.h"
 #include "io/results/solution_file.h"
-#include "io/scene/scene_file.h"
-#include "io/text/table.h"
-#include "io/text/text.h"
+#include "io/text/file_kind.h"
 #include "math/zernike.h"
 
 namespace stilb::cli {
@@ -37,10 +36,10 @@ void print_summary(const SolveResult& result, const io::StoredSolution& stored, 
 }
 
 int run_solve(const SolveRequest& request) {
-    io::SceneFile file = io::read_scene_file(request.scene);
+    io::SceneFile file = read_scene(request.scene);
     file.run.method = "ray-bundle";
     const RunOptions options = request.flags.over(file.run);
-    io::require_writable(request.output);
+    io::require_output(request.output, io::FileKind::solution, file.sources);
     SolveResult result;
     {
         TerminalProgress progress("steps");
@@ -48,10 +47,10 @@ int run_solve(const SolveRequest& request) {
                        &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
-    if (!request.flags.quiet) print_warnings(result.warnings);
     const io::StoredSolution solution =
         io::stored_solution(result, std::move(result.solution), file.sources, request.output);
-    write_solution_file(solution, request.output);
+    write_solution_file(solution, request.output);  // before all messages: the terminal may be closed by now
+    if (!request.flags.quiet) print_warnings(result.warnings);
     print_summary(result, solution, request.output);
     return result.converged ? kExitDone : kExitStoppedEarly;
 }
@@ -66,7 +65,7 @@ void add_solve(CommandLine& line) {
         "  stilb solve office.toml -o office.solution --error 0.5% --patch 0.1\n"
         "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<SolveRequest>();
-    command.add("SCENE", request->scene, "Scene file (TOML)").required();
+    command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input").required();
     command.add("-o,--output", request->output, "Solution to write").required().value_name("FILE");
     command
         .add("--degree", request->degree,

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "io/text/file_kind.h"
 #include "io/text/table.h"
-#include "io/text/text.h"
 #include "plot/axis.h"
 #include "stilb/error.h"
 
@@ -72,21 +72,20 @@ void set_stroke(cairo_t* context, const Stroke& stroke) {
     cairo_set_dash(context, stroke.dashes.data(), static_cast<int>(stroke.dashes.size()), 0);
 }
 
-/// The extension in lower case. Throws InputError where no picture can have it.
-std::string picture_extension(const std::filesystem::path& path) {
-    std::string extension = io::extension_of(path);
-    if (extension != ".png" && extension != ".svg") {
+/// The kind of picture that the extension stands for. Throws InputError where no picture can have it.
+io::FileKind picture_kind(const std::filesystem::path& path) {
+    const io::FileKind kind = io::kind_of_name(path);
+    if (kind != io::FileKind::png_picture && kind != io::FileKind::svg_drawing) {
         throw InputError(fmt::format(
             "cannot tell the kind of picture from '{}'. End the name in .png or .svg.", path.string()));
     }
-    return extension;
+    return kind;
 }
 
 }  // namespace
 
-void require_picture_path(const std::filesystem::path& path) {
-    picture_extension(path);
-    io::require_writable(path);
+void require_picture_path(const std::filesystem::path& path, std::span<const std::filesystem::path> inputs) {
+    io::require_output(path, picture_kind(path), inputs);
 }
 
 struct Canvas::Cairo {
@@ -99,7 +98,7 @@ struct Canvas::Cairo {
 
 Canvas::Canvas(std::filesystem::path path, double width, double height)
     : path_(std::move(path)), cairo_(std::make_unique<Cairo>()) {
-    if (picture_extension(path_) == ".svg") {
+    if (picture_kind(path_) == io::FileKind::svg_drawing) {
         cairo_->surface.reset(cairo_svg_surface_create_for_stream(append, &cairo_->svg, width, height));
         cairo_svg_surface_set_document_unit(cairo_->surface.get(), CAIRO_SVG_UNIT_PX);
     } else {

@@ -63,9 +63,9 @@ inline constexpr double kUpwards = -std::numbers::pi / 2;
 /// Advance width of one line of text.
 double text_width(const std::string& text, double size, Weight weight = Weight::regular);
 
-/// Throws InputError where no picture can be written to `path`: another extension than .png or .svg (any
-/// case), or a folder that is missing or not writable. For a check before a long computation.
-void require_picture_path(const std::filesystem::path& path);
+/// Throws InputError where no picture can be written to `path`: for another extension than .png or .svg (any
+/// case), and as io::require_output() does. `inputs`: the files that are read for the picture.
+void require_picture_path(const std::filesystem::path& path, std::span<const std::filesystem::path> inputs);
 
 class Canvas {
   public:
@@ -90,7 +90,8 @@ class Canvas {
     /// Clips the drawing of `draw` to the rectangle.
     void clipped(const PageRectangle& rectangle, const std::function<void()>& draw);
 
-    /// Writes the file; nothing may be drawn afterwards. Throws InputError where it cannot be written.
+    /// Replaces the file in one step; nothing may be drawn afterwards. Throws InputError where it cannot be
+    /// written.
     void save();
 
   private:

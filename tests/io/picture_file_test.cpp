@@ -100,13 +100,14 @@ TEST_F(PictureFile, NamesWhatIsAllowed) {
     const Picture picture = sample_picture();
     EXPECT_NE(message([&] { write_picture(picture, folder_ / "a.jpg"); }).find(".exr, .hdr or .png"),
               std::string::npos);
-    EXPECT_NE(message([&] { require_luminance_picture_path("a"); }).find(".exr, .hdr or .png"),
+    EXPECT_NE(message([&] { require_luminance_picture_path("a", {}); }).find(".exr, .hdr or .png"),
               std::string::npos);
-    EXPECT_NE(message([&] { require_luminance_picture_path("/no/such/a.exr"); }).find("no folder '/no/such'"),
-              std::string::npos);
+    EXPECT_NE(
+        message([&] { require_luminance_picture_path("/no/such/a.exr", {}); }).find("no folder '/no/such'"),
+        std::string::npos);
     EXPECT_NE(message([&] { write_picture(picture, "/no/such/a.exr"); }).find("/no/such/a.exr'"),
               std::string::npos);
-    EXPECT_NO_THROW(require_luminance_picture_path(folder_ / "a.HDR"));
+    EXPECT_NO_THROW(require_luminance_picture_path(folder_ / "a.HDR", {}));
     write_file(folder_ / "text.exr", "words");
     EXPECT_NE(message([&] { read_picture(folder_ / "text.exr"); }).find("text.exr: neither an OpenEXR"),
               std::string::npos);

@@ -248,15 +248,21 @@ TEST(SceneFile, IsReadFromDisk) {
 }
 
 TEST(SceneFile, SaysWhatOtherFilesAre) {
-    for (const auto& [name, use] : {std::pair{"room.OBJ", "an object"}, {"lamp.ies", "a light"}}) {
+    for (const auto& [name, is, use] :
+         {std::array{"room.OBJ", "an OBJ mesh", "an object"},
+          {"lamp.ies", "an IES luminaire", "a light"},
+          {"room.rad", "a Radiance scene", "cannot read Radiance scenes yet"}}) {
+        const auto path = std::filesystem::path(testing::TempDir()) / name;
+        std::ofstream(path) << "words";
         try {
-            read_scene_file(name);
+            read_scene_file(path);
             ADD_FAILURE() << "accepted";
         } catch (const InputError& error) {
             const std::string message = error.what();
-            EXPECT_TRUE(message.starts_with(std::string(name) + ": not a scene but a .")) << message;
+            EXPECT_TRUE(message.starts_with(path.string() + ": not a scene but " + is + ". ")) << message;
             EXPECT_NE(message.find(use), std::string::npos) << message;
         }
+        std::filesystem::remove(path);
     }
 }
 

@@ -4,8 +4,12 @@
 
 #include <bit>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
+#include <sstream>
+#include <thread>
 
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
@@ -59,6 +63,37 @@ TEST(Table, WritesFiles) {
     write_csv(columns, path);
     EXPECT_EQ(read_text(path), to_csv(columns));
     EXPECT_THROW(write_csv(columns, "/no/such/folder/a.csv"), InputError);
+}
+
+TEST(Table, ReplacesFilesInOneStepAndLeavesLinks) {
+    const auto path = picture_path(".txt"), link = picture_path(".link"), loose = picture_path(".loose");
+    for (const auto& file : {path, link, loose}) std::filesystem::remove(file);
+    replace_file(path, "old");
+    std::filesystem::create_symlink(path, link);
+    const std::ifstream reader(path);
+    replace_file(link, "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(read_text(path), "new");
+    EXPECT_EQ((std::stringstream() << reader.rdbuf()).str(), "old");  // it was never emptied
+    std::filesystem::create_symlink(path.string() + ".target", loose);
+    replace_file(loose, "through a link to no file");
+    EXPECT_EQ(read_text(path.string() + ".target"), "through a link to no file");
+    replace_file("/dev/null", "nowhere");
+    EXPECT_THROW(replace_file("/no/such/folder/a", ""), InputError);
+}
+
+TEST(Table, NamesTheFileThatIsUnfinished) {
+    const auto path = picture_path(".bin");
+    EXPECT_EQ(unfinished_file(), nullptr);
+    const std::string content(std::size_t{1} << 27, 'x');  // takes long enough to be seen unfinished
+    std::thread writer([&] { replace_file(path, content); });
+    const char* file = nullptr;
+    while (file == nullptr) file = unfinished_file();
+    EXPECT_TRUE(std::string(file).starts_with(std::filesystem::canonical(path.parent_path()).string()));
+    writer.join();
+    EXPECT_EQ(unfinished_file(), nullptr);
+    EXPECT_EQ(std::filesystem::file_size(path), content.size());
+    std::filesystem::remove(path);
 }
 
 }  // namespace

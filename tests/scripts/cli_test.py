@@ -92,10 +92,12 @@ class WrongInputTest(CommandLineTest):
         self.expect_wrong_input(["solve", self.scene, "-o", "/proc/room.solution"], "/proc/room.solution", "writable")
 
     def test_a_check_before_computing_leaves_files_alone(self):
-        picture = self.write("desk.png", "old")
+        old = b"\x89PNG\r\n\x1a\n an older picture"
+        picture = self.folder / "desk.png"
+        picture.write_bytes(old)
         files = set(self.folder.iterdir())
         self.expect_wrong_input(["measure", self.scene, "--falsecolor", picture, "--csv", self.scene], "room.toml")
-        self.assertEqual((picture.read_text(), set(self.folder.iterdir())), ("old", files))
+        self.assertEqual((picture.read_bytes(), set(self.folder.iterdir())), (old, files))
 
 
 @unittest.skipUnless(os.path.exists("/dev/full"), "this system has no /dev/full")

@@ -63,8 +63,8 @@ projection = "fisheye"
 MOST_SECONDS = 60  # for a command that should end by itself: generous, machines may be busy
 
 
-def run(*arguments, cwd=None):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=MOST_SECONDS, cwd=cwd)
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=MOST_SECONDS, **options)
 
 
 class CommandLineTest(unittest.TestCase):

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <csetjmp>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "io/image/picture.h"
+#include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
@@ -20,50 +20,45 @@ namespace stilb::io {
 
 namespace {
 
-constexpr std::string_view kExrBeginning = "\x76\x2f\x31\x01";
-constexpr std::string_view kHdrBeginning = "#?";
-
-/// The extension in lower case. Throws InputError where it belongs to no format of luminance pictures.
-std::string luminance_picture_extension(const std::filesystem::path& path) {
-    std::string extension = extension_of(path);
-    if (extension != ".exr" && extension != ".hdr" && extension != ".png") {
+/// The kind of picture that the extension stands for. Throws InputError where it belongs to no format of
+/// luminance pictures.
+FileKind luminance_picture_kind(const std::filesystem::path& path) {
+    const FileKind kind = kind_of_name(path);
+    if (!is_luminance_picture(kind) && kind != FileKind::png_picture) {
         throw InputError(fmt::format(
             "cannot tell the kind of picture from '{}'. End the name in .exr, .hdr or .png.", path.string()));
     }
-    return extension;
+    return kind;
 }
 
 }  // namespace
 
-void require_luminance_picture_path(const std::filesystem::path& path) {
-    luminance_picture_extension(path);
-    require_writable(path);
+void require_luminance_picture_path(const std::filesystem::path& path,
+                                    std::span<const std::filesystem::path> inputs) {
+    require_output(path, luminance_picture_kind(path), inputs);
 }
 
 std::optional<ToneCurve> write_picture(const Picture& picture, const std::filesystem::path& path,
                                        const ToneOptions& tone) {
-    const std::string extension = luminance_picture_extension(path);
-    if (extension == ".png") {
+    const FileKind kind = luminance_picture_kind(path);
+    if (kind == FileKind::png_picture) {
         const ToneCurve curve(tone.exposure ? *tone.exposure : automatic_exposure(picture));
         replace_file(path, to_png(picture, curve));
         return curve;
     }
-    replace_file(path, extension == ".exr" ? to_exr(picture) : to_hdr(picture));
+    replace_file(path, kind == FileKind::exr_picture ? to_exr(picture) : to_hdr(picture));
     return std::nullopt;
 }
 
 bool is_picture_file(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string beginning(kExrBeginning.size(), '\0');
-    file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-    if (!file.is_open() || file.bad()) throw InputError("cannot be read. Does it exist?", {path.string()});
-    return beginning == kExrBeginning || beginning.starts_with(kHdrBeginning);
+    return is_luminance_picture(kind_of_content_of(path));
 }
 
 Picture read_picture(const std::filesystem::path& path) {
     const std::string content = read_whole_file(path);
-    if (content.starts_with(kExrBeginning)) return read_exr(content, path.string());
-    if (content.starts_with(kHdrBeginning)) return read_hdr(content, path.string());
+    const FileKind kind = kind_of_content(content);
+    if (kind == FileKind::exr_picture) return read_exr(content, path.string());
+    if (kind == FileKind::hdr_picture) return read_hdr(content, path.string());
     throw InputError("neither an OpenEXR (.exr) nor a Radiance picture (.hdr). Only these can be read.",
                      {path.string()});
 }

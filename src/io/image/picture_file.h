@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,9 +13,9 @@
 namespace stilb::io {
 
 /// Throws InputError where no luminance picture can be written to `path`: for an extension other than .exr,
-/// .hdr or .png (any case), or a folder that is missing or not writable. For a check before a long
-/// computation.
-void require_luminance_picture_path(const std::filesystem::path& path);
+/// .hdr or .png (any case), and as require_output() does. `inputs`: the files that are read for the picture.
+void require_luminance_picture_path(const std::filesystem::path& path,
+                                    std::span<const std::filesystem::path> inputs);
 
 /// Writes .exr (exr_file.h), .hdr (hdr_file.h) or .png (png_picture.h). The file is replaced in one step, so
 /// that a viewer never reads half of it. Returns the tone curve of a .png, whose exposure may have been

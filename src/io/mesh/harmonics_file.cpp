@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "math/spherical_harmonics.h"
@@ -19,7 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSeriesFormat = "stilb-harmonics";
 constexpr int kVersion = 1;
 
 class Reader {

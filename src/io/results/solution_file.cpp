@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
@@ -18,10 +19,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
 
-constexpr std::array<char, 8> kMagic{'S', 'T', 'I', 'L', 'B', 'S', 'O', 'L'};
 constexpr std::uint32_t kVersion = 1;
 /// Magic, version, size and hash.
-constexpr std::size_t kHeaderSize = kMagic.size() + 4 + 8 + 8;
+constexpr std::size_t kHeaderSize = kSolutionBeginning.size() + 4 + 8 + 8;
 
 /// Numbers, or structs of numbers of one size, which have no gaps.
 template <typename T>
@@ -171,11 +171,10 @@ StoredSolution read_body(ByteReader& bytes) {
 
 std::string solution_header(std::string_view body) {
     ByteWriter bytes;
-    bytes.add(kMagic);
     bytes.add(kVersion);
     bytes.add(static_cast<std::uint64_t>(kHeaderSize + body.size()));
     bytes.add(hash_of(body));
-    return bytes.take();
+    return std::string(kSolutionBeginning) + bytes.take();
 }
 
 std::string to_bytes(const StoredSolution& stored) {
@@ -185,10 +184,10 @@ std::string to_bytes(const StoredSolution& stored) {
 
 StoredSolution read_solution(std::string_view bytes, const std::string& name) {
     const auto fail = [&](const std::string& message) { throw InputError(message, {name}); };
-    if (!bytes.starts_with(std::string_view(kMagic.data(), kMagic.size()))) {
-        fail("not a solution: the file does not begin with STILBSOL.");
-    }
-    ByteReader header(bytes.substr(kMagic.size()), kMagic.size(), name);
+    if (!bytes.starts_with(kSolutionBeginning))
+        fail(fmt::format("not a solution: the file does not begin with {}.", kSolutionBeginning));
+    constexpr std::size_t begun = kSolutionBeginning.size();
+    ByteReader header(bytes.substr(begun), begun, name);
     const auto version = header.take<std::uint32_t>("the version");
     if (version != kVersion) {
         fail(

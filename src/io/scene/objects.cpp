@@ -12,6 +12,7 @@
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/sections.h"
+#include "io/text/file_kind.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
 
@@ -193,10 +194,8 @@ MaterialId read_material(const TomlItem& item, const Scene& scene) {
 
 MeshFile read_mesh(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
     const TomlItem item = table.at("file");
-    for (const std::string_view extension : {".gltf", ".glb"}) {
-        if (!item.text().ends_with(extension)) continue;
+    if (kind_of_name(item.text()) == FileKind::gltf_scene)
         item.fail("meshes in glTF are not supported yet. Allowed: OBJ (.obj) and PLY (.ply).");
-    }
     file.sources.push_back(item.existing_file(directory));
     return read_mesh_file(file.sources.back());
 }

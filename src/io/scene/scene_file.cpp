@@ -10,6 +10,7 @@
 #include "estimators/estimator_list.h"
 #include "io/scene/fields.h"
 #include "io/scene/sections.h"
+#include "io/text/file_kind.h"
 #include "io/text/text.h"
 #include "run/options.h"
 #include "stilb/error.h"
@@ -149,13 +150,8 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
 }
 
 SceneFile read_scene_file(const std::filesystem::path& path) {
-    for (const std::string_view other : {".obj", ".ply", ".ies", ".ldt"}) {
-        if (extension_of(path) != other) continue;
-        throw InputError(
-            fmt::format("not a scene but a {} file: a scene (.toml) refers to it as the file of {}.", other,
-                        other == ".obj" || other == ".ply" ? "an object" : "a light"),
-            {path.string()});
-    }
+    const FileKind kind = kind_of_file(path);
+    if (!may_be_scene(kind)) throw InputError(not_a_scene(kind), {path.string()});
     SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path());
     file.sources.insert(file.sources.begin(), path);
     return file;

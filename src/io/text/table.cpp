@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -20,27 +21,59 @@ InputError cannot_write(const std::filesystem::path& path) {
         fmt::format("cannot write '{}'. Check that its folder exists and is writable.", path.string()));
 }
 
-/// Whether the path is a device or a link, say, which must not be replaced by a plain file.
+/// Whether the path is a device, say, which must not be replaced by a plain file.
 bool must_stay(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
     return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
 }
 
-/// Writes a new file in the same folder, since a file cannot be renamed into another file system. Returns its
-/// path.
-std::filesystem::path write_beside(const std::filesystem::path& path, std::string_view content) {
-    std::filesystem::path temporary = path;
-    temporary += fmt::format(".{:08x}", std::random_device()());
-    try {
-        write_file(temporary, content);
-    } catch (const InputError&) {
-        std::error_code error;
-        std::filesystem::remove(temporary, error);
-        throw cannot_write(path);
-    }
-    return temporary;
+/// The path without links at its end; as it is where it leads to no file.
+std::filesystem::path without_links(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path target = std::filesystem::canonical(path, error);
+    return error ? path : target;
 }
+
+std::atomic<const char*> unfinished = nullptr;
+static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads it");
+
+/// A new file beside another one, in the same folder, since a file cannot be renamed into another file
+/// system. It is the unfinished one, and is removed at the end unless it has taken the other one's name.
+class TemporaryFile {
+  public:
+    TemporaryFile(const std::filesystem::path& beside, std::string_view content)
+        : beside_(beside), path_(beside) {
+        path_ += fmt::format(".{:08x}", std::random_device()());
+        const char* none = nullptr;
+        is_announced_ = unfinished.compare_exchange_strong(none, path_.c_str());
+        try {
+            write_file(path_, content);
+        } catch (const InputError&) {
+            remove();
+            throw cannot_write(beside);
+        }
+    }
+    ~TemporaryFile() { remove(); }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    void take_name() {
+        std::error_code error;
+        std::filesystem::rename(path_, beside_, error);
+        if (error) throw cannot_write(beside_);
+    }
+
+  private:
+    void remove() {
+        std::error_code error;
+        std::filesystem::remove(path_, error);
+        if (is_announced_) unfinished = nullptr;
+    }
+
+    std::filesystem::path beside_, path_;
+    bool is_announced_ = false;
+};
 
 }  // namespace
 
@@ -52,10 +85,11 @@ void require_writable(const std::filesystem::path& path) {
                                      folder.string()),
                          {path.string()});
     }
-    if (std::filesystem::is_directory(path, error)) {
+    const std::filesystem::path target = without_links(path);
+    if (std::filesystem::is_directory(target, error)) {
         throw InputError("the file cannot be written: this is a folder. Name a file in it.", {path.string()});
     }
-    if (!must_stay(path)) std::filesystem::remove(write_beside(path, ""), error);
+    if (!must_stay(target)) const TemporaryFile attempt(target, "");
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
@@ -65,15 +99,12 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
     if (!file) throw cannot_write(path);
 }
 
+const char* unfinished_file() { return unfinished; }
+
 void replace_file(const std::filesystem::path& path, std::string_view content) {
-    if (must_stay(path)) return write_file(path, content);
-    const std::filesystem::path temporary = write_beside(path, content);
-    std::error_code error;
-    std::filesystem::rename(temporary, path, error);
-    if (error) {
-        std::filesystem::remove(temporary, error);
-        throw cannot_write(path);
-    }
+    const std::filesystem::path target = without_links(path);
+    if (must_stay(target)) return write_file(path, content);
+    TemporaryFile(target, content).take_name();
 }
 
 namespace {

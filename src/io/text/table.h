@@ -19,9 +19,15 @@ void require_writable(const std::filesystem::path& path);
 /// Throws InputError with the file's name where it cannot be written.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// The same in one step: concurrent readers find the old content or the new one, never a part. (A path
-/// that is not a plain file, such as a link or a device, is written to directly.)
+/// The same in one step: concurrent readers find the old content or the new one, never a part. The content
+/// is written to a temporary file in the same folder, which then takes the name. Where the path is a link,
+/// the file that it leads to is replaced. (What is not a plain file, such as a device, is written to
+/// directly.)
 void replace_file(const std::filesystem::path& path, std::string_view content);
+
+/// The temporary file that replace_file() is writing, or nullptr. For a signal handler, which may remove it;
+/// it is one of them where several threads write files.
+const char* unfinished_file();
 
 struct Column {
     std::string name;

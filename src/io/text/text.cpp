@@ -8,6 +8,9 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iostream>
+#include <iterator>
+#include <limits>
 #include <system_error>
 
 #include "io/scene/toml.h"
@@ -37,17 +40,33 @@ std::string extension_of(const std::filesystem::path& path) {
     return extension;
 }
 
-std::string read_whole_file(const std::filesystem::path& path) {
+namespace {
+
+/// All of standard input. It is kept, because files are read more than once: for their kinds, their contents
+/// and their hashes.
+const std::string& standard_input() {
+    static const std::string content(std::istreambuf_iterator<char>(std::cin), {});
+    return content;
+}
+
+}  // namespace
+
+std::string read_beginning(const std::filesystem::path& path, std::size_t most) {
+    if (path == "-") return standard_input().substr(0, most);
     std::error_code error;
     const auto size = std::filesystem::file_size(path, error);
     if (error) throw InputError(fmt::format("cannot be read: {}", error.message()), {path.string()});
-    std::string content(size, '\0');
+    std::string content(std::min<std::uintmax_t>(size, most), '\0');
     std::ifstream stream(path, std::ios::binary);
-    if (!stream.read(content.data(), static_cast<std::streamsize>(size)))
+    if (!stream.read(content.data(), static_cast<std::streamsize>(content.size())))
         throw InputError(
             "cannot be read completely. Check its permissions, and that no other program writes to it.",
             {path.string()});
     return content;
+}
+
+std::string read_whole_file(const std::filesystem::path& path) {
+    return read_beginning(path, std::numeric_limits<std::size_t>::max());
 }
 
 std::string in_quotes(std::string_view text) {

@@ -10,8 +10,10 @@
 
 namespace stilb::io {
 
-/// The file, byte for byte. Throws InputError where it cannot be read.
+/// The file, byte for byte; the path "-" is standard input. Throws InputError where it cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
+/// The first bytes of the file, `most` or as many as there are. Throws as above.
+std::string read_beginning(const std::filesystem::path& path, std::size_t most);
 
 /// The extension with its dot, in lower case.
 std::string extension_of(const std::filesystem::path& path);

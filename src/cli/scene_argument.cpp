@@ -1,0 +1,41 @@
+#include "cli/scene_argument.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "io/text/file_kind.h"
+#include "stilb/error.h"
+
+namespace stilb::cli {
+namespace {
+
+/// The sentence that names the command for such a file, with a blank before it; empty where there is none.
+std::string command_for(io::FileKind kind, const std::string& path) {
+    const std::string picture = std::filesystem::path(path).filename().replace_extension(".png").string();
+    switch (kind) {
+        case io::FileKind::exr_picture:
+        case io::FileKind::hdr_picture:
+        case io::FileKind::results:
+            return fmt::format(" Stilb draws it with: stilb falsecolor {} -o {}", path, picture);
+        case io::FileKind::solution:
+            return fmt::format(" Stilb does so with: stilb render --from {} -o {}", path, picture);
+        case io::FileKind::obj_mesh:
+        case io::FileKind::ply_mesh:
+        case io::FileKind::ies_luminaire:
+        case io::FileKind::eulumdat_luminaire:
+            return fmt::format(" Stilb shows its contents with: stilb info {}", path);
+        default:
+            return "";
+    }
+}
+
+}  // namespace
+
+io::SceneFile read_scene(const std::string& path) {
+    const io::FileKind kind = io::kind_of_file(path);
+    if (!io::may_be_scene(kind)) throw InputError(io::not_a_scene(kind) + command_for(kind, path), {path});
+    return io::read_scene_file(path);
+}
+
+}  // namespace stilb::cli
