@@ -7,10 +7,13 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/vec.h"
 #include "rays/embree_geometry.h"
+#include "stilb/error.h"
 
 namespace stilb::rays {
 namespace {
@@ -27,6 +30,30 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void throw_error(void*, RTCError, const char* message) {
     throw std::runtime_error(fmt::format("Embree: {}", message));
+}
+
+/// Ray queries are in single precision: farther away than this, about the size of the Earth, points are more
+/// than a metre apart, and products of coordinates overflow soon.
+constexpr double kFarthest_m = 1e7;
+
+void require_within_reach(const Scene& scene) {
+    const auto require = [](std::string_view kind, const std::string& name, const Vec3& at) {
+        const double farthest_m = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+        if (farthest_m <= kFarthest_m) return;
+        throw InputError(fmt::format(
+            "{} \"{}\" reaches a coordinate of {:.2g} m; up to 1e7 m are possible. Details smaller than two "
+            "millionths of a scene's extent are lost. Check the units: Stilb expects metres.",
+            kind, name, farthest_m));
+    };
+    for (const Object& object : scene.objects) {
+        const Bounds bounds = geometry::bounds_of(object.shape);
+        if (bounds.is_empty()) continue;
+        require("object", object.name, bounds.min);
+        require("object", object.name, bounds.max);
+    }
+    for (const Light& light : scene.lights) {
+        if (const auto origin = lights::point_origin(light)) require("light", light.name, origin->position);
+    }
 }
 
 /// The point with barycentric coordinates b, moved away from the triangle's edges by `margin` metres where it
@@ -101,6 +128,7 @@ struct RayCaster::Implementation {
     std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
 
     explicit Implementation(const Scene& s) : scene(s), bounds(scene::bounds_of(s)) {
+        require_within_reach(s);
         center = 0.5 * (bounds.min + bounds.max);
         half_extent = bounds.half_extent();
         has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {

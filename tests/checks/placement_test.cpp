@@ -53,6 +53,15 @@ TEST(Placement, APointInsideTheCabinetsWallSide) {
     EXPECT_TRUE(has(warnings[0], "inside object \"cabinet\"")) << warnings[0];
 }
 
+TEST(Placement, GlassKeepsNoLightOutOrIn) {
+    Scene scene = furnished_room();
+    scene.materials.push_back({"glass", Dielectric{1.5}});
+    scene.objects.push_back({"globe", Sphere{{3, 3, 2.5}, 0.2}, {MaterialId{1}}});  // around the bulb
+    scene.objects.push_back(
+        {"case", Box{{1.5, 1.5, 0.5}, {2.5, 2.5, 1}}, {MaterialId{1}}});  // around a point
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({2, 2, 0})}), Texts{});
+}
+
 TEST(Placement, PointsOutsideOfTheRoom) {
     const Texts warnings = warnings_of(furnished_room(), {at({6, 2, 1})});
     ASSERT_EQ(warnings.size(), 1u);

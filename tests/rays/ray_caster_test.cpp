@@ -330,5 +330,24 @@ TEST(RayCaster, HasNoShadingNormalWhereNormalsAreOfNoUse) {
     EXPECT_LT(length(hit.shading_normal - Vec3{0, -0.6, 0.8}), 1e-15);
 }
 
+TEST(RayCaster, RefusesWhatIsTooFarForSinglePrecision) {
+    const auto message_of = [](const Scene& scene) -> std::string {
+        try {
+            const RayCaster caster(scene);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {1, 1, 9e6}}, diffuse(0.5));
+    EXPECT_EQ(message_of(scene), "");
+    add_object(scene, Sphere{{0, 0, 0}, 2e9}, diffuse(0.5));
+    EXPECT_NE(message_of(scene).find("object \"1\" reaches a coordinate of 2e+09 m"), std::string::npos);
+    scene.objects.pop_back();
+    add_point_light(scene, {0, -1e18, 0}, Rgb::grey(1));
+    EXPECT_NE(message_of(scene).find("light \"0\" reaches"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace stilb::rays
