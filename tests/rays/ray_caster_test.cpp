@@ -7,6 +7,7 @@
 
 #include "geometry/harmonics/surface.h"
 #include "geometry/transform.h"
+#include "stilb/error.h"
 #include "support/closed_meshes.h"
 #include "support/harmonic_shapes.h"
 
