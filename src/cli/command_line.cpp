@@ -47,7 +47,7 @@ std::string no_flag(const std::string& typed, const CLI::App& app) {
                        did_you_mean(typed, std::vector<std::string_view>(flags.begin(), flags.end())));
 }
 
-/// What is wrong with an argument that neither the program nor its command takes.
+/// The message for an argument before the command.
 std::string refusal_outside(const std::string& extra, const CLI::App& command) {
     if (!is_flag(extra)) {
         return fmt::format("\"{}\" is one argument too many. Arguments follow the name of the command, {}.",
@@ -58,7 +58,7 @@ std::string refusal_outside(const std::string& extra, const CLI::App& command) {
                        command.get_name());
 }
 
-/// What is wrong with the arguments of a command. Arguments that nothing takes are named before all else.
+/// The message for the arguments of a command. It names an unknown argument first, if there is one.
 std::string refusal(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
     if (const std::string extra = first_extra(app); !extra.empty()) return refusal_outside(extra, command);
     const std::string extra = first_extra(command);

@@ -20,7 +20,7 @@ struct EstimatorEntry {
     std::unique_ptr<Estimator> (*make)(const Problem& problem) = nullptr;
     /// Measures luminance and renders pictures.
     bool measures_luminance = true;
-    /// Whether the variance is infinite in some scenes: then single contributions are monitored.
+    /// Whether the variance is infinite in some scenes.
     bool has_heavy_tails = false;
     /// Whether the method always computes light on patches, which biases it by their size.
     bool lights_patches = false;

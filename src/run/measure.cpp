@@ -241,13 +241,13 @@ std::vector<std::string> rarity_warnings(const Campaign& campaign, std::span<con
         if (dark > 0) {
             warnings.push_back(
                 fmt::format("sensor \"{}\": {} samples found no light{}. If light gets there, the run needs "
-                            "more paths or "
-                            "more time to find it.",
+                            "more paths or more "
+                            "time to find it.",
                             sensor.sensor.name, samples, at_readings(dark, sensor)));
         }
         if (static_cast<double>(uncertain) > tolerated) {
             warnings.push_back(fmt::format(
-                "sensor \"{}\": a few rare light paths make up much of the light{} or of its error. More of "
+                "sensor \"{}\": a few rare light paths make up much of the light, or of its error{}. More of "
                 "them "
                 "may be missing, so that the interval is too narrow: give the run more paths or more time.",
                 sensor.sensor.name, at_readings(uncertain, sensor)));
@@ -278,11 +278,10 @@ struct Wanted {
 std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp, std::uint64_t samples,
                                               const Scene& scene) {
     if (samples >= sharp.samples) return {};
-    return {
-        fmt::format("object \"{}\" reflects or refracts small lamps sharply, and few samples find such "
-                    "light. The intervals "
-                    "may be too narrow with fewer than {:.2g} paths; this run had {}.",
-                    scene.object(sharp.object).name, static_cast<double>(sharp.samples), samples)};
+    return {fmt::format(
+        "object \"{}\" reflects or refracts small lamps sharply, and few samples find such light. The "
+        "intervals may be too narrow with fewer than {:.2g} paths; this run had {}.",
+        scene.object(sharp.object).name, static_cast<double>(sharp.samples), samples)};
 }
 
 void add_warnings(const Campaign& campaign, std::span<const Sensor> sensors, const Scene& scene,

@@ -22,9 +22,9 @@ bool rests_on_few_samples(const Estimate& reading, const LargestContributions& l
     constexpr double kOutstanding = 4, kMostOfReading = 0.02, kMostOfError = 0.7;
     if (largest.overall <= kOutstanding * largest.typical) return false;
     const double count = static_cast<double>(samples);
-    const double share = (largest.overall - largest.typical) / count;
-    return share > std::min(kMostOfReading, 1 / std::sqrt(count)) * reading.value ||
-           share > kMostOfError * reading.standard_error;
+    const double excess = (largest.overall - largest.typical) / count;
+    return excess > std::min(kMostOfReading, 1 / std::sqrt(count)) * reading.value ||
+           excess > kMostOfError * reading.standard_error;
 }
 
 }  // namespace stilb::statistics

@@ -1,6 +1,8 @@
 #include "transport/sharp_light.h"
 
 #include <algorithm>
+#include <optional>
+#include <variant>
 #include <vector>
 
 #include "materials/shaded_surface.h"
@@ -105,14 +107,15 @@ SharpLight find_sharp_light(const Scene& scene, const rays::RayCaster& caster) {
     constexpr double kLeastShare = 0.005, kTimesFound = 40;
     const LightSampler lights(scene, caster);
     if (lights.count() == 0) return {};
+    std::vector<double> areas_m2;
+    for (const Light& light : scene.lights) areas_m2.push_back(visible_area_m2(light, scene));
     std::vector<Highlight> highlights;
     double emitted_lm = 0;
     for (std::uint64_t i = 0; i < kParticles; ++i) {
         math::SampleStream stream(math::RandomKey{}, i);
         const EmittedParticle particle = lights.sample_emission(stream);
         emitted_lm += particle.flux_lm.luminance();
-        SharpParticle(particle, visible_area_m2(scene.lights[particle.light], scene))
-            .trace(scene, caster, stream, highlights);
+        SharpParticle(particle, areas_m2[particle.light]).trace(scene, caster, stream, highlights);
     }
     std::ranges::sort(highlights, {}, &Highlight::solid_angle_sr);
     double found_lm = 0;

@@ -8,24 +8,8 @@ import subprocess
 import time
 import unittest
 
-from command_line import CAMERA, MOST_SECONDS, PROGRAM, ROOM, ROOT, CommandLineTest, run
+from command_line import BOX, CAMERA, MOST_SECONDS, PROGRAM, ROOM, ROOT, CommandLineTest, run
 
-BOX = """
-v 0 0 0
-v 2 0 0
-v 2 1 0
-v 0 1 0
-v 0 0 1
-v 2 0 1
-v 2 1 1
-v 0 1 1
-f 4 3 2 1
-f 5 6 7 8
-f 1 2 6 5
-f 2 3 7 6
-f 3 4 8 7
-f 4 1 5 8
-"""
 LAMP = """
 [lights.lamp]
 type = "photometry"

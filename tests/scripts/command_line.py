@@ -60,6 +60,24 @@ resolution = [640, 480]
 projection = "fisheye"
 """
 
+# An OBJ mesh.
+BOX = """
+v 0 0 0
+v 2 0 0
+v 2 1 0
+v 0 1 0
+v 0 0 1
+v 2 0 1
+v 2 1 1
+v 0 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
+
 MOST_SECONDS = 60  # for a command that should end by itself: generous, machines may be busy
 
 

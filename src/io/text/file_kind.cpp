@@ -50,7 +50,7 @@ constexpr std::array kExtensions{
 struct Description {
     FileKind kind;
     std::string_view name;
-    std::string_view in_a_scene;  ///< what the file may be to a scene: a sentence, empty for none
+    std::string_view in_a_scene;  ///< its use in a scene, as a sentence; empty for none
 };
 
 constexpr std::string_view kPanorama =
@@ -93,7 +93,7 @@ const Description& description_of(FileKind kind) {
 
 bool contains(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
 
-/// Of a text that begins as a JSON object does.
+/// The kind of a text that begins with a brace.
 FileKind kind_of_json(std::string_view beginning) {
     if (contains(beginning, kSeriesFormat)) return FileKind::series;
     if (contains(beginning, "\"stilb\"") && contains(beginning, "\"attained_error\""))

@@ -1,4 +1,4 @@
-// What kind of file a file is, and which files a result may be written over.
+// The kinds of files, and the check that a result destroys no file.
 #pragma once
 
 #include <filesystem>
@@ -50,7 +50,7 @@ std::string_view name_of(FileKind kind);
 bool is_luminance_picture(FileKind kind);
 /// Whether a file of this kind may be a scene.
 bool may_be_scene(FileKind kind);
-/// Says of a file of another kind that it is no scene, and what it may be to a scene.
+/// The message that a file of this kind is no scene, with its use in a scene.
 std::string not_a_scene(FileKind kind);
 
 /// For a check before a long computation. Throws InputError where a result of this kind should not be written
