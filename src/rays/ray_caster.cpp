@@ -32,16 +32,16 @@ void throw_error(void*, RTCError, const char* message) {
     throw std::runtime_error(fmt::format("Embree: {}", message));
 }
 
-/// Ray queries are in single precision: farther away than this, about the size of the Earth, points are more
-/// than a metre apart, and products of coordinates overflow soon.
-constexpr double kFarthest_m = 1e7;
+/// Ray queries are in single precision: farther away than this, half of the Earth's girth, points are more than
+/// a metre apart, and products of coordinates overflow soon.
+constexpr double kFarthest_m = 2e7;
 
 void require_within_reach(const Scene& scene) {
     const auto require = [](std::string_view kind, const std::string& name, const Vec3& at) {
         const double farthest_m = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
         if (farthest_m <= kFarthest_m) return;
         throw InputError(fmt::format(
-            "{} \"{}\" reaches a coordinate of {:.2g} m; up to 1e7 m are possible. Details smaller than two "
+            "{} \"{}\" reaches a coordinate of {:.2g} m; up to 2e7 m are possible. Details smaller than two "
             "millionths of a scene's extent are lost. Check the units: Stilb expects metres.",
             kind, name, farthest_m));
     };
