@@ -32,8 +32,8 @@ void throw_error(void*, RTCError, const char* message) {
     throw std::runtime_error(fmt::format("Embree: {}", message));
 }
 
-/// Ray queries are in single precision: farther away than this, half of the Earth's girth, points are more than
-/// a metre apart, and products of coordinates overflow soon.
+/// Ray queries are in single precision: farther away than this, half of the Earth's girth, points are more
+/// than a metre apart, and products of coordinates overflow soon.
 constexpr double kFarthest_m = 2e7;
 
 void require_within_reach(const Scene& scene) {
