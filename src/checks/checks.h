@@ -77,21 +77,9 @@ std::vector<std::string> hole_warnings(const Scene& scene,
 
 // Overlapping surfaces.
 
-/// Two triangles that overlap in one plane and have different materials: rounding decides which of them
-/// a ray meets.
-struct Overlap {
-    ObjectId first{}, second{};
-    Vec3 position, normal;  ///< the middle of the overlap; unit normal of the plane
-};
-
-/// Pairs of triangles in the same plane (to a few parts in a million of the scene's size) that share more
-/// than a thousandth of the smaller one, and differ in material or emission. Ends after the first
-/// kMostOverlaps.
-std::vector<Overlap> find_overlaps(const Scene& scene);
-inline constexpr std::size_t kMostOverlaps = 1000;
-
-/// A sentence for each pair of objects that overlap where light arrives: not for the bottom of a cabinet on
-/// the floor.
+/// A sentence for each pair of objects that overlap in one plane where light arrives: not for the bottom of a
+/// cabinet on the floor. And one for each lamp in the plane of another object: it counts as being in front
+/// (scene/overlaps.h).
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
                                           const Enclosures& enclosures);
 
