@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
-#include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "run/level_of_detail.h"
 #include "run/run.h"
@@ -284,9 +283,9 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
         scene.object(sharp.object).name, static_cast<double>(sharp.samples), samples)};
 }
 
-void add_warnings(const Campaign& campaign, std::span<const Sensor> sensors, const Scene& scene,
-                  const rays::RayCaster& caster, const estimators::EstimatorEntry& method,
-                  const transport::SharpLight& sharp, const RunOptions& asked, RunResult& result) {
+void add_warnings(const Campaign& campaign, const Scene& scene, std::vector<std::string> of_scene,
+                  const estimators::EstimatorEntry& method, const transport::SharpLight& sharp,
+                  const RunOptions& asked, RunResult& result) {
     const auto append = [&](std::vector<std::string> more) {
         std::ranges::move(more, std::back_inserter(result.warnings));
     };
@@ -295,7 +294,7 @@ void add_warnings(const Campaign& campaign, std::span<const Sensor> sensors, con
             "method {} is deterministic and ends by itself: limits on error and paths have no effect.",
             method.name));
     }
-    append(checks::placement_warnings(scene, caster, sensors));
+    append(std::move(of_scene));
     if (!method.is_deterministic) append(rarity_warnings(campaign, result.sensors));
     append(sharp_light_warnings(sharp, result.samples, scene));
 }
@@ -318,6 +317,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
 
     Session session(scene, asked_options, options, progress, interrupt);
     require_surfaces(sensors, session.caster());
+    std::vector<std::string> of_scene = session.scene_warnings(sensors);
     estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kReadingPreparation));
     problem.measurands = wanted.measurands;
     problem.weights = wanted.weights;
@@ -349,7 +349,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
         result.sensors.push_back(sensor_result(campaign, sensor, first, estimator->sight_ends(), confidence));
         first += sensor.size();
     }
-    add_warnings(campaign, sensors, scene, session.caster(), method, sharp, asked_options, result);
+    add_warnings(campaign, scene, std::move(of_scene), method, sharp, asked_options, result);
     session.finish(result);
     return result;
 }

@@ -144,6 +144,16 @@ class OverlapSearch {
             if (const auto surface = lights::surface_emission(light))
                 is_lamp[index_of(surface->object)] = true;
         }
+        const double margin_m = largest_gap_m_ / 2;
+        margin_ = {margin_m, margin_m, margin_m};
+        if (of == OverlapsOf::lamps) {
+            wanted_ = {};
+            for (std::size_t i = 0; i < is_lamp.size(); ++i) {
+                if (!is_lamp[i]) continue;
+                const Bounds lamp = geometry::bounds_of(scene.objects[i].shape);
+                wanted_.include(lamp.min - margin_), wanted_.include(lamp.max + margin_);
+            }
+        }
         for (std::uint32_t i = 0; i < scene.objects.size(); ++i) add(scene.objects[i], i, is_lamp[i]);
     }
 
@@ -170,19 +180,20 @@ class OverlapSearch {
         Shapes& shape = shapes_[index];
         if (mesh == nullptr) shape.own = mesh_of(object.shape);
         shape.mesh = mesh ? mesh : &shape.own;
-        const double margin_m = largest_gap_m_ / 2;
-        const Vec3 margin{margin_m, margin_m, margin_m};
+        std::uint32_t look = look_of(object.materials[0], is_lamp ? index + 1 : 0);
         for (std::uint32_t t = 0; t < shape.mesh->triangles.size(); ++t) {
-            Piece& piece = pieces_.emplace_back();
-            for (const std::uint32_t v : shape.mesh->triangles[t])
-                piece.bounds.include(shape.mesh->vertices[v]);
-            piece.bounds = {piece.bounds.min - margin, piece.bounds.max + margin};
-            piece.object = ObjectId{index};
-            piece.triangle = t;
-            piece.is_lamp = is_lamp;
-            piece.look = look_of(object.materials.size() == 1 ? object.materials[0] : object.materials[t],
-                                 is_lamp ? index + 1 : 0);
+            Bounds bounds;
+            for (const std::uint32_t v : shape.mesh->triangles[t]) bounds.include(shape.mesh->vertices[v]);
+            bounds = {bounds.min - margin_, bounds.max + margin_};
+            if (!meet(bounds, wanted_)) continue;
+            if (object.materials.size() > 1) look = look_of(object.materials[t], is_lamp ? index + 1 : 0);
+            pieces_.push_back({bounds, ObjectId{index}, t, look, is_lamp});
         }
+    }
+
+    static bool meet(const Bounds& a, const Bounds& b) {
+        return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+               a.min.z <= b.max.z && b.min.z <= a.max.z;
     }
 
     /// `lamp`: 0 for what is none. To find lamps all others look alike.
@@ -297,6 +308,10 @@ class OverlapSearch {
     OverlapsOf of_;
     std::size_t most_;
     double largest_gap_m_;
+    Vec3 margin_;  ///< half the largest gap
+    /// Triangles elsewhere are left out: where lamps are wanted, the bounds of all lamps.
+    Bounds wanted_{{-Bounds::kInfinity, -Bounds::kInfinity, -Bounds::kInfinity},
+                   {Bounds::kInfinity, Bounds::kInfinity, Bounds::kInfinity}};
     std::vector<Shapes> shapes_;  ///< by object
     std::vector<Piece> pieces_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> looks_;
