@@ -1,10 +1,13 @@
 #include "checks/checks.h"
 
+#include <utility>
+
 namespace stilb::checks {
 
 std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                        const Enclosures& enclosures, std::span<const Sensor> sensors) {
-    std::vector<std::string> warnings;
+                                        const Enclosures& enclosures, std::span<const Sensor> sensors,
+                                        std::vector<std::string> of_reader) {
+    std::vector<std::string> warnings = std::move(of_reader);
     const auto add = [&](const std::vector<std::string>& more) {
         warnings.insert(warnings.end(), more.begin(), more.end());
     };

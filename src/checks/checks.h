@@ -129,8 +129,10 @@ std::vector<std::string> unit_warnings(const Scene& scene);
 
 // All checks.
 
-/// The warnings of all checks. `sensors`: those that are measured, or none.
+/// The warnings of all checks, after those that the reader of the scene has given. `sensors`: those that are
+/// measured, or none.
 std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                        const Enclosures& enclosures, std::span<const Sensor> sensors);
+                                        const Enclosures& enclosures, std::span<const Sensor> sensors,
+                                        std::vector<std::string> of_reader = {});
 
 }  // namespace stilb::checks

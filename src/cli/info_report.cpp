@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <iterator>
-
 #include "base/vec.h"
 #include "checks/checks.h"
 #include "geometry/harmonics/surface.h"
@@ -197,10 +194,7 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     json["luminaires"] = list_json(scene.solids, luminaire_json);
     json["sensors"] = list_json(file.sensors, sensor_json);
     json["run"] = run_json(file.run);
-    std::vector<std::string> warnings = file.warnings;
-    std::ranges::move(checks::scene_warnings(scene, caster, enclosures, file.sensors),
-                      std::back_inserter(warnings));
-    json["warnings"] = warnings;
+    json["warnings"] = checks::scene_warnings(file.scene, caster, enclosures, file.sensors, file.warnings);
     json["memory"] = {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}};
     return json;
 }
