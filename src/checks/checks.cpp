@@ -1,7 +1,5 @@
 #include "checks/checks.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace stilb::checks {
@@ -13,12 +11,14 @@ std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaste
     const auto add = [&](const std::vector<std::string>& more) {
         warnings.insert(warnings.end(), more.begin(), more.end());
     };
+    Explained explained(scene, sensors);
+    add(unit_warnings(scene));
     add(hole_warnings(scene, enclosures.components()));
     add(overlap_warnings(scene, caster, enclosures));
-    add(placement_warnings(scene, caster, sensors));
-    for (const ObjectId object : unlit_objects(scene, caster)) {
-        warnings.push_back(fmt::format("object \"{}\": no light reaches it.", scene.object(object).name));
-    }
+    add(placement_warnings(scene, caster, enclosures, sensors, explained));
+    add(facing_warnings(scene, caster, sensors, explained));
+    add(reach_warnings(scene, caster, sensors, explained));
+    add(unlit_warnings(scene, caster));
     return warnings;
 }
 

@@ -1,4 +1,5 @@
-// Warnings about a scene: holes, overlaps, sensors and lights behind walls, objects without light.
+// Warnings about a scene: holes, overlaps, units, sensors and lights in the wrong place or turned the wrong
+// way, objects without light.
 #pragma once
 
 #include <compare>
@@ -77,31 +78,40 @@ std::vector<std::string> hole_warnings(const Scene& scene,
 
 // Overlapping surfaces.
 
-/// Two triangles that overlap in one plane and have different materials: rounding decides which of them
-/// a ray meets.
-struct Overlap {
-    ObjectId first{}, second{};
-    Vec3 position, normal;  ///< the middle of the overlap; unit normal of the plane
-};
-
-/// Pairs of triangles in the same plane (to a few parts in a million of the scene's size) that share more
-/// than a thousandth of the smaller one, and differ in material or emission. Ends after the first
-/// kMostOverlaps.
-std::vector<Overlap> find_overlaps(const Scene& scene);
-inline constexpr std::size_t kMostOverlaps = 1000;
-
-/// A sentence for each pair of objects that overlap where light arrives: not for the bottom of a cabinet on
-/// the floor.
+/// A sentence for each pair of objects that overlap in one plane where light arrives: not for the bottom of a
+/// cabinet on the floor. And one for each lamp in the plane of another object: it counts as being in front
+/// (scene/overlaps.h).
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
                                           const Enclosures& enclosures);
 
-// Misplaced sensors and lights: closed surfaces between them.
+// Misplaced sensors and lights.
+
+/// Lights and sensors that a warning names already: later checks leave them out, one message for one mistake.
+struct Explained {
+    std::vector<bool> lights, sensors;
+
+    Explained(const Scene& scene, std::span<const Sensor> all_sensors)
+        : lights(scene.lights.size()), sensors(all_sensors.size()) {}
+};
 
 /// A sentence for every sensor with points that no light can reach, because a closed surface separates
 /// them from all lights, and for every light that likewise
 /// reaches no point of any sensor. And for every sensor with bodies that lie on surfaces.
 std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                            std::span<const Sensor> sensors);
+                                            const Enclosures& enclosures, std::span<const Sensor> sensors,
+                                            Explained& explained);
+
+/// A sentence for every area light whose front is close to a surface that stops its light, and for every
+/// illuminance sensor whose normal points to a surface close by, or into the surface that it lies on, away
+/// from the lamps.
+std::vector<std::string> facing_warnings(const Scene& scene, const rays::RayCaster& caster,
+                                         std::span<const Sensor> sensors, Explained& explained);
+
+/// A sentence for the lights of which nothing reaches any sensor, and one for the sensors that no light
+/// reaches. Random walks from both sides are connected, over some diffuse reflections at each side: where
+/// they find no connection, hardly any light gets through. Of many lights and sensors only a part is tested.
+std::vector<std::string> reach_warnings(const Scene& scene, const rays::RayCaster& caster,
+                                        std::span<const Sensor> sensors, const Explained& explained);
 
 // Objects that no light reaches.
 
@@ -109,12 +119,20 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
 /// particles are traced over some diffuse reflections; surfaces that they do not hit are then connected to
 /// the positions of the particles. A lit object can be listed only where almost no light reaches it.
 std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& caster);
+/// One sentence for all of them.
+std::vector<std::string> unlit_warnings(const Scene& scene, const rays::RayCaster& caster);
+
+// Units.
+
+/// A sentence where the meshes are so large on all sides that their file is probably not in metres.
+std::vector<std::string> unit_warnings(const Scene& scene);
 
 // All checks.
 
-/// The warnings of all checks, after those that the reader of the scene has given.
+/// The warnings of all checks, after those that the reader of the scene has given. `sensors`: those that are
+/// measured, or none.
 std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaster& caster,
                                         const Enclosures& enclosures, std::span<const Sensor> sensors,
-                                        std::vector<std::string> of_reader);
+                                        std::vector<std::string> of_reader = {});
 
 }  // namespace stilb::checks

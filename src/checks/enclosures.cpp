@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "checks/checks.h"
+#include "checks/walks.h"
 
 namespace stilb::checks {
 namespace {
@@ -19,12 +20,6 @@ constexpr std::size_t kMostLightsTried = 8;
 ProbeRay probe_ray_off(const Vec3& position, const Vec3& normal, double size_m,
                        const rays::RayCaster& caster) {
     return {position + caster.offset_m(position, size_m) * normal, normal};
-}
-
-/// Whether light gets through the surface: glass encloses nothing.
-bool transmits(const Material& material) {
-    const auto branches = specular_branches(material, materials::LightSide::outside, {0, 0, 1});
-    return std::ranges::any_of(branches.list(), [](const auto& branch) { return branch.direction.z < 0; });
 }
 
 /// One probe from every component, off its front.
@@ -97,6 +92,7 @@ Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const V
         if (!hit) break;
         const geometry::ConnectedComponents& components = components_[index_of(hit->object)];
         const std::uint32_t component = components.of_triangle[hit->triangle];
+        // Glass encloses nothing.
         if (components.is_closed(component) && !transmits(scene_.material(hit->material)))
             crossed.push_back({hit->object, component});
         from = hit->position - (hit->lifted - hit->position);  // just behind the surface

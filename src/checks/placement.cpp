@@ -111,8 +111,8 @@ std::optional<std::string> fault_of(const Light& light, const EnclosureList& of_
 }  // namespace
 
 std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                            std::span<const Sensor> sensors) {
-    const Enclosures enclosures(scene, caster);
+                                            const Enclosures& enclosures, std::span<const Sensor> sensors,
+                                            Explained& explained) {
     EnclosureList lit, of_sensors;
     for (const EnclosureList& of_light : enclosures.of_lights())
         lit.insert(lit.end(), of_light.begin(), of_light.end());
@@ -122,19 +122,24 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
     }
     if (lit.empty()) return warnings;
 
-    for (const Sensor& sensor : sensors) {
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
         std::map<Enclosure, std::size_t> counts;
-        for (const ProbeRay& ray : rays_of(sensor, caster)) ++counts[enclosures.enclosure_of(ray)];
+        for (const ProbeRay& ray : rays_of(sensors[i], caster)) ++counts[enclosures.enclosure_of(ray)];
         for (const auto& [enclosure, count] : counts) of_sensors.push_back(enclosure);
-        if (auto fault = fault_of(sensor, counts, lit, scene)) warnings.push_back(std::move(*fault));
+        auto fault = fault_of(sensors[i], counts, lit, scene);
+        if (!fault) continue;
+        explained.sensors[i] = true;
+        warnings.push_back(std::move(*fault));
     }
     const bool some_are_lit =
         std::any_of(of_sensors.begin(), of_sensors.end(),
                     [&](const Enclosure& enclosure) { return contains(lit, enclosure); });
     if (!some_are_lit) return warnings;  // one message for one mistake
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        if (auto fault = fault_of(scene.lights[i], enclosures.of_lights()[i], of_sensors, scene))
-            warnings.push_back(std::move(*fault));
+        auto fault = fault_of(scene.lights[i], enclosures.of_lights()[i], of_sensors, scene);
+        if (!fault) continue;
+        explained.lights[i] = true;
+        warnings.push_back(std::move(*fault));
     }
     return warnings;
 }

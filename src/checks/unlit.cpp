@@ -1,49 +1,44 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <functional>
 
 #include "checks/checks.h"
+#include "checks/walks.h"
 #include "math/sampling.h"
 #include "transport/light_sampler.h"
 
 namespace stilb::checks {
 namespace {
 
-constexpr std::uint64_t kParticles = 4096;
+constexpr std::uint64_t kParticles = 4096, kParticlesAtOnce = 64;
 constexpr int kReflections = 3;
 constexpr std::uint64_t kPointsOnObject = 64;
 /// Lit positions that are tested for each point on an object.
 constexpr std::size_t kLocationsTried = 64;
 enum Purpose : std::uint64_t { kTracing, kConnecting };
 
-/// A lifted point and the normal on its side.
-struct Location {
-    Vec3 position, normal;
-};
+/// Tests of pairs of points for all objects: a few tenths of a second at most. Objects that are left then are
+/// not named.
+constexpr std::size_t kMostTests = 200'000;
 
-struct Traced {
-    std::vector<Location> locations;  ///< of particles, in random order
-    std::vector<bool> is_object_hit;
-};
-
-/// All surfaces count as diffuse reflectors here, even black ones: only the geometry matters.
-Traced trace_particles(const Scene& scene, const rays::RayCaster& caster) {
+/// Particles from all lights, until every object is met. Emitters count as met.
+Trail trace_particles(const Scene& scene, const rays::RayCaster& caster) {
     const transport::LightSampler lights(scene, caster);
-    Traced traced{{}, std::vector<bool>(scene.objects.size())};
+    Trail trail(scene);
+    for (const Light& light : scene.lights) {
+        if (const auto surface = lights::surface_emission(light))
+            trail.is_object_met[index_of(surface->object)] = true;
+    }
     for (std::uint64_t i = 0; i < kParticles; ++i) {
+        if (i % kParticlesAtOnce == 0 && std::ranges::all_of(trail.is_object_met, std::identity{})) break;
         math::SampleStream stream(math::RandomKey{}.derived(kTracing), i);
         const transport::EmittedParticle particle = lights.sample_emission(stream);
-        Location from{particle.origin, particle.direction};
-        Vec3 direction = particle.direction;
-        for (int reflection = 0; reflection <= kReflections; ++reflection) {
-            traced.locations.push_back(from);
-            const auto hit = caster.closest(from.position, direction);
-            if (!hit) break;
-            traced.is_object_hit[index_of(hit->object)] = true;
-            from = {hit->lifted, hit->normal};
-            const auto [u1, u2] = stream.next_two();
-            direction = Frame::around(hit->normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
-        }
+        const Location start{particle.origin, particle.direction};
+        trail.locations.push_back(start);
+        follow_walk(scene, caster, start, particle.direction, kReflections, stream, trail);
     }
-    return traced;
+    return trail;
 }
 
 Location location_on(const Mesh& mesh, math::SampleStream& stream) {
@@ -77,13 +72,9 @@ Location location_on(const Disk& disk, math::SampleStream& stream) {
     return {disk.center + disk.radius * (p.x * frame.u + p.y * frame.v), disk.normal};
 }
 
-bool sees(const Location& from, const Location& to, const rays::RayCaster& caster) {
-    const Vec3 offset = to.position - from.position;
-    return dot(offset, from.normal) > 0 && dot(offset, to.normal) < 0 &&
-           !caster.occluded(from.position, to.position);
-}
-
-bool is_seen(const Object& object, const std::vector<Location>& lit, const rays::RayCaster& caster) {
+/// `tests` counts the pairs of points that were tested.
+bool is_seen(const Object& object, const std::vector<Location>& lit, const rays::RayCaster& caster,
+             std::size_t& tests) {
     const std::size_t stride = std::max<std::size_t>(1, lit.size() / kLocationsTried);
     for (std::uint64_t i = 0; i < kPointsOnObject; ++i) {
         math::SampleStream stream(math::RandomKey{}.derived(kConnecting), i);
@@ -93,6 +84,7 @@ bool is_seen(const Object& object, const std::vector<Location>& lit, const rays:
         for (const Vec3& normal : {location.normal, -location.normal}) {
             const Location lifted{location.position + offset * normal, normal};
             for (std::size_t j = i % stride; j < lit.size(); j += stride) {
+                ++tests;
                 if (sees(lifted, lit[j], caster)) return true;
             }
         }
@@ -104,17 +96,22 @@ bool is_seen(const Object& object, const std::vector<Location>& lit, const rays:
 
 std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& caster) {
     if (scene.lights.empty()) return {};  // all objects are dark; the scene reader warns of it
-    Traced traced = trace_particles(scene, caster);
-    for (const Light& light : scene.lights) {
-        if (const auto surface = lights::surface_emission(light))
-            traced.is_object_hit[index_of(surface->object)] = true;
-    }
+    const Trail trail = trace_particles(scene, caster);
     std::vector<ObjectId> unlit;
-    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
-        if (traced.is_object_hit[i] || is_seen(scene.objects[i], traced.locations, caster)) continue;
+    std::size_t tests = 0;
+    for (std::uint32_t i = 0; i < scene.objects.size() && tests < kMostTests; ++i) {
+        if (trail.is_object_met[i] || is_seen(scene.objects[i], trail.locations, caster, tests)) continue;
         unlit.push_back(ObjectId{i});
     }
     return unlit;
+}
+
+std::vector<std::string> unlit_warnings(const Scene& scene, const rays::RayCaster& caster) {
+    std::vector<std::string> names;
+    for (const ObjectId object : unlit_objects(scene, caster)) names.push_back(scene.object(object).name);
+    if (names.empty()) return {};
+    return {names.size() == 1 ? fmt::format("object \"{}\": no light reaches it.", names[0])
+                              : fmt::format("objects {}: no light reaches them.", list_of(names))};
 }
 
 }  // namespace stilb::checks

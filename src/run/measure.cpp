@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
-#include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "run/level_of_detail.h"
 #include "run/run.h"
@@ -299,12 +298,12 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
         scene.object(sharp.object).name, static_cast<double>(sharp.samples), samples)};
 }
 
-void add_warnings(const Campaign& campaign, std::span<const Sensor> sensors, const Scene& scene,
-                  const rays::RayCaster& caster, const transport::SharpLight& sharp, RunResult& result) {
+void add_warnings(const Campaign& campaign, const Scene& scene, std::vector<std::string> of_scene,
+                  const transport::SharpLight& sharp, RunResult& result) {
     const auto append = [&](std::vector<std::string> more) {
         std::ranges::move(more, std::back_inserter(result.warnings));
     };
-    append(checks::placement_warnings(scene, caster, sensors));
+    append(std::move(of_scene));
     append(rarity_warnings(campaign, result.sensors));
     append(sharp_light_warnings(sharp, result.samples, scene));
 }
@@ -327,6 +326,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
 
     Session session(scene, asked_options, options, progress, interrupt);
     require_surfaces(sensors, session.caster());
+    std::vector<std::string> of_scene = session.scene_warnings(sensors);
     estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kReadingPreparation));
     problem.measurands = wanted.measurands;
     problem.weights = wanted.weights;
@@ -353,7 +353,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
         result.sensors.push_back(sensor_result(campaign, sensor, first, estimator->sight_ends(), confidence));
         first += sensor.size();
     }
-    add_warnings(campaign, sensors, scene, session.caster(), sharp, result);
+    add_warnings(campaign, scene, std::move(of_scene), sharp, result);
     session.finish(result);
     return result;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -10,7 +11,6 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "estimators/patch_light/patch_solution.h"
 #include "math/random.h"
@@ -255,6 +255,7 @@ RenderResult render_by(const MakeEstimator& make, std::uint64_t replicates, cons
                        PictureSink* sink, const std::atomic<bool>* interrupt) {
     const Camera& camera = *sensor.camera();
     Session session(scene, asked, options, sink, interrupt);
+    std::vector<std::string> of_scene = session.scene_warnings({&sensor, 1});
     const std::vector<bool> blind = blind_pixels(camera);
     RenderResult result;
     session.on_threads([&] {
@@ -270,9 +271,7 @@ RenderResult render_by(const MakeEstimator& make, std::uint64_t replicates, cons
         add_means(passes.sums(), blind, result);
         add_geometry(camera, session.caster(), result);
     });
-    for (auto& warning : checks::placement_warnings(scene, session.caster(), {&sensor, 1})) {
-        result.warnings.push_back(std::move(warning));
-    }
+    std::ranges::move(of_scene, std::back_inserter(result.warnings));
     session.finish(result);
     return result;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "checks/checks.h"
 #include "transport/receiver.h"
 
 namespace stilb::run {
@@ -116,6 +117,10 @@ Session::Session(const Scene& scene, const RunOptions& asked, const RunOptions& 
       monitor_(interrupt, deadline_of(asked), report_to(sink, clock_)),
       caster_(scene),
       pool_(options.threads) {}
+
+std::vector<std::string> Session::scene_warnings(std::span<const Sensor> sensors) const {
+    return checks::scene_warnings(scene_, caster_, checks::Enclosures(scene_, caster_), sensors);
+}
 
 estimators::Problem Session::problem(math::RandomKey preparation_key) const {
     return {.scene = scene_,

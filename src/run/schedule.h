@@ -107,6 +107,9 @@ class Session {
 
     const rays::RayCaster& caster() const { return caster_; }
     const Monitor& monitor() const { return monitor_; }
+    /// The warnings of all checks (checks/checks.h). They belong before the samples: so they count in the
+    /// time limit.
+    std::vector<std::string> scene_warnings(std::span<const Sensor> sensors) const;
     /// The problem without measurands and camera.
     estimators::Problem problem(math::RandomKey preparation_key) const;
 

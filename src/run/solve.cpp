@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <memory>
 
@@ -166,6 +167,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
     RunOptions options = with_solution_target(asked_options);
     options.method = kMethod;
     Session session(scene, asked_options, options, progress, interrupt);
+    std::vector<std::string> of_scene = session.scene_warnings({});
     SolveResult result;
     session.on_threads([&] {
         const Monitor& monitor = session.monitor();
@@ -183,6 +185,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
     });
     result.replicates = static_cast<int>(kSolutionReplicates);
     result.warnings = estimators::patch_warnings(scene, kMethod);
+    std::ranges::move(of_scene, std::back_inserter(result.warnings));
     session.finish(result);
     return result;
 }

@@ -43,9 +43,11 @@ MeasuringPoint viewpoint_of(const Measurand& measurand) { return std::visit(View
 Location location_of(const Measurand& measurand) { return std::visit(LocationOf{}, measurand); }
 
 std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster) {
+    // Three offsets in front, because a lamp in the plane of a ceiling stands two in front of it
+    // (scene/overlaps.h); and one behind.
     const double most = caster.offset_m(point.position, caster.half_extent_m());
-    const auto below = caster.closest(point.position + most * point.normal, -point.normal);
-    return below && below->distance_m < 2 * most ? below : std::nullopt;
+    const auto below = caster.closest(point.position + 3 * most * point.normal, -point.normal);
+    return below && below->distance_m < 4 * most ? below : std::nullopt;
 }
 
 Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster) {

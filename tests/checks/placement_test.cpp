@@ -25,7 +25,8 @@ Sensor at(const Vec3& position, const Vec3& normal = {0, 0, 1}) {
 
 Texts warnings_of(const Scene& scene, const std::vector<Sensor>& sensors) {
     const rays::RayCaster caster(scene);
-    return placement_warnings(scene, caster, sensors);
+    Explained explained(scene, sensors);
+    return placement_warnings(scene, caster, Enclosures(scene, caster), sensors, explained);
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

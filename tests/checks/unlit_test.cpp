@@ -53,6 +53,22 @@ TEST(Unlit, WhatIsOutsideOrShutInIsNot) {
     EXPECT_EQ(unlit_in(scene), std::vector{kProbe});
 }
 
+TEST(Unlit, ManyDarkObjectsAreOneSentence) {
+    Scene scene = room_with(Sphere{{1, 1, 1}, 0.1});
+    for (int i = 0; i < 22; ++i)
+        scene.objects.push_back({std::to_string(i), Sphere{{10.0 + i, 1, 1}, 0.1}, {MaterialId{0}}});
+    const rays::RayCaster caster(scene);
+    EXPECT_EQ(unlit_warnings(scene, caster),
+              std::vector<std::string>{"objects \"0\", \"1\", \"2\" and 19 more: no light reaches them."});
+}
+
+TEST(Unlit, LightGetsThroughPanes) {
+    Scene scene = room_with(Sphere{{1, 1, 1}, 0.1});
+    scene.materials.push_back({"pane", ThinDielectric{1.52, 1}});
+    scene.objects.push_back({"show case", Box{{0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}}, {MaterialId{1}}});
+    EXPECT_TRUE(unlit_in(scene).empty());
+}
+
 TEST(Unlit, EmittersLightThemselves) {
     Scene scene = room_with(Sphere{{8, 1, 1}, 1});
     scene.lights.push_back({"globe", AreaLight{kProbe, Rgb::grey(1)}});

@@ -13,6 +13,7 @@
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
 #include "run/options.h"
+#include "scene/overlaps.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -142,6 +143,7 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     read_objects(section_of(root, "objects", none), directory, file);
     warn_of_unused_materials(materials, file);
     read_lights(section_of(root, "lights", none), directory, file);
+    scene::put_lamps_in_front(file.scene);
     if (file.scene.lights.empty())
         file.warnings.emplace_back(InputError("no light: the scene is dark.", {name}).what());
     read_sensors(section_of(root, "sensors", none), file);

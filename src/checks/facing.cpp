@@ -1,0 +1,171 @@
+// Lamps and sensors whose fronts are turned the wrong way.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "checks/checks.h"
+#include "checks/walks.h"
+
+namespace stilb::checks {
+namespace {
+
+/// A lamp whose light is stopped within this distance, or within this share of the lamp's own size if that is
+/// less, cannot light a room: in such a gap almost all of the light is absorbed.
+constexpr double kNarrowGap_m = 0.1, kNarrowShare = 0.25;
+constexpr int kLampRays = 32, kMostThatEscape = 3;
+constexpr std::size_t kMostLampsTested = 10'000;
+/// A surface so close in front of a measuring point hides all else.
+constexpr double kHiding_m = 0.02;
+constexpr std::size_t kPointsTested = 64, kLightRays = 64, kMostSensorsTested = 256;
+/// The share of a sensor's points that have to be turned: some may lie under things.
+constexpr double kMostPoints = 0.9;
+enum FacingPurpose : std::uint64_t { kLampFronts, kLightOrigins };
+
+/// "1.2 cm", "3 mm".
+std::string short_distance(double distance_m) {
+    return distance_m < 0.0095 ? fmt::format("{:.2g} mm", 1000 * distance_m)
+                               : fmt::format("{:.2g} cm", 100 * distance_m);
+}
+
+struct Facing {
+    ObjectId object{};
+    double distance_m = 0;
+};
+
+/// What almost all the light of a lamp meets at once.
+std::optional<Facing> faced_by(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
+    const auto surface = lights::surface_emission(light);
+    if (!surface) return std::nullopt;
+    const auto emitter = lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift());
+    const double size_m = std::sqrt(area_m2(scene.object(surface->object).shape));
+    const double narrow_m = std::min(kNarrowGap_m, kNarrowShare * size_m);
+    Facing facing{{}, narrow_m};
+    int escaped = 0;
+    for (std::uint64_t i = 0; i < kLampRays; ++i) {
+        math::SampleStream stream(math::RandomKey{}.derived(kLampFronts), i);
+        const lights::Emission ray = std::visit([&](const auto& own) { return own.emit(stream); }, emitter);
+        const auto hit = caster.closest(ray.origin, ray.direction);
+        if (!hit || hit->distance_m > narrow_m || transmits(scene.material(hit->material))) {
+            if (++escaped > kMostThatEscape) return std::nullopt;
+        } else if (hit->distance_m < facing.distance_m) {
+            facing = {hit->object, hit->distance_m};
+        }
+    }
+    return facing;
+}
+
+/// The illuminance points of a sensor; a part of them where there are many.
+std::vector<MeasuringPoint> points_of(const Sensor& sensor) {
+    std::vector<MeasuringPoint> points;
+    if (sensor.camera()) return points;
+    const std::size_t count = std::min(sensor.size(), kPointsTested);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Measurand measurand = sensor.measurand(i * sensor.size() / count);
+        if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) points.push_back(*point);
+    }
+    return points;
+}
+
+/// The surface close in front of most points.
+std::optional<Facing> faced_by(const std::vector<MeasuringPoint>& points, const rays::RayCaster& caster) {
+    std::size_t hidden = 0;
+    Facing facing{{}, kHiding_m};
+    for (const MeasuringPoint& point : points) {
+        const auto hit = caster.closest(lifted_position(point, caster), point.normal);
+        if (!hit || hit->distance_m > kHiding_m) continue;
+        ++hidden;
+        if (hit->distance_m < facing.distance_m) facing = {hit->object, hit->distance_m};
+    }
+    if (static_cast<double>(hidden) < kMostPoints * static_cast<double>(points.size())) return std::nullopt;
+    return facing;
+}
+
+/// The surface that most points lie on, where lamps shine on its other side and not on that of the points.
+std::optional<ObjectId> lit_from_behind(const std::vector<MeasuringPoint>& points,
+                                        const std::vector<Location>& lamps, const rays::RayCaster& caster) {
+    const auto is_lit = [&](const Location& place) {
+        return std::ranges::any_of(lamps, [&](const Location& lamp) {
+            // A lamp shines into the whole half space, of which its particle took one direction.
+            return dot(lamp.position - place.position, place.normal) > 0 &&
+                   caster.transmittance({place.position, lamp.position}).max() > 0;
+        });
+    };
+    std::size_t turned = 0;
+    std::optional<ObjectId> object;
+    for (const MeasuringPoint& point : points) {
+        const auto surface = surface_at(point, caster);
+        if (!surface || is_lit({surface->lifted, surface->normal}) ||
+            !is_lit({surface->lifted_behind(), -surface->normal}))
+            continue;
+        ++turned;
+        object = surface->object;
+    }
+    if (static_cast<double>(turned) < kMostPoints * static_cast<double>(points.size())) return std::nullopt;
+    return object;
+}
+
+/// Points on lamps from which particles start.
+std::vector<Location> lamp_points(const Scene& scene, const rays::RayCaster& caster) {
+    std::vector<Location> points;
+    const std::size_t count = std::min<std::size_t>(kLightRays, 4 * scene.lights.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        math::SampleStream stream(math::RandomKey{}.derived(kLightOrigins), i);
+        const Light& light = scene.lights[i * scene.lights.size() / count];
+        const auto emitter = lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift());
+        const lights::Emission ray = std::visit([&](const auto& own) { return own.emit(stream); }, emitter);
+        points.push_back({ray.origin, ray.direction});
+    }
+    return points;
+}
+
+std::optional<std::string> fault_of(const Sensor& sensor, const std::vector<Location>& lamps,
+                                    const Scene& scene, const rays::RayCaster& caster) {
+    const std::vector<MeasuringPoint> points = points_of(sensor);
+    if (points.empty()) return std::nullopt;
+    if (const auto faced = faced_by(points, caster)) {
+        return fmt::format(
+            "sensor \"{}\": its normal points to object \"{}\", {} away, which hides everything else. Turn "
+            "the "
+            "normal round (of a grid by exchanging edge_u and edge_v), or move the sensor.",
+            sensor.name, scene.object(faced->object).name, short_distance(faced->distance_m));
+    }
+    const auto object = lit_from_behind(points, lamps, caster);
+    if (!object) return std::nullopt;
+    return fmt::format(
+        "sensor \"{}\": it lies on object \"{}\", but its normal points into it, to the side where no lamp "
+        "shines. Turn the normal round (of a grid by exchanging edge_u and edge_v), unless that side is "
+        "meant.",
+        sensor.name, scene.object(*object).name);
+}
+
+}  // namespace
+
+std::vector<std::string> facing_warnings(const Scene& scene, const rays::RayCaster& caster,
+                                         std::span<const Sensor> sensors, Explained& explained) {
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < std::min(scene.lights.size(), kMostLampsTested); ++i) {
+        const Light& light = scene.lights[i];
+        const auto faced = faced_by(light, scene, caster);
+        if (!faced) continue;
+        explained.lights[i] = true;
+        warnings.push_back(fmt::format(
+            "light \"{}\": its front faces object \"{}\", {} away, which stops almost all of its light. Only "
+            "fronts emit light: turn the lamp round (a rectangle by exchanging edge_u and edge_v), or move "
+            "it.",
+            light.name, scene.object(faced->object).name, short_distance(faced->distance_m)));
+    }
+    const std::vector<Location> lamps = lamp_points(scene, caster);
+    for (std::size_t i = 0; i < std::min(sensors.size(), kMostSensorsTested); ++i) {
+        if (explained.sensors[i]) continue;
+        auto fault = fault_of(sensors[i], lamps, scene, caster);
+        if (!fault) continue;
+        explained.sensors[i] = true;
+        warnings.push_back(std::move(*fault));
+    }
+    return warnings;
+}
+
+}  // namespace stilb::checks

@@ -1,0 +1,72 @@
+
+#include <fmt/format.h>
+
+#include "base/vec.h"
+#include "checks/checks.h"
+
+namespace stilb::checks {
+
+namespace {
+
+/// The largest vector area, as a share of the area, of a nearly closed surface. The vector area of a closed
+/// surface is 0; that of an open one is the area of its holes, if flat. A box without a lid (0.2 of its area,
+/// or more for a flat one) is open on purpose.
+constexpr double kLargestHole = 0.05;
+
+struct Hole {
+    std::size_t components = 0, edges = 0;
+};
+
+Hole holes_of(const Mesh& mesh, const geometry::ConnectedComponents& components) {
+    std::vector<Vec3> vector_area(components.count());
+    std::vector<double> area(components.count());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto [a, b, c] = mesh.triangles[t];
+        const Vec3 doubled = cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+        vector_area[components.of_triangle[t]] += doubled;
+        area[components.of_triangle[t]] += length(doubled);
+    }
+    Hole hole;
+    for (std::uint32_t s = 0; s < components.count(); ++s) {
+        if (components.is_closed(s) || length(vector_area[s]) > kLargestHole * area[s]) continue;
+        ++hole.components;
+        hole.edges += components.open_edges[s];
+    }
+    return hole;
+}
+
+}  // namespace
+
+std::vector<std::string> hole_warnings(const Scene& scene,
+                                       const std::vector<geometry::ConnectedComponents>& components) {
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        const auto* mesh = std::get_if<Mesh>(&object.shape);
+        if (mesh == nullptr) continue;
+        const Hole hole = holes_of(*mesh, components[i]);
+        if (hole.components == 0) continue;
+        const std::string which =
+            components[i].count() == 1
+                ? "it nearly closes"
+                : fmt::format("{} of its {} parts nearly close", hole.components, components[i].count());
+        warnings.push_back(fmt::format(
+            "object \"{}\": {}, except for {} open edges: light passes through the holes. Close them, "
+            "or leave them "
+            "if they are meant.",
+            object.name, which, hole.edges));
+    }
+    for (const Light& light : scene.lights) {
+        const auto surface = lights::surface_emission(light);
+        if (!surface || components[index_of(surface->object)].turned_edges == 0) continue;
+        warnings.push_back(fmt::format(
+            "light \"{}\": at {} edges of object \"{}\" the front changes sides, but only fronts emit light. "
+            "Turn "
+            "its triangles to one side.",
+            light.name, components[index_of(surface->object)].turned_edges,
+            scene.object(surface->object).name));
+    }
+    return warnings;
+}
+
+}  // namespace stilb::checks

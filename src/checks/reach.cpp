@@ -1,0 +1,266 @@
+// Whether the light of each lamp gets to any sensor, and any light to each sensor.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "checks/checks.h"
+#include "checks/walks.h"
+#include "math/sampling.h"
+#include "transport/light_sampler.h"
+
+namespace stilb::checks {
+namespace {
+
+constexpr int kReachReflections = 4;
+/// Places of all sensors at which walks start, and the fewest and the most of one sensor.
+constexpr std::size_t kStarts = 512, kFewestStarts = 4, kMostStarts = 64;
+/// Particles of a light that does not seem to reach a sensor: enough to find a door that is ajar.
+constexpr std::uint64_t kMostParticles = 512;
+/// Particles of all lights together, to find the sensors that they light.
+constexpr std::uint64_t kParticlesOfAll = 512;
+/// Places near sensors that each place of a particle is connected to.
+constexpr std::size_t kConnections = 8;
+/// Connections that are tried for all lights, and for all sensors: less than a tenth of a second each. What
+/// is not judged by then is not named.
+constexpr std::size_t kMostConnections = 400'000;
+enum ReachPurpose : std::uint64_t { kFromSensors, kFromLights, kFromAllLights, kOfPairs };
+
+/// The places around one sensor from which it receives light.
+struct Surroundings {
+    std::string name;
+    Trail trail;
+    Vec3 first;  ///< where the first walk starts
+};
+
+/// The start of a walk against the light, and whether light that arrives there is measured.
+struct WalkStart {
+    Location at;
+    Vec3 direction;
+    bool receives_light = false;
+};
+
+std::optional<WalkStart> start_of(const Measurand& measurand, const rays::RayCaster& caster,
+                                  math::SampleStream& stream) {
+    const auto [u1, u2] = stream.next_two();
+    const MeasuringPoint point = viewpoint_of(measurand);
+    if (const auto* body = std::get_if<BodyPoint>(&measurand)) {
+        const Vec3 direction = math::sample_sphere(u1, u2).direction;
+        return WalkStart{{lifted_position(*body, caster), direction}, direction, true};
+    }
+    const Location at{lifted_position(point, caster), point.normal};
+    if (std::holds_alternative<LineOfSight>(measurand)) return WalkStart{at, point.normal};
+    const Vec3 direction =
+        Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
+    return WalkStart{at, direction, true};
+}
+
+std::optional<WalkStart> start_of(const Camera& camera, math::SampleStream& stream) {
+    const auto [u1, u2] = stream.next_two();
+    const auto direction =
+        sensors::CameraView(camera).direction_at(u1 * camera.resolution[0], u2 * camera.resolution[1]);
+    if (!direction) return std::nullopt;
+    return WalkStart{{camera.position, *direction}, *direction};
+}
+
+Surroundings surroundings_of(const Sensor& sensor, std::size_t starts, const Scene& scene,
+                             const rays::RayCaster& caster) {
+    const Camera* camera = sensor.camera();
+    Surroundings around{sensor.name, Trail(scene), {}};
+    if (camera) around.first = camera->position;
+    for (std::size_t i = 0; i < starts; ++i) {
+        math::SampleStream stream(math::RandomKey{}.derived(kFromSensors), i);
+        const auto start = camera ? start_of(*camera, stream)
+                                  : start_of(sensor.measurand(i * sensor.size() / starts), caster, stream);
+        if (!start) continue;
+        if (i == 0) around.first = start->at.position;
+        if (start->receives_light) around.trail.locations.push_back(start->at);
+        follow_walk(scene, caster, start->at, start->direction, kReachReflections, stream, around.trail);
+    }
+    return around;
+}
+
+/// A light, and the places that its particles have reached.
+struct Shining {
+    lights::Emitter emitter;
+    std::optional<ObjectId> object;  ///< that shines
+    bool is_outside = false;
+    Trail trail;
+
+    Shining(const Light& light, const Scene& scene, const rays::RayCaster& caster)
+        : emitter(lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift())),
+          is_outside(location_of(light) == stilb::LightLocation::infinity),
+          trail(scene) {
+        if (const auto surface = lights::surface_emission(light)) object = surface->object;
+    }
+
+    lights::Emission emit(math::SampleStream& stream) const {
+        return std::visit([&](const auto& own) { return own.emit(stream); }, emitter);
+    }
+
+    /// Whether a walk of a sensor has met the light itself.
+    bool is_met_by(const Trail& walks) const {
+        return object ? walks.is_object_met[index_of(*object)] : is_outside && walks.leaves_scene;
+    }
+};
+
+class ReachCheck {
+  public:
+    ReachCheck(const Scene& scene, const rays::RayCaster& caster, std::span<const Sensor> sensors,
+               const Explained& explained)
+        : scene_(scene), caster_(caster), explained_(explained), all_places_(scene) {
+        std::vector<const Sensor*> unexplained;
+        for (std::size_t i = 0; i < sensors.size() && unexplained.size() < kStarts; ++i) {
+            if (!explained.sensors[i]) unexplained.push_back(&sensors[i]);
+        }
+        for (const Sensor* sensor : unexplained) {
+            around_.push_back(
+                surroundings_of(*sensor, std::clamp(kStarts / unexplained.size(), kFewestStarts, kMostStarts),
+                                scene, caster));
+            add_to_all(around_.back().trail);
+        }
+    }
+
+    std::vector<std::string> warnings() {
+        if (around_.empty() || scene_.lights.empty()) return {};
+        std::vector<std::string> dark;
+        std::string in_the_way;
+        std::size_t judged = 0;
+        for (; judged < scene_.lights.size(); ++judged) {
+            if (explained_.lights[judged]) continue;
+            const Light& light = scene_.lights[judged];
+            Shining shining(light, scene_, caster_);
+            const auto reaches = reaches_a_sensor(shining);
+            if (!reaches) break;
+            if (!*reaches) {
+                if (dark.empty()) in_the_way = obstacle_of(shining);
+                dark.push_back(light.name);
+            }
+            keep(shining);
+        }
+        const bool all_are_judged = judged == scene_.lights.size();
+        if (all_are_judged && !dark.empty() && dark.size() == unexplained_lights())
+            return {fmt::format("no light reaches any sensor{}.", in_the_way)};
+        std::vector<std::string> warnings;
+        if (!dark.empty()) {
+            const bool is_one = dark.size() == 1;
+            warnings.push_back(fmt::format("{} {}: none of {} light reaches a sensor{}.",
+                                           is_one ? "light" : "lights", list_of(dark, all_are_judged),
+                                           is_one ? "its" : "their", in_the_way));
+        }
+        if (all_are_judged) add_dark_sensors(warnings);
+        return warnings;
+    }
+
+  private:
+    void add_to_all(const Trail& trail) {
+        all_places_.locations.insert(all_places_.locations.end(), trail.locations.begin(),
+                                     trail.locations.end());
+        all_places_.leaves_scene = all_places_.leaves_scene || trail.leaves_scene;
+        for (std::size_t i = 0; i < trail.is_object_met.size(); ++i) {
+            if (trail.is_object_met[i]) all_places_.is_object_met[i] = true;
+        }
+    }
+
+    void keep(const Shining& shining) {
+        if (shining.object) lamps_.push_back(*shining.object);
+        has_outside_ = has_outside_ || shining.is_outside;
+    }
+
+    std::size_t unexplained_lights() const {
+        return static_cast<std::size_t>(std::ranges::count(explained_.lights, false));
+    }
+
+    /// Nothing where the number of connections is used up.
+    std::optional<bool> reaches_a_sensor(Shining& shining) {
+        if (shining.is_met_by(all_places_)) return true;
+        for (std::uint64_t i = 0; i < kMostParticles; ++i) {
+            math::SampleStream stream(math::RandomKey{}.derived(kFromLights), i);
+            const lights::Emission particle = shining.emit(stream);
+            const std::size_t known = shining.trail.locations.size();
+            const Location start{particle.origin, particle.direction};
+            shining.trail.locations.push_back(start);
+            follow_walk(scene_, caster_, start, particle.direction, kReachReflections, stream, shining.trail);
+            for (std::size_t j = known; j < shining.trail.locations.size(); ++j) {
+                if (is_connected(shining.trail.locations[j], all_places_.locations)) return true;
+            }
+            if (connections_ > kMostConnections) return std::nullopt;
+        }
+        return false;
+    }
+
+    bool is_connected(const Location& place, const std::vector<Location>& others) {
+        for (std::size_t k = 0; k < std::min(kConnections, others.size()); ++k) {
+            math::SampleStream stream(math::RandomKey{}.derived(kOfPairs), connections_++);
+            const auto other = static_cast<std::size_t>(stream.next() * static_cast<double>(others.size()));
+            if (sees(place, others[other], caster_)) return true;
+        }
+        return false;
+    }
+
+    /// Where particles of all lights get.
+    std::vector<Location> lit_places() const {
+        const transport::LightSampler lights(scene_, caster_);
+        Trail trail(scene_);
+        for (std::uint64_t i = 0; i < kParticlesOfAll; ++i) {
+            math::SampleStream stream(math::RandomKey{}.derived(kFromAllLights), i);
+            const transport::EmittedParticle particle = lights.sample_emission(stream);
+            const Location start{particle.origin, particle.direction};
+            trail.locations.push_back(start);
+            follow_walk(scene_, caster_, start, particle.direction, kReachReflections, stream, trail);
+        }
+        return std::move(trail.locations);
+    }
+
+    void add_dark_sensors(std::vector<std::string>& warnings) {
+        std::vector<std::string> dark;
+        connections_ = 0;
+        const std::vector<Location> lit = lit_places();
+        for (const Surroundings& around : around_) {
+            const Trail& trail = around.trail;
+            const bool meets_lamp = std::ranges::any_of(
+                lamps_, [&](ObjectId lamp) -> bool { return trail.is_object_met[index_of(lamp)]; });
+            if (meets_lamp || (has_outside_ && trail.leaves_scene) ||
+                std::ranges::any_of(trail.locations,
+                                    [&](const Location& place) { return is_connected(place, lit); }))
+                continue;
+            if (connections_ > kMostConnections) break;
+            dark.push_back(around.name);
+        }
+        if (dark.empty()) return;
+        warnings.push_back(fmt::format(
+            "{} {}: no light reaches {}. Is the normal turned into a wall, or is everything else "
+            "behind a closed surface?",
+            dark.size() == 1 ? "sensor" : "sensors", list_of(dark), dark.size() == 1 ? "it" : "them"));
+    }
+
+    /// What a light meets on the straight way to the first sensor.
+    std::string obstacle_of(const Shining& shining) const {
+        math::SampleStream stream(math::RandomKey{}.derived(kFromLights), 0);
+        const Vec3 origin = shining.emit(stream).origin, to_sensor = around_.front().first - origin;
+        if (!(length(to_sensor) > 0)) return "";
+        const auto hit = caster_.closest(origin, normalized(to_sensor));
+        if (!hit || hit->distance_m >= length(to_sensor)) return "";
+        if (hit->object == shining.object) return ": its front, which alone emits light, is turned away";
+        return fmt::format(": object \"{}\" is in the way", scene_.object(hit->object).name);
+    }
+
+    const Scene& scene_;
+    const rays::RayCaster& caster_;
+    const Explained& explained_;
+    std::vector<Surroundings> around_;  ///< by sensor
+    Trail all_places_;                  ///< of all sensors
+    std::vector<ObjectId> lamps_;       ///< whose light walks may meet
+    bool has_outside_ = false;
+    std::size_t connections_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> reach_warnings(const Scene& scene, const rays::RayCaster& caster,
+                                        std::span<const Sensor> sensors, const Explained& explained) {
+    return ReachCheck(scene, caster, sensors, explained).warnings();
+}
+
+}  // namespace stilb::checks

@@ -1,0 +1,52 @@
+#include "checks/walks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "math/sampling.h"
+
+namespace stilb::checks {
+
+void follow_walk(const Scene& scene, const rays::RayCaster& caster, const Location& start, Vec3 direction,
+                 int reflections, math::SampleStream& stream, Trail& trail) {
+    Vec3 origin = start.position;
+    for (int reflection = 0; reflection <= reflections; ++reflection) {
+        const auto hit = caster.closest(origin, direction);
+        if (!hit) {
+            trail.leaves_scene = true;
+            return;
+        }
+        trail.is_object_met[index_of(hit->object)] = true;
+        const auto [u1, u2] = stream.next_two();
+        if (transmits(scene.material(hit->material)) && stream.next() < 0.5) {
+            origin = hit->lifted_behind();
+            continue;
+        }
+        trail.locations.push_back({hit->lifted, hit->normal});
+        origin = hit->lifted;
+        direction = Frame::around(hit->normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
+    }
+}
+
+bool sees(const Location& from, const Location& to, const rays::RayCaster& caster) {
+    const Vec3 offset = to.position - from.position;
+    return dot(offset, from.normal) > 0 && dot(offset, to.normal) < 0 &&
+           caster.transmittance({from.position, to.position}).max() > 0;
+}
+
+bool transmits(const Material& material) {
+    const auto branches = specular_branches(material, materials::LightSide::outside, {0, 0, 1});
+    return std::ranges::any_of(branches.list(), [](const auto& branch) { return branch.direction.z < 0; });
+}
+
+std::string list_of(std::span<const std::string> names, bool is_complete) {
+    constexpr std::size_t most = 3;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+        list += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", names[i]);
+    if (names.size() <= most) return list;
+    return fmt::format("{} and {}{} more", list, is_complete ? "" : "at least ", names.size() - most);
+}
+
+}  // namespace stilb::checks

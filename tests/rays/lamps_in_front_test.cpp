@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "../support/scene_builder.h"
+#include "rays/ray_caster.h"
+#include "scene/overlaps.h"
+#include "sensors/measurand.h"
+
+namespace stilb::scene {
+namespace {
+
+const Box kRoom{{0, 0, 0}, {4, 3, 2.8}};
+/// A panel whose front faces down.
+Rectangle panel_at(double z) { return {{1.7, 1.2, z}, {0, 0.6, 0}, {0.6, 0, 0}}; }
+
+Scene room_with_lamp(const Shape& room, const Shape& lamp) {
+    Scene scene;
+    add_object(scene, room, diffuse(0.6));
+    add_area_light(scene, lamp, Rgb::grey(1000));
+    put_lamps_in_front(scene);
+    return scene;
+}
+
+/// Rays from the room to points of the panel at many angles, from steep to grazing.
+std::vector<rays::Ray> rays_to_the_panel() {
+    std::vector<rays::Ray> rays;
+    for (int i = 0; i < 400; ++i) {
+        const double angle = i * std::numbers::phi, x = 1.75 + 0.5 * (i % 20) / 20,
+                     y = 1.25 + 0.5 * (i / 20) / 20.0, height = 2.75 / (1 + i % 7 * i % 11);
+        const Vec3 origin{2 + 1.4 * std::cos(angle), 1.5 + 1.4 * std::sin(angle), 2.8 - height};
+        rays.push_back({origin, normalized(Vec3{x, y, 2.8} - origin)});
+    }
+    return rays;
+}
+
+void expect_all_meet_the_lamp(const Scene& scene) {
+    const rays::RayCaster caster(scene);
+    const std::vector<rays::Ray> rays = rays_to_the_panel();
+    std::vector<std::optional<rays::Hit>> hits(rays.size());
+    caster.closest(rays, rays::Coherence::scattered, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto single = caster.closest(rays[i].origin, rays[i].direction);
+        ASSERT_TRUE(single && hits[i]);
+        EXPECT_EQ(single->object, ObjectId{1}) << i;
+        EXPECT_EQ(hits[i]->object, ObjectId{1}) << i;
+        EXPECT_TRUE(single->on_front && hits[i]->on_front) << i;
+        // Nothing is between the room and the lamp, and a point of the ceiling behind the lamp is hidden.
+        EXPECT_FALSE(caster.occluded(rays[i].origin, single->lifted)) << i;
+        EXPECT_TRUE(caster.occluded(rays[i].origin, single->position + Vec3{0, 0, 1e-4})) << i;
+    }
+}
+
+TEST(LampsInFront, OfABoxesCeiling) { expect_all_meet_the_lamp(room_with_lamp(kRoom, panel_at(2.8))); }
+
+TEST(LampsInFront, OfASheet) {
+    expect_all_meet_the_lamp(room_with_lamp(wall(kRoom, 2, Side::high), panel_at(2.8)));
+}
+
+TEST(LampsInFront, OfACeilingThatDiffersByRounding) {
+    for (const double z : {2.8 - 1e-6, 2.8 + 1e-6, 2.8 + 3e-6})
+        expect_all_meet_the_lamp(room_with_lamp(kRoom, panel_at(z)));
+}
+
+TEST(LampsInFront, MeshesOfSeparateTriangles) {
+    const Rectangle r = panel_at(2.8);
+    const Vec3 &a = r.corner, b = a + r.edge_u, c = b + r.edge_v, d = a + r.edge_v;
+    expect_all_meet_the_lamp(room_with_lamp(kRoom, Mesh{{a, b, c, a, c, d}, {{0, 1, 2}, {3, 4, 5}}}));
+}
+
+TEST(LampsInFront, RoundPanels) {
+    expect_all_meet_the_lamp(room_with_lamp(kRoom, Disk{{2, 1.5, 2.8}, {0, 0, -1}, 0.5}));
+}
+
+TEST(LampsInFront, InSlantedPlanesFarFromTheOrigin) {
+    const Vec3 far{1000, -2000, 500}, u{3, 0, 1}, v{0.5, 2, 0.5};
+    const Rectangle roof{far, u, v}, lamp{far + 0.3 * u + 0.3 * v, 0.4 * v, 0.4 * u};
+    const Scene scene = room_with_lamp(roof, lamp);
+    const rays::RayCaster caster(scene);
+    const Vec3 front = normalized(cross(v, u)), target = far + 0.5 * u + 0.5 * v;
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 origin = target + 0.5 * front + std::cos(i) * u + std::sin(i) * v;
+        EXPECT_EQ(caster.closest(origin, normalized(target - origin))->object, ObjectId{1}) << i;
+    }
+}
+
+TEST(LampsInFront, OnlyTheFacesOfABoxThatOverlapMove) {
+    const Box box{{1, 1, 2.7}, {2, 2, 2.8}};
+    const Box moved = std::get<Box>(room_with_lamp(kRoom, box).objects[1].shape);
+    EXPECT_EQ(moved.min, box.min);
+    EXPECT_GT(moved.max.z, box.max.z);
+    EXPECT_LT(moved.max.z, box.max.z + 1e-4);
+}
+
+TEST(LampsInFront, LampsElsewhereStayWhereTheyAre) {
+    for (const double z : {2.799, 1.0}) {
+        const Scene scene = room_with_lamp(kRoom, panel_at(z));
+        EXPECT_EQ(std::get<Rectangle>(scene.objects[1].shape).corner, panel_at(z).corner);
+    }
+}
+
+TEST(LampsInFront, TheSecondTimeNothingMoves) {
+    Scene scene = room_with_lamp(kRoom, panel_at(2.8));
+    const Vec3 once = std::get<Rectangle>(scene.objects[1].shape).corner;
+    put_lamps_in_front(scene);
+    EXPECT_EQ(std::get<Rectangle>(scene.objects[1].shape).corner, once);
+}
+
+TEST(LampsInFront, SensorsInThePlaneLieOnTheLamp) {
+    const Scene scene = room_with_lamp(kRoom, panel_at(2.8));
+    const rays::RayCaster caster(scene);
+    const auto surface = surface_at(MeasuringPoint{{2, 1.5, 2.8}, {0, 0, -1}}, caster);
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->object, ObjectId{1});
+    EXPECT_EQ(surface_at(MeasuringPoint{{1, 1, 2.8}, {0, 0, -1}}, caster)->object, ObjectId{0});
+}
+
+}  // namespace
+}  // namespace stilb::scene
