@@ -185,9 +185,11 @@ std::string ending(StopReason reason, std::string_view all) {
         case StopReason::time_over:
             return "time limit reached";
         case StopReason::interrupted:
+            return "interrupted";
+        case StopReason::patches_too_coarse:
             break;
     }
-    return "interrupted";
+    return "the patches are too coarse for the requested error";
 }
 
 namespace {

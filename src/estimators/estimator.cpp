@@ -9,6 +9,9 @@ ReadingSums& ReadingSums::operator+=(const ReadingSums& batch) {
         sum[i] += batch.sum[i];
         largest[i] = std::max(largest[i], batch.largest[i]);
     }
+    lacking.resize(std::max(lacking.size(), batch.lacking.size()));
+    for (std::size_t i = 0; i < batch.lacking.size(); ++i) lacking[i] += batch.lacking[i];
+    comparisons += batch.comparisons;
     rays += batch.rays;
     invalid += batch.invalid;
     return *this;

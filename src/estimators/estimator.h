@@ -53,8 +53,22 @@ struct ReadingSums {
     std::vector<double> largest;  ///< largest single contribution to each reading, before division
     std::uint64_t rays = 0;
     std::uint64_t invalid = 0;  ///< non-finite contributions, which are left out
+    /// Methods on patches: what the readings lack, by path tracing behind the same rays for some of the samples
+    /// [lx or cd/m2, x comparisons]; empty for other methods.
+    std::vector<Rgb> lacking;
+    std::uint64_t comparisons = 0;
 
     explicit ReadingSums(std::size_t readings) : sum(readings), largest(readings) {}
+
+    /// Adds what a reading lacks in one comparison.
+    void add_lacking(std::size_t reading, const Rgb& difference) {
+        if (difference.is_finite()) lacking[reading] += difference;
+    }
+    /// Begins another comparison of all readings.
+    void begin_comparison() {
+        lacking.resize(sum.size());
+        ++comparisons;
+    }
 
     /// Adds all of another batch, of as many readings.
     ReadingSums& operator+=(const ReadingSums& batch);

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <stdexcept>
+#include <optional>
 
 #include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "run/level_of_detail.h"
 #include "run/run.h"
 #include "run/schedule.h"
+#include "statistics/bias.h"
 #include "statistics/interval.h"
 #include "statistics/rare.h"
 #include "stilb/error.h"
@@ -91,14 +91,40 @@ class Campaign final : public Work {
         double worst = 0;
         std::size_t first = 0;
         for (const Sensor& sensor : sensors_) {
-            const std::size_t count = sensor.size();
-            const std::vector<double> means = replicate_means(first, count);
-            const std::vector<double> rare = rare_light(first, count);
-            worst = std::max(worst, statistics::attained_error(statistics::estimate_readings(
-                                        {means, count}, statistics::kStoppedConfidence, rare)));
-            first += count;
+            const Estimates all = estimates(first, sensor.size(), statistics::kStoppedConfidence);
+            worst = std::max(worst, statistics::attained_error(all.readings));
+            first += sensor.size();
         }
         return worst;
+    }
+
+    bool is_beyond_reach(double error) const override {
+        std::size_t first = 0;
+        for (const Sensor& sensor : sensors_) {
+            const auto bias = estimates(first, sensor.size(), statistics::kStoppedConfidence).bias;
+            if (bias && bias->relative_at_least > error) return true;
+            first += sensor.size();
+        }
+        return false;
+    }
+
+    /// Of the readings of one sensor.
+    struct Estimates {
+        std::vector<statistics::Estimate> readings;
+        std::optional<statistics::BiasBounds> bias;  ///< of methods on patches; the intervals contain it
+    };
+    Estimates estimates(std::size_t first, std::size_t count, double confidence) const {
+        const std::vector<double> means = replicate_means(first, count);
+        Estimates all{statistics::estimate_readings({means, count}, confidence, rare_light(first, count)),
+                      {}};
+        const std::vector<double> differences = lacking(first, count);
+        if (differences.empty()) return all;
+        std::vector<double> values;
+        for (const statistics::Estimate& estimate : all.readings) values.push_back(estimate.value);
+        all.bias = statistics::bias_bounds({differences, count}, values);
+        for (std::size_t j = 0; j < count; ++j)
+            all.readings[j] = statistics::widened(all.readings[j], all.bias->of_readings[j]);
+        return all;
     }
 
     std::uint64_t rays() const {
@@ -126,6 +152,19 @@ class Campaign final : public Work {
             }
         }
         return means;
+    }
+
+    /// Replicates x readings of one sensor: by how much path tracing finds more light, luminance-weighted
+    /// [lx]. Empty for methods without patches.
+    std::vector<double> lacking(std::size_t first, std::size_t count) const {
+        std::vector<double> differences;
+        for (const Replicate& replicate : replicates_) {
+            const estimators::ReadingSums& sums = replicate.sums;
+            if (sums.comparisons == 0) return {};
+            for (std::size_t j = first; j < first + count; ++j)
+                differences.push_back(sums.lacking[j].luminance() / static_cast<double>(sums.comparisons));
+        }
+        return differences;
     }
 
     Rgb rgb(std::size_t reading) const {
@@ -210,19 +249,51 @@ RunOptions with_reading_target(RunOptions options) {
     return options;
 }
 
+/// Widens the summary by the patches' error.
+void include_patch_error(const statistics::BiasBounds& bias, SensorResult& result) {
+    result.patch_error = bias.relative;
+    for (std::size_t j = 0; j < result.readings.size(); ++j)
+        result.readings[j].patch_error = bias.of_readings[j];
+    const auto [least, most] = std::ranges::minmax_element(
+        result.readings, {}, [](const Reading& reading) { return reading.estimate.value; });
+    statistics::GridSummary& summary = result.summary;
+    const double relative = *least->patch_error / summary.minimum.value + bias.of_mean / summary.mean.value;
+    summary.uniformity = widened(summary.uniformity, relative * summary.uniformity.value);
+    summary.mean = widened(summary.mean, bias.of_mean);
+    summary.minimum = widened(summary.minimum, *least->patch_error);
+    summary.maximum = widened(summary.maximum, *most->patch_error);
+}
+
+/// Warns where the error of the patches is much of the whole.
+std::vector<std::string> patch_error_warnings(const RunResult& result) {
+    constexpr double much = 0.5;
+    std::vector<std::string> warnings;
+    for (const SensorResult& sensor : result.sensors) {
+        if (!sensor.patch_error || *sensor.patch_error <= much * sensor.attained_error) continue;
+        warnings.push_back(
+            fmt::format("sensor \"{}\": path tracing from some of its points differs by up to {:.2g} % from "
+                        "the light of the "
+                        "patches of {:.2g} m. The intervals include this error. Choose smaller patches, or "
+                        "method auto, which "
+                        "needs none.",
+                        sensor.sensor.name, 100 * *sensor.patch_error, result.patches->size_m));
+    }
+    return warnings;
+}
+
 SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::size_t first,
                            std::span<const std::optional<Vec3>> sight_ends, double confidence) {
     const std::size_t count = sensor.size();
     SensorResult result;
     result.sensor = sensor;
     result.replicate_means = campaign.replicate_means(first, count);
-    const statistics::ReplicateTable table{result.replicate_means, count};
-    const std::vector<double> rare = campaign.rare_light(first, count);
-    const std::vector<statistics::Estimate> estimates = estimate_readings(table, confidence, rare);
-    result.summary = summarize_grid(table, confidence, rare);
-    result.attained_error = statistics::attained_error(estimates);
+    const Campaign::Estimates estimates = campaign.estimates(first, count, confidence);
+    result.summary = statistics::summarize_grid({result.replicate_means, count}, confidence,
+                                                campaign.rare_light(first, count));
+    result.attained_error = statistics::attained_error(estimates.readings);
     for (std::size_t j = 0; j < count; ++j)
-        result.readings.push_back({estimates[j], campaign.rgb(first + j)});
+        result.readings.push_back({estimates.readings[j], campaign.rgb(first + j)});
+    if (estimates.bias) include_patch_error(*estimates.bias, result);
     if (std::holds_alternative<Luminance>(sensor.kind)) {
         const auto ends = sight_ends.subspan(first, count);
         result.sub_points.assign(ends.begin(), ends.end());
@@ -306,6 +377,7 @@ void add_warnings(const Campaign& campaign, const Scene& scene, std::vector<std:
     append(std::move(of_scene));
     append(rarity_warnings(campaign, result.sensors));
     append(sharp_light_warnings(sharp, result.samples, scene));
+    append(patch_error_warnings(result));
 }
 
 }  // namespace

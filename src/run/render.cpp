@@ -15,6 +15,7 @@
 #include "estimators/patch_light/patch_solution.h"
 #include "math/random.h"
 #include "run/level_of_detail.h"
+#include "run/picture_comparison.h"
 #include "run/run.h"
 #include "run/schedule.h"
 #include "statistics/interval.h"
@@ -26,9 +27,16 @@ namespace {
 /// Fewer replicates than for readings: a pixel's error matters less than the memory for all of them.
 constexpr std::uint64_t kPictureReplicates = 16;
 constexpr double kDefaultTime_s = 60;
+/// 95 % of the pixels have a bias of less than about twice the root mean square.
+constexpr double kBiasesOfMostPixels = 2;
 /// Passes for smooth edges.
 constexpr std::uint64_t kSmoothingPasses = 16;
-enum PicturePurpose : std::uint64_t { kPicturePreparation, kPictureSamples, kPictureOffset };
+enum PicturePurpose : std::uint64_t {
+    kPicturePreparation,
+    kPictureSamples,
+    kPictureOffset,
+    kPictureComparison
+};
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
@@ -124,10 +132,12 @@ std::uint64_t next_checkpoint(std::uint64_t passes) {
 /// A picture that accumulates one pass after another over all blocks.
 class Passes final : public Work {
   public:
-    /// `sink` may be null.
+    /// `sink` may be null, and `comparison`, for methods without patches.
     Passes(const estimators::Estimator& estimator, const Camera& camera, const std::vector<bool>& blind,
-           std::uint64_t replicates, std::uint64_t seed, PictureSink* sink, const Monitor& monitor)
+           std::uint64_t replicates, std::uint64_t seed, PictureSink* sink, const Monitor& monitor,
+           const PictureComparison* comparison)
         : estimator_(estimator),
+          comparison_(comparison),
           monitor_(monitor),
           blind_(blind),
           sink_(sink),
@@ -148,7 +158,19 @@ class Passes final : public Work {
     bool has_result() const override { return sums_.passes() >= 2; }
     std::uint64_t next_check() const override { return next_checkpoint(sums_.passes()); }
     std::uint64_t most_at_once() const override { return 1; }
-    double attained_error() const override { return run::attained_error(sums_, blind_); }
+    double attained_error() const override {
+        return run::attained_error(sums_, blind_) + kBiasesOfMostPixels * bias().at_most;
+    }
+    bool is_beyond_reach(double error) const override {
+        return kBiasesOfMostPixels * bias().at_least > error;
+    }
+    /// That of the patches; 0 for other methods.
+    PictureComparison::Bias bias() const {
+        if (!comparison_) return {};
+        return comparison_->bias_of([&](std::size_t pixel) {
+            return PictureComparison::Shown{sums_.luminance_cd_m2(pixel), sums_.standard_error_cd_m2(pixel)};
+        });
+    }
     void show() override {
         if (sink_ && sink_->wants_picture()) sink_->show(sums_.pixels());
     }
@@ -192,6 +214,7 @@ class Passes final : public Work {
     }
 
     const estimators::Estimator& estimator_;
+    const PictureComparison* comparison_;
     const Monitor& monitor_;
     const std::vector<bool>& blind_;
     PictureSink* sink_;
@@ -247,12 +270,31 @@ RunOptions with_picture_target(RunOptions options) {
     return options;
 }
 
-using MakeEstimator = std::function<std::unique_ptr<estimators::Estimator>(const estimators::Problem&)>;
+/// The method of a picture.
+struct PictureMethod {
+    std::function<std::unique_ptr<estimators::Estimator>(const estimators::Problem&)> make;
+    std::uint64_t replicates = kPictureReplicates;
+    bool lights_patches = false;
+};
 
-/// Renders with a given estimator; 1 replicate: without errors. `options`: `asked` with defaults.
-RenderResult render_by(const MakeEstimator& make, std::uint64_t replicates, const Scene& scene,
-                       const Sensor& sensor, const RunOptions& asked, const RunOptions& options,
-                       PictureSink* sink, const std::atomic<bool>* interrupt) {
+/// Warns where the patches' error is much of the whole.
+void add_patch_error(const PictureComparison::Bias& bias, RenderResult& result) {
+    constexpr double much = 0.5;
+    result.patch_error = bias.at_most;
+    if (kBiasesOfMostPixels * bias.at_most <= much * result.attained_error) return;
+    result.warnings.push_back(
+        fmt::format("path tracing through some pixels differs by up to {:.2g} % (root mean square) from this "
+                    "picture, whose "
+                    "light is that of patches of {:.2g} m. The stated error of the pixels includes this, "
+                    "their standard errors "
+                    "do not. Choose smaller patches, or method auto, which needs none.",
+                    100 * bias.at_most, result.patches ? result.patches->size_m : 0));
+}
+
+/// `options`: `asked` with defaults.
+RenderResult render_by(const PictureMethod& method, const Scene& scene, const Sensor& sensor,
+                       const RunOptions& asked, const RunOptions& options, PictureSink* sink,
+                       const std::atomic<bool>* interrupt) {
     const Camera& camera = *sensor.camera();
     Session session(scene, asked, options, sink, interrupt);
     std::vector<std::string> of_scene = session.scene_warnings({&sensor, 1});
@@ -262,13 +304,18 @@ RenderResult render_by(const MakeEstimator& make, std::uint64_t replicates, cons
         estimators::Problem problem =
             session.problem(math::RandomKey{options.seed}.derived(kPicturePreparation));
         problem.camera = camera;
-        const auto estimator = make(problem);
-        Passes passes(*estimator, camera, blind, replicates, options.seed, sink, session.monitor());
+        const auto estimator = method.make(problem);
+        std::optional<PictureComparison> comparison;
+        if (method.lights_patches)
+            comparison.emplace(problem, blind, math::RandomKey{options.seed}.derived(kPictureComparison));
+        Passes passes(*estimator, camera, blind, method.replicates, options.seed, sink, session.monitor(),
+                      comparison ? &*comparison : nullptr);
         session.run(passes, result);
         session.describe(*estimator, result);
         result.replicates = static_cast<int>(passes.sums().replicates());
         result.pixels = passes.sums().pixels();
         add_means(passes.sums(), blind, result);
+        if (comparison) add_patch_error(passes.bias(), result);
         add_geometry(camera, session.caster(), result);
     });
     std::ranges::move(of_scene, std::back_inserter(result.warnings));
@@ -293,8 +340,8 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
         throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
                                      fmt::join(estimators::luminance_methods(), ", ")));
     }
-    RenderResult result =
-        render_by(method.make, kPictureReplicates, scene, camera, asked_options, options, sink, interrupt);
+    RenderResult result = render_by({method.make, kPictureReplicates, method.lights_patches}, scene, camera,
+                                    asked_options, options, sink, interrupt);
     if (method.has_heavy_tails) {
         result.warnings.push_back(
             fmt::format("method {} has infinite variance in corners: the standard errors of pixels there are "
@@ -312,11 +359,11 @@ RenderResult render_solution(const Scene& scene, const Sensor& camera, estimator
     options.method = "solution";
     options.threads = threads;
     options.paths = std::max(kSmoothingPasses / replicates, std::uint64_t{1}) * replicates;
-    return render_by(
-        [&](const estimators::Problem& problem) {
-            return make_solution_picture(problem, std::move(solution));
-        },
-        replicates, scene, camera, options, options, sink, interrupt);
+    return render_by({[&](const estimators::Problem& problem) {
+                          return make_solution_picture(problem, std::move(solution));
+                      },
+                      replicates, true},
+                     scene, camera, options, options, sink, interrupt);
 }
 
 }  // namespace stilb::run

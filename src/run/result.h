@@ -16,7 +16,8 @@
 
 namespace stilb::run {
 
-enum class StopReason { target_reached, paths_done, time_over, interrupted };
+/// `patches_too_coarse`: no number of samples reaches the requested error.
+enum class StopReason { target_reached, paths_done, time_over, interrupted, patches_too_coarse };
 
 /// The truncation of the series of an object (level_of_detail.h).
 struct LevelOfDetail {
@@ -33,8 +34,8 @@ struct RunSummary {
     /// The total number of samples: light paths; for method `path` paths per reading; for pictures passes
     /// (samples of each pixel); for solutions steps of all walks, without the first ones of each.
     std::uint64_t samples = 0;
-    /// Independent repetitions that the errors come from; fewer than asked for where the run ended before all of
-    /// them had begun. 1 where there are no errors: after a single pass.
+    /// Independent repetitions that the errors come from; fewer than asked for where the run ended before all
+    /// of them had begun. 1 where there are no errors: after a single pass.
     int replicates = 0;
     double elapsed_s = 0;
     StopReason stop_reason = StopReason::paths_done;
@@ -51,6 +52,8 @@ struct RunSummary {
 struct Reading {
     statistics::Estimate estimate;  ///< [lx] or [cd/m2]; the errors are NaN where they are unknown
     Rgb rgb;
+    /// Methods on patches: the part of the interval on each side that stands for their error.
+    std::optional<double> patch_error{};
 };
 
 struct SensorResult {
@@ -61,6 +64,8 @@ struct SensorResult {
     std::vector<std::optional<Vec3>> sub_points;
     statistics::GridSummary summary;
     double attained_error = 0;  ///< relative half-width that 95 % of the readings meet
+    /// Methods on patches: the root mean square of the patches' errors, relative to the readings, at most.
+    std::optional<double> patch_error{};
     /// Replicates x readings, luminance-weighted [lx or cd/m2]: the basis of the estimates. Means of
     /// runs with other seeds can be combined with them.
     std::vector<double> replicate_means{};
@@ -83,6 +88,9 @@ struct RenderResult : RunSummary {
     std::vector<float> depth_m;                 ///< its distance; NaN likewise
     double mean_luminance_cd_m2 = 0;
     double mean_standard_error_cd_m2 = 0;  ///< of single pixels
+    /// Methods on patches: the root mean square of the patches' errors in the pixels, relative, at most. Part
+    /// of attained_error, but not of the pixels' standard errors.
+    std::optional<double> patch_error{};
 };
 
 }  // namespace stilb::run

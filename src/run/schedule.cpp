@@ -37,6 +37,8 @@ Schedule::Ending Schedule::run(Work& work) const {
         const std::uint64_t check = std::min(last, work.next_check());
         if (const auto reason = advance_to(check, last, work, error)) return {*reason, work.attained_error()};
         if (options_.error && error <= *options_.error) return {StopReason::target_reached, error};
+        if (options_.error && work.is_beyond_reach(*options_.error))
+            return {StopReason::patches_too_coarse, error};
         if (check == last) return {StopReason::paths_done, error};
     }
 }

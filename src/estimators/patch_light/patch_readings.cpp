@@ -14,15 +14,20 @@ namespace {
 /// Rays from each point: a step of the light costs far more than a ray.
 constexpr std::uint64_t kRaysPerSample = 4;
 constexpr double kShare = 1.0 / kRaysPerSample;
-/// A separate key; the points have keys of their numbers.
-constexpr std::uint64_t kViews = ~std::uint64_t{0};
+/// A comparison's path costs about as much as so many rays to the patches.
+constexpr double kRaysPerPath = 10;
+/// Comparisons of a sample, and samples of a comparison, at most.
+constexpr double kMostComparisons = 64, kMostSamples = 4;
+/// Separate keys; the points have keys of their numbers.
+constexpr std::uint64_t kViews = ~std::uint64_t{0}, kComparisons = kViews - 1;
 
 }  // namespace
 
 PatchReadings::PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands,
-                             const Monitor& monitor)
+                             double rays_per_sample, const Monitor& monitor)
     : transport_(transport),
       monitor_(monitor),
+      tracer_(transport.scene, transport.caster, transport.lights),
       known_part_(measurands.size()),
       sight_ends_(measurands.size()) {
     for (std::uint32_t reading = 0; reading < measurands.size(); ++reading) {
@@ -30,6 +35,11 @@ PatchReadings::PatchReadings(const PatchTransport& transport, std::span<const Me
     }
     points_ = sorted_receivers(std::move(points_));
     add_shares();
+    // As much time for comparisons as for the light itself.
+    const double readings = static_cast<double>(std::max<std::size_t>(measurands.size(), 1));
+    const double paths = (rays_per_sample / readings + double{kRaysPerSample}) / kRaysPerPath;
+    comparisons_ = static_cast<std::uint64_t>(std::clamp(paths, 1.0, kMostComparisons));
+    samples_per_comparison_ = static_cast<std::uint64_t>(std::clamp(1 / paths, 1.0, kMostSamples));
 }
 
 void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measurand) {
@@ -50,8 +60,8 @@ void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measuran
     const auto locations = find_patch_locations(transport_.patch_caster, points);
     for (std::size_t i = 0; i < locations.size(); ++i) {
         if (!locations[i]) continue;
-        views_.push_back({reading, sight.sub_points[i].transmission, *locations[i], points[i].hit.position,
-                          points[i].outgoing});
+        views_.push_back(
+            {reading, sight.sub_points[i].transmission, *locations[i], points[i].hit, points[i].outgoing});
     }
 }
 
@@ -63,7 +73,8 @@ void PatchReadings::add_shares() {
     auto shares = transport_.interpolation.shares_of(locations);
     for (std::size_t i = 0; i < views_.size(); ++i) {
         views_[i].shares = std::move(shares[i]);
-        known_part_[views_[i].reading] += views_[i].transmission * first_reflected(views_[i]);
+        views_[i].known = first_reflected(views_[i]);
+        known_part_[views_[i].reading] += views_[i].transmission * views_[i].known;
     }
 }
 
@@ -87,54 +98,103 @@ void PatchReadings::add(const PatchLight& light, math::RandomKey key, std::uint6
     const math::RandomKey key_of_views = key.derived(kViews).derived(sample);
     for (std::size_t i = 0; i < views_.size(); ++i) {
         monitor_.require_more();
-        add_luminance(light, views_[i], key_of_views.derived(i), sums);
+        const View& view = views_[i];
+        sums.add(view.reading, view.transmission * sampled_luminance(light, view, key_of_views.derived(i)));
     }
-    for (std::size_t first = 0; first < points_.size(); first += kPacketWidth) {
-        monitor_.require_more();
-        const std::size_t count = std::min<std::size_t>(kPacketWidth, points_.size() - first);
+    for_each_packet([&](std::size_t first, std::span<const transport::Receiver> points) {
         for (std::uint64_t ray = 0; ray < kRaysPerSample; ++ray) {
-            add_illuminances(light, std::span(points_).subspan(first, count),
+            add_illuminances(light, points,
                              math::SampleStream(key.derived(first), kRaysPerSample * sample + ray), sums);
+        }
+    });
+    if (sample % samples_per_comparison_ == 0) {
+        for (std::uint64_t path = 0; path < comparisons_; ++path) {
+            compare(light, key.derived(kComparisons), comparisons_ * sample + path, sums);
         }
     }
 }
 
-void PatchReadings::add_luminance(const PatchLight& light, const View& view, math::RandomKey key,
-                                  ReadingSums& sums) const {
-    Rgb luminance = transport_.first_reflected_at(view.seen.side, view.position, key, view.outgoing);
+template <typename Visit>
+void PatchReadings::for_each_packet(const Visit& visit) const {
+    for (std::size_t first = 0; first < points_.size(); first += kPacketWidth) {
+        monitor_.require_more();
+        const std::size_t count = std::min<std::size_t>(kPacketWidth, points_.size() - first);
+        visit(first, std::span(points_).subspan(first, count));
+    }
+}
+
+void PatchReadings::compare(const PatchLight& light, math::RandomKey key, std::uint64_t number,
+                            ReadingSums& sums) const {
+    sums.begin_comparison();
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        monitor_.require_more();
+        const View& view = views_[i];
+        const math::RandomKey own_key = key.derived(kViews).derived(i);
+        const Rgb traced = tracer_.luminance_behind(view.hit, -view.outgoing, {}, transport::kUnlimited,
+                                                    math::SampleStream(own_key, number));
+        const Rgb of_patches = view.known + sampled_luminance(light, view, own_key.derived(number));
+        sums.add_lacking(view.reading, view.transmission * (traced + -1 * of_patches));
+    }
+    for_each_packet([&](std::size_t first, std::span<const transport::Receiver> points) {
+        const math::RandomKey own_key = key.derived(first);
+        math::SampleStream directions(own_key, number);
+        const auto [u1, u2] = directions.next_two();
+        const GatheredRays rays = gather(light, points, u1, u2);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!rays[i]) continue;
+            const auto hit = transport_.caster.closest(points[i].lifted(), rays[i]->direction);
+            const math::SampleStream stream(own_key.derived(i), number);
+            const Rgb traced = hit ? tracer_.luminance_without_direct(*hit, rays[i]->direction,
+                                                                      transport::kUnlimited, stream)
+                                   : Rgb{};
+            sums.add_lacking(points[i].reading(), rays[i]->weight * (traced + -1 * rays[i]->luminance_cd_m2));
+        }
+    });
+}
+
+Rgb PatchReadings::sampled_luminance(const PatchLight& light, const View& view, math::RandomKey key) const {
+    Rgb luminance = transport_.first_reflected_at(view.seen.side, view.hit.position, key, view.outgoing);
     for_each_share(view, [&](std::uint32_t side, double weight) {
         luminance += light.reflected(side, view.outgoing) * weight;
     });
-    sums.add(view.reading, view.transmission * luminance);
+    return luminance;
 }
 
-/// The rays have one direction in the frames of their points, so that they are coherent.
 void PatchReadings::add_illuminances(const PatchLight& light, std::span<const transport::Receiver> points,
                                      math::SampleStream stream, ReadingSums& sums) const {
-    const Vec3& center = transport_.patches.center;
     const auto [u1, u2] = stream.next_two();
-    RayPacket packet;
-    LaneMask lanes{};
-    std::array<transport::Receiver::Sample, kPacketWidth> samples;
+    const GatheredRays rays = gather(light, points, u1, u2);
     for (std::size_t i = 0; i < points.size(); ++i) {
         sums.add(points[i].reading(),
                  kShare * sample_direct_from_areas(points[i], transport_.caster, transport_.lights, stream));
+        if (rays[i]) sums.add(points[i].reading(), kShare * rays[i]->weight * rays[i]->luminance_cd_m2);
+    }
+}
+
+/// The rays have one direction in the frames of their points, so that they are coherent.
+auto PatchReadings::gather(const PatchLight& light, std::span<const transport::Receiver> points, double u1,
+                           double u2) const -> GatheredRays {
+    const Vec3& center = transport_.patches.center;
+    RayPacket packet;
+    LaneMask lanes{};
+    GatheredRays rays;
+    for (std::size_t i = 0; i < points.size(); ++i) {
         const auto sample = points[i].sample(u1, u2);
         if (!sample) continue;
-        samples[i] = *sample;
+        rays[i] = {sample->direction, sample->weight, {}};
         packet.set(i, points[i].lifted() - center, sample->direction, std::numeric_limits<float>::infinity());
         lanes[i] = -1;
     }
     const auto sides = transport_.patch_caster.closest(packet, lanes).sides;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (sides[i] == patches::kNoSide) continue;
-        const Vec3 out = -samples[i].direction;
+        const Vec3 out = -rays[i]->direction;
         const Vec3 met = points[i].lifted() - double{packet.end[i]} * out;
-        sums.add(points[i].reading(),
-                 kShare * samples[i].weight *
-                     (light.reflected(sides[i], out) + transport_.first_reflected(sides[i], out) +
-                      transport_.first_reflected_at(sides[i], met, {}, out)));
+        rays[i]->luminance_cd_m2 = light.reflected(sides[i], out) +
+                                   transport_.first_reflected(sides[i], out) +
+                                   transport_.first_reflected_at(sides[i], met, {}, out);
     }
+    return rays;
 }
 
 VisibleSides::VisibleSides(const PatchTransport& transport, const Vec3& camera)

@@ -5,7 +5,9 @@
 // light that the patches reflect where the rays end.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -44,16 +46,18 @@ class ReflectedSides final : public PatchLight {
 /// Keeps references to the transport and the monitor. Immutable.
 class PatchReadings {
   public:
+    /// `rays_per_sample`: the approximate cost of the light that one sample is taken of.
     PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands,
-                  const Monitor& monitor);
+                  double rays_per_sample, const Monitor& monitor);
 
     /// Emission and stored first shot along lines of sight, direct light of point-like sources at points.
     std::span<const Rgb> known_part() const { return known_part_; }
     /// As Estimator.
     std::span<const std::optional<Vec3>> sight_ends() const { return sight_ends_; }
 
-    /// Adds sample number `sample` of every reading, beside the known part. Throws Cancelled, with unfinished
-    /// sums, where the monitor ends the run.
+    /// Adds sample number `sample` of every reading, beside the known part. Some samples are compared with
+    /// path tracing, which has no patches. Throws Cancelled, with unfinished sums, where the monitor ends the
+    /// run.
     void add(const PatchLight& light, math::RandomKey key, std::uint64_t sample, ReadingSums& sums) const;
 
   private:
@@ -62,27 +66,48 @@ class PatchReadings {
         std::uint32_t reading = 0;
         Rgb transmission;
         PatchLocation seen;
-        Vec3 position, outgoing;
+        rays::Hit hit;  ///< of the true surface
+        Vec3 outgoing;
         std::vector<patches::VertexInterpolation::Share> shares{};  ///< of the patches around
+        Rgb known{};  ///< the luminance by first shot, as far as it is the same in all samples
     };
 
     void add_reading(std::uint32_t reading, const Measurand& measurand);
     void add_shares();
     Rgb first_reflected(const View& view) const;
-    void add_luminance(const PatchLight& light, const View& view, math::RandomKey key,
-                       ReadingSums& sums) const;
+    /// The part of a view's luminance that is not known.
+    Rgb sampled_luminance(const PatchLight& light, const View& view, math::RandomKey key) const;
     /// Calls `visit(side, weight)` for the sides that a view is interpolated between.
     template <typename Visit>
     void for_each_share(const View& view, const Visit& visit) const;
+    /// A ray from a point, and the light that the patches send along it.
+    struct GatheredRay {
+        Vec3 direction;
+        Rgb weight;
+        Rgb luminance_cd_m2;
+    };
+    /// Nothing where the point is blind to its direction.
+    using GatheredRays = std::array<std::optional<GatheredRay>, kPacketWidth>;
+    /// A ray from every point, with the direction that the two random numbers give.
+    GatheredRays gather(const PatchLight& light, std::span<const transport::Receiver> points, double u1,
+                        double u2) const;
     void add_illuminances(const PatchLight& light, std::span<const transport::Receiver> points,
                           math::SampleStream stream, ReadingSums& sums) const;
+    /// Calls `visit(first, points)` for all points, some together.
+    template <typename Visit>
+    void for_each_packet(const Visit& visit) const;
+    /// Compares every reading with path tracing once.
+    void compare(const PatchLight& light, math::RandomKey key, std::uint64_t number, ReadingSums& sums) const;
 
     const PatchTransport& transport_;
     const Monitor& monitor_;
+    transport::PathTracer tracer_;  ///< without patches
     std::vector<Rgb> known_part_;
     std::vector<std::optional<Vec3>> sight_ends_;
     std::vector<transport::Receiver> points_;
     std::vector<View> views_;
+    std::uint64_t comparisons_ = 1;             ///< of a sample that is compared
+    std::uint64_t samples_per_comparison_ = 1;  ///< one in so many is compared
 };
 
 // Pictures of lit patches.

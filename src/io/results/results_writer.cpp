@@ -30,6 +30,7 @@ Json reading_json(const SensorResult& result, const Sensor& sensor, std::size_t 
     json["value"] = reading.estimate.value;
     json["standard_error"] = reading.estimate.standard_error;
     json["interval"] = interval_json(reading.estimate);
+    if (reading.patch_error) json["patch_error"] = *reading.patch_error;
     json["rgb"] = reading.rgb.band;
     return json;
 }
@@ -52,6 +53,7 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
         {"name", sensor.name}, {"type", sensor.type()}, {"quantity", quantity.name}, {"unit", quantity.unit}};
     if (const auto count = sensor.count()) json["count"] = *count;
     json["attained_error"] = result.attained_error;
+    if (result.patch_error) json["patch_error"] = *result.patch_error;
     Json values = Json::array();
     for (std::size_t j = 0; j < result.readings.size(); ++j)
         values.push_back(reading_json(result, sensor, j));
@@ -90,6 +92,8 @@ const char* text_of(StopReason reason) {
             return "time over";
         case StopReason::interrupted:
             return "interrupted";
+        case StopReason::patches_too_coarse:
+            return "patches too coarse";
     }
     return "";
 }

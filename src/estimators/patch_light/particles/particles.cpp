@@ -91,6 +91,7 @@ constexpr std::string_view kParticles = "particles";
 /// Particles for each evaluation of the map by a reading.
 constexpr std::uint64_t kParticlesPerEvaluation = 64;
 constexpr std::uint64_t kLeastParticles = 4096;
+constexpr double kRaysPerParticle = 5;
 
 enum Purpose : std::uint64_t { kWalks = kPixels + 1, kEvaluations };
 
@@ -106,7 +107,9 @@ PatchTransport particle_transport(const Problem& problem) {
 class Particles final : public Estimator {
   public:
     explicit Particles(const Problem& problem)
-        : transport_(particle_transport(problem)), readings_(transport_, problem.measurands, problem.monitor) {
+        : transport_(particle_transport(problem)),
+          readings_(transport_, problem.measurands, kParticlesPerEvaluation * kRaysPerParticle,
+                    problem.monitor) {
         if (problem.camera) tracing_.emplace(problem, transport_.lights);
     }
 
@@ -122,7 +125,9 @@ class Particles final : public Estimator {
         }
         for (std::size_t j = 0; j < seen.sum.size(); ++j)
             sums.add(j, seen.sum[j] * double{kParticlesPerEvaluation});
-        sums.invalid += seen.invalid;
+        std::ranges::fill(seen.sum, Rgb{});
+        std::ranges::fill(seen.largest, 0);
+        sums += seen;
         sums.rays += map.rays();
     }
 
@@ -130,8 +135,8 @@ class Particles final : public Estimator {
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::uint64_t batch_granularity() const override { return kLeastParticles; }
     double rays_per_sample() const override {
-        constexpr double reflections = 5, evaluations = 2. / kParticlesPerEvaluation;
-        return reflections + evaluations * static_cast<double>(known_part().size());
+        constexpr double evaluations = 2. / kParticlesPerEvaluation;
+        return kRaysPerParticle + evaluations * static_cast<double>(known_part().size());
     }
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {

@@ -151,7 +151,7 @@ class Radiosity final : public Estimator {
     explicit Radiosity(const Problem& problem)
         : transport_(radiosity_transport(problem)),
           solution_(solve_radiosity(transport_, problem.monitor)),
-          readings_(transport_, problem.measurands, problem.monitor) {
+          readings_(transport_, problem.measurands, 0, problem.monitor) {
         if (!problem.camera) return;
         tracing_.emplace(problem, transport_.lights);
         sides_cd_m2_ =

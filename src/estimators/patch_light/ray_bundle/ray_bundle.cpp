@@ -27,11 +27,15 @@ PatchTransport bundle_transport(const Problem& problem) {
     return {problem.scene, problem.caster, problem.patches, problem.monitor};
 }
 
+double rays_per_step(const PatchTransport& transport) {
+    return 2 * static_cast<double>(transport.patches.count());
+}
+
 class RayBundle final : public Estimator {
   public:
     explicit RayBundle(const Problem& problem)
         : transport_(bundle_transport(problem)),
-          readings_(transport_, problem.measurands, problem.monitor),
+          readings_(transport_, problem.measurands, rays_per_step(transport_), problem.monitor),
           monitor_(problem.monitor) {
         if (!problem.camera) return;
         tracing_.emplace(problem, transport_.lights);
@@ -59,8 +63,7 @@ class RayBundle final : public Estimator {
         return std::bit_ceil(std::max<std::uint64_t>(2 * first_steps(transport_), 16));
     }
     double rays_per_sample() const override {
-        return 2 * static_cast<double>(transport_.patches.count()) +
-               4 * static_cast<double>(known_part().size());
+        return rays_per_step(transport_) + 4 * static_cast<double>(known_part().size());
     }
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
