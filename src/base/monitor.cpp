@@ -16,8 +16,13 @@ const Monitor& Monitor::none() {
     return monitor;
 }
 
+void Monitor::require_more() const {
+    if (is_interrupted()) throw Cancelled("interrupted");
+    if (is_time_over()) throw Cancelled("time limit reached");
+}
+
 void Monitor::report(std::string_view stage, double share) const {
-    if (interrupt_ && *interrupt_) {
+    if (is_interrupted()) {
         throw Cancelled(fmt::format("interrupted during set-up ({}, {:.0f} % done): there is no result yet",
                                     stage, 100 * share));
     }

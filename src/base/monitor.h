@@ -1,4 +1,4 @@
-// Progress and cancellation of work that gives no result before it is complete.
+// Progress and cancellation of work.
 #pragma once
 
 #include <atomic>
@@ -32,7 +32,11 @@ class Monitor {
     /// The shared monitor without an observer.
     static const Monitor& none();
 
+    bool is_interrupted() const { return interrupt_ && *interrupt_; }
     bool is_time_over() const { return deadline_ && Clock::now() > *deadline_; }
+    /// Throws Cancelled where the user has interrupted or the time limit is reached. Some 30 ns: for every
+    /// microsecond or more of work.
+    void require_more() const;
     /// Throws Cancelled where the user has interrupted.
     void report(std::string_view stage, double share) const;
     /// Throws Cancelled where the time limit is reached.

@@ -100,10 +100,7 @@ std::string sensor_table(const SensorResult& result) {
     const std::size_t readings = sensor.size();
     if (readings == 1) return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0));
     std::string text = fmt::format("{:12}  {}", sensor.name, size_text(sensor));
-    if (!std::isnan(result.attained_error)) {
-        text += fmt::format("; 95 % of the readings within {:.2g} %", 100 * result.attained_error);
-    }
-    text += '\n';
+    text += fmt::format("; 95 % of the readings within {:.2g} %\n", 100 * result.attained_error);
     text += summary_text(result.summary, sensor);
     if (const auto count = sensor.count()) {
         const bool fits = (*count)[0] <= kMostColumns && (*count)[1] <= kMostRows;
@@ -121,14 +118,8 @@ std::string title_of(const std::vector<SensorResult>& sensors) {
     return luminances < std::ssize(sensors) ? "Illuminance and luminance" : "Luminance";
 }
 
-/// True unless the method is deterministic; its readings have no intervals, whether it finished or not.
-bool has_intervals(const RunResult& result) {
-    return result.stop_reason != StopReason::solved && result.replicates != 1;
-}
-
 std::string ending_with_error(const RunResult& result) {
     const std::string ended = ending(result.stop_reason, "paths");
-    if (!has_intervals(result)) return ended + "; the discretisation error of the patches is unknown";
     const std::string attained = fmt::format("{:.2g} %", 100 * result.attained_error);
     if (result.stop_reason == StopReason::target_reached) return fmt::format("{} ({})", ended, attained);
     return fmt::format("{}; error {}", ended, attained);
@@ -138,16 +129,13 @@ std::string ending_with_error(const RunResult& result) {
 
 std::string with_error(const statistics::Estimate& estimate) {
     const int decimals = decimals_for(estimate);
-    if (std::isnan(estimate.standard_error)) return fmt::format("{:.{}f}", estimate.value, decimals);
     return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, half_width(estimate), decimals);
 }
 
 std::string to_table(const RunResult& result) {
-    std::string text = title_of(result.sensors) +
-                       (has_intervals(result) ? ", with 95 % intervals\n\n" : ", without intervals\n\n");
+    std::string text = title_of(result.sensors) + ", with 95 % intervals\n\n";
     for (const SensorResult& sensor : result.sensors) text += sensor_table(sensor);
-    const std::string paths = has_intervals(result) ? fmt::format(", {} paths", result.samples) : "";
-    text += fmt::format("\n{}{} in {:.2f} s: {}\n", result.method, paths, result.elapsed_s,
+    text += fmt::format("\n{}, {} paths in {:.2f} s: {}\n", result.method, result.samples, result.elapsed_s,
                         ending_with_error(result));
     text += detail_text(result.levels_of_detail);
     return result.patches ? text + patch_text(*result.patches) : text;
@@ -197,11 +185,9 @@ std::string ending(StopReason reason, std::string_view all) {
         case StopReason::time_over:
             return "time limit reached";
         case StopReason::interrupted:
-            return "interrupted";
-        case StopReason::solved:
             break;
     }
-    return "solved";
+    return "interrupted";
 }
 
 namespace {

@@ -3,26 +3,37 @@
 #include <algorithm>
 
 namespace stilb::estimators {
+
+ReadingSums& ReadingSums::operator+=(const ReadingSums& batch) {
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        sum[i] += batch.sum[i];
+        largest[i] = std::max(largest[i], batch.largest[i]);
+    }
+    rays += batch.rays;
+    invalid += batch.invalid;
+    return *this;
+}
 namespace {
 
 struct Range {
     int first = 0, count = 0;
 };
 
-std::vector<Range> divided(int length, int first_count) {
+std::vector<Range> divided(int length, int first_count, int others_count) {
     std::vector<Range> ranges{{0, std::min(first_count, length)}};
-    for (int first = first_count; first < length; first += kBlockSize) {
-        ranges.push_back({first, std::min(kBlockSize, length - first)});
+    for (int first = first_count; first < length; first += others_count) {
+        ranges.push_back({first, std::min(others_count, length - first)});
     }
     return ranges;
 }
 
 }  // namespace
 
-std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution, const std::array<int, 2>& offset) {
+std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution, const std::array<int, 2>& offset,
+                                  int edge) {
     std::vector<PixelBlock> blocks;
-    for (const Range& rows : divided(resolution[1], offset[1])) {
-        for (const Range& columns : divided(resolution[0], offset[0])) {
+    for (const Range& rows : divided(resolution[1], offset[1], edge)) {
+        for (const Range& columns : divided(resolution[0], offset[0], edge)) {
             blocks.push_back({columns.first, rows.first, columns.count, rows.count});
         }
     }

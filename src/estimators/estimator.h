@@ -56,6 +56,9 @@ struct ReadingSums {
 
     explicit ReadingSums(std::size_t readings) : sum(readings), largest(readings) {}
 
+    /// Adds all of another batch, of as many readings.
+    ReadingSums& operator+=(const ReadingSums& batch);
+
     /// Adds a contribution to a reading.
     void add(std::size_t reading, const Rgb& contribution) {
         if (!contribution.is_finite()) {
@@ -75,9 +78,11 @@ struct PixelBlock {
 /// Edge of the largest blocks.
 inline constexpr int kBlockSize = 16;
 
-/// The blocks of a picture, row by row; the first one extends to `offset` (each from 1 to kBlockSize).
+/// The blocks of a picture, row by row, with `edge` pixels to a side; the first one extends to `offset` (each
+/// from 1 to `edge`).
 std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution,
-                                  const std::array<int, 2>& offset = {kBlockSize, kBlockSize});
+                                  const std::array<int, 2>& offset = {kBlockSize, kBlockSize},
+                                  int edge = kBlockSize);
 
 /// The unit of work for pictures: sample `index` of the replicate that `key` identifies. A pass over
 /// a block depends on these and the block alone.
@@ -101,7 +106,8 @@ class Estimator {
   public:
     virtual ~Estimator() = default;
 
-    /// Adds a batch of the problem's measurands. Batches may run in parallel on different sums.
+    /// Adds a batch of the problem's measurands. Batches may run in parallel on different sums. Throws
+    /// Cancelled, with unfinished sums, soon after the monitor ends the run.
     virtual void run_batch(const Batch& batch, ReadingSums& sums) const = 0;
     /// The part of each reading that is computed without sampling [lx or cd/m2].
     virtual std::span<const Rgb> known_part() const = 0;
@@ -110,6 +116,9 @@ class Estimator {
     virtual std::span<const std::optional<Vec3>> sight_ends() const = 0;
     /// The number of samples of a batch is a multiple of this.
     virtual std::uint64_t batch_granularity() const = 0;
+    /// The number of samples of a replicate before the first error estimate: one from fewer may be far too
+    /// small.
+    virtual std::uint64_t first_check() const { return 4 * batch_granularity(); }
     /// The approximate number of rays of one sample, over all readings: it determines the length of batches.
     virtual double rays_per_sample() const = 0;
 
@@ -120,9 +129,6 @@ class Estimator {
     virtual std::vector<std::string> warnings() const = 0;
     /// The report on patches, for methods that use them.
     virtual std::optional<PatchReport> patch_report() const { return std::nullopt; }
-    /// Whether the time limit ended the set-up before all light was found: warnings() then says what is
-    /// missing.
-    virtual bool ended_early() const { return false; }
 };
 
 }  // namespace stilb::estimators

@@ -54,11 +54,9 @@ std::span<const EstimatorEntry> estimator_list() {
                        .patch_options = kBundleOptions},
         EstimatorEntry{.name = "radiosity",
                        .summary = "progressive shooting between patches until convergence, for diffuse "
-                                  "scenes: a baseline, without standard errors and biased by the size of "
-                                  "the patches",
+                                  "scenes: a baseline, biased by the size of the patches",
                        .make = make_radiosity,
                        .lights_patches = true,
-                       .is_deterministic = true,
                        .patch_options = kFirstShotOptions},
         EstimatorEntry{.name = "particles",
                        .summary = "light particles counted on patches, for diffuse scenes: a baseline, "

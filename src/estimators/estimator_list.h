@@ -24,9 +24,6 @@ struct EstimatorEntry {
     bool has_heavy_tails = false;
     /// Whether the method always computes light on patches, which biases it by their size.
     bool lights_patches = false;
-    /// Whether the method is deterministic: Estimator::known_part() is then the whole result, and the error
-    /// unknown.
-    bool is_deterministic = false;
     /// The names of the members of PatchOptions that it uses: "patch", "first-shot" ...
     std::span<const std::string_view> patch_options = {};
 };

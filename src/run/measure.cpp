@@ -26,12 +26,11 @@ constexpr double kRaysPerRound = 3e7;
 constexpr std::uint64_t kLongestBatch = 1 << 16;
 /// Samples of a replicate: Sobol' indices have 32 bits.
 constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
-/// Granules before the first error estimate: an estimate from fewer may be far too small.
-constexpr std::uint64_t kLeastCheck = 4;
+/// Replicates that a result needs, where time does not suffice for all.
+constexpr std::size_t kLeastReplicates = 8;
 /// Samples that a run makes for the sake of sharp light before its first error estimate: some seconds of
 /// work.
 constexpr std::uint64_t kMostAwaited = 1 << 20;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 enum ReadingPurpose : std::uint64_t { kReadingPreparation, kReadingReplicates };
 
 /// The sums of all replicates, and their progress.
@@ -40,40 +39,52 @@ class Campaign final : public Work {
     /// `least_samples`: of all replicates, before the first error estimate.
     Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, std::size_t readings,
              const RunOptions& options, std::uint64_t least_samples)
-        : estimator_(estimator),
-          sensors_(sensors),
-          granularity_(estimator.batch_granularity()),
-          sums_(static_cast<std::size_t>(options.replicates), estimators::ReadingSums(readings)),
-          first_check_(std::max(kLeastCheck * granularity_, samples_for(least_samples))) {
-        for (std::size_t r = 0; r < sums_.size(); ++r) {
-            keys_.push_back(math::RandomKey{options.seed}.derived(kReadingReplicates).derived(r));
+        : estimator_(estimator), sensors_(sensors), granularity_(estimator.batch_granularity()) {
+        const auto count = static_cast<std::size_t>(options.replicates);
+        replicates_.reserve(count);
+        for (std::size_t r = 0; r < count; ++r) {
+            replicates_.emplace_back(math::RandomKey{options.seed}.derived(kReadingReplicates).derived(r),
+                                     readings);
         }
+        first_check_ = std::max(estimator.first_check(), samples_for(least_samples));
         const double per_batch = kRaysPerRound / (options.replicates * estimator.rays_per_sample());
-        std::uint64_t batch = granularity_;
-        while (2 * batch <= kLongestBatch && static_cast<double>(2 * batch) <= per_batch) batch *= 2;
-        batch_ = batch;
+        while (2 * batch_ <= kLongestBatch && static_cast<double>(2 * batch_) <= per_batch) batch_ *= 2;
+        batch_ = std::max(batch_ / granularity_, std::uint64_t{1}) * granularity_;
     }
 
     std::uint64_t samples() const override { return samples_; }
-    std::uint64_t samples_in_all() const override { return samples_ * sums_.size(); }
+    std::uint64_t samples_in_all() const override {
+        std::uint64_t all = 0;
+        for (const Replicate& replicate : replicates_) all += replicate.samples;
+        return all;
+    }
     std::uint64_t samples_for(std::uint64_t paths) const override {
         const auto divided_up = [](std::uint64_t x, std::uint64_t y) { return (x + y - 1) / y; };
-        const std::uint64_t each = divided_up(paths, sums_.size());
+        const std::uint64_t each = divided_up(paths, replicates_.size());
         return std::min(divided_up(each, granularity_) * granularity_, kMostSamples);
     }
     std::uint64_t most_samples() const override { return kMostSamples; }
     std::uint64_t next_check() const override { return statistics::next_check(samples_, first_check_); }
     std::uint64_t most_at_once() const override { return batch_; }
+    bool has_result() const override {
+        const auto begun = std::ranges::count_if(replicates_, &Replicate::samples);
+        return static_cast<std::size_t>(begun) >= std::min(kLeastReplicates, replicates_.size());
+    }
 
     /// The same next samples of every replicate. Each replicate's sums belong to one task: nothing depends on
-    /// threads.
-    bool advance(std::uint64_t count, const std::atomic<bool>*) override {
-        parallel_for(sums_.size(), [&](std::size_t r) {
-            estimator_.run_batch({keys_[r], samples_, count}, sums_[r]);
-        });
+    /// threads. Where the run is ended, unfinished batches are left out. Replicates of different length have
+    /// the same expectation, and their spread still gives the error of their mean.
+    void advance(std::uint64_t count) override {
+        try {
+            parallel_for(replicates_.size(), [&](std::size_t r) { replicates_[r].add(count, estimator_); });
+        } catch (const Cancelled&) {
+            if (has_result()) std::erase_if(replicates_, [](const Replicate& r) { return r.samples == 0; });
+            throw;
+        }
         samples_ += count;
-        return true;
     }
+
+    std::size_t replicates() const { return replicates_.size(); }
 
     /// The error of the worst sensor.
     double attained_error() const override {
@@ -92,25 +103,26 @@ class Campaign final : public Work {
 
     std::uint64_t rays() const {
         std::uint64_t rays = 0;
-        for (const estimators::ReadingSums& s : sums_) rays += s.rays;
+        for (const Replicate& replicate : replicates_) rays += replicate.sums.rays;
         return rays;
     }
 
     void require_valid() const {
         std::uint64_t invalid = 0;
-        for (const estimators::ReadingSums& s : sums_) invalid += s.invalid;
-        const double all = static_cast<double>(samples_in_all()) * static_cast<double>(sums_[0].sum.size());
+        for (const Replicate& replicate : replicates_) invalid += replicate.sums.invalid;
+        const double all =
+            static_cast<double>(samples_in_all()) * static_cast<double>(replicates_[0].sums.sum.size());
         require_mostly_finite(invalid, all);
     }
 
     /// Replicates x readings of one sensor, luminance-weighted [lx].
     std::vector<double> replicate_means(std::size_t first, std::size_t count) const {
         std::vector<double> means;
-        means.reserve(sums_.size() * count);
+        means.reserve(replicates_.size() * count);
         const auto known = estimator_.known_part();
-        for (const estimators::ReadingSums& s : sums_) {
+        for (const Replicate& replicate : replicates_) {
             for (std::size_t j = first; j < first + count; ++j) {
-                means.push_back(known[j].luminance() + s.sum[j].luminance() / static_cast<double>(samples_));
+                means.push_back(known[j].luminance() + replicate.mean(j).luminance());
             }
         }
         return means;
@@ -118,14 +130,15 @@ class Campaign final : public Work {
 
     Rgb rgb(std::size_t reading) const {
         Rgb sum;
-        for (const estimators::ReadingSums& s : sums_) sum += s.sum[reading];
-        return estimator_.known_part()[reading] + sum * (1 / static_cast<double>(samples_in_all()));
+        for (const Replicate& replicate : replicates_) sum += replicate.mean(reading);
+        return estimator_.known_part()[reading] + sum * (1 / static_cast<double>(replicates_.size()));
     }
 
     statistics::LargestContributions largest(std::size_t reading) const {
         std::vector<double> of_replicates;
-        of_replicates.reserve(sums_.size());
-        for (const estimators::ReadingSums& s : sums_) of_replicates.push_back(s.largest[reading]);
+        of_replicates.reserve(replicates_.size());
+        for (const Replicate& replicate : replicates_)
+            of_replicates.push_back(replicate.sums.largest[reading]);
         return statistics::largest_contributions(of_replicates);
     }
 
@@ -138,14 +151,29 @@ class Campaign final : public Work {
     }
 
   private:
+    struct Replicate {
+        Replicate(math::RandomKey own_key, std::size_t readings) : key(own_key), sums(readings) {}
+
+        void add(std::uint64_t count, const estimators::Estimator& estimator) {
+            estimators::ReadingSums batch(sums.sum.size());
+            estimator.run_batch({key, samples, count}, batch);
+            sums += batch;
+            samples += count;
+        }
+        Rgb mean(std::size_t reading) const { return sums.sum[reading] * (1 / static_cast<double>(samples)); }
+
+        math::RandomKey key;
+        estimators::ReadingSums sums;
+        std::uint64_t samples = 0;
+    };
+
     const estimators::Estimator& estimator_;
     std::span<const Sensor> sensors_;
     std::uint64_t granularity_;
-    std::vector<math::RandomKey> keys_;
-    std::vector<estimators::ReadingSums> sums_;
-    std::uint64_t first_check_;
+    std::vector<Replicate> replicates_;
+    std::uint64_t first_check_ = 1;
     std::uint64_t batch_ = 1;
-    std::uint64_t samples_ = 0;
+    std::uint64_t samples_ = 0;  ///< of each replicate
 };
 
 void require_measurable(std::span<const Sensor> sensors, const estimators::EstimatorEntry& method) {
@@ -173,14 +201,9 @@ void require_surfaces(std::span<const Sensor> sensors, const rays::RayCaster& ca
     }
 }
 
-/// The options with defaults for a run without targets. A deterministic method computes its result
-/// once.
-RunOptions with_reading_target(RunOptions options, const estimators::EstimatorEntry& method) {
-    if (method.is_deterministic) {
-        options.error.reset();
-        options.paths.reset();
-        options.replicates = 1;
-    } else if (!options.error && !options.time_s && !options.paths) {
+/// The options with defaults for a run without targets.
+RunOptions with_reading_target(RunOptions options) {
+    if (!options.error && !options.time_s && !options.paths) {
         options.error = 0.01;
         options.time_s = 60;
     }
@@ -194,18 +217,10 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
     result.sensor = sensor;
     result.replicate_means = campaign.replicate_means(first, count);
     const statistics::ReplicateTable table{result.replicate_means, count};
-    std::vector<statistics::Estimate> estimates;
-    if (table.replicates() > 1) {
-        const std::vector<double> rare = campaign.rare_light(first, count);
-        estimates = estimate_readings(table, confidence, rare);
-        result.summary = summarize_grid(table, confidence, rare);
-        result.attained_error = statistics::attained_error(estimates);
-    } else {
-        std::ranges::transform(result.replicate_means, std::back_inserter(estimates),
-                               statistics::without_error);
-        result.summary = statistics::summarize_without_errors(result.replicate_means);
-        result.attained_error = kUnknown;
-    }
+    const std::vector<double> rare = campaign.rare_light(first, count);
+    const std::vector<statistics::Estimate> estimates = estimate_readings(table, confidence, rare);
+    result.summary = summarize_grid(table, confidence, rare);
+    result.attained_error = statistics::attained_error(estimates);
     for (std::size_t j = 0; j < count; ++j)
         result.readings.push_back({estimates[j], campaign.rgb(first + j)});
     if (std::holds_alternative<Luminance>(sensor.kind)) {
@@ -221,7 +236,7 @@ std::string at_readings(std::size_t count, const SensorResult& sensor) {
     return all == 1 ? "" : fmt::format(" at {} of {} readings", count, all);
 }
 
-/// Warns of readings whose light was found by few samples, or by none. A deterministic method has no samples.
+/// Warns of readings whose light was found by few samples, or by none.
 std::vector<std::string> rarity_warnings(const Campaign& campaign, std::span<const SensorResult> sensors) {
     std::vector<std::string> warnings;
     const std::uint64_t samples = campaign.samples_in_all();
@@ -284,18 +299,12 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
 }
 
 void add_warnings(const Campaign& campaign, const Scene& scene, std::vector<std::string> of_scene,
-                  const estimators::EstimatorEntry& method, const transport::SharpLight& sharp,
-                  const RunOptions& asked, RunResult& result) {
+                  const transport::SharpLight& sharp, RunResult& result) {
     const auto append = [&](std::vector<std::string> more) {
         std::ranges::move(more, std::back_inserter(result.warnings));
     };
-    if (method.is_deterministic && (asked.error || asked.paths)) {
-        result.warnings.push_back(fmt::format(
-            "method {} is deterministic and ends by itself: limits on error and paths have no effect.",
-            method.name));
-    }
     append(std::move(of_scene));
-    if (!method.is_deterministic) append(rarity_warnings(campaign, result.sensors));
+    append(rarity_warnings(campaign, result.sensors));
     append(sharp_light_warnings(sharp, result.samples, scene));
 }
 
@@ -312,7 +321,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     const Wanted wanted(sensors);
     require_valid(asked_options);
     const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
-    const RunOptions options = with_reading_target(asked_options, method);
+    const RunOptions options = with_reading_target(asked_options);
     require_measurable(sensors, method);
 
     Session session(scene, asked_options, options, progress, interrupt);
@@ -330,16 +339,11 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     Campaign campaign(*estimator, sensors, wanted.measurands.size(), options,
                       std::min(sharp.samples, kMostAwaited));
     RunResult result;
-    session.on_threads([&] {
-        if (!method.is_deterministic) return session.run(campaign, result);
-        campaign.advance(1, nullptr);
-        result.stop_reason = StopReason::solved;
-        result.attained_error = kUnknown;
-    });
+    session.on_threads([&] { session.run(campaign, result); });
     campaign.require_valid();
 
     session.describe(*estimator, result);
-    result.replicates = options.replicates;
+    result.replicates = static_cast<int>(campaign.replicates());
     result.rays = campaign.rays();
     // A run that stopped by its own error estimate stops sooner where the estimate happens to be too small
     // (docs/statistics.md).
@@ -349,7 +353,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
         result.sensors.push_back(sensor_result(campaign, sensor, first, estimator->sight_ends(), confidence));
         first += sensor.size();
     }
-    add_warnings(campaign, scene, std::move(of_scene), method, sharp, asked_options, result);
+    add_warnings(campaign, scene, std::move(of_scene), sharp, result);
     session.finish(result);
     return result;
 }

@@ -126,8 +126,9 @@ class Passes final : public Work {
   public:
     /// `sink` may be null.
     Passes(const estimators::Estimator& estimator, const Camera& camera, const std::vector<bool>& blind,
-           std::uint64_t replicates, std::uint64_t seed, PictureSink* sink)
+           std::uint64_t replicates, std::uint64_t seed, PictureSink* sink, const Monitor& monitor)
         : estimator_(estimator),
+          monitor_(monitor),
           blind_(blind),
           sink_(sink),
           replicates_(replicates),
@@ -144,7 +145,7 @@ class Passes final : public Work {
     std::uint64_t samples_for(std::uint64_t paths) const override { return paths; }
     std::uint64_t most_samples() const override { return std::numeric_limits<std::uint64_t>::max(); }
     /// There is no error without two replicates.
-    std::uint64_t least_samples() const override { return 2; }
+    bool has_result() const override { return sums_.passes() >= 2; }
     std::uint64_t next_check() const override { return next_checkpoint(sums_.passes()); }
     std::uint64_t most_at_once() const override { return 1; }
     double attained_error() const override { return run::attained_error(sums_, blind_); }
@@ -152,20 +153,18 @@ class Passes final : public Work {
         if (sink_ && sink_->wants_picture()) sink_->show(sums_.pixels());
     }
 
-    bool advance(std::uint64_t, const std::atomic<bool>* interrupt) override {
+    void advance(std::uint64_t) override {
         const std::uint64_t p = sums_.passes();
         const estimators::Pass pass{key_.derived(p % replicates_), p / replicates_, p % replicates_};
         const std::vector<estimators::PixelBlock> blocks = estimators::blocks_of(resolution_, offset_of(p));
         const auto started = estimator_.start(pass);
-        const auto is_interrupted = [&] { return interrupt && *interrupt; };
         parallel_for(blocks.size(), [&](std::size_t b) {
-            if (!is_interrupted()) sample(blocks[b], *started);
+            monitor_.require_more();
+            sample(blocks[b], *started);
         });
-        if (is_interrupted()) return false;
         sums_.add(pixels_);
         const double all = static_cast<double>(sums_.passes()) * static_cast<double>(pixels_.size());
         require_mostly_finite(invalid_, all);
-        return true;
     }
 
   private:
@@ -193,6 +192,7 @@ class Passes final : public Work {
     }
 
     const estimators::Estimator& estimator_;
+    const Monitor& monitor_;
     const std::vector<bool>& blind_;
     PictureSink* sink_;
     std::uint64_t replicates_;
@@ -206,20 +206,22 @@ class Passes final : public Work {
 
 void add_geometry(const Camera& camera, const rays::RayCaster& caster, RenderResult& result) {
     const sensors::CameraView view(camera);
-    for (int y = 0; y < camera.resolution[1]; ++y) {
-        for (int x = 0; x < camera.resolution[0]; ++x) {
-            const auto direction = view.direction_at(x + 0.5, y + 0.5);
+    const auto width = static_cast<std::size_t>(camera.resolution[0]);
+    const auto height = static_cast<std::size_t>(camera.resolution[1]);
+    result.normals.resize(width * height, {kNoValue, kNoValue, kNoValue});
+    result.depth_m.resize(width * height, kNoValue);
+    parallel_for(height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            const auto direction =
+                view.direction_at(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
             const auto hit = direction ? caster.closest(view.position(), *direction) : std::nullopt;
-            if (hit) {
-                const Vec3& n = hit->normal;
-                result.normals.push_back(
-                    {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)});
-            } else {
-                result.normals.push_back({kNoValue, kNoValue, kNoValue});
-            }
-            result.depth_m.push_back(hit ? static_cast<float>(hit->distance_m) : kNoValue);
+            if (!hit) continue;
+            const Vec3& n = hit->normal;
+            result.normals[y * width + x] = {static_cast<float>(n.x), static_cast<float>(n.y),
+                                             static_cast<float>(n.z)};
+            result.depth_m[y * width + x] = static_cast<float>(hit->distance_m);
         }
-    }
+    });
 }
 
 void add_means(const PictureSums& sums, const std::vector<bool>& blind, RenderResult& result) {
@@ -238,17 +240,9 @@ void add_means(const PictureSums& sums, const std::vector<bool>& blind, RenderRe
     result.mean_standard_error_cd_m2 = error / pixels;
 }
 
-/// The options with defaults for a picture without targets. Passes of a deterministic method
-/// differ only by their sample positions in the pixels.
-RunOptions with_picture_target(RunOptions options, const estimators::EstimatorEntry& method) {
-    if (method.is_deterministic) options.error.reset();
-    if (!options.error && !options.time_s && !options.paths) {
-        if (method.is_deterministic) {
-            options.paths = kSmoothingPasses;
-        } else {
-            options.time_s = kDefaultTime_s;
-        }
-    }
+/// The options with defaults for a picture without targets.
+RunOptions with_picture_target(RunOptions options) {
+    if (!options.error && !options.time_s && !options.paths) options.time_s = kDefaultTime_s;
     if (options.paths) options.paths = std::max<std::uint64_t>(*options.paths, 2);
     return options;
 }
@@ -269,14 +263,14 @@ RenderResult render_by(const MakeEstimator& make, std::uint64_t replicates, cons
             session.problem(math::RandomKey{options.seed}.derived(kPicturePreparation));
         problem.camera = camera;
         const auto estimator = make(problem);
-        Passes passes(*estimator, camera, blind, replicates, options.seed, sink);
+        Passes passes(*estimator, camera, blind, replicates, options.seed, sink, session.monitor());
         session.run(passes, result);
         session.describe(*estimator, result);
         result.replicates = static_cast<int>(passes.sums().replicates());
         result.pixels = passes.sums().pixels();
         add_means(passes.sums(), blind, result);
+        add_geometry(camera, session.caster(), result);
     });
-    add_geometry(camera, session.caster(), result);
     std::ranges::move(of_scene, std::back_inserter(result.warnings));
     session.finish(result);
     return result;
@@ -294,23 +288,19 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
     }
     require_valid(asked_options);
     const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
-    const RunOptions options = with_picture_target(asked_options, method);
+    const RunOptions options = with_picture_target(asked_options);
     if (!method.measures_luminance) {
         throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
                                      fmt::join(estimators::luminance_methods(), ", ")));
     }
-    RenderResult result = render_by(method.make, method.is_deterministic ? 1 : kPictureReplicates, scene,
-                                    camera, asked_options, options, sink, interrupt);
+    RenderResult result =
+        render_by(method.make, kPictureReplicates, scene, camera, asked_options, options, sink, interrupt);
     if (method.has_heavy_tails) {
         result.warnings.push_back(
             fmt::format("method {} has infinite variance in corners: the standard errors of pixels there are "
                         "unreliable. Use method "
                         "auto.",
                         method.name));
-    }
-    if (method.is_deterministic && asked_options.error) {
-        result.warnings.push_back(
-            fmt::format("method {} is deterministic: a limit on the error has no effect.", method.name));
     }
     return result;
 }

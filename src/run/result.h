@@ -16,8 +16,7 @@
 
 namespace stilb::run {
 
-/// `solved`: the computation is complete, as that of a deterministic method.
-enum class StopReason { target_reached, paths_done, time_over, interrupted, solved };
+enum class StopReason { target_reached, paths_done, time_over, interrupted };
 
 /// The truncation of the series of an object (level_of_detail.h).
 struct LevelOfDetail {
@@ -34,12 +33,12 @@ struct RunSummary {
     /// The total number of samples: light paths; for method `path` paths per reading; for pictures passes
     /// (samples of each pixel); for solutions steps of all walks, without the first ones of each.
     std::uint64_t samples = 0;
-    /// Independent repetitions; 1 where there are no errors: after a single pass, and for deterministic
-    /// methods.
+    /// Independent repetitions that the errors come from; fewer than asked for where the run ended before all
+    /// of them had begun. 1 where there are no errors: after a single pass.
     int replicates = 0;
     double elapsed_s = 0;
     StopReason stop_reason = StopReason::paths_done;
-    /// False where a requested error is not met, and where the run ended before all light was found.
+    /// False where a requested error is not met.
     bool converged = true;
     /// Relative half-width that 95 % meet: of the readings of the worst sensor, of the pixels, or of the
     /// light on the sides of patches.

@@ -44,11 +44,9 @@ Schedule::Ending Schedule::run(Work& work) const {
 std::optional<StopReason> Schedule::advance_to(std::uint64_t check, std::uint64_t last, Work& work,
                                                double& error) const {
     while (work.samples() < check) {
-        const bool has_result = work.samples() >= work.least_samples();
         const std::uint64_t next = std::min(work.most_at_once(), check - work.samples());
-        if (has_result && interrupt_ && *interrupt_) return StopReason::interrupted;
-        if (has_result && is_time_over(work, next)) return StopReason::time_over;
-        if (!work.advance(next, has_result ? interrupt_ : nullptr)) return StopReason::interrupted;
+        if (work.has_result() && is_time_over(work, next)) return StopReason::time_over;
+        if (const auto reason = advance(next, work)) return reason;
         if (work.samples() == check) error = work.attained_error();
         report(work, last, error);
         work.show();
@@ -56,10 +54,30 @@ std::optional<StopReason> Schedule::advance_to(std::uint64_t check, std::uint64_
     return std::nullopt;
 }
 
+std::optional<StopReason> Schedule::advance(std::uint64_t count, Work& work) const {
+    const auto is_interrupted = [&] { return interrupt_ && *interrupt_; };
+    try {
+        if (!is_interrupted()) work.advance(count);
+    } catch (const Cancelled&) {
+        if (!work.has_result() && !is_interrupted()) {
+            throw Cancelled(
+                fmt::format("time limit reached after {:.2g} s, before the first result: there is no "
+                            "result yet. Allow more time, or reduce the work: fewer readings or "
+                            "pixels, larger patches.",
+                            clock_.elapsed_s()));
+        }
+        if (!is_interrupted()) return StopReason::time_over;
+    }
+    if (!is_interrupted()) return std::nullopt;
+    if (work.has_result()) return StopReason::interrupted;
+    throw Cancelled(fmt::format("interrupted after {:.2g} s, before the first result: there is no result yet",
+                                clock_.elapsed_s()));
+}
+
 /// Predicts whether the next samples end in time, if they take as long as the last ones.
 bool Schedule::is_time_over(const Work& work, std::uint64_t next) const {
     if (!options_.time_s) return false;
-    const double per_sample_s = clock_.elapsed_s() / static_cast<double>(work.samples());
+    const double per_sample_s = begun_.elapsed_s() / static_cast<double>(work.samples());
     return clock_.elapsed_s() + per_sample_s * static_cast<double>(next) > *options_.time_s;
 }
 
@@ -125,9 +143,6 @@ void Session::run(Work& work, RunSummary& summary) {
 void Session::describe(const estimators::Estimator& estimator, RunSummary& summary) const {
     summary.patches = estimator.patch_report();
     summary.warnings = estimator.warnings();
-    if (!estimator.ended_early()) return;
-    summary.stop_reason = StopReason::time_over;
-    summary.converged = false;
 }
 
 void Session::finish(RunSummary& summary) const {

@@ -41,23 +41,22 @@ class Work {
     virtual std::uint64_t samples_for(std::uint64_t paths) const = 0;
     /// The largest number of samples.
     virtual std::uint64_t most_samples() const = 0;
-    /// The least number of samples: without them there is no result, so they are made regardless of the
-    /// limits are.
-    virtual std::uint64_t least_samples() const { return 1; }
+    /// Whether there are enough samples for a result with an error.
+    virtual bool has_result() const = 0;
     /// The number of samples at the next error estimate.
     virtual std::uint64_t next_check() const = 0;
     /// Samples between two checks of the clock.
     virtual std::uint64_t most_at_once() const = 0;
 
-    /// Makes the next `count` samples. Returns false, and adds nothing, where `interrupt` (which may be null)
-    /// stopped it.
-    virtual bool advance(std::uint64_t count, const std::atomic<bool>* interrupt) = 0;
+    /// Makes the next `count` samples. Throws Cancelled where the monitor ends the run, with the samples that
+    /// are done by then: they may be fewer in some replicates.
+    virtual void advance(std::uint64_t count) = 0;
     virtual double attained_error() const = 0;
     /// Called after each report of progress: shows the unfinished result where the sink asks for it.
     virtual void show() {}
 };
 
-/// The rules that end a run.
+/// The rules that end a run. The work is begun when the schedule is made.
 class Schedule {
   public:
     /// `sink` and `interrupt` may be null.
@@ -75,11 +74,15 @@ class Schedule {
     /// Advances to the next error estimate; returns a reason where the run ends before.
     std::optional<StopReason> advance_to(std::uint64_t check, std::uint64_t last, Work& work,
                                          double& error) const;
+    /// Advances by `count` samples; returns a reason where the run ends before. Throws Cancelled where there
+    /// is no result then.
+    std::optional<StopReason> advance(std::uint64_t count, Work& work) const;
     bool is_time_over(const Work& work, std::uint64_t next) const;
     void report(const Work& work, std::uint64_t last, double error) const;
 
     const RunOptions& options_;
     const Clock& clock_;
+    Clock begun_;
     ProgressSink* sink_;
     const std::atomic<bool>* interrupt_;
 };

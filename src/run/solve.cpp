@@ -30,7 +30,7 @@ class Walks final : public Work {
   public:
     Walks(const estimators::PatchTransport& transport, const estimators::TermLayout& layout,
           std::uint64_t seed, const Monitor& monitor)
-        : transport_(transport), layout_(layout), walks_(kSolutionReplicates) {
+        : transport_(transport), layout_(layout), monitor_(monitor), walks_(kSolutionReplicates) {
         const std::uint64_t dark = first_steps(transport);
         Stage stage(monitor, "first steps", kSolutionReplicates * dark);
         parallel_for(kSolutionReplicates, [&](std::size_t w) {
@@ -44,7 +44,11 @@ class Walks final : public Work {
 
     /// Steps of each walk.
     std::uint64_t samples() const override { return walks_[0]->sums.steps(); }
-    std::uint64_t samples_in_all() const override { return samples() * kSolutionReplicates; }
+    std::uint64_t samples_in_all() const override {
+        std::uint64_t all = 0;
+        for (const auto& walk : walks_) all += walk->sums.steps();
+        return all;
+    }
     std::uint64_t samples_for(std::uint64_t paths) const override {
         return (paths + kSolutionReplicates - 1) / kSolutionReplicates;
     }
@@ -54,14 +58,19 @@ class Walks final : public Work {
     std::uint64_t next_check() const override { return statistics::next_check(samples(), kFirstCheck); }
     std::uint64_t most_at_once() const override { return kStepsAtOnce; }
 
-    bool advance(std::uint64_t steps, const std::atomic<bool>*) override {
+    bool has_result() const override {
+        return std::ranges::all_of(walks_, [](const auto& walk) { return walk->sums.steps() > 0; });
+    }
+
+    /// Where the run is ended, some walks may have made more steps than others.
+    void advance(std::uint64_t steps) override {
         parallel_for(kSolutionReplicates, [&](std::size_t w) {
             for (std::uint64_t i = 0; i < steps; ++i) {
+                monitor_.require_more();
                 walks_[w]->iteration.step();
                 walks_[w]->sums.add(walks_[w]->iteration);
             }
         });
-        return true;
     }
 
     std::vector<std::uint32_t> lit_sides() const {
@@ -122,6 +131,7 @@ class Walks final : public Work {
 
     const estimators::PatchTransport& transport_;
     const estimators::TermLayout& layout_;
+    const Monitor& monitor_;
     std::vector<std::unique_ptr<Walk>> walks_;
 };
 

@@ -149,12 +149,4 @@ GridSummary summarize_grid(const ReplicateTable& table, double confidence,
     return summary;
 }
 
-GridSummary summarize_without_errors(std::span<const double> readings) {
-    const auto [smallest, largest] = std::ranges::minmax(readings);
-    const double mean = compute_grid_means({readings, readings.size()}).front();
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    return {without_error(mean), without_error(smallest), without_error(largest),
-            without_error(mean > 0 ? smallest / mean : kNone)};
-}
-
 }  // namespace stilb::statistics

@@ -20,7 +20,4 @@ struct GridSummary {
 GridSummary summarize_grid(const ReplicateTable& table, double confidence = 0.95,
                            std::span<const double> rare_light = {});
 
-/// The summary of one or more readings with unknown errors (without_error()).
-GridSummary summarize_without_errors(std::span<const double> readings);
-
 }  // namespace stilb::statistics

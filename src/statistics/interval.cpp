@@ -34,11 +34,6 @@ Estimate estimate_from_replicates(std::span<const double> replicate_means, doubl
     return estimate_readings({replicate_means, 1}, confidence, {&rare_light, 1}).front();
 }
 
-Estimate without_error(double value) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    return {value, unknown, unknown, unknown};
-}
-
 double relative_half_width(const Estimate& estimate) {
     const double half_width = (estimate.upper - estimate.lower) / 2;
     if (half_width == 0) return 0;

@@ -40,9 +40,6 @@ double student_t_quantile(double probability, int degrees_of_freedom);
 Estimate estimate_from_replicates(std::span<const double> replicate_means, double confidence = 0.95,
                                   double rare_light = 0);
 
-/// A value with unknown error: the other members are NaN.
-Estimate without_error(double value);
-
 /// The same for every reading of a table. `rare_light`: one for each reading, or none.
 std::vector<Estimate> estimate_readings(const ReplicateTable& table, double confidence = 0.95,
                                         std::span<const double> rare_light = {});

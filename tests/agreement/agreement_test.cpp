@@ -20,9 +20,18 @@ namespace stilb {
 namespace {
 
 constexpr int kReplicates = 32;
+/// Sanitizers slow the methods down some thirty times. They look for other errors than bias, so with them
+/// everything is compared less finely.
+#ifdef __SANITIZE_ADDRESS__
+constexpr double kCoarser = 5;
+#else
+constexpr double kCoarser = 1;
+#endif
 /// Relative standard error of a method's readings that is aimed at, by the pilot run, and that is required.
-constexpr double kTargetError = 0.0016;
-constexpr double kLargestError = 0.003;
+constexpr double kTargetError = 0.0016 * kCoarser;
+constexpr double kLargestError = 0.003 * kCoarser;
+/// A method that is wrong by this share does not pass.
+constexpr double kNoticed = 0.01 * kCoarser;
 /// Chance that the whole file fails without a defect, when its seeds are first used.
 constexpr double kFamilyError = 0.01;
 
@@ -152,10 +161,9 @@ bool is_dark(const Measured& measured) {
     return std::ranges::all_of(measured.estimates, [](const auto& e) { return e.value == 0; });
 }
 
-/// Whether the suite fails where one of the methods is wrong by one per cent: by a comparison with some
-/// other.
-bool notices_one_per_cent(const std::vector<TwoRuns>& all, std::size_t wrong) {
-    for (const double share : {-0.01, 0.01}) {
+/// Whether the suite fails where one of the methods is wrong by that much: by a comparison with some other.
+bool notices_error_of(std::size_t wrong, const std::vector<TwoRuns>& all) {
+    for (const double share : {-kNoticed, kNoticed}) {
         const Measured planted = biased(all[wrong].both, share);
         const bool noticed = std::ranges::any_of(all, [&](const TwoRuns& other) {
             if (&other == &all[wrong]) return false;
@@ -183,10 +191,10 @@ TEST_P(Agreement, OfAllMethods) {
         compare(all[i].first, all[i].second);
         for (std::size_t j = 0; j < i; ++j) compare(all[i].both, all[j].both);
     }
-    // The comparison itself: a method that is wrong by one per cent does not pass.
+    // The comparison itself: a wrong method does not pass.
     for (std::size_t i = 0; i < all.size() && all.size() > 1; ++i) {
         if (is_dark(all[i].both)) continue;
-        EXPECT_TRUE(notices_one_per_cent(all, i)) << all[i].both.what;
+        EXPECT_TRUE(notices_error_of(i, all)) << all[i].both.what;
     }
     RecordProperty("worst_z", std::to_string(worst));
 }
@@ -220,11 +228,11 @@ TEST(HarmonicBodies, AreAsFineMeshes) {
     }
 }
 
-TEST(AgreementItself, NoticesOnePerCent) {
+TEST(AgreementItself, NoticesABrighterLamp) {
     // The same comparison, of a room with the same room one per cent brighter.
     const AgreementScene& of = agreement_scenes()[0];
     Scene brighter = of.make();
-    std::get<PointLight>(brighter.lights[0].source).intensity_cd *= 1.01;
+    std::get<PointLight>(brighter.lights[0].source).intensity_cd *= 1 + kNoticed;
     const std::vector<TwoRuns> right = measure_all(of.make(), of, 5);
     const std::vector<TwoRuns> wrong = measure_all(brighter, of, 500);
     for (const TwoRuns& a : right) {

@@ -39,38 +39,6 @@ TEST(ResultsTable, OneLineOfSightIsOneLine) {
         << table_of(made);
 }
 
-/// As of methods without chance.
-TEST(ResultsTable, ShowsNoErrorsWhereNoneAreKnown) {
-    RunResult made = io::luminance_results();
-    made.sensors.resize(1);
-    made.stop_reason = StopReason::solved;
-    SensorResult& view = made.sensors[0];
-    view.attained_error = std::numeric_limits<double>::quiet_NaN();
-    for (Reading& reading : view.readings)
-        reading.estimate = statistics::without_error(reading.estimate.value);
-    view.summary = statistics::summarize_without_errors(std::vector<double>{100, 200});
-    EXPECT_EQ(table_of(made),
-              "Luminance, without intervals\n"
-              "\n"
-              "view          2 lines of sight\n"
-              "    mean 150.00 cd/m²   minimum 100.00 cd/m²   maximum 200.00 cd/m²\n"
-              "    100.00 cd/m²   from (2, 0, 1) along (0, 1, 0), meets (2, 4, 1)\n"
-              "    200.00 cd/m²   from (2, 0, 1) along (0, 0, 1), leaves the scene\n"
-              "\n"
-              "auto in 0.00 s: solved; the discretisation error of the patches is unknown\n");
-}
-
-TEST(ResultsTable, ShowsNoErrorsWhereTheTimeLimitEndsAMethodWithoutChance) {
-    RunResult made = io::luminance_results();
-    made.stop_reason = StopReason::time_over;
-    made.replicates = 1;
-    const std::string table = table_of(made);
-    EXPECT_TRUE(table.starts_with("Luminance, without intervals\n")) << table;
-    EXPECT_TRUE(
-        has(table, "auto in 0.00 s: time limit reached; the discretisation error of the patches is unknown"))
-        << table;
-}
-
 TEST(ResultsTable, SaysWhatPatchesStandFor) {
     RunResult made = io::luminance_results();
     made.patches = io::patch_report();

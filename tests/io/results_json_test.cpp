@@ -71,18 +71,6 @@ TEST(ResultsJson, LuminancesHaveNoUniformity) {
     }
 }
 
-/// As of methods without chance.
-TEST(ResultsJson, UnknownErrorsAreNull) {
-    RunResult made = luminance_results();
-    made.stop_reason = StopReason::solved;
-    made.sensors[0].readings[0].estimate = statistics::without_error(100);
-    const Json value = json_of(made)[0]["values"][0];
-    EXPECT_EQ(value["value"], 100);
-    EXPECT_TRUE(value["standard_error"].is_null());
-    EXPECT_EQ(value["interval"], Json::parse("[null, null]"));
-    EXPECT_EQ(Json::parse(to_json(made, "room.toml"))["stopped"], "solved");
-}
-
 TEST(ResultsJson, PatchesSayWhatBecameOfLights) {
     RunResult made = luminance_results();
     made.patches = patch_report();

@@ -44,7 +44,7 @@ RunOptions options_for(const std::string& method, double patch_m, std::uint64_t 
     options.method = method;
     options.patches.patch_m = patch_m;
     options.patches.shot_resolution = 32;
-    if (method == "particles") options.paths = particles;
+    options.paths = method == "particles" ? particles : 1 << 12;
     return options;
 }
 
@@ -174,23 +174,17 @@ TEST_P(PatchBaseline, RefusesWhatIsNotDiffuse) {
 INSTANTIATE_TEST_SUITE_P(Methods, PatchBaseline, testing::Values("radiosity", "particles"),
                          [](const auto& method) { return std::string(method.param); });
 
-TEST(Radiosity, KnowsNoErrors) {
+TEST(Radiosity, SamplesTheWayFromPatchesToPoints) {
     const std::vector<Sensor> sensors{Sensor{"floor", Grid{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 1}, kUp}}};
     RunOptions options = options_for("radiosity", 1);
+    options.paths.reset();
     options.error = 0.01;
     const RunResult result = measure(lamp_in_cube(0.5), sensors, options);
-    EXPECT_TRUE(result.converged);
-    ASSERT_EQ(result.warnings.size(), 1U);
-    EXPECT_NE(result.warnings[0].find("is deterministic"), std::string::npos) << result.warnings[0];
-    EXPECT_EQ(result.stop_reason, StopReason::solved);
-    EXPECT_TRUE(std::isnan(result.attained_error));
+    EXPECT_EQ(result.stop_reason, StopReason::target_reached);
     for (const Reading& reading : result.sensors[0].readings) {
-        EXPECT_GT(reading.estimate.value, 0);
-        EXPECT_TRUE(std::isnan(reading.estimate.standard_error));
-        EXPECT_TRUE(std::isnan(reading.estimate.lower));
+        EXPECT_GT(reading.estimate.standard_error, 0);
+        EXPECT_LT(relative_half_width(reading.estimate), 0.01);
     }
-    EXPECT_GT(result.sensors[0].summary.uniformity.value, 0.9);
-    EXPECT_TRUE(std::isnan(result.sensors[0].summary.mean.upper));
 }
 
 /// Light of a point that no first shot brings to the patches would be missing without a word.
@@ -211,15 +205,6 @@ TEST(Radiosity, CubesSeeWhatHemicubesSee) {
     const double expected = value_of(measure(furnished_room(), {&floor, 1}, options), 0);
     options.patches.first_shot.shooting.window = patches::BufferShape::cube;
     EXPECT_NEAR(value_of(measure(furnished_room(), {&floor, 1}, options), 0), expected, 1e-3 * expected);
-}
-
-TEST(Radiosity, PicturesHaveNoErrors) {
-    const Sensor camera{"camera",
-                        Camera{{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {4, 3}, Projection::perspective}};
-    const RenderResult result = render(lamp_in_cube(0.5), camera, options_for("radiosity", 1));
-    EXPECT_TRUE(result.pixels.standard_error_cd_m2.empty());
-    EXPECT_GT(result.pixels.rgb_cd_m2[0][0], 0);
-    EXPECT_EQ(result.replicates, 1);
 }
 
 }  // namespace

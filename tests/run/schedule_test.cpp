@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <thread>
 #include <vector>
+
+#include "stilb/error.h"
 
 namespace stilb::run {
 namespace {
@@ -17,23 +20,24 @@ class MadeUpWork final : public Work {
     std::uint64_t samples_in_all() const override { return 2 * samples_; }
     std::uint64_t samples_for(std::uint64_t paths) const override { return (paths + 1) / 2; }
     std::uint64_t most_samples() const override { return 1000; }
-    std::uint64_t least_samples() const override { return least; }
+    bool has_result() const override { return samples_ >= least; }
     std::uint64_t next_check() const override {
         std::uint64_t look = 4;
         while (look <= samples_) look *= 2;
         return look;
     }
     std::uint64_t most_at_once() const override { return 3; }
-    bool advance(std::uint64_t count, const std::atomic<bool>* interrupt) override {
+    void advance(std::uint64_t count) override {
         if (sleep_per_sample_s > 0) {
             std::this_thread::sleep_for(
                 std::chrono::duration<double>(sleep_per_sample_s * static_cast<double>(count)));
         }
-        if (samples_ + count >= interrupted_at && flag) *flag = true;
-        if (interrupt && *interrupt) return false;
+        if (samples_ + count >= cancelled_at) {
+            if (flag) *flag = true;
+            throw Cancelled("by the monitor");
+        }
         counts.push_back(count);
         samples_ += count;
-        return true;
     }
     double attained_error() const override {
         ++looks;
@@ -43,7 +47,9 @@ class MadeUpWork final : public Work {
 
     std::uint64_t least = 1;
     double sleep_per_sample_s = 0;
-    std::uint64_t interrupted_at = ~std::uint64_t{0};
+    /// The monitor ends the work before so many samples: by an interruption where there is a flag, else by
+    /// the time limit.
+    std::uint64_t cancelled_at = ~std::uint64_t{0};
     std::atomic<bool>* flag = nullptr;
     std::vector<std::uint64_t> counts;
     mutable int looks = 0;
@@ -96,7 +102,7 @@ TEST(Schedule, StopsWhereThereCannotBeMore) {
     EXPECT_EQ(run.work.samples(), run.work.most_samples());
 }
 
-TEST(Schedule, KeepsTheTimeOnceThereIsAResult) {
+TEST(Schedule, BeginsTheFirstPieceEvenWhereItMayTakeTooLong) {
     Trial run;
     run.options.time_s = 1e-9;
     run.work.least = 2;
@@ -116,18 +122,42 @@ TEST(Schedule, EndsBeforeTheTimeRatherThanAfter) {
     EXPECT_LE(run.work.samples(), 25U);
 }
 
-TEST(Schedule, AnInterruptionEndsItButNotBeforeThereIsAResult) {
-    Trial run;
-    run.interrupt = true;
-    run.work.least = 4;
-    EXPECT_EQ(run.end().reason, StopReason::interrupted);
-    EXPECT_EQ(run.work.samples(), 4U);
+/// The message of the exception that ends a run without a result.
+std::string message_of(Trial& run) {
+    try {
+        run.end();
+    } catch (const Cancelled& cancelled) {
+        return cancelled.what();
+    }
+    return "";
 }
 
-TEST(Schedule, WorkThatIsInterruptedAddsNothing) {
+TEST(Schedule, SaysWhereThereIsNoResultYet) {
+    Trial interrupted;
+    interrupted.interrupt = true;
+    EXPECT_TRUE(message_of(interrupted).starts_with("interrupted after")) << message_of(interrupted);
+    EXPECT_EQ(interrupted.work.samples(), 0U);
+
+    Trial late;
+    late.work.least = 4;
+    late.work.cancelled_at = 4;
+    const std::string message = message_of(late);
+    EXPECT_TRUE(message.starts_with("time limit reached after")) << message;
+    EXPECT_NE(message.find("no result yet"), std::string::npos) << message;
+    EXPECT_EQ(late.work.samples(), 3U);
+}
+
+TEST(Schedule, KeepsTheTimeInTheMiddleOfAPiece) {
+    Trial run;
+    run.work.cancelled_at = 8;
+    EXPECT_EQ(run.end().reason, StopReason::time_over);
+    EXPECT_EQ(run.work.samples(), 7U);
+}
+
+TEST(Schedule, EndsInTheMiddleOfAPieceThatIsInterrupted) {
     Trial run;
     run.work.flag = &run.interrupt;
-    run.work.interrupted_at = 8;
+    run.work.cancelled_at = 8;
     const Schedule::Ending ending = run.end();
     EXPECT_EQ(ending.reason, StopReason::interrupted);
     EXPECT_EQ(run.work.samples(), 7U);

@@ -117,6 +117,7 @@ void Connections::collect(std::span<const transport::LightVertex> nodes, Reading
     LaneMask lanes;
     alignas(64) Floats g_per_m2;
     for (const PointTile& tile : tiles_) {
+        monitor_.require_more();
         TileSums tile_sums;
         for (std::size_t n = 0; n < connected_vertices.size(); ++n) {
             const ConnectedVertex& node = connected_vertices[n];

@@ -20,16 +20,18 @@ class Connections {
   public:
     /// An infinite k of a tile's receiver gives w = 1 there (plain local estimation). Vertices that path
     /// tracing cannot find (LightVertex::only_by_light) have w = 1 for any k.
-    Connections(const rays::RayCaster& caster, std::span<const PointTile> tiles)
-        : caster_(caster), tiles_(tiles) {}
+    Connections(const rays::RayCaster& caster, std::span<const PointTile> tiles,
+                const Monitor& monitor = Monitor::none())
+        : caster_(caster), tiles_(tiles), monitor_(monitor) {}
 
     /// Adds the contributions of the vertices to each receiver, and keeps the largest single ones. Counts
-    /// rays.
+    /// rays. Throws Cancelled, with unfinished sums, where the monitor ends the run.
     void collect(std::span<const transport::LightVertex> nodes, ReadingSums& sums) const;
 
   private:
     const rays::RayCaster& caster_;
     std::span<const PointTile> tiles_;
+    const Monitor& monitor_;
 };
 
 // Selection of fewer vertices from more light paths: connections cost most, so they go to vertices that lie

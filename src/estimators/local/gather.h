@@ -26,10 +26,12 @@ namespace stilb::estimators {
 class Gather {
   public:
     Gather(const rays::RayCaster& caster, const transport::PathTracer& tracer,
-           std::span<const PointTile> tiles, std::span<const SplitPlan> plans)
-        : caster_(caster), tracer_(tracer), tiles_(tiles), plans_(plans) {}
+           std::span<const PointTile> tiles, std::span<const SplitPlan> plans,
+           const Monitor& monitor = Monitor::none())
+        : caster_(caster), tracer_(tracer), tiles_(tiles), plans_(plans), monitor_(monitor) {}
 
-    /// One round per so many light paths of the batch as the plan says, with their weight.
+    /// One round per so many light paths of the batch as the plan says, with their weight. Throws Cancelled,
+    /// with unfinished sums, where the monitor ends the run.
     void collect(const Batch& batch, ReadingSums& sums) const;
 
   private:
@@ -42,6 +44,7 @@ class Gather {
     const transport::PathTracer& tracer_;
     std::span<const PointTile> tiles_;
     std::span<const SplitPlan> plans_;
+    const Monitor& monitor_;
 };
 
 }  // namespace stilb::estimators

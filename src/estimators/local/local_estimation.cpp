@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <limits>
 
 #include "base/parallel.h"
@@ -53,7 +54,8 @@ struct LocalTransport {
           split(asked),
           gathers(split == Split::balanced || has_specular_surfaces(scene)),
           lights(scene, caster),
-          tracer(scene, caster, lights) {}
+          tracer(scene, caster, lights),
+          monitor(problem.monitor) {}
     LocalTransport(const LocalTransport&) = delete;
     LocalTransport& operator=(const LocalTransport&) = delete;
 
@@ -69,6 +71,7 @@ struct LocalTransport {
     bool gathers;
     transport::LightSampler lights;
     transport::PathTracer tracer;
+    const Monitor& monitor;
 };
 
 /// Vertices are connected to the points after so many light paths per selected one (below).
@@ -77,6 +80,8 @@ constexpr std::uint64_t kPathBlock = 512;
 constexpr std::uint64_t kPathsPerDirectSample = 2;
 /// Light paths for each ray that `local` sends out where there are mirrors or glass.
 constexpr std::uint64_t kPathsPerSpecularRay = 4;
+/// Selected light paths of a replicate before the first error estimate: few of them may all miss rare light.
+constexpr std::uint64_t kSelectedBeforeCheck = 256;
 /// The vertices of one in so many light paths are connected to the points by `auto`: a light path costs as
 /// much as some 50 shadow rays, so careful selection gains more with more points; the square root balances
 /// the cost and the variance of both.
@@ -84,6 +89,14 @@ std::uint64_t paths_per_selected(std::size_t points) {
     std::uint64_t light_paths = 1;
     while (light_paths < 64 && 80 * light_paths * light_paths <= points) light_paths *= 2;
     return light_paths;
+}
+/// The largest number of selected light paths for each gathering ray. The more there are, the longer a run
+/// takes to its first result, which needs a ray from every point: with many points there are fewer, for a
+/// first result after some seconds.
+std::uint64_t most_selected_per_ray(std::size_t points) {
+    constexpr std::uint64_t most = 64, least = 4, connections = 1u << 19;
+    return std::clamp<std::uint64_t>(std::bit_floor(connections / std::max<std::size_t>(points, 1)), least,
+                                     most);
 }
 
 /// Illuminance at points and luminance along lines of sight.
@@ -94,11 +107,12 @@ class LocalReadings {
           seen_(receive(problem.measurands)),
           paths_per_selected_(transport.split == Split::balanced ? paths_per_selected(seen_.receivers.size())
                                                                  : 1),
+          selected_per_ray_(most_selected_per_ray(seen_.receivers.size())),
           plans_(plans(problem)),
           tiles_(tiles_of(seen_.receivers, constants_per_m2(plans_), transport_.caster,
                           transport_.max_reflections)),
-          connections_(transport_.caster, tiles_),
-          gather_(transport_.caster, transport_.tracer, tiles_, plans_) {}
+          connections_(transport_.caster, tiles_, transport_.monitor),
+          gather_(transport_.caster, transport_.tracer, tiles_, plans_, transport_.monitor) {}
 
     void run_batch(const Batch& batch, ReadingSums& sums) const {
         const std::uint64_t end = batch.first + batch.count;
@@ -113,7 +127,8 @@ class LocalReadings {
 
     std::span<const Rgb> known_part() const { return seen_.known_part; }
     std::span<const std::optional<Vec3>> sight_ends() const { return seen_.ends; }
-    std::uint64_t batch_granularity() const { return kMostPathsPerRay * paths_per_selected_; }
+    std::uint64_t batch_granularity() const { return selected_per_ray_ * paths_per_selected_; }
+    std::uint64_t first_check() const { return kSelectedBeforeCheck * paths_per_selected_; }
     double rays_per_sample() const {
         constexpr double path_cost = 50;
         return path_cost +
@@ -184,6 +199,7 @@ class LocalReadings {
         const std::uint64_t light_paths = kPathsPerDirectSample * paths_per_selected_;
         const std::uint64_t end = (batch.first + batch.count) / light_paths;
         for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
+            transport_.monitor.require_more();
             const transport::Receiver& receiver = seen_.receivers[j];
             const math::RandomKey own_key = key.derived(j);
             for (std::uint64_t i = batch.first / light_paths; i < end; ++i) {
@@ -200,6 +216,7 @@ class LocalReadings {
         const math::RandomKey key = batch.key.derived(kFaint);
         const std::uint64_t light_paths = batch_granularity();
         for (std::size_t j = 0; j < seen_.faint.size(); ++j) {
+            transport_.monitor.require_more();
             const auto& [reading, branch] = seen_.faint[j];
             const auto hit = transport_.caster.closest(branch.origin, branch.direction);
             if (!hit) continue;  // in the known part
@@ -230,7 +247,8 @@ class LocalReadings {
                                direct,
                                surface_area_m2(transport_.scene),
                                transport_.max_reflections,
-                               paths_per_selected_};
+                               paths_per_selected_,
+                               selected_per_ray_};
         std::vector<SplitPlan> plans =
             plan_splits(transport_.caster, transport_.tracer, seen_.receivers,
                         weights.empty() ? alike : weights, pilot, key.derived(kPlan), problem.monitor);
@@ -263,7 +281,7 @@ class LocalReadings {
 
     const LocalTransport& transport_;
     Reception seen_;
-    std::uint64_t paths_per_selected_;
+    std::uint64_t paths_per_selected_, selected_per_ray_;
     std::vector<SplitPlan> plans_;
     std::vector<PointTile> tiles_;
     Connections connections_;
@@ -287,7 +305,7 @@ class LocalPicture {
     LocalPicture(const LocalTransport& transport, const Problem& problem)
         : transport_(transport),
           tracing_(problem, transport.lights),
-          cells_per_row_((tracing_.camera.resolution[0] + kBlockSize - 1) / kBlockSize),
+          cell_edge_(cell_edge_of(tracing_.camera.resolution)),
           k_per_m2_(plan(problem)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const {
@@ -352,8 +370,8 @@ class LocalPicture {
     };
 
     std::size_t cell_of(const Pixel& pixel) const {
-        const int cell = pixel.y / kBlockSize * cells_per_row_ + pixel.x / kBlockSize;
-        return static_cast<std::size_t>(cell);
+        const int cells_per_row = (tracing_.camera.resolution[0] + cell_edge_ - 1) / cell_edge_;
+        return static_cast<std::size_t>(pixel.y / cell_edge_ * cells_per_row + pixel.x / cell_edge_);
     }
 
     /// Appends the sub-point of a camera path; returns the emission seen and the
@@ -380,16 +398,25 @@ class LocalPicture {
         const double u = math::SampleStream(pass.key.derived(kSelection), pass.index).next();
         std::vector<transport::LightVertex> nodes = pool.select(pool.size() / kPathsPerSelected + 1, u);
         for (transport::LightVertex& vertex : nodes) vertex.flux_lm *= 1.0 / kPathsPerPass;
-        Connections(tracing_.caster, tiles).collect(nodes, sums);
+        Connections(tracing_.caster, tiles, transport_.monitor).collect(nodes, sums);
         if (!transport_.gathers) return;
         const std::vector<SplitPlan> plans(receivers.size(), {0, 1});
         Gather(tracing_.caster, transport_.tracer, tiles, plans)
             .collect({pass.key.derived(kGather), pass.index, 1}, sums);
     }
 
-    /// A k for each cell with an edge of kBlockSize pixels, from a packet of sub-points spread over it.
+    /// The edge of cells with a k of their own, in pixels: planning must not take long beside the first pass.
+    static int cell_edge_of(const std::array<int, 2>& resolution) {
+        constexpr std::size_t most_cells = 4096;
+        int edge = kBlockSize;
+        while (blocks_of(resolution, {edge, edge}, edge).size() > most_cells) edge *= 2;
+        return edge;
+    }
+
+    /// A k for each cell, from a packet of sub-points spread over it.
     std::vector<double> plan(const Problem& problem) const {
-        const std::vector<PixelBlock> cells = blocks_of(tracing_.camera.resolution);
+        const std::vector<PixelBlock> cells =
+            blocks_of(tracing_.camera.resolution, {cell_edge_, cell_edge_}, cell_edge_);
         std::vector<double> k_per_m2(cells.size(), std::numeric_limits<double>::infinity());
         if (transport_.split == Split::none) return k_per_m2;
         const math::RandomKey key = problem.preparation_key;
@@ -404,8 +431,9 @@ class LocalPicture {
         const Pass pass{key.derived(kPlan), 0};
         std::atomic<std::size_t> done = 0;
         parallel_for(cells.size(), [&](std::size_t c) {
-            problem.monitor.report("planning",
-                                   static_cast<double>(done++) / static_cast<double>(cells.size()));
+            const double share = static_cast<double>(done++) / static_cast<double>(cells.size());
+            problem.monitor.report("planning", share);
+            problem.monitor.require_time("planning", share);
             std::vector<Pixel> pixels;
             const PixelBlock& cell = cells[c];
             for (int i = 0; i < kPacketWidth; ++i) {
@@ -424,7 +452,7 @@ class LocalPicture {
 
     const LocalTransport& transport_;
     PictureTracing tracing_;
-    int cells_per_row_;
+    int cell_edge_;
     std::vector<double> k_per_m2_;  ///< of each cell
 };
 
@@ -439,6 +467,7 @@ class LocalEstimation final : public Estimator {
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::uint64_t batch_granularity() const override { return readings_.batch_granularity(); }
+    std::uint64_t first_check() const override { return readings_.first_check(); }
     double rays_per_sample() const override { return readings_.rays_per_sample(); }
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return picture_->start(pass);

@@ -103,10 +103,11 @@ Choice best_constant(const PointModel& point, std::uint64_t paths_per_ray, doubl
 
 /// Plans for the points of a packet, which share the number of light paths per ray; returns their
 /// sum.
-Prediction plan_packet(std::span<const PointModel> packet, double price, std::span<SplitPlan> plans) {
+Prediction plan_packet(std::span<const PointModel> packet, std::uint64_t most_paths_per_ray, double price,
+                       std::span<SplitPlan> plans) {
     Prediction best;
     double least = std::numeric_limits<double>::infinity();
-    for (std::uint64_t light_paths = 1; light_paths <= kMostPathsPerRay; light_paths *= 2) {
+    for (std::uint64_t light_paths = 1; light_paths <= most_paths_per_ray; light_paths *= 2) {
         std::array<SplitPlan, kPacketWidth> tried;
         Prediction sum;
         for (std::size_t j = 0; j < packet.size(); ++j) {
@@ -278,7 +279,9 @@ std::vector<ReceiverModel> model_receivers(const rays::RayCaster& caster, const 
     const std::size_t packets = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
     std::atomic<std::size_t> done = 0;
     parallel_for(packets, [&](std::size_t p) {
-        monitor.report("planning", static_cast<double>(done++) / static_cast<double>(packets));
+        const double share = static_cast<double>(done++) / static_cast<double>(packets);
+        monitor.report("planning", share);
+        monitor.require_time("planning", share);
         const std::size_t first = p * kPacketWidth;
         const std::size_t count = std::min<std::size_t>(kPacketWidth, receivers.size() - first);
         const std::vector<Survey> surveys = survey_packet(caster, tracer, receivers.subspan(first, count),
@@ -309,22 +312,25 @@ std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
     return weighted;
 }
 
-}  // namespace
+/// The largest number of packets that are surveyed. Others take the plan of the one before them, which lies
+/// near them: receivers are in the order of a space-filling curve.
+constexpr std::size_t kMostSurveyed = 1024;
 
-std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
-                                   std::span<const transport::Receiver> receivers,
-                                   std::span<const double> weights, const PilotLight& pilot,
-                                   math::RandomKey key, const Monitor& monitor) {
-    if (receivers.empty()) return {};
+/// plan_splits() for receivers that stand for `stride` times as many.
+std::vector<SplitPlan> plan_surveyed(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                                     std::span<const transport::Receiver> receivers, std::size_t stride,
+                                     std::span<const double> weights, const PilotLight& pilot,
+                                     math::RandomKey key, const Monitor& monitor) {
     const std::vector<PointModel> models = weighted_models(
         model_receivers(caster, tracer, receivers, pilot, key, monitor), receivers, weights, pilot.direct);
     // About half of the vertices face a point; all points share the cost of tracing.
     const double vertices_per_path =
         (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.light_paths);
     const std::size_t lanes = (receivers.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth;
-    const double connection_cost =
-        0.5 * vertices_per_path * static_cast<double>(lanes) +
-        kSegmentCost * (vertices_per_path + 1) * static_cast<double>(pilot.paths_per_selected);
+    const double connection_cost = 0.5 * vertices_per_path * static_cast<double>(lanes) +
+                                   kSegmentCost * (vertices_per_path + 1) *
+                                       static_cast<double>(pilot.paths_per_selected) /
+                                       static_cast<double>(stride);
     // The worth of a unit of cost: at the best plan, the quotient of variance and cost. Both depend on the
     // plan; after some rounds they change little.
     double price = 0;
@@ -337,12 +343,37 @@ std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transpor
         Prediction sum{0, connection_cost};
         for (std::size_t first = 0; first < models.size(); first += kPacketWidth) {
             const std::size_t count = std::min<std::size_t>(kPacketWidth, models.size() - first);
-            const Prediction packet =
-                plan_packet({models.data() + first, count}, price, {plans.data() + first, count});
+            const Prediction packet = plan_packet({models.data() + first, count}, pilot.most_paths_per_ray,
+                                                  price, {plans.data() + first, count});
             sum.variance += packet.variance;
             sum.cost += packet.cost;
         }
         price = sum.variance / sum.cost;
+    }
+    return plans;
+}
+
+}  // namespace
+
+std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                                   std::span<const transport::Receiver> receivers,
+                                   std::span<const double> weights, const PilotLight& pilot,
+                                   math::RandomKey key, const Monitor& monitor) {
+    if (receivers.empty()) return {};
+    const std::size_t packets = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
+    const std::size_t stride = (packets + kMostSurveyed - 1) / kMostSurveyed;
+    std::vector<transport::Receiver> surveyed;
+    for (std::size_t first = 0; first < receivers.size(); first += stride * kPacketWidth) {
+        const auto packet =
+            receivers.subspan(first, std::min<std::size_t>(kPacketWidth, receivers.size() - first));
+        surveyed.insert(surveyed.end(), packet.begin(), packet.end());
+    }
+    const std::vector<SplitPlan> of_surveyed =
+        plan_surveyed(caster, tracer, surveyed, stride, weights, pilot, key, monitor);
+    std::vector<SplitPlan> plans(receivers.size());
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const std::size_t packet = i / kPacketWidth / stride;
+        plans[i] = of_surveyed[packet * kPacketWidth + i % kPacketWidth];
     }
     return plans;
 }

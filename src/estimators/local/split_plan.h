@@ -18,9 +18,6 @@ struct SplitPlan {
     std::uint64_t paths_per_ray = 1;  ///< light paths for each gathering ray: a power of two
 };
 
-/// The upper limit of paths_per_ray.
-inline constexpr std::uint64_t kMostPathsPerRay = 64;
-
 /// An estimate of the light before planning, and its sampling.
 struct PilotLight {
     std::span<const transport::LightVertex> nodes;
@@ -29,6 +26,8 @@ struct PilotLight {
     double scene_area_m2 = 1;
     int max_reflections = 0;
     std::uint64_t paths_per_selected = 1;  ///< light paths for each whose vertices are connected
+    /// The upper limit of SplitPlan::paths_per_ray: a power of two.
+    std::uint64_t most_paths_per_ray = 64;
 };
 
 /// Plans, one for each receiver, that about minimise the sum over the readings of weight variance / value^2,

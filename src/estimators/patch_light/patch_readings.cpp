@@ -19,8 +19,12 @@ constexpr std::uint64_t kViews = ~std::uint64_t{0};
 
 }  // namespace
 
-PatchReadings::PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands)
-    : transport_(transport), known_part_(measurands.size()), sight_ends_(measurands.size()) {
+PatchReadings::PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands,
+                             const Monitor& monitor)
+    : transport_(transport),
+      monitor_(monitor),
+      known_part_(measurands.size()),
+      sight_ends_(measurands.size()) {
     for (std::uint32_t reading = 0; reading < measurands.size(); ++reading) {
         add_reading(reading, measurands[reading]);
     }
@@ -82,9 +86,11 @@ void PatchReadings::add(const PatchLight& light, math::RandomKey key, std::uint6
                         ReadingSums& sums) const {
     const math::RandomKey key_of_views = key.derived(kViews).derived(sample);
     for (std::size_t i = 0; i < views_.size(); ++i) {
+        monitor_.require_more();
         add_luminance(light, views_[i], key_of_views.derived(i), sums);
     }
     for (std::size_t first = 0; first < points_.size(); first += kPacketWidth) {
+        monitor_.require_more();
         const std::size_t count = std::min<std::size_t>(kPacketWidth, points_.size() - first);
         for (std::uint64_t ray = 0; ray < kRaysPerSample; ++ray) {
             add_illuminances(light, std::span(points_).subspan(first, count),

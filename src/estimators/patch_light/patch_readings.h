@@ -41,17 +41,19 @@ class ReflectedSides final : public PatchLight {
     std::vector<FloatRgb> cd_m2_;
 };
 
-/// Keeps a reference to the transport. Immutable.
+/// Keeps references to the transport and the monitor. Immutable.
 class PatchReadings {
   public:
-    PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands);
+    PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands,
+                  const Monitor& monitor);
 
     /// Emission and stored first shot along lines of sight, direct light of point-like sources at points.
     std::span<const Rgb> known_part() const { return known_part_; }
     /// As Estimator.
     std::span<const std::optional<Vec3>> sight_ends() const { return sight_ends_; }
 
-    /// Adds sample number `sample` of every reading, beside the known part.
+    /// Adds sample number `sample` of every reading, beside the known part. Throws Cancelled, with unfinished
+    /// sums, where the monitor ends the run.
     void add(const PatchLight& light, math::RandomKey key, std::uint64_t sample, ReadingSums& sums) const;
 
   private:
@@ -76,6 +78,7 @@ class PatchReadings {
                           math::SampleStream stream, ReadingSums& sums) const;
 
     const PatchTransport& transport_;
+    const Monitor& monitor_;
     std::vector<Rgb> known_part_;
     std::vector<std::optional<Vec3>> sight_ends_;
     std::vector<transport::Receiver> points_;

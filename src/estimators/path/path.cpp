@@ -115,6 +115,7 @@ class PathEstimator final : public Estimator {
     explicit PathEstimator(const Problem& problem)
         : scene_(problem.scene),
           caster_(problem.caster),
+          monitor_(problem.monitor),
           max_reflections_(problem.max_reflections),
           paths_(scene_, caster_, problem.patches, problem.monitor),
           known_part_(problem.measurands.size()),
@@ -126,18 +127,19 @@ class PathEstimator final : public Estimator {
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
-        const std::uint64_t end = batch.first + batch.count;
-        for (std::uint64_t first = batch.first; first < end; first += kSideBySide) {
-            const Batch part{batch.key, first, std::min(kSideBySide, end - first)};
-            for (const transport::Receiver& point : points_) sample_illuminance(point, part, sums);
-            for (const FirstHit& first_hit : sights_) sample_luminance(first_hit, part, sums);
-        }
+        for_parts(points_.size() * batch.count, [&](std::uint64_t first, std::uint64_t end) {
+            sample_illuminances(batch, first, end, sums);
+        });
+        for_parts(sights_.size() * batch.count, [&](std::uint64_t first, std::uint64_t end) {
+            sample_luminances(batch, first, end, sums);
+        });
     }
 
     std::span<const Rgb> known_part() const override { return known_part_; }
     std::span<const std::optional<Vec3>> sight_ends() const override { return sight_ends_; }
-    /// Enough samples for a reliable first estimate of the error, which rare bright paths dominate.
-    std::uint64_t batch_granularity() const override { return 64; }
+    std::uint64_t batch_granularity() const override { return 1; }
+    /// Rare bright paths dominate the error.
+    std::uint64_t first_check() const override { return 256; }
     double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<PathPass>(*tracing_, paths_.tracer, pass);
@@ -172,50 +174,69 @@ class PathEstimator final : public Estimator {
         known_part_[reading] = paths_.lights.emitted_luminance(*seen.first);
     }
 
-    void sample_illuminance(const transport::Receiver& point, const Batch& batch, ReadingSums& sums) const {
-        const math::RandomKey key = batch.key.derived(point.reading());
+    /// Calls `sample(first, end)` for parts of all readings' samples: number n is sample n % count of reading
+    /// n / count.
+    template <typename Sample>
+    void for_parts(std::uint64_t samples, const Sample& sample) const {
+        for (std::uint64_t first = 0; first < samples; first += kSideBySide) {
+            monitor_.require_more();
+            sample(first, std::min(first + kSideBySide, samples));
+        }
+    }
+
+    void sample_illuminances(const Batch& batch, std::uint64_t first, std::uint64_t end,
+                             ReadingSums& sums) const {
         std::vector<rays::Ray> rays;
         std::vector<math::SampleStream> streams;
-        std::vector<Rgb> weights;
-        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
-            math::SampleStream stream(key, i);
+        struct Target {
+            std::uint32_t reading = 0;
+            Rgb weight;
+        };
+        std::vector<Target> targets;
+        for (std::uint64_t n = first; n < end; ++n) {
+            const transport::Receiver& point = points_[n / batch.count];
+            math::SampleStream stream(batch.key.derived(point.reading()), batch.first + n % batch.count);
             sums.add(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream));
             const auto [u1, u2] = stream.next_two();
             const auto sample = point.sample(u1, u2);
             if (!sample) continue;
             rays.push_back({point.lifted(), sample->direction});
             streams.push_back(stream);
-            weights.push_back(sample->weight);
+            targets.push_back({point.reading(), sample->weight});
         }
         std::vector<std::optional<rays::Hit>> hits(rays.size());
         caster_.closest(rays, rays::Coherence::scattered, hits);
         std::vector<transport::Path> paths;
-        std::vector<Rgb> weight_of_path;
+        std::vector<Target> target_of_path;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             if (!hits[i]) continue;
             paths.push_back({*hits[i], -rays[i].direction, streams[i], max_reflections_});
             paths.back().previous_vertex = transport::kDirectIsKnown;
-            weight_of_path.push_back(weights[i]);
+            target_of_path.push_back(targets[i]);
         }
         paths_.tracer.trace(paths, rays::Coherence::scattered);
         for (std::size_t i = 0; i < paths.size(); ++i) {
-            sums.add(point.reading(), weight_of_path[i] * paths[i].luminance_cd_m2);
+            sums.add(target_of_path[i].reading, target_of_path[i].weight * paths[i].luminance_cd_m2);
         }
     }
 
-    void sample_luminance(const FirstHit& first_hit, const Batch& batch, ReadingSums& sums) const {
-        const math::RandomKey key = batch.key.derived(first_hit.reading);
+    void sample_luminances(const Batch& batch, std::uint64_t first, std::uint64_t end,
+                           ReadingSums& sums) const {
         std::vector<transport::Path> paths;
-        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
-            paths.push_back(
-                {first_hit.hit, -first_hit.direction, math::SampleStream(key, i), max_reflections_});
+        for (std::uint64_t n = first; n < end; ++n) {
+            const FirstHit& seen = sights_[n / batch.count];
+            const math::SampleStream stream(batch.key.derived(seen.reading), batch.first + n % batch.count);
+            paths.push_back({seen.hit, -seen.direction, stream, max_reflections_});
         }
         paths_.tracer.trace(paths, rays::Coherence::coherent);
-        for (const transport::Path& path : paths) sums.add(first_hit.reading, path.luminance_cd_m2);
+        for (std::uint64_t n = first; n < end; ++n) {
+            sums.add(sights_[n / batch.count].reading, paths[n - first].luminance_cd_m2);
+        }
     }
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
+    const Monitor& monitor_;
     int max_reflections_;
     FlattenedPaths paths_;
     std::vector<transport::Receiver> points_;

@@ -6,11 +6,13 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
@@ -56,6 +58,7 @@ Imf::Chromaticities to_chromaticities(const Primaries& primaries) {
 Imf::Header header_of(const Picture& picture) {
     Imf::Header header(picture.width, picture.height);
     header.compression() = Imf::ZIP_COMPRESSION;
+    header.zipCompressionLevel() = 1;  // noise does not become smaller by more effort
     Imf::addWhiteLuminance(header, 1);
     Imf::addChromaticities(header, to_chromaticities(kRec709));
     for (const HeaderField& field : header_fields(picture))
@@ -199,8 +202,10 @@ std::string to_exr(const Picture& picture) {
     for (auto it = channels.buffer().begin(); it != channels.buffer().end(); ++it)
         header.channels().insert(it.name(), Imf::Channel(Imf::FLOAT));
     Imf::StdOSStream stream;
+    const auto threads = static_cast<int>(std::thread::hardware_concurrency());
+    Imf::setGlobalThreadCount(threads);
     {
-        Imf::OutputFile file(stream, header);
+        Imf::OutputFile file(stream, header, threads);
         file.setFrameBuffer(channels.buffer());
         file.writePixels(picture.height);
     }  // the destructor completes the stream

@@ -90,8 +90,6 @@ const char* text_of(StopReason reason) {
             return "time over";
         case StopReason::interrupted:
             return "interrupted";
-        case StopReason::solved:
-            return "solved";
     }
     return "";
 }

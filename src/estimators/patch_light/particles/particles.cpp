@@ -106,7 +106,8 @@ PatchTransport particle_transport(const Problem& problem) {
 class Particles final : public Estimator {
   public:
     explicit Particles(const Problem& problem)
-        : transport_(particle_transport(problem)), readings_(transport_, problem.measurands) {
+        : transport_(particle_transport(problem)),
+          readings_(transport_, problem.measurands, problem.monitor) {
         if (problem.camera) tracing_.emplace(problem, transport_.lights);
     }
 

@@ -1,18 +1,17 @@
 // Radiosity: radiosity.h describes the light of the patches, patch_readings.h and patch_picture.h readings
 // and pictures of it.
 //
-// The method is deterministic, so there are no standard errors. Its error is the discretisation: light that
-// varies over a patch, and form factors from its middle. It is unknown; a run with smaller patches shows it.
+// The light of the patches is deterministic. Its error is the discretisation: light that varies over a patch,
+// and form factors from its middle. Samples are rays from the points to the patches: the standard errors of
+// readings and pictures come from them alone.
 #include "estimators/patch_light/radiosity/radiosity.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
 
-#include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/patch_readings.h"
@@ -55,7 +54,7 @@ class Shooting {
         const double all = find_unshot(), enough = kUnshotShare * all;
         const std::uint64_t most = kMostShotsOfASide * unshot_.size();
         double left = all;
-        while (left > enough && !monitor.is_time_over()) {
+        while (left > enough) {
             if (done_ > most) {
                 throw InputError(fmt::format(
                     "method radiosity did not converge after {} shots: reflectances close to 1 prevent it. "
@@ -63,13 +62,13 @@ class Shooting {
                     done_));
             }
             // The unshot flux falls about exponentially.
-            monitor.report("shooting",
-                           std::clamp(std::log(all / left) / std::log(1 / kUnshotShare), 0.0, 1.0));
+            const double share = std::clamp(std::log(all / left) / std::log(1 / kUnshotShare), 0.0, 1.0);
+            monitor.report("shooting", share);
+            monitor.require_time("shooting", share);
             shoot();
             left = find_unshot();
         }
-        return {ReflectedSides(std::move(reflected_)), done_, done_ * shots_.rays_per_shot(),
-                left > enough ? left / all : 0};
+        return {ReflectedSides(std::move(reflected_)), done_, done_ * shots_.rays_per_shot()};
     }
 
   private:
@@ -147,76 +146,39 @@ PatchTransport radiosity_transport(const Problem& problem) {
     return {problem.scene, problem.caster, problem.patches, problem.monitor};
 }
 
-/// Samples of a point's hemisphere: Sobol' points, the same ones in every run.
-constexpr std::uint64_t kBlocks = 32, kSamplesOfABlock = 128;
-
-/// The part beside the known one: sums over fixed directions from points, and points on lights.
-ReadingSums sum_readings(const PatchReadings& readings, const PatchLight& light, const Monitor& monitor) {
-    std::vector<ReadingSums> blocks(kBlocks, ReadingSums(readings.known_part().size()));
-    std::atomic<std::uint64_t> done = 0;
-    parallel_for(kBlocks, [&](std::uint64_t block) {
-        monitor.report("readings", static_cast<double>(done++) / kBlocks);
-        for (std::uint64_t i = 0; i < kSamplesOfABlock; ++i) {
-            readings.add(light, math::RandomKey{}, block * kSamplesOfABlock + i, blocks[block]);
-        }
-    });
-    ReadingSums sums(readings.known_part().size());
-    for (const ReadingSums& block : blocks) {
-        for (std::size_t j = 0; j < sums.sum.size(); ++j) sums.sum[j] += block.sum[j];
-        sums.invalid += block.invalid;
-    }
-    return sums;
-}
-
 class Radiosity final : public Estimator {
   public:
     explicit Radiosity(const Problem& problem)
         : transport_(radiosity_transport(problem)),
           solution_(solve_radiosity(transport_, problem.monitor)),
-          readings_(transport_, problem.measurands) {
-        if (!problem.measurands.empty()) read(problem.monitor);
+          readings_(transport_, problem.measurands, problem.monitor) {
         if (!problem.camera) return;
         tracing_.emplace(problem, transport_.lights);
         sides_cd_m2_ =
             VisibleSides(transport_, tracing_->view.position()).mean_cd_m2(solution_.light.cd_m2(), 1);
     }
 
-    void run_batch(const Batch&, ReadingSums& sums) const override {
-        sums.rays += solution_.rays;
-        sums.invalid += invalid_;
+    void run_batch(const Batch& batch, ReadingSums& sums) const override {
+        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
+            readings_.add(solution_.light, batch.key, i, sums);
+        }
     }
-    std::span<const Rgb> known_part() const override { return values_; }
+    std::span<const Rgb> known_part() const override { return readings_.known_part(); }
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::uint64_t batch_granularity() const override { return 1; }
-    double rays_per_sample() const override { return 1; }
+    std::uint64_t first_check() const override { return 16; }
+    double rays_per_sample() const override { return 4 * static_cast<double>(known_part().size()); }
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<PatchPass>(*tracing_, transport_, pass, sides_cd_m2_);
     }
-    std::vector<std::string> warnings() const override {
-        if (!ended_early()) return {};
-        return {fmt::format(
-            "method radiosity: time limit reached after {} shots with {:.2g} % of the light still unshot: "
-            "reflected light is missing. Allow more time, or use larger patches.",
-            solution_.shots, 100 * solution_.unshot_share)};
-    }
+    std::vector<std::string> warnings() const override { return {}; }
     std::optional<PatchReport> patch_report() const override { return transport_.report(); }
-    bool ended_early() const override { return solution_.unshot_share > 0; }
 
   private:
-    void read(const Monitor& monitor) {
-        const ReadingSums sums = sum_readings(readings_, solution_.light, monitor);
-        for (std::size_t j = 0; j < sums.sum.size(); ++j) {
-            values_.push_back(readings_.known_part()[j] + sums.sum[j] * (1. / (kBlocks * kSamplesOfABlock)));
-        }
-        invalid_ = sums.invalid;
-    }
-
     PatchTransport transport_;
     RadiositySolution solution_;
     PatchReadings readings_;
-    std::vector<Rgb> values_;  ///< of the readings
-    std::uint64_t invalid_ = 0;
     std::optional<PictureTracing> tracing_;
     std::vector<FloatRgb> sides_cd_m2_;  ///< towards the camera
 };

@@ -24,20 +24,17 @@ namespace stilb::estimators {
 
 /// The magnitude of unshot flux that may remain, over the flux of the lights: in an evenly lit scene
 /// the share of the light that is missing.
-inline constexpr double kUnshotShare = 1e-3;
+inline constexpr double kUnshotShare = 1e-4;
 
 struct RadiositySolution {
     ReflectedSides light;  ///< without first shot
     std::uint64_t shots = 0;
     std::uint64_t rays = 0;
-    /// Share of the lights' flux that was not shot because the time limit was reached; 0 where kUnshotShare
-    /// is reached.
-    double unshot_share = 0;
 };
 
-/// Uses all threads. The transport's first shot depends on no position (FirstShot::needs_position). Ends
-/// early where the monitor reports the time limit. Throws InputError as item buffers do, and where
-/// reflectances so close to 1 prevent convergence; Cancelled where the user interrupts.
+/// Uses all threads. The transport's first shot depends on no position (FirstShot::needs_position). Throws
+/// InputError as item buffers do, and where reflectances so close to 1 prevent convergence; Cancelled where
+/// user or time limit end the run.
 RadiositySolution solve_radiosity(const PatchTransport& transport, const Monitor& monitor = Monitor::none());
 
 }  // namespace stilb::estimators

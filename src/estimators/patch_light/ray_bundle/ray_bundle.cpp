@@ -30,7 +30,9 @@ PatchTransport bundle_transport(const Problem& problem) {
 class RayBundle final : public Estimator {
   public:
     explicit RayBundle(const Problem& problem)
-        : transport_(bundle_transport(problem)), readings_(transport_, problem.measurands) {
+        : transport_(bundle_transport(problem)),
+          readings_(transport_, problem.measurands, problem.monitor),
+          monitor_(problem.monitor) {
         if (!problem.camera) return;
         tracing_.emplace(problem, transport_.lights);
         seen_.emplace(transport_, tracing_->view.position());
@@ -38,9 +40,13 @@ class RayBundle final : public Estimator {
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         BundleIteration iteration(transport_, batch.key.derived(kWalk).derived(batch.first));
-        for (std::uint64_t i = 0; i < first_steps(transport_); ++i) iteration.step();
-        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
+        const auto step = [&] {
+            monitor_.require_more();
             iteration.step();
+        };
+        for (std::uint64_t i = 0; i < first_steps(transport_); ++i) step();
+        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
+            step();
             readings_.add(iteration, batch.key.derived(kReadings), i, sums);
         }
         sums.rays += iteration.rays();
@@ -90,6 +96,7 @@ class RayBundle final : public Estimator {
 
     PatchTransport transport_;
     PatchReadings readings_;
+    const Monitor& monitor_;
     std::optional<PictureTracing> tracing_;
     std::optional<VisibleSides> seen_;
 };
