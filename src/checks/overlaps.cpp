@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
 #include "base/vec.h"
 #include "checks/checks.h"
+#include "checks/walks.h"
+#include "math/sampling.h"
 
 namespace stilb::checks {
 namespace {
@@ -40,10 +43,29 @@ std::string text_of(const std::string& first, const std::string& second, const F
         found.where.y, found.where.z);
 }
 
+/// Whether anything is on that side: another surface, or a sensor. Below the ground that a house stands on
+/// there is nothing, though light from infinity gets there. Without sensors all sides count.
+bool is_looked_at(const Location& side, const rays::RayCaster& caster, std::span<const Sensor> sensors) {
+    constexpr std::uint64_t rays = 16;
+    constexpr std::size_t most_sensors = 64;
+    if (sensors.empty()) return true;
+    const Frame frame = Frame::around(side.normal);
+    for (std::uint64_t i = 0; i < rays; ++i) {
+        math::SampleStream stream(math::RandomKey{}, i);
+        const auto [u1, u2] = stream.next_two();
+        const Vec3 direction = frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
+        if (caster.closest(side.position, direction)) return true;
+    }
+    return std::ranges::any_of(sensors.first(std::min(sensors.size(), most_sensors)), [&](const Sensor& s) {
+        const Vec3 at = s.camera() ? s.camera()->position : position_of(s.measurand(0));
+        return dot(at - side.position, side.normal) > 0 && !caster.occluded(side.position, at);
+    });
+}
+
 }  // namespace
 
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                          const Enclosures& enclosures) {
+                                          const Enclosures& enclosures, std::span<const Sensor> sensors) {
     std::vector<bool> is_lamp(scene.objects.size());
     for (const Light& light : scene.lights) {
         if (const auto surface = lights::surface_emission(light)) is_lamp[index_of(surface->object)] = true;
@@ -58,7 +80,10 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCas
         // Twice as far from the plane as a lamp that was put in front of it.
         const Vec3 off = 4 * caster.offset_m(overlap.position, caster.half_extent_m()) * overlap.normal;
         const auto is_lit = [&](const Vec3& side) {
-            return enclosures.is_lit(enclosures.enclosure_of({overlap.position + side, normalized(side)}));
+            const Location place{overlap.position + side, normalized(side)};
+            const Enclosure enclosure = enclosures.enclosure_of({place.position, place.normal});
+            return enclosures.is_lit(enclosure) &&
+                   (!enclosure.empty() || is_looked_at(place, caster, sensors));
         };
         // Of lamps only the fronts count: behind them the other surface is hidden anyway.
         if (!is_lit(off) && (is_lamp_on(overlap) || !is_lit(-off))) continue;

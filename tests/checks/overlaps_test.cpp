@@ -21,9 +21,9 @@ Scene room_with(const std::vector<Object>& objects) {
     return scene;
 }
 
-std::vector<std::string> warnings_of(const Scene& scene) {
+std::vector<std::string> warnings_of(const Scene& scene, const std::vector<Sensor>& sensors = {}) {
     const rays::RayCaster caster(scene);
-    return overlap_warnings(scene, caster, Enclosures(scene, caster));
+    return overlap_warnings(scene, caster, Enclosures(scene, caster), sensors);
 }
 
 std::vector<Overlap> overlaps_of(const Scene& scene) {
@@ -128,6 +128,19 @@ TEST(Overlaps, EachPairOfManyTrianglesIsFoundOnce) {
 
 TEST(Overlaps, ACabinetMayStandOnTheFloor) {
     EXPECT_TRUE(warnings_of(room_with({{"cabinet", Box{{1, 1, 0}, {2, 2, 2}}, {kWood}}})).empty());
+}
+
+TEST(Overlaps, AHouseMayStandOnTheGroundUnderTheSky) {
+    Scene scene;
+    scene.materials = {{"wall", Diffuse{Rgb::grey(0.5)}}, {"grass", Diffuse{Rgb::grey(0.3)}}};
+    scene.objects.push_back({"ground", Rectangle{{-50, -50, 0}, {100, 0, 0}, {0, 100, 0}}, {kWood}});
+    scene.objects.push_back({"house", Box{{0, 0, 0}, {8, 8, 6}}, {kWall}});
+    scene.lights.push_back({"sky", EnvironmentLight{Rgb::grey(1000)}});
+    const std::vector<Sensor> sensors{{"garden", IlluminancePoints{{{{-5, -5, 1}, {0, 0, 1}}}}}};
+    EXPECT_TRUE(warnings_of(scene, sensors).empty());
+    // A path on the ground is seen by the sensor, and there nothing else is.
+    scene.objects[1] = {"path", Rectangle{{0, 0, 0}, {2, 0, 0}, {0, 20, 0}}, {kWall}};
+    EXPECT_EQ(warnings_of(scene, sensors).size(), 1u);
 }
 
 TEST(Overlaps, NeighboursAndParallelsDoNotOverlap) {
