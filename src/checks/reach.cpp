@@ -225,7 +225,10 @@ class ReachCheck {
         if (!(length(to_sensor) > 0)) return "";
         const auto hit = caster_.closest(origin, normalized(to_sensor));
         if (!hit || hit->distance_m >= length(to_sensor)) return "";
-        if (hit->object == shining.object) return ": its front, which alone emits light, is turned away";
+        if (hit->object == shining.object) {
+            return fmt::format(": the front of object \"{}\", which alone emits light, is turned away",
+                               scene_.object(hit->object).name);
+        }
         return fmt::format(": object \"{}\" is in the way", scene_.object(hit->object).name);
     }
 
