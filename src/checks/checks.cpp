@@ -14,7 +14,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaste
     Explained explained(scene, sensors);
     add(unit_warnings(scene));
     add(hole_warnings(scene, enclosures.components()));
-    add(overlap_warnings(scene, caster, enclosures));
+    add(overlap_warnings(scene, caster, sensors));
     add(placement_warnings(scene, caster, enclosures, sensors, explained));
     add(facing_warnings(scene, caster, sensors, explained));
     add(reach_warnings(scene, caster, sensors, explained));

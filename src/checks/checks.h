@@ -82,7 +82,7 @@ std::vector<std::string> hole_warnings(const Scene& scene,
 /// cabinet on the floor. And one for each lamp in the plane of another object: it counts as being in front
 /// (scene/overlaps.h).
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                          const Enclosures& enclosures);
+                                          std::span<const Sensor> sensors);
 
 // Misplaced sensors and lights.
 

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
 #include "base/vec.h"
 #include "checks/checks.h"
+#include "checks/walks.h"
+#include "math/sampling.h"
 
 namespace stilb::checks {
 namespace {
@@ -18,9 +21,6 @@ struct Found {
     std::size_t count = 0;
     Vec3 where;
 };
-/// By both objects.
-using FoundOverlaps = std::map<std::pair<ObjectId, ObjectId>, Found>;
-
 std::string lamp_text(const std::string& lamp, const std::string& other, const Found& found) {
     return fmt::format(
         "lamp \"{}\" lies in the plane of object \"{}\", at ({:.4g}, {:.4g}, {:.4g}): the lamp is taken, the "
@@ -40,40 +40,90 @@ std::string text_of(const std::string& first, const std::string& second, const F
         found.where.y, found.where.z);
 }
 
+/// Decides which overlaps matter.
+class OverlapLight {
+  public:
+    OverlapLight(const Scene& scene, const rays::RayCaster& caster, std::span<const Sensor> sensors)
+        : caster_(caster),
+          sensors_(sensors),
+          lit_(lit_places(scene, caster)),
+          is_lamp_(scene.objects.size()) {
+        for (const Light& light : scene.lights) {
+            if (const auto surface = lights::surface_emission(light))
+                is_lamp_[index_of(surface->object)] = true;
+        }
+    }
+
+    bool is_lamp_on(const Overlap& overlap) const {
+        return is_lamp_[index_of(overlap.first)] && !is_lamp_[index_of(overlap.second)];
+    }
+
+    /// Whether light arrives there and anything is in sight. Of lamps only the fronts count: behind them the
+    /// other surface is hidden anyway.
+    bool matters(const Overlap& overlap) const {
+        // Twice as far from the plane as a lamp that was put in front of it.
+        const Vec3 off = 4 * caster_.offset_m(overlap.position, caster_.half_extent_m()) * overlap.normal;
+        return is_lit({overlap.position + off, overlap.normal}) ||
+               (!is_lamp_on(overlap) && is_lit({overlap.position - off, -overlap.normal}));
+    }
+
+  private:
+    bool is_lit(const Location& side) const {
+        return std::ranges::any_of(lit_, [&](const Location& lit) { return sees(side, lit, caster_); }) &&
+               is_looked_at(side);
+    }
+
+    /// Whether another surface or a sensor is on that side. Below the ground that a house stands on there is
+    /// nothing, though light from infinity gets there.
+    bool is_looked_at(const Location& side) const {
+        constexpr std::uint64_t rays = 16;
+        constexpr std::size_t most_sensors = 64;
+        if (sensors_.empty()) return true;
+        const Frame frame = Frame::around(side.normal);
+        for (std::uint64_t i = 0; i < rays; ++i) {
+            math::SampleStream stream(math::RandomKey{}, i);
+            const auto [u1, u2] = stream.next_two();
+            const Vec3 direction = frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
+            if (caster_.closest(side.position, direction)) return true;
+        }
+        const auto some = sensors_.first(std::min(sensors_.size(), most_sensors));
+        return std::ranges::any_of(some, [&](const Sensor& sensor) {
+            const Vec3 at = sensor.camera() ? sensor.camera()->position : position_of(sensor.measurand(0));
+            return dot(at - side.position, side.normal) > 0 && !caster_.occluded(side.position, at);
+        });
+    }
+
+    const rays::RayCaster& caster_;
+    std::span<const Sensor> sensors_;
+    std::vector<Location> lit_;
+    std::vector<bool> is_lamp_;  ///< by object
+};
+
 }  // namespace
 
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                          const Enclosures& enclosures) {
-    std::vector<bool> is_lamp(scene.objects.size());
-    for (const Light& light : scene.lights) {
-        if (const auto surface = lights::surface_emission(light)) is_lamp[index_of(surface->object)] = true;
-    }
+                                          std::span<const Sensor> sensors) {
     const std::vector<Overlap> overlaps =
         scene::find_overlaps(scene, scene::OverlapsOf::all_surfaces, kMostOverlaps);
-    const auto is_lamp_on = [&](const Overlap& overlap) {
-        return is_lamp[index_of(overlap.first)] && !is_lamp[index_of(overlap.second)];
-    };
-    FoundOverlaps lamps_on, undecided;
-    for (const Overlap& overlap : overlaps) {
-        // Twice as far from the plane as a lamp that was put in front of it.
-        const Vec3 off = 4 * caster.offset_m(overlap.position, caster.half_extent_m()) * overlap.normal;
-        const auto is_lit = [&](const Vec3& side) {
-            return enclosures.is_lit(enclosures.enclosure_of({overlap.position + side, normalized(side)}));
-        };
-        // Of lamps only the fronts count: behind them the other surface is hidden anyway.
-        if (!is_lit(off) && (is_lamp_on(overlap) || !is_lit(-off))) continue;
-        Found& found = (is_lamp_on(overlap) ? lamps_on : undecided)[{overlap.first, overlap.second}];
-        if (found.count++ == 0) found.where = overlap.position;
+    if (overlaps.empty() || scene.lights.empty()) return {};
+    std::map<std::pair<ObjectId, ObjectId>, std::vector<Overlap>> by_objects;
+    for (const Overlap& overlap : overlaps) by_objects[{overlap.first, overlap.second}].push_back(overlap);
+    const OverlapLight light(scene, caster, sensors);
+    std::vector<std::string> of_lamps, undecided;
+    for (const auto& [objects, of_pair] : by_objects) {
+        const auto lit = std::ranges::find_if(of_pair, [&](const Overlap& o) { return light.matters(o); });
+        if (lit == of_pair.end()) continue;
+        const Found found{of_pair.size(), lit->position};
+        const std::string &first = scene.object(objects.first).name,
+                          &second = scene.object(objects.second).name;
+        if (light.is_lamp_on(*lit)) {
+            of_lamps.push_back(lamp_text(first, second, found));
+        } else {
+            undecided.push_back(text_of(first, second, found, overlaps.size() < kMostOverlaps));
+        }
     }
-    std::vector<std::string> warnings;
-    const auto name_of = [&](ObjectId object) { return scene.object(object).name; };
-    for (const auto& [pair, found] : lamps_on)
-        warnings.push_back(lamp_text(name_of(pair.first), name_of(pair.second), found));
-    for (const auto& [pair, found] : undecided) {
-        warnings.push_back(
-            text_of(name_of(pair.first), name_of(pair.second), found, overlaps.size() < kMostOverlaps));
-    }
-    return warnings;
+    of_lamps.insert(of_lamps.end(), undecided.begin(), undecided.end());
+    return of_lamps;
 }
 
 }  // namespace stilb::checks

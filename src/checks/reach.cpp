@@ -8,7 +8,6 @@
 #include "checks/checks.h"
 #include "checks/walks.h"
 #include "math/sampling.h"
-#include "transport/light_sampler.h"
 
 namespace stilb::checks {
 namespace {
@@ -18,14 +17,12 @@ constexpr int kReachReflections = 4;
 constexpr std::size_t kStarts = 512, kFewestStarts = 4, kMostStarts = 64;
 /// Particles of a light that does not seem to reach a sensor: enough to find a door that is ajar.
 constexpr std::uint64_t kMostParticles = 512;
-/// Particles of all lights together, to find the sensors that they light.
-constexpr std::uint64_t kParticlesOfAll = 512;
 /// Places near sensors that each place of a particle is connected to.
 constexpr std::size_t kConnections = 8;
 /// Connections that are tried for all lights, and for all sensors: less than a tenth of a second each. What
 /// is not judged by then is not named.
 constexpr std::size_t kMostConnections = 400'000;
-enum ReachPurpose : std::uint64_t { kFromSensors, kFromLights, kFromAllLights, kOfPairs };
+enum ReachPurpose : std::uint64_t { kFromSensors, kFromLights, kOfPairs };
 
 /// The places around one sensor from which it receives light.
 struct Surroundings {
@@ -199,24 +196,10 @@ class ReachCheck {
         return false;
     }
 
-    /// Where particles of all lights get.
-    std::vector<Location> lit_places() const {
-        const transport::LightSampler lights(scene_, caster_);
-        Trail trail(scene_);
-        for (std::uint64_t i = 0; i < kParticlesOfAll; ++i) {
-            math::SampleStream stream(math::RandomKey{}.derived(kFromAllLights), i);
-            const transport::EmittedParticle particle = lights.sample_emission(stream);
-            const Location start{particle.origin, particle.direction};
-            trail.locations.push_back(start);
-            follow_walk(scene_, caster_, start, particle.direction, kReachReflections, stream, trail);
-        }
-        return std::move(trail.locations);
-    }
-
     void add_dark_sensors(std::vector<std::string>& warnings) {
         std::vector<std::string> dark;
         connections_ = 0;
-        const std::vector<Location> lit = lit_places();
+        const std::vector<Location> lit = lit_places(scene_, caster_);
         for (const Surroundings& around : around_) {
             const Trail& trail = around.trail;
             const bool meets_lamp = std::ranges::any_of(
@@ -242,7 +225,10 @@ class ReachCheck {
         if (!(length(to_sensor) > 0)) return "";
         const auto hit = caster_.closest(origin, normalized(to_sensor));
         if (!hit || hit->distance_m >= length(to_sensor)) return "";
-        if (hit->object == shining.object) return ": its front, which alone emits light, is turned away";
+        if (hit->object == shining.object) {
+            return fmt::format(": the front of object \"{}\", which alone emits light, is turned away",
+                               scene_.object(hit->object).name);
+        }
         return fmt::format(": object \"{}\" is in the way", scene_.object(hit->object).name);
     }
 

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "math/sampling.h"
+#include "transport/light_sampler.h"
 
 namespace stilb::checks {
 
@@ -27,6 +29,21 @@ void follow_walk(const Scene& scene, const rays::RayCaster& caster, const Locati
         origin = hit->lifted;
         direction = Frame::around(hit->normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
     }
+}
+
+std::vector<Location> lit_places(const Scene& scene, const rays::RayCaster& caster) {
+    constexpr std::uint64_t particles = 512;
+    constexpr int reflections = 4;
+    const transport::LightSampler lights(scene, caster);
+    Trail trail(scene);
+    for (std::uint64_t i = 0; i < particles; ++i) {
+        math::SampleStream stream(math::RandomKey{}, i);
+        const transport::EmittedParticle particle = lights.sample_emission(stream);
+        const Location start{particle.origin, particle.direction};
+        trail.locations.push_back(start);
+        follow_walk(scene, caster, start, particle.direction, reflections, stream, trail);
+    }
+    return std::move(trail.locations);
 }
 
 bool sees(const Location& from, const Location& to, const rays::RayCaster& caster) {

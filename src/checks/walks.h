@@ -32,6 +32,9 @@ struct Trail {
 void follow_walk(const Scene& scene, const rays::RayCaster& caster, const Location& start, Vec3 direction,
                  int reflections, math::SampleStream& stream, Trail& trail);
 
+/// Where particles of all lights get: those of some hundred, in proportion to flux.
+std::vector<Location> lit_places(const Scene& scene, const rays::RayCaster& caster);
+
 /// Whether nothing but panes is between two locations that lie on each other's sides.
 bool sees(const Location& from, const Location& to, const rays::RayCaster& caster);
 

@@ -285,10 +285,10 @@ void add_patch_error(const PictureComparison::Bias& bias, RenderResult& result) 
     result.warnings.push_back(
         fmt::format("path tracing through some pixels differs by up to {:.2g} % (root mean square) from this "
                     "picture, whose "
-                    "light is that of patches of {:.2g} m. The stated error of the pixels includes this, "
-                    "their standard errors "
-                    "do not. Choose smaller patches, or method auto, which needs none.",
-                    100 * bias.at_most, result.patches ? result.patches->size_m : 0));
+                    "light is stored on patches. The stated error of the pixels includes this, their "
+                    "standard errors do not. "
+                    "Choose smaller patches, or method auto, which needs none.",
+                    100 * bias.at_most));
 }
 
 /// `options`: `asked` with defaults.

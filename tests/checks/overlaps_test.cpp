@@ -21,9 +21,9 @@ Scene room_with(const std::vector<Object>& objects) {
     return scene;
 }
 
-std::vector<std::string> warnings_of(const Scene& scene) {
+std::vector<std::string> warnings_of(const Scene& scene, const std::vector<Sensor>& sensors = {}) {
     const rays::RayCaster caster(scene);
-    return overlap_warnings(scene, caster, Enclosures(scene, caster));
+    return overlap_warnings(scene, caster, sensors);
 }
 
 std::vector<Overlap> overlaps_of(const Scene& scene) {
@@ -79,14 +79,6 @@ TEST(Overlaps, ALampInTheCeilingIsTaken) {
     }
 }
 
-TEST(Overlaps, ACabinetMayStandOnALuminousFloor) {
-    // Where a cabinet stands on a luminous floor, no light arrives.
-    Scene scene = room_with({{"floor", Rectangle{{0, 0, 0.5}, {3, 0, 0}, {0, 3, 0}}, {kWall}},
-                             {"cabinet", Box{{2, 2, 0.5}, {2.5, 2.5, 2}}, {kWood}}});
-    scene.lights.push_back({"floor", AreaLight{ObjectId{1}, Rgb::grey(10)}});
-    EXPECT_TRUE(warnings_of(scene).empty());
-}
-
 TEST(Overlaps, PlanesThatDifferByRoundingOverlap) {
     // Whatever the height: no border between intervals may separate the two.
     for (int i = 0; i < 200; ++i) {
@@ -128,6 +120,26 @@ TEST(Overlaps, EachPairOfManyTrianglesIsFoundOnce) {
 
 TEST(Overlaps, ACabinetMayStandOnTheFloor) {
     EXPECT_TRUE(warnings_of(room_with({{"cabinet", Box{{1, 1, 0}, {2, 2, 2}}, {kWood}}})).empty());
+}
+
+TEST(Overlaps, CabinetsThatTouchMayStandOnTheFloor) {
+    EXPECT_TRUE(warnings_of(room_with({{"left", Box{{1, 1, 0}, {1.1, 2, 2}}, {kWood}},
+                                       {"middle", Box{{1, 2, 0}, {1.1, 2.04, 1}}, {kWood}},
+                                       {"right", Box{{1, 2.04, 0}, {1.1, 3, 2}}, {kWood}}}))
+                    .empty());
+}
+
+TEST(Overlaps, AHouseMayStandOnTheGroundUnderTheSky) {
+    Scene scene;
+    scene.materials = {{"wall", Diffuse{Rgb::grey(0.5)}}, {"grass", Diffuse{Rgb::grey(0.3)}}};
+    scene.objects.push_back({"ground", Rectangle{{-50, -50, 0}, {100, 0, 0}, {0, 100, 0}}, {kWood}});
+    scene.objects.push_back({"house", Box{{0, 0, 0}, {8, 8, 6}}, {kWall}});
+    scene.lights.push_back({"sky", EnvironmentLight{Rgb::grey(1000)}});
+    const std::vector<Sensor> sensors{{"garden", IlluminancePoints{{{{-5, -5, 1}, {0, 0, 1}}}}}};
+    EXPECT_TRUE(warnings_of(scene, sensors).empty());
+    // A path on the ground is seen by the sensor, and there nothing else is.
+    scene.objects[1] = {"path", Rectangle{{0, 0, 0}, {2, 0, 0}, {0, 20, 0}}, {kWall}};
+    EXPECT_EQ(warnings_of(scene, sensors).size(), 1u);
 }
 
 TEST(Overlaps, NeighboursAndParallelsDoNotOverlap) {

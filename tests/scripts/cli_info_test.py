@@ -94,6 +94,37 @@ material = "rug"
         self.assertRegex(desk, 'sensor "desk": .* of 6 points lie inside object "cabinet"')
         self.assertRegex(outside, '"outside": no light reaches it')
 
+    def test_measure_render_and_solve_say_what_info_says(self):
+        scene = self.write("above.toml", ROOM[:ROOM.index("[sensors.desk]")].replace("[2, 1.5, 2]", "[2, 1.5, 2.3]") + """
+[objects.ceiling]
+shape = "rectangle"
+corner = [0, 0, 2.2]
+edge_u = [0, 3, 0]
+edge_v = [4, 0, 0]
+material = "wall"
+[objects.panel]
+shape = "rectangle"
+corner = [2, 1, 2.2]
+edge_u = [0, 0.5, 0]
+edge_v = [0.5, 0, 0]
+material = "wall"
+[lights.panel]
+type = "area"
+object = "panel"
+flux = 1000
+""" + ROOM[ROOM.index("[sensors.desk]"):] + CAMERA.replace("[640, 480]", "[16, 12]"))
+        expected = self.info(scene)["warnings"]
+        self.assertEqual(len(expected), 2)
+        self.assertRegex(expected[0], 'lamp "panel" lies in the plane of object "ceiling".*the lamp is taken')
+        self.assertRegex(expected[1], 'light "bulb": none of its light reaches a sensor: object "ceiling" is in the way')
+        measured = json.loads(run("measure", scene, "--paths", "1", "--json").stdout)["warnings"]
+        self.assertEqual(measured[:2], expected)
+        for command in (("render", scene, "-o", self.folder / "view.exr", "--paths", "2"),
+                        ("solve", scene, "-o", self.folder / "light.solution", "--paths", "8", "--patch", "1")):
+            printed = run(*command).stderr
+            self.assertEqual(printed.count(expected[0]), 1)
+            self.assertEqual(printed.count(expected[1]), 1 if command[0] == "render" else 0)
+
     def test_luminaire(self):
         for name in ("luminaire.ies", "luminaire.ldt"):
             luminaire = self.info(ROOT / "scenes/office" / name)["luminaires"][0]
