@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <type_traits>
@@ -58,11 +59,45 @@ std::string refusal_outside(const std::string& extra, const CLI::App& command) {
                        command.get_name());
 }
 
+/// "--degree N", or "SCENE" for an argument.
+std::string with_value_name(const CLI::Option& option) {
+    const std::string name = option.get_name();
+    const std::string value = option.get_type_name();  // followed by ":" and the range
+    return is_flag(name) ? fmt::format("{} {}", name, value.substr(0, value.find(':'))) : name;
+}
+
+/// The text with a small first letter, unless its second one is large, too.
+std::string in_mid_sentence(std::string text) {
+    if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])) != 0)
+        text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+/// The message where a flag that takes one value has none or several, or where a required one is missing.
+std::string wrong_count(const CLI::App& command, const CLI::ParseError& error) {
+    const std::string message = error.what();
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        const std::size_t values = option->results().size();
+        if (option->get_required() && option->count() == 0 && message.starts_with(name + " ")) {
+            return fmt::format("{} is missing. It gives the {}.", with_value_name(*option),
+                               in_mid_sentence(option->get_description()));
+        }
+        if (!message.starts_with(name + ":")) continue;
+        if (values > 1) return fmt::format("{} is given {} times. Give it once.", name, values);
+        return fmt::format("{} needs a value: {}.", name, with_value_name(*option));
+    }
+    return message;
+}
+
 /// The message for the arguments of a command. It names an unknown argument first, if there is one.
 std::string refusal(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
     if (const std::string extra = first_extra(app); !extra.empty()) return refusal_outside(extra, command);
     const std::string extra = first_extra(command);
-    if (extra.empty()) return error.what();
+    if (extra.empty()) {
+        const bool is_of_value = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
+        return is_of_value ? error.what() : wrong_count(command, error);
+    }
     return is_flag(extra) ? no_flag(extra, command) : fmt::format("\"{}\" is one argument too many", extra);
 }
 
@@ -105,6 +140,12 @@ std::string write_in_digits(std::string& typed) {
     return "";
 }
 
+/// Returns a message where the text is not a number, or else an empty text.
+std::string require_number(std::string& typed) {
+    if (io::parse_number(typed)) return "";
+    return fmt::format("{} is not a number. Write it as 20 or 0.25, for example.", io::in_quotes(typed));
+}
+
 template <typename T>
 struct ValueOf {
     using Type = T;
@@ -133,11 +174,25 @@ Flag& Flag::description(const std::string& text) {
     return *this;
 }
 Flag& Flag::from_to(std::int64_t least, std::int64_t greatest) {
-    option_->check(CLI::Range(least, greatest));
+    // Ranges without a meaning for the user are not in --help.
+    constexpr std::int64_t greatest_shown = 10'000;
+    option_->check(CLI::Validator(
+        [least, greatest](const std::string& typed) -> std::string {
+            const auto number = io::parse_integer(typed);
+            if (number && *number >= least && *number <= greatest) return "";
+            return fmt::format("{} is out of range. Give a whole number from {} to {}.", typed, least, greatest);
+        },
+        greatest <= greatest_shown ? fmt::format("{} to {}", least, greatest) : ""));
     return *this;
 }
 Flag& Flag::above_zero() {
-    option_->check(CLI::PositiveNumber);
+    option_->check(CLI::Validator(
+        [](const std::string& typed) -> std::string {
+            const auto number = io::parse_number(typed);
+            if (number && *number > 0) return "";
+            return fmt::format("{} is out of range. Give a number above 0.", typed);
+        },
+        ""));
     return *this;
 }
 Flag& Flag::repeatable() {
@@ -163,6 +218,8 @@ Flag Command::add(const std::string& names, T& value, const std::string& descrip
         CLI::Option* const option = app_->add_option(names, value, description);
         if constexpr (std::is_integral_v<typename ValueOf<T>::Type>)
             option->transform(CLI::Validator(write_in_digits, ""));
+        if constexpr (std::is_floating_point_v<typename ValueOf<T>::Type>)
+            option->transform(CLI::Validator(require_number, ""));
         return Flag(*option);
     }
 }

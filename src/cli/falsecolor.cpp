@@ -82,7 +82,9 @@ void add_falsecolor(CommandLine& line) {
              "Results of 'stilb measure --json', or a luminance picture (OpenEXR or Radiance HDR); - for "
              "standard input")
         .required();
-    command.add("-o,--output", request->output, "Picture to write: .png or .svg").required();
+    command.add("-o,--output", request->output, "Picture to write: .png or .svg")
+        .required()
+        .value_name("FILE");
     command.add("--sensor", request->sensors, "Draw only this grid of the results (may be repeated)")
         .repeatable();
     command.add_switch(

@@ -12,6 +12,7 @@
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
+#include "estimators/estimator_list.h"
 #include "io/results/results_writer.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
@@ -51,14 +52,15 @@ int run_measure(const MeasureRequest& request) {
     if (!request.csv_directory.empty()) io::prepare_results_csv(sensors, request.csv_directory);
     RunResult result;
     {
-        TerminalProgress progress;
+        TerminalProgress progress(std::string(estimators::find_estimator(options.method).samples));
         result = run::measure(file.scene, sensors, options, request.flags.quiet ? nullptr : &progress,
                               &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
     write_files(result, request);  // before all messages: the terminal may be closed by now
     if (!request.flags.quiet) print_warnings(result.warnings);
-    fmt::print("{}", request.json ? io::to_json(result, request.scene) : to_table(result));
+    fmt::print("{}", request.json ? io::to_json(result, request.scene)
+                                  : to_table(result) + shortfall_text(result, ""));
     return result.converged ? kExitDone : kExitStoppedEarly;
 }
 

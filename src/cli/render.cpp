@@ -60,19 +60,20 @@ class RenderProgress final : public TerminalProgress {
     double elapsed_s_ = 0, shown_s_ = 0;
 };
 
-void print_summary(const RenderResult& result, const Sensor& sensor) {
+void print_summary(const RenderResult& result, const Sensor& sensor, const std::string& output) {
     const auto& [width, height] = sensor.camera()->resolution;
     fmt::print("{}: {} x {} pixels, mean luminance {:.4g} cd/m²\n", sensor.name, width, height,
                result.mean_luminance_cd_m2);
     if (result.replicates > 1) {
-        fmt::print("mean standard error of a pixel: {:.3g} cd/m², {:.2g} % of the mean luminance\n",
+        fmt::print("mean standard error of a pixel: {:.3g} cd/m², {} of the mean luminance\n",
                    result.mean_standard_error_cd_m2,
-                   100 * result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2);
-        fmt::print("95 % of the pixels have a 95 % interval within {:.2g} % of their value\n",
-                   100 * result.attained_error);
+                   percent(result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2));
+        fmt::print("95 % of the pixels have a 95 % interval within {} of their value\n",
+                   percent(result.attained_error));
     }
     fmt::print("{}, {} passes in {:.1f} s: {}\n", result.method, result.samples, result.elapsed_s,
                ending(result.stop_reason, "passes"));
+    fmt::print("{}", shortfall_text(result, output));
     fmt::print("{}", detail_text(result.levels_of_detail));
     if (result.patches) fmt::print("{}", patch_text(*result.patches));
 }
@@ -156,7 +157,7 @@ int run_render(RenderRequest request) {
     const auto curve = write_picture(picture, request.output, request.tone);
     if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
     if (!request.flags.quiet) print_warnings(result.warnings);
-    print_summary(result, sensor);
+    print_summary(result, sensor, request.output);
     if (curve) fmt::print("{}: exposure {:.3g} per cd/m²\n", request.output, curve->exposure());
     return result.converged ? kExitDone : kExitStoppedEarly;
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimators/estimator_list.h"
+
 namespace stilb::cli {
 
 namespace {
@@ -100,7 +102,7 @@ std::string sensor_table(const SensorResult& result) {
     const std::size_t readings = sensor.size();
     if (readings == 1) return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0));
     std::string text = fmt::format("{:12}  {}", sensor.name, size_text(sensor));
-    text += fmt::format("; 95 % of the readings within {:.2g} %\n", 100 * result.attained_error);
+    text += fmt::format("; 95 % of the readings within {}\n", percent(result.attained_error));
     text += summary_text(result.summary, sensor);
     if (const auto count = sensor.count()) {
         const bool fits = (*count)[0] <= kMostColumns && (*count)[1] <= kMostRows;
@@ -118,9 +120,9 @@ std::string title_of(const std::vector<SensorResult>& sensors) {
     return luminances < std::ssize(sensors) ? "Illuminance and luminance" : "Luminance";
 }
 
-std::string ending_with_error(const RunResult& result) {
-    const std::string ended = ending(result.stop_reason, "paths");
-    const std::string attained = fmt::format("{:.2g} %", 100 * result.attained_error);
+std::string ending_with_error(const RunResult& result, std::string_view samples) {
+    const std::string ended = ending(result.stop_reason, samples);
+    const std::string attained = percent(result.attained_error);
     if (result.stop_reason == StopReason::target_reached) return fmt::format("{} ({})", ended, attained);
     return fmt::format("{}; error {}", ended, attained);
 }
@@ -135,8 +137,9 @@ std::string with_error(const statistics::Estimate& estimate) {
 std::string to_table(const RunResult& result) {
     std::string text = title_of(result.sensors) + ", with 95 % intervals\n\n";
     for (const SensorResult& sensor : result.sensors) text += sensor_table(sensor);
-    text += fmt::format("\n{}, {} paths in {:.2f} s: {}\n", result.method, result.samples, result.elapsed_s,
-                        ending_with_error(result));
+    const std::string_view samples = estimators::find_estimator(result.method).samples;
+    text += fmt::format("\n{}, {} {} in {:.2f} s: {}\n", result.method, result.samples, samples,
+                        result.elapsed_s, ending_with_error(result, samples));
     text += detail_text(result.levels_of_detail);
     return result.patches ? text + patch_text(*result.patches) : text;
 }
@@ -190,6 +193,24 @@ std::string ending(StopReason reason, std::string_view all) {
             break;
     }
     return "the patches are too coarse for the requested error";
+}
+
+std::string percent(double share) {
+    const double in_percent = 100 * share;
+    return std::abs(in_percent) < 99.5 ? fmt::format("{:.2g} %", in_percent)
+                                       : fmt::format("{:.0f} %", in_percent);
+}
+
+std::string shortfall_text(const RunSummary& result, std::string_view output) {
+    std::string text;
+    if (result.converged) return text;
+    if (result.requested_error && !(result.attained_error <= *result.requested_error)) {
+        text = fmt::format("The requested error of {:g} % is not reached: the error is {}.",
+                           100 * *result.requested_error, percent(result.attained_error));
+    }
+    if (!output.empty())
+        text += fmt::format("{}{} has the result so far.", text.empty() ? "" : " ", output);
+    return text.empty() ? text : text + '\n';
 }
 
 namespace {

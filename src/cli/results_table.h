@@ -37,6 +37,11 @@ std::string detail_text(std::span<const run::LevelOfDetail> levels);
 
 /// `all`: what is complete where a number was requested, such as "passes".
 std::string ending(StopReason reason, std::string_view all);
+/// Where the run ended before its goal: a line that says so, and that `output`, the file, has the result so
+/// far. Empty otherwise. `output` may be empty.
+std::string shortfall_text(const RunSummary& result, std::string_view output);
+/// "0.65 %": a share with two digits, or all of those before the point.
+std::string percent(double share);
 
 // Patches and first shot as text.
 

@@ -21,6 +21,7 @@ namespace {
 
 /// Limits as in scene files.
 constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
+constexpr std::int64_t kMostBounces = 1'000'000, kMostThreads = 4096;
 constexpr std::int64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
@@ -32,6 +33,7 @@ void RunFlags::add_to(Command& command) {
     }
     command.add("--method", method, methods).value_name("NAME");
     command.add("--bounces", bounces, "Limit the number of reflections (default: no limit, no bias)")
+        .from_to(0, kMostBounces)
         .value_name("N");
     add_those_of_one_method(command);
 }
@@ -42,18 +44,24 @@ void RunFlags::add_those_of_one_method(Command& command) {
              "Stop when 95 % of the readings of each sensor have a 95 % interval within this share of their "
              "value: 1% or 0.01")
         .value_name("SHARE");
-    command.add("--time", time_s, "Stop after this many seconds").value_name("S");
+    command
+        .add("--time", time_s,
+             "Stop after this many seconds; where they do not suffice for a first result, there is none (exit "
+             "code 3)")
+        .value_name("S");
     command
         .add("--paths", paths,
-             "Stop after this many samples, rounded up: light paths (auto, local, double-local) or paths per "
-             "reading (path) to a multiple of 2048 or more, steps (ray-bundle) of 512 or more, particles "
-             "(particles) of 131072; pictures: passes, at least 2")
+             "Stop after this many samples, rounded up: light paths (auto, local, double-local) to a multiple "
+             "of 2048 (of more or less with many points), paths per reading (path) or samples (radiosity) to "
+             "a multiple of 32, steps (ray-bundle) to a multiple of 512 or more, particles (particles) to a "
+             "multiple of 131072; pictures: passes, at least 2")
         .from_to(1, kMostPaths)
         .value_name("N");
     command.add("--seed", seed, "Seed of the random numbers: another seed gives an independent result")
         .from_to(0, kGreatestSeed)
         .value_name("N");
     command.add("--threads", threads, "Processor threads (default: all); the result does not depend on it")
+        .from_to(0, kMostThreads)
         .value_name("N");
     command.add("--quiet", quiet, "Print no progress and no warnings");
     patches.add_to(command);

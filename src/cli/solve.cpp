@@ -28,10 +28,11 @@ struct SolveRequest {
 void print_summary(const SolveResult& result, const io::StoredSolution& stored, const std::string& output) {
     fmt::print("{}: {} lit sides of patches, {:.1f} MB\n", output, stored.solution.lit_sides.size(),
                1e-6 * static_cast<double>(std::filesystem::file_size(output)));
-    fmt::print("95 % of the light falls on sides with a 95 % interval within {:.2g} % of their illuminance\n",
-               100 * result.attained_error);
+    fmt::print("95 % of the light falls on sides with a 95 % interval within {} of their illuminance\n",
+               percent(result.attained_error));
     fmt::print("ray-bundle, {} steps in {:.1f} s: {}\n", result.samples, result.elapsed_s,
                ending(result.stop_reason, "steps"));
+    fmt::print("{}", shortfall_text(result, output));
     fmt::print("{}", patch_text(*result.patches));
 }
 

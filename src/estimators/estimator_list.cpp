@@ -51,18 +51,21 @@ std::span<const EstimatorEntry> estimator_list() {
                                   "patches: the whole scene at once, biased by the size of the patches",
                        .make = make_ray_bundle,
                        .lights_patches = true,
+                       .samples = "steps",
                        .patch_options = kBundleOptions},
         EstimatorEntry{.name = "radiosity",
                        .summary = "progressive shooting between patches until convergence, for diffuse "
                                   "scenes: a baseline, biased by the size of the patches",
                        .make = make_radiosity,
                        .lights_patches = true,
+                       .samples = "samples",
                        .patch_options = kFirstShotOptions},
         EstimatorEntry{.name = "particles",
                        .summary = "light particles counted on patches, for diffuse scenes: a baseline, "
                                   "biased by the size of the patches",
                        .make = make_particles,
                        .lights_patches = true,
+                       .samples = "particles",
                        .patch_options = kParticlesOptions},
     };
     return list;

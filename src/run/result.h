@@ -41,6 +41,7 @@ struct RunSummary {
     StopReason stop_reason = StopReason::paths_done;
     /// False where a requested error is not met.
     bool converged = true;
+    std::optional<double> requested_error;  ///< relative half-width, where there was a limit on it
     /// Relative half-width that 95 % meet: of the readings of the worst sensor, of the pixels, or of the
     /// light on the sides of patches.
     double attained_error = 0;

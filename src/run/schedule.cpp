@@ -138,6 +138,7 @@ void Session::run(Work& work, RunSummary& summary) {
     summary.samples = work.samples_in_all();
     summary.stop_reason = ending.reason;
     summary.attained_error = ending.attained_error;
+    summary.requested_error = options_.error;
     summary.converged = ending.reason != StopReason::interrupted &&
                         (!options_.error || ending.attained_error <= *options_.error);
 }

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -128,6 +129,18 @@ class ResultsFileTest(FilesTest):
         self.assertEqual(run("falsecolor", results, "-o", self.folder / "x.png").returncode, 2)  # no grid
         for output in (self.scene, self.mesh, self.folder / "none/results.json"):
             self.expect_wrong_input(["measure", self.scene, "-o", output], output.name)
+
+
+class ShortfallTest(FilesTest):
+    def test_a_picture_or_solution_that_missed_its_error_is_written_and_says_so(self):
+        scene = self.write("exact.toml", ROOM + CAMERA.replace("[640, 480]", "[64, 48]") + "[run]\nerror = 1e-4\ntime = 2\n")
+        for command, output in (("render", self.folder / "view.exr"), ("solve", self.folder / "room.solution")):
+            with self.subTest(command=command):
+                result = run(command, scene, "-o", output)
+                self.assertEqual(result.returncode, 3, result.stderr)
+                self.assertTrue(output.exists())
+                self.assertRegex(result.stdout, r"(?m)^The requested error of 0.01 % is not reached: the error is [0-9.]+ %\. "
+                                                rf"{re.escape(str(output))} has the result so far\.$")
 
 
 class StandardInputTest(FilesTest):

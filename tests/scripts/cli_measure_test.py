@@ -59,6 +59,9 @@ class MeasureTest(CommandLineTest):
         document = self.measure("--error", "0.0001%", "--time", "1", code=3)
         self.assertIs(document["converged"], False)
         self.assertEqual(len(document["sensors"][0]["values"]), 6)
+        result = run("measure", self.scene, "--error", "0.0001%", "--time", "0.5")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertRegex(result.stdout, r"\nThe requested error of 0.0001 % is not reached: the error is [0-9.]+ %\.\n$")
 
     def test_interrupted(self):
         for name in (signal.SIGINT, signal.SIGTERM):
@@ -102,13 +105,39 @@ class MeasureTest(CommandLineTest):
 
     def test_paths_are_rounded_up_as_the_help_says(self):
         text = run("measure", "--help").stdout
-        for method, multiple in (("auto", 2048), ("local", 2048), ("path", 2048), ("ray-bundle", 512), ("particles", 131072)):
+        for method, multiple in (("auto", 2048), ("local", 2048), ("path", 32), ("radiosity", 32), ("ray-bundle", 512),
+                                 ("particles", 131072)):
             with self.subTest(method=method):
-                self.assertRegex(text, rf"multiple of .*\b{multiple}\b")
-                patch = ("--patch", "1") if method in ("ray-bundle", "particles") else ()
+                self.assertRegex(text, rf"\b{method}\b[^;]* to a multiple of {multiple}\b")
+                patch = ("--patch", "1") if method in ("radiosity", "ray-bundle", "particles") else ()
                 done = self.measure("--method", method, "--paths", "1", *patch)["paths"]
                 self.assertGreaterEqual(done, multiple)
                 self.assertEqual(done % multiple, 0)
+                if multiple == 32:
+                    self.assertEqual(self.measure("--method", method, "--paths", "33", *patch)["paths"], 64)
+
+    def test_the_table_names_the_samples(self):
+        for method, samples in (("auto", "paths"), ("path", "paths"), ("ray-bundle", "steps"), ("radiosity", "samples"),
+                                ("particles", "particles")):
+            patch = ("--patch", "1") if method in ("radiosity", "ray-bundle", "particles") else ()
+            with self.subTest(method=method):
+                table = run("measure", self.scene, "--method", method, "--paths", "1", *patch).stdout
+                self.assertRegex(table, rf"\n{method}, [0-9]+ {samples} in [0-9.]+ s: all {samples} done; error ")
+
+    def test_the_error_of_patches(self):
+        document = self.measure("--method", "particles", "--patch", "1", "--paths", "1")
+        for sensor in document["sensors"]:
+            self.assertGreater(sensor["patch_error"], 0)
+            for value in sensor["values"]:
+                low, high = value["interval"]
+                self.assertGreater((high - low) / 2, 2.03 * value["standard_error"] + 0.99 * value["patch_error"])
+        self.assertNotIn("patch_error", self.measure("--paths", "1")["sensors"][0])
+
+    def test_patches_too_coarse(self):
+        self.scene = self.write("coarse.toml", ROOM.replace("[2, 1.5, 2]", "[2, 1.5, 2.4]"))
+        document = self.measure("--method", "radiosity", "--patch", "1", "--error", "0.01%", "--time", "50", code=3)
+        self.assertEqual((document["converged"], document["stopped"]), (False, "patches too coarse"))
+        self.assertLess(document["elapsed_s"], 50)
 
     def test_whole_numbers_are_written_as_in_scene_files(self):
         def document(*arguments):

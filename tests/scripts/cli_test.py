@@ -42,15 +42,32 @@ class WrongInputTest(CommandLineTest):
         self.expect_wrong_input(["measure", self.scene, "--eror", "1%"], "no flag --eror", 'Did you mean "--error"?',
                                 "stilb measure --help")
         self.expect_wrong_input(["measure", self.scene, "other.toml"], '"other.toml" is one argument too many')
-        self.expect_wrong_input(["solve", self.scene], "--output is required", "stilb solve --help")
-        self.expect_wrong_input(["measure", self.scene, "--paths", "0"], "--paths", "not in range")
+        self.expect_wrong_input(["solve", self.scene], "--output FILE is missing. It gives the solution to write.",
+                                "stilb solve --help")
+        self.expect_wrong_input(["fit", "head.obj", "-o", "head.json"], "--degree N is missing. It gives the degree of the series")
+        self.expect_wrong_input(["measure"], "SCENE is missing. It gives the scene file")
+        self.expect_wrong_input(["render", self.scene, "-o"], "--output needs a value: --output FILE. See")
+        self.expect_wrong_input(["measure", self.scene, "--paths", "3", "--paths", "4"], "--paths is given 2 times. Give it once.")
+        self.expect_wrong_input(["measure", self.scene, "--paths", "0"], "--paths: 0 is out of range",
+                                "Give a whole number from 1 to 9007199254740992.")
+        self.expect_wrong_input(["solve", self.scene, "-o", "x.solution", "--degree", "99"], "from 0 to 12")
+        self.expect_wrong_input(["measure", self.scene, "--threads", "1e9"], "--threads", "from 0 to 4096")
+        self.expect_wrong_input(["render", self.scene, "-o", "x.png", "--exposure", "0"], "Give a number above 0.")
+
+    def test_numbers(self):
+        for flag in ("--time", "--patch"):
+            self.expect_wrong_input(["measure", self.scene, flag, "long"], f'{flag}: "long" is not a number')
+
+    def test_folders_are_named_as_such(self):
+        for command in (["measure"], ["info"], ["render", "-o", self.folder / "x.png"]):
+            self.expect_wrong_input([*command, self.folder], f"{self.folder}: cannot be read, because it is a folder")
 
     def test_whole_numbers(self):
         for typed in ("1.5", "1e-3", "many", "1e4x"):
             self.expect_wrong_input(["measure", self.scene, "--paths", typed], f'--paths: "{typed}" is not a whole number', "2e4")
         self.expect_wrong_input(["measure", self.scene, "--bounces", "0.5"], '--bounces: "0.5" is not a whole number')
         self.expect_wrong_input(["measure", self.scene, "--seed", "1e30"], "--seed", "Write all of its digits")
-        self.expect_wrong_input(["measure", self.scene, "--paths", "-1e4"], "--paths", "-10000 not in range")
+        self.expect_wrong_input(["measure", self.scene, "--paths", "-1e4"], "--paths: -10000 is out of range")
 
     def test_the_first_unexpected_argument_is_named(self):
         suggestion = 'no flag --errors. Did you mean "--error"?'

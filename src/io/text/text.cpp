@@ -54,6 +54,8 @@ const std::string& standard_input() {
 std::string read_beginning(const std::filesystem::path& path, std::size_t most) {
     if (path == "-") return standard_input().substr(0, most);
     std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        throw InputError("cannot be read, because it is a folder. Name a file.", {path.string()});
     const auto size = std::filesystem::file_size(path, error);
     if (error) throw InputError(fmt::format("cannot be read: {}", error.message()), {path.string()});
     std::string content(std::min<std::uintmax_t>(size, most), '\0');
