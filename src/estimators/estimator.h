@@ -53,8 +53,8 @@ struct ReadingSums {
     std::vector<double> largest;  ///< largest single contribution to each reading, before division
     std::uint64_t rays = 0;
     std::uint64_t invalid = 0;  ///< non-finite contributions, which are left out
-    /// Methods on patches: what the readings lack, by path tracing behind the same rays for some of the samples
-    /// [lx or cd/m2, x comparisons]; empty for other methods.
+    /// Methods on patches: what the readings lack, by path tracing behind the same rays for some of the
+    /// samples [lx or cd/m2, x comparisons]; empty for other methods.
     std::vector<Rgb> lacking;
     std::uint64_t comparisons = 0;
 

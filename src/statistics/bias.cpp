@@ -2,26 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace stilb::statistics {
 namespace {
 
-/// Standard errors that count: a bound of about 95 % confidence.
-constexpr double kErrors = 2;
+/// Standard errors that count, for bounds of about 95 % confidence: the distributions are skewed.
+constexpr double kErrors = 2.2;
 
-/// Weights by which the mean square of many noisy relative differences is known best. `errors`: relative.
+/// Less for readings whose relative differences are far noisier than the others': in the dark. `errors`:
+/// relative.
 std::vector<double> weights_for(const std::vector<double>& errors) {
+    constexpr double kFarNoisier = 3;
     std::vector<double> sorted;
     std::ranges::copy_if(errors, std::back_inserter(sorted), [](double e) { return std::isfinite(e); });
     if (sorted.empty()) return std::vector<double>(errors.size());
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
+    const double usual = kFarNoisier * *middle;
     std::vector<double> weights;
     for (const double error : errors) {
-        weights.push_back(!std::isfinite(error) ? 0
-                          : *middle > 0         ? std::pow(*middle / std::max(error, *middle), 4)
-                                                : 1);
+        weights.push_back(error <= usual ? 1 : std::isfinite(error) ? std::pow(usual / error, 4) : 0);
     }
     return weights;
 }

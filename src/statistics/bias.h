@@ -20,9 +20,9 @@ struct BiasBounds {
 ///
 /// A single comparison is as noisy as the unbiased method. But all readings together tell the mean square of
 /// the relative biases far better than each of them its own: it is the mean of the products of the
-/// differences of two replicates, whose noise is independent, plus twice its standard error. Each reading's
-/// bound is this share of it, unless its own difference tells more: that it is more than two of its standard
-/// errors, or that the bias is less.
+/// differences of two replicates, whose noise is independent, plus some two of its standard errors. Each
+/// reading's bound is this share of it, unless its own difference tells more: that it is more than two of its
+/// standard errors, or that the bias is less.
 ///
 /// Throws std::invalid_argument for fewer than two replicates.
 BiasBounds bias_bounds(const ReplicateTable& differences, std::span<const double> values);

@@ -27,7 +27,10 @@ LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
     }
     if (outside_ != kNoLight && others_lm > 0) weights[outside_] = std::min(weights[outside_], others_lm);
     by_flux_ = math::DiscreteDistribution(weights);
-    if (goes_by_tree()) plant_tree(scene);
+    if (goes_by_tree()) tree_ = planted_tree(scene, [&](std::uint32_t i) { return !is_made_elsewhere(i); });
+    const auto extended = std::ranges::count(locations_, LightLocation::surface);
+    if (extended > std::ptrdiff_t{kFew})
+        extended_ = planted_tree(scene, [&](std::uint32_t i) { return !is_point(i); });
 }
 
 void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
@@ -107,10 +110,11 @@ double LightSampler::tree_probability(std::size_t light, const Vec3& from, const
            tree_.probability(cut, static_cast<std::uint32_t>(light), from, normal, rough_lx);
 }
 
-void LightSampler::plant_tree(const Scene& scene) {
+template <typename Condition>
+LightTree LightSampler::planted_tree(const Scene& scene, const Condition& condition) const {
     std::vector<LightTree::Light> leaves;
     for (std::uint32_t i = 0; i < count(); ++i) {
-        if (is_made_elsewhere(i)) continue;
+        if (!condition(i)) continue;
         // Between that of a ball and of a flat surface along its normal.
         LightTree::Light leaf{i, {}, flux_lm_[i].luminance() / (2 * std::numbers::pi), is_point(i)};
         if (const auto origin = lights::point_origin(scene.lights[i])) {
@@ -121,7 +125,17 @@ void LightSampler::plant_tree(const Scene& scene) {
             leaf.bounds = bounds_of(scene.object(surface->object).shape);
         if (!leaf.bounds.is_empty()) leaves.push_back(leaf);
     }
-    tree_ = LightTree(std::move(leaves));
+    return LightTree(std::move(leaves));
+}
+
+double LightSampler::extended_pdf_per_sr(const rays::Hit& hit, const ReceivingPoint& at) const {
+    const double pdf_per_sr = pdf_of_its_light_per_sr(hit, at.position);
+    if (!(pdf_per_sr > 0) || !chooses_extended(at)) return pdf_per_sr;
+    const auto rough_lx = rough_at(at);
+    const LightTree::Cut cut = extended_.cut(at.position, *at.normal, rough_lx);
+    if (!(cut.total_lx() > 0)) return 0;
+    const std::uint32_t light = light_of_object_[index_of(hit.object)];
+    return kFew * extended_.probability(cut, light, at.position, *at.normal, rough_lx) * pdf_per_sr;
 }
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,

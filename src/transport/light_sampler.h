@@ -57,6 +57,15 @@ class LightSampler {
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
                                                   math::SampleStream& stream) const;
 
+    /// Calls `visit(light)` for samples of all lights but points: for one of each or, where there are many
+    /// and the point has a normal, for some that are chosen as in sample_one_light(), divided by their
+    /// expected numbers.
+    template <typename Visit>
+    void sample_extended(const ReceivingPoint& at, math::SampleStream& stream, const Visit& visit) const;
+    /// The approximate density of the direction to `hit` over all samples of sample_extended(); likewise for
+    /// a ray that leaves the scene.
+    double extended_pdf_per_sr(const rays::Hit& hit, const ReceivingPoint& at) const;
+
     /// The approximate density of the direction to `hit`, on an emitter, in sample_one_light(); 0 where
     /// it never samples it, infinite where the light is made elsewhere.
     double pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Vec3& normal) const;
@@ -87,7 +96,14 @@ class LightSampler {
     double times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const;
     /// More than kFew lights are chosen by the tree, and the light from infinity separately.
     bool goes_by_tree() const { return count() > kFew; }
-    void plant_tree(const Scene& scene);
+    /// The leaves of a tree of all lights at finite distance that meet the condition.
+    template <typename Condition>
+    LightTree planted_tree(const Scene& scene, const Condition& condition) const;
+    bool chooses_extended(const ReceivingPoint& at) const { return !extended_.is_empty() && at.normal; }
+    auto rough_at(const ReceivingPoint& at) const {
+        return
+            [this, &at](std::uint32_t light) { return rough_illuminance_lx(light, at.position, *at.normal); };
+    }
     std::optional<math::DiscreteChoice> choose(const Vec3& from, const Vec3& normal, double u) const;
     std::optional<math::DiscreteChoice> choose_by_tree(const Vec3& from, const Vec3& normal, double u) const;
     double tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const;
@@ -100,8 +116,38 @@ class LightSampler {
     std::vector<std::uint32_t> light_of_object_;  ///< kNoLight for objects without a light
     std::vector<bool> made_elsewhere_;
     LightTree tree_;                    ///< of the lights at finite distance that are not made elsewhere
+    LightTree extended_;                ///< of the lights with a surface, where they are many
     std::uint32_t outside_ = kNoLight;  ///< the light from infinity
     bool has_visible_lights_ = false;
 };
+
+template <typename Visit>
+void LightSampler::sample_extended(const ReceivingPoint& at, math::SampleStream& stream,
+                                   const Visit& visit) const {
+    const auto sample = [&](std::size_t light) {
+        if (const auto incident = sample_incident(light, at, stream.next_two())) visit(*incident);
+    };
+    if (!chooses_extended(at)) {
+        for (std::size_t light = 0; light < count(); ++light) {
+            if (!is_point(light)) sample(light);
+        }
+        return;
+    }
+    if (outside_ != kNoLight) sample(outside_);
+    const auto rough_lx = rough_at(at);
+    const LightTree::Cut cut = extended_.cut(at.position, *at.normal, rough_lx);
+    if (!(cut.total_lx() > 0)) return;
+    const double first = stream.next();
+    for (std::size_t i = 0; i < kFew; ++i) {
+        const double u = (static_cast<double>(i) + first) / kFew;
+        const auto choice = extended_.choose(cut, at.position, *at.normal, u, rough_lx);
+        auto incident = sample_incident(choice.index, at, stream.next_two());
+        if (!incident) continue;
+        const double expected = kFew * choice.probability;
+        incident->normal_illuminance_lx *= 1 / expected;
+        incident->pdf_per_sr *= expected;
+        visit(*incident);
+    }
+}
 
 }  // namespace stilb::transport

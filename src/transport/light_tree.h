@@ -30,6 +30,7 @@ class LightTree {
 
     LightTree() = default;
     explicit LightTree(std::vector<Light> lights);
+    bool is_empty() const { return nodes_.empty(); }
 
     /// The opened boxes at a point, with running sums of their estimates [lx].
     class Cut {

@@ -165,7 +165,7 @@ Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, 
                                                         : lights.outside_luminance(sample->direction));
     if (!(emission.max() > 0)) return {};
     const double light_pdf =
-        seen.hit ? lights.pdf_of_its_light_per_sr(*seen.hit, receiver.position())
+        seen.hit ? lights.extended_pdf_per_sr(*seen.hit, receiving_point(receiver))
                  : lights.pdf_of_outside_light_per_sr(sample->direction, receiving_point(receiver));
     return sample->weight * emission * balance(sample->pdf_per_sr, light_pdf);
 }
@@ -188,17 +188,13 @@ Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& ca
                              const LightSampler& lights, math::SampleStream& stream) {
     const bool directional = !receiver.constant_response();
     Rgb sum;
-    for (std::size_t i = 0; i < lights.count(); ++i) {
-        if (lights.is_point(i)) continue;
-        const auto u = stream.next_two();
-        const auto light = lights.sample_incident(i, receiving_point(receiver), u);
-        if (!light) continue;
-        const Rgb received = illuminance_lx(*light, receiver, caster);
-        if (!(received.max() > 0)) continue;
+    lights.sample_extended(receiving_point(receiver), stream, [&](const IncidentLight& light) {
+        const Rgb received = illuminance_lx(light, receiver, caster);
+        if (!(received.max() > 0)) return;
         const double weight =
-            directional ? balance(light->pdf_per_sr, receiver.pdf_per_sr(light->direction)) : 1;
-        sum += received * receiver.response(light->direction) * weight;
-    }
+            directional ? balance(light.pdf_per_sr, receiver.pdf_per_sr(light.direction)) : 1;
+        sum += received * receiver.response(light.direction) * weight;
+    });
     if (directional && lights.has_visible_lights())
         sum += sample_by_response(receiver, caster, lights, stream);
     return sum;

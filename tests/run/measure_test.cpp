@@ -3,6 +3,7 @@
 
 #include "estimators/estimator_list.h"
 #include "run/run.h"
+#include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {
@@ -144,6 +145,32 @@ TEST(Measure, WaitsForSharpLight) {
     const RunResult waited = measure(scene, {&sensor, 1}, options);
     EXPECT_GT(waited.samples, 16384U);
     EXPECT_FALSE(has_warning(waited, "sharply"));
+}
+
+/// Some of the lamps stand for all; samples of them and of the reflection are combined.
+TEST(Measure, ManyLampsInAGlossyFloor) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 4, 3}}, Phong{Rgb::grey(0.3), Rgb::grey(0.4), 40});
+    for (int i = 0; i < 64; ++i) {
+        const Vec3 corner{0.2 + 0.45 * (i % 8), 0.2 + 0.45 * (i / 8), 2.9};
+        add_area_light(scene, Rectangle{corner, {0, 0.1, 0}, {0.1, 0, 0}}, Rgb::grey(100 + 10 * (i % 5)));
+    }
+    const Luminance lines{{LineOfSight{{1, 1, 1.5}, normalized(Vec3{0.3, 0.5, -1})},
+                           LineOfSight{{1, 1, 1.5}, normalized(Vec3{1, 0.8, -1})}}};
+    const Sensor sights{"sights", lines};
+    RunOptions options;
+    options.paths = 1 << 16;
+    options.method = "auto";
+    const RunResult chosen = measure(scene, {&sights, 1}, options);
+    options.method = "path";
+    const RunResult traced = measure(scene, {&sights, 1}, options);
+    for (std::size_t j = 0; j < 2; ++j) {
+        const statistics::Estimate &a = chosen.sensors[0].readings[j].estimate,
+                                   &b = traced.sensors[0].readings[j].estimate;
+        EXPECT_LT(a.standard_error, 0.01 * a.value);
+        EXPECT_LT(b.standard_error, 0.01 * b.value);
+        EXPECT_LT(std::abs(statistics::z_score(a, b)), 4) << a.value << ' ' << b.value;
+    }
 }
 
 }  // namespace

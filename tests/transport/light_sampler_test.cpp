@@ -44,6 +44,59 @@ void expect_illuminance(const Shape& shape, const exact::Receiver& receiver, dou
     EXPECT_LT(measured.standard_error, 0.01 * exact_lx);
 }
 
+/// Of 100 lamps some are chosen: their light is that of all, one by one.
+TEST(ExtendedLights, OfManySomeStandForAll) {
+    Scene scene;
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 corner{0.4 * (i % 10), 0.4 * (i / 10), 2 + 0.01 * i};
+        add_area_light(scene, Rectangle{corner, {0, 0.1, 0}, {0.1, 0, 0}}, Rgb::grey(1 + i % 7));
+    }
+    add_point_light(scene, {2, 2, 1.5}, kWhite);  // has no extent
+    const rays::RayCaster caster(scene);
+    const LightSampler lights(scene, caster);
+    const ReceivingPoint oriented{{1.3, 0.8, 0.5}, Vec3{0.6, 0, 0.8}}, free{{1.3, 0.8, 0.5}, std::nullopt};
+    const auto mean_lx = [&](const ReceivingPoint& at) {
+        std::vector<double> means;
+        for (std::uint64_t replicate = 0; replicate < 32; ++replicate) {
+            statistics::RunningMoments moments;
+            for (std::uint64_t i = 0; i < 256; ++i) {
+                math::SampleStream stream(math::RandomKey{replicate}, i);
+                double lx = 0;
+                lights.sample_extended(at, stream, [&](const IncidentLight& light) {
+                    lx += std::max(0.0, dot(light.direction, *oriented.normal)) *
+                          light.normal_illuminance_lx.luminance();
+                });
+                moments.add(lx);
+            }
+            means.push_back(moments.mean());
+        }
+        return statistics::estimate_from_replicates(means);
+    };
+    const statistics::Estimate some = mean_lx(oriented), all = mean_lx(free);  // without a normal: one by one
+    EXPECT_LT(some.standard_error, 0.005 * some.value);
+    EXPECT_LT(std::abs(statistics::equivalent_z(z_score(some, all), 31)), 4)
+        << some.value << ' ' << all.value;
+}
+
+/// The density integrates to the expected number of samples that reach the point.
+TEST(ExtendedLights, HaveTheDensityThatTheyAreSampledWith) {
+    Scene scene;
+    for (int i = 0; i < 40; ++i) {
+        add_area_light(scene, Rectangle{{0.4 * (i % 8), 0.4 * (i / 8), 2}, {0, 0.2, 0}, {0.2, 0, 0}}, kWhite);
+    }
+    const rays::RayCaster caster(scene);
+    const LightSampler lights(scene, caster);
+    const ReceivingPoint at{{1.3, 0.8, 0.5}, Vec3{0, 0, 1}};
+    for (std::uint64_t i = 0; i < 16; ++i) {
+        math::SampleStream stream(math::RandomKey{2}, i);
+        lights.sample_extended(at, stream, [&](const IncidentLight& light) {
+            const auto hit = caster.closest(at.position, light.direction);
+            ASSERT_TRUE(hit);
+            EXPECT_NEAR(lights.extended_pdf_per_sr(*hit, at), light.pdf_per_sr, 1e-3 * light.pdf_per_sr);
+        });
+    }
+}
+
 /// What is made elsewhere is never chosen, and counts nothing where a path runs into it.
 TEST(IncidentLight, LeavesOutWhatIsMadeElsewhere) {
     Scene scene;

@@ -39,8 +39,8 @@ Shape coarse(const Shape& shape) {
     return shape;
 }
 
-/// The light alone. Positions are relative to the centre of all patches, because viewpoints are lifted by
-/// their distance from it. they are from it.
+/// The light alone. Positions are relative to the centre of all patches, because viewpoints are lifted the
+/// more the farther they are from it.
 patches::Patches light_patches(const Shape& shape, double longest_edge_m, const Vec3& center) {
     Scene alone;
     alone.objects.push_back({"", shape, {MaterialId{}}});
