@@ -90,5 +90,36 @@ TEST(ResultsTable, NamesTheQuantities) {
     EXPECT_TRUE(table_of(made).starts_with("Illuminance, with 95 % intervals\n"));
 }
 
+TEST(ResultsTable, NamesTheSamplesOfTheMethod) {
+    RunResult made = io::luminance_results();
+    made.method = "particles";
+    made.samples = 7;
+    EXPECT_TRUE(has(table_of(made), "\nparticles, 7 particles in 0.00 s: all particles done; error 0 %\n"))
+        << table_of(made);
+}
+
+TEST(ResultsTable, SaysWhichErrorIsNotReached) {
+    run::RunSummary summary;
+    summary.attained_error = 0.031;
+    summary.requested_error = 0.01;
+    EXPECT_EQ(shortfall_text(summary, "x.exr"), "");
+    summary.converged = false;
+    EXPECT_EQ(shortfall_text(summary, "x.exr"),
+              "The requested error of 1 % is not reached: the error is 3.1 %. x.exr has the result so far.\n");
+    EXPECT_EQ(shortfall_text(summary, ""),
+              "The requested error of 1 % is not reached: the error is 3.1 %.\n");
+    summary.requested_error.reset();
+    EXPECT_EQ(shortfall_text(summary, "x.exr"), "x.exr has the result so far.\n");
+    EXPECT_EQ(shortfall_text(summary, ""), "");
+}
+
+TEST(ResultsTable, PercentHasTwoDigitsOrAllBeforeThePoint) {
+    EXPECT_EQ(percent(0.00654), "0.65 %");
+    EXPECT_EQ(percent(0.99), "99 %");
+    EXPECT_EQ(percent(0.996), "100 %");
+    EXPECT_EQ(percent(3.14), "314 %");
+    EXPECT_EQ(percent(std::numeric_limits<double>::infinity()), "inf %");
+}
+
 }  // namespace
 }  // namespace stilb::cli
