@@ -5,13 +5,10 @@
 #include <iterator>
 #include <optional>
 
-#include "base/parallel.h"
 #include "estimators/estimator_list.h"
+#include "run/campaign.h"
 #include "run/level_of_detail.h"
 #include "run/run.h"
-#include "run/schedule.h"
-#include "statistics/bias.h"
-#include "statistics/interval.h"
 #include "statistics/rare.h"
 #include "stilb/error.h"
 #include "transport/line_of_sight.h"
@@ -21,199 +18,10 @@ namespace stilb::run {
 namespace {
 
 constexpr double kConfidence = 0.95;
-/// Rays of a batch over all replicates: about a second of work, so that an interruption is answered quickly.
-constexpr double kRaysPerRound = 3e7;
-constexpr std::uint64_t kLongestBatch = 1 << 16;
-/// Samples of a replicate: Sobol' indices have 32 bits.
-constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
-/// Replicates that a result needs, where time does not suffice for all.
-constexpr std::size_t kLeastReplicates = 8;
 /// Samples that a run makes for the sake of sharp light before its first error estimate: some seconds of
 /// work.
 constexpr std::uint64_t kMostAwaited = 1 << 20;
 enum ReadingPurpose : std::uint64_t { kReadingPreparation, kReadingReplicates };
-
-/// The sums of all replicates, and their progress.
-class Campaign final : public Work {
-  public:
-    /// `least_samples`: of all replicates, before the first error estimate.
-    Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, std::size_t readings,
-             const RunOptions& options, std::uint64_t least_samples)
-        : estimator_(estimator), sensors_(sensors), granularity_(estimator.batch_granularity()) {
-        const auto count = static_cast<std::size_t>(options.replicates);
-        replicates_.reserve(count);
-        for (std::size_t r = 0; r < count; ++r) {
-            replicates_.emplace_back(math::RandomKey{options.seed}.derived(kReadingReplicates).derived(r),
-                                     readings);
-        }
-        first_check_ = std::max(estimator.first_check(), samples_for(least_samples));
-        const double per_batch = kRaysPerRound / (options.replicates * estimator.rays_per_sample());
-        while (2 * batch_ <= kLongestBatch && static_cast<double>(2 * batch_) <= per_batch) batch_ *= 2;
-        batch_ = std::max(batch_ / granularity_, std::uint64_t{1}) * granularity_;
-    }
-
-    std::uint64_t samples() const override { return samples_; }
-    std::uint64_t samples_in_all() const override {
-        std::uint64_t all = 0;
-        for (const Replicate& replicate : replicates_) all += replicate.samples;
-        return all;
-    }
-    std::uint64_t samples_for(std::uint64_t paths) const override {
-        const auto divided_up = [](std::uint64_t x, std::uint64_t y) { return (x + y - 1) / y; };
-        const std::uint64_t each = divided_up(paths, replicates_.size());
-        return std::min(divided_up(each, granularity_) * granularity_, kMostSamples);
-    }
-    std::uint64_t most_samples() const override { return kMostSamples; }
-    std::uint64_t next_check() const override { return statistics::next_check(samples_, first_check_); }
-    std::uint64_t most_at_once() const override { return batch_; }
-    bool has_result() const override {
-        const auto begun = std::ranges::count_if(replicates_, &Replicate::samples);
-        return static_cast<std::size_t>(begun) >= std::min(kLeastReplicates, replicates_.size());
-    }
-
-    /// The same next samples of every replicate. Each replicate's sums belong to one task: nothing depends on
-    /// threads. Where the run is ended, unfinished batches are left out. Replicates of different length have
-    /// the same expectation, and their spread still gives the error of their mean.
-    void advance(std::uint64_t count) override {
-        try {
-            parallel_for(replicates_.size(), [&](std::size_t r) { replicates_[r].add(count, estimator_); });
-        } catch (const Cancelled&) {
-            if (has_result()) std::erase_if(replicates_, [](const Replicate& r) { return r.samples == 0; });
-            throw;
-        }
-        samples_ += count;
-    }
-
-    std::size_t replicates() const { return replicates_.size(); }
-
-    /// The error of the worst sensor.
-    double attained_error() const override {
-        double worst = 0;
-        std::size_t first = 0;
-        for (const Sensor& sensor : sensors_) {
-            const Estimates all = estimates(first, sensor.size(), statistics::kStoppedConfidence);
-            worst = std::max(worst, statistics::attained_error(all.readings));
-            first += sensor.size();
-        }
-        return worst;
-    }
-
-    bool is_beyond_reach(double error) const override {
-        std::size_t first = 0;
-        for (const Sensor& sensor : sensors_) {
-            const auto bias = estimates(first, sensor.size(), statistics::kStoppedConfidence).bias;
-            if (bias && bias->relative_at_least > error) return true;
-            first += sensor.size();
-        }
-        return false;
-    }
-
-    /// Of the readings of one sensor.
-    struct Estimates {
-        std::vector<statistics::Estimate> readings;
-        std::optional<statistics::BiasBounds> bias;  ///< of methods on patches; the intervals contain it
-    };
-    Estimates estimates(std::size_t first, std::size_t count, double confidence) const {
-        const std::vector<double> means = replicate_means(first, count);
-        Estimates all{statistics::estimate_readings({means, count}, confidence, rare_light(first, count)),
-                      {}};
-        const std::vector<double> differences = lacking(first, count);
-        if (differences.empty()) return all;
-        std::vector<double> values;
-        for (const statistics::Estimate& estimate : all.readings) values.push_back(estimate.value);
-        all.bias = statistics::bias_bounds({differences, count}, values);
-        for (std::size_t j = 0; j < count; ++j)
-            all.readings[j] = statistics::widened(all.readings[j], all.bias->of_readings[j]);
-        return all;
-    }
-
-    std::uint64_t rays() const {
-        std::uint64_t rays = 0;
-        for (const Replicate& replicate : replicates_) rays += replicate.sums.rays;
-        return rays;
-    }
-
-    void require_valid() const {
-        std::uint64_t invalid = 0;
-        for (const Replicate& replicate : replicates_) invalid += replicate.sums.invalid;
-        const double all =
-            static_cast<double>(samples_in_all()) * static_cast<double>(replicates_[0].sums.sum.size());
-        require_mostly_finite(invalid, all);
-    }
-
-    /// Replicates x readings of one sensor, luminance-weighted [lx].
-    std::vector<double> replicate_means(std::size_t first, std::size_t count) const {
-        std::vector<double> means;
-        means.reserve(replicates_.size() * count);
-        const auto known = estimator_.known_part();
-        for (const Replicate& replicate : replicates_) {
-            for (std::size_t j = first; j < first + count; ++j) {
-                means.push_back(known[j].luminance() + replicate.mean(j).luminance());
-            }
-        }
-        return means;
-    }
-
-    /// Replicates x readings of one sensor: by how much path tracing finds more light, luminance-weighted
-    /// [lx]. Empty for methods without patches.
-    std::vector<double> lacking(std::size_t first, std::size_t count) const {
-        std::vector<double> differences;
-        for (const Replicate& replicate : replicates_) {
-            const estimators::ReadingSums& sums = replicate.sums;
-            if (sums.comparisons == 0) return {};
-            for (std::size_t j = first; j < first + count; ++j)
-                differences.push_back(sums.lacking[j].luminance() / static_cast<double>(sums.comparisons));
-        }
-        return differences;
-    }
-
-    Rgb rgb(std::size_t reading) const {
-        Rgb sum;
-        for (const Replicate& replicate : replicates_) sum += replicate.mean(reading);
-        return estimator_.known_part()[reading] + sum * (1 / static_cast<double>(replicates_.size()));
-    }
-
-    statistics::LargestContributions largest(std::size_t reading) const {
-        std::vector<double> of_replicates;
-        of_replicates.reserve(replicates_.size());
-        for (const Replicate& replicate : replicates_)
-            of_replicates.push_back(replicate.sums.largest[reading]);
-        return statistics::largest_contributions(of_replicates);
-    }
-
-    /// Light that the readings of one sensor may lack [lx].
-    std::vector<double> rare_light(std::size_t first, std::size_t count) const {
-        std::vector<double> rare(count);
-        for (std::size_t j = 0; j < count; ++j)
-            rare[j] = statistics::rare_light(largest(first + j), samples_in_all());
-        return rare;
-    }
-
-  private:
-    struct Replicate {
-        Replicate(math::RandomKey own_key, std::size_t readings) : key(own_key), sums(readings) {}
-
-        void add(std::uint64_t count, const estimators::Estimator& estimator) {
-            estimators::ReadingSums batch(sums.sum.size());
-            estimator.run_batch({key, samples, count}, batch);
-            sums += batch;
-            samples += count;
-        }
-        Rgb mean(std::size_t reading) const { return sums.sum[reading] * (1 / static_cast<double>(samples)); }
-
-        math::RandomKey key;
-        estimators::ReadingSums sums;
-        std::uint64_t samples = 0;
-    };
-
-    const estimators::Estimator& estimator_;
-    std::span<const Sensor> sensors_;
-    std::uint64_t granularity_;
-    std::vector<Replicate> replicates_;
-    std::uint64_t first_check_ = 1;
-    std::uint64_t batch_ = 1;
-    std::uint64_t samples_ = 0;  ///< of each replicate
-};
 
 void require_measurable(std::span<const Sensor> sensors, const estimators::EstimatorEntry& method) {
     for (const Sensor& sensor : sensors) {
@@ -408,7 +216,8 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     const transport::SharpLight sharp = method.lights_patches
                                             ? transport::SharpLight{}
                                             : transport::find_sharp_light(scene, session.caster());
-    Campaign campaign(*estimator, sensors, wanted.measurands.size(), options,
+    Campaign campaign(*estimator, sensors, wanted.measurands.size(),
+                      math::RandomKey{options.seed}.derived(kReadingReplicates), options,
                       std::min(sharp.samples, kMostAwaited));
     RunResult result;
     session.on_threads([&] { session.run(campaign, result); });
