@@ -13,8 +13,8 @@
 
 namespace stilb::api {
 
-/// A value with its standard error and its 95 % interval. The interval also contains the error of patches, for
-/// methods that store light on them.
+/// A value with its standard error and its 95 % interval. The interval also contains the error of patches,
+/// for methods that store light on them.
 struct Estimate {
     double value = 0;
     double standard_error = 0;

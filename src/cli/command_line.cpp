@@ -180,7 +180,8 @@ Flag& Flag::from_to(std::int64_t least, std::int64_t greatest) {
         [least, greatest](const std::string& typed) -> std::string {
             const auto number = io::parse_integer(typed);
             if (number && *number >= least && *number <= greatest) return "";
-            return fmt::format("{} is out of range. Give a whole number from {} to {}.", typed, least, greatest);
+            return fmt::format("{} is out of range. Give a whole number from {} to {}.", typed, least,
+                               greatest);
         },
         greatest <= greatest_shown ? fmt::format("{} to {}", least, greatest) : ""));
     return *this;

@@ -208,8 +208,7 @@ std::string shortfall_text(const RunSummary& result, std::string_view output) {
         text = fmt::format("The requested error of {:g} % is not reached: the error is {}.",
                            100 * *result.requested_error, percent(result.attained_error));
     }
-    if (!output.empty())
-        text += fmt::format("{}{} has the result so far.", text.empty() ? "" : " ", output);
+    if (!output.empty()) text += fmt::format("{}{} has the result so far.", text.empty() ? "" : " ", output);
     return text.empty() ? text : text + '\n';
 }
 

@@ -45,16 +45,18 @@ void RunFlags::add_those_of_one_method(Command& command) {
              "value: 1% or 0.01")
         .value_name("SHARE");
     command
-        .add("--time", time_s,
-             "Stop after this many seconds; where they do not suffice for a first result, there is none (exit "
-             "code 3)")
+        .add(
+            "--time", time_s,
+            "Stop after this many seconds; where they do not suffice for a first result, there is none (exit "
+            "code 3)")
         .value_name("S");
     command
-        .add("--paths", paths,
-             "Stop after this many samples, rounded up: light paths (auto, local, double-local) to a multiple "
-             "of 2048 (of more or less with many points), paths per reading (path) or samples (radiosity) to "
-             "a multiple of 32, steps (ray-bundle) to a multiple of 512 or more, particles (particles) to a "
-             "multiple of 131072; pictures: passes, at least 2")
+        .add(
+            "--paths", paths,
+            "Stop after this many samples, rounded up: light paths (auto, local, double-local) to a multiple "
+            "of 2048 (of more or less with many points), paths per reading (path) or samples (radiosity) to "
+            "a multiple of 32, steps (ray-bundle) to a multiple of 512 or more, particles (particles) to a "
+            "multiple of 131072; pictures: passes, at least 2")
         .from_to(1, kMostPaths)
         .value_name("N");
     command.add("--seed", seed, "Seed of the random numbers: another seed gives an independent result")

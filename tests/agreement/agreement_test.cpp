@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "agreement/sanitized.h"
 #include "agreement/scenes.h"
 #include "estimators/estimator_list.h"
 #include "run/run.h"
@@ -20,13 +21,6 @@ namespace stilb {
 namespace {
 
 constexpr int kReplicates = 32;
-/// Sanitizers slow the methods down some thirty times. They look for other errors than bias, so with them
-/// everything is compared less finely.
-#ifdef __SANITIZE_ADDRESS__
-constexpr double kCoarser = 5;
-#else
-constexpr double kCoarser = 1;
-#endif
 /// Relative standard error of a method's readings that is aimed at, by the pilot run, and that is required.
 constexpr double kTargetError = 0.0016 * kCoarser;
 constexpr double kLargestError = 0.003 * kCoarser;

@@ -104,8 +104,9 @@ TEST(ResultsTable, SaysWhichErrorIsNotReached) {
     summary.requested_error = 0.01;
     EXPECT_EQ(shortfall_text(summary, "x.exr"), "");
     summary.converged = false;
-    EXPECT_EQ(shortfall_text(summary, "x.exr"),
-              "The requested error of 1 % is not reached: the error is 3.1 %. x.exr has the result so far.\n");
+    EXPECT_EQ(
+        shortfall_text(summary, "x.exr"),
+        "The requested error of 1 % is not reached: the error is 3.1 %. x.exr has the result so far.\n");
     EXPECT_EQ(shortfall_text(summary, ""),
               "The requested error of 1 % is not reached: the error is 3.1 %.\n");
     summary.requested_error.reset();

@@ -242,7 +242,8 @@ TEST(MeshFile, files_that_cannot_be_read) {
               "room.stl: the extension \".stl\" is not a supported mesh format: use .obj or .ply");
     const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "folder.obj";
     std::filesystem::create_directory(directory);
-    EXPECT_EQ(message(directory), directory.string() + ": cannot be read, because it is a folder. Name a file.");
+    EXPECT_EQ(message(directory),
+              directory.string() + ": cannot be read, because it is a folder. Name a file.");
 }
 
 TEST(MeshFile, extension_in_any_case) {
