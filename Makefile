@@ -41,13 +41,14 @@ install: build ## the program, the library with its CMake package, manual pages 
 	@cmake --build --preset release --target stilb_library
 	@cmake --install build/release --prefix $(PREFIX)
 
-verify-long: build ## all exact solutions at 0.2 %, closed meshes with 1e8 rays each, patches as they shrink, harmonics, coverage
+verify-long: build ## all exact solutions at 0.2 %, closed meshes with 1e8 rays each, patches as they shrink, harmonics, coverage, time limits
 	$(RELEASE)/stilb verify --error 0.2%
 	@cmake --build --preset release --target verify_watertight verify_patches verify_harmonics verify_coverage
 	$(RELEASE)/verify_watertight 100000000
 	$(RELEASE)/verify_patches
 	$(RELEASE)/verify_harmonics
 	$(RELEASE)/verify_coverage
+	tests/long/verify_limits.py
 
 bench: setup ## the benchmarks
 	@$(call configure,release)
