@@ -35,7 +35,7 @@ struct Facing {
     double distance_m = 0;
 };
 
-/// What almost all the light of a lamp meets at once.
+/// The object close to the front of a lamp that stops almost all of its light, if there is one.
 std::optional<Facing> faced_by(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
     const auto surface = lights::surface_emission(light);
     if (!surface) return std::nullopt;

@@ -218,7 +218,7 @@ class ReachCheck {
             dark.size() == 1 ? "sensor" : "sensors", list_of(dark), dark.size() == 1 ? "it" : "them"));
     }
 
-    /// What a light meets on the straight way to the first sensor.
+    /// Names the object that stands between a light and the first sensor; empty where none does.
     std::string obstacle_of(const Shining& shining) const {
         math::SampleStream stream(math::RandomKey{}.derived(kFromLights), 0);
         const Vec3 origin = shining.emit(stream).origin, to_sensor = around_.front().first - origin;

@@ -18,7 +18,7 @@ struct Location {
     Vec3 position, normal;
 };
 
-/// What walks have met.
+/// The places and objects that random walks have reached.
 struct Trail {
     std::vector<Location> locations;
     std::vector<bool> is_object_met;

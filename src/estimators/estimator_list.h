@@ -24,7 +24,7 @@ struct EstimatorEntry {
     bool has_heavy_tails = false;
     /// Whether the method always computes light on patches, which biases it by their size.
     bool lights_patches = false;
-    /// What the samples of its readings are called.
+    /// The word for its samples in tables of readings.
     std::string_view samples = "paths";
     /// The names of the members of PatchOptions that it uses: "patch", "first-shot" ...
     std::span<const std::string_view> patch_options = {};

@@ -60,7 +60,7 @@ enum class Coherence { coherent, scattered };
 /// Immutable after construction; all queries may run in parallel. Keeps a reference to the scene.
 class RayCaster {
   public:
-    /// Builds the acceleration structure. Throws InputError where an object or a light is farther than 10,000
+    /// Builds the acceleration structure. Throws InputError where an object or a light is farther than 20,000
     /// km from the origin, std::runtime_error where Embree fails (out of memory).
     explicit RayCaster(const Scene& scene);
     ~RayCaster();

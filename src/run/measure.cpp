@@ -65,8 +65,9 @@ void include_patch_error(const statistics::BiasBounds& bias, SensorResult& resul
     const auto [least, most] = std::ranges::minmax_element(
         result.readings, {}, [](const Reading& reading) { return reading.estimate.value; });
     statistics::GridSummary& summary = result.summary;
-    const double relative = *least->patch_error / summary.minimum.value + bias.of_mean / summary.mean.value;
-    summary.uniformity = widened(summary.uniformity, relative * summary.uniformity.value);
+    // That of the minimum and that of the mean, in units of the mean.
+    const double of_quotient = *least->patch_error + summary.uniformity.value * bias.of_mean;
+    summary.uniformity = widened(summary.uniformity, of_quotient / summary.mean.value);
     summary.mean = widened(summary.mean, bias.of_mean);
     summary.minimum = widened(summary.minimum, *least->patch_error);
     summary.maximum = widened(summary.maximum, *most->patch_error);

@@ -21,7 +21,8 @@ class PictureComparison {
     struct Shown {
         double luminance_cd_m2 = 0, standard_error_cd_m2 = 0;
     };
-    /// The root mean square of the pixels' biases, relative to their values. `shown`: of any pixel.
+    /// The root mean square of the pixels' biases, relative to their values. `at_most` contains the noise of
+    /// the picture. `shown`: of any pixel.
     struct Bias {
         double at_least = 0, at_most = 0;
     };

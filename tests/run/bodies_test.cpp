@@ -48,7 +48,8 @@ statistics::Estimate estimate(const RunResult& result, std::size_t sensor) {
     return result.sensors[sensor].readings[0].estimate;
 }
 
-/// Of the four bodies by z-scores. Form factors by item buffers are off by about a tenth of a per cent.
+/// Compares the readings of the four bodies by z-scores. The form factors of radiosity, which come from item
+/// buffers, have errors of about a tenth of a per cent.
 void expect_exact(const RunResult& result, const std::array<double, 4>& exact_lx, double rounding) {
     if (result.method == "radiosity") rounding = 1e-3;
     for (std::size_t b = 0; b < 4; ++b) {

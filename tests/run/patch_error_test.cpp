@@ -1,4 +1,4 @@
-// What methods on patches say about the error of their patches, against exact values.
+// The patch error that methods on patches state is compared with the error that they really have.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -81,6 +81,23 @@ INSTANTIATE_TEST_SUITE_P(Methods, PatchError, testing::Values("radiosity", "ray-
                              const std::string name = method.param;
                              return name.substr(0, name.find('-'));
                          });
+
+/// In a shadow without any reflection the reading is exactly 0, by patches as well.
+TEST(PatchErrorOfNothing, IsNothingInTheDark) {
+    Scene scene;
+    add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, Black{});
+    add_object(scene, Rectangle{{0, 0, 1}, {2, 0, 0}, {0, 4, 0}}, Black{});
+    add_point_light(scene, {1, 2, 2}, Rgb::grey(100));
+    const Sensor grid{"floor", Grid{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {8, 2}, kUp}};
+    const RunResult result = measure(scene, {&grid, 1}, options_for("ray-bundle", 0.5));
+    const SensorResult& floor = result.sensors[0];
+    EXPECT_EQ(floor.summary.minimum.value, 0);
+    EXPECT_EQ(floor.summary.minimum.upper, 0);
+    EXPECT_EQ(floor.summary.uniformity.value, 0);
+    EXPECT_TRUE(std::isfinite(floor.summary.uniformity.lower) &&
+                std::isfinite(floor.summary.uniformity.upper));
+    EXPECT_GT(floor.summary.maximum.value, 0);
+}
 
 /// In a furnace all patches have the same light: nothing is lost by them.
 TEST(PatchErrorOfNothing, IsSmall) {

@@ -44,7 +44,7 @@ void expect_illuminance(const Shape& shape, const exact::Receiver& receiver, dou
     EXPECT_LT(measured.standard_error, 0.01 * exact_lx);
 }
 
-/// Of 100 lamps some are chosen: their light is that of all, one by one.
+/// A sampler that chooses some of 100 lamps has the same expectation as one that samples each of them.
 TEST(ExtendedLights, OfManySomeStandForAll) {
     Scene scene;
     for (int i = 0; i < 100; ++i) {
