@@ -71,7 +71,7 @@ struct PacketPlacement {
 class Lift {
   public:
     Lift() = default;
-    /// The rule for a scene with this centre of its bounding box, and half of the box's longest edge.
+    /// The rule for a scene with its largest coordinate relative to this centre.
     Lift(const Vec3& center, double half_extent_m) : center_(center), half_extent_m_(half_extent_m) {}
 
     const Vec3& center() const { return center_; }

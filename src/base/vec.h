@@ -82,6 +82,7 @@ struct Bounds {
     constexpr double half_extent() const {
         return is_empty() ? 0 : std::max({max.x - min.x, max.y - min.y, max.z - min.z}) / 2;
     }
+    constexpr Vec3 middle() const { return 0.5 * (min + max); }
     constexpr void include(const Vec3& p) {
         min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
         max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};

@@ -44,7 +44,7 @@ std::vector<HalfSpace> walls_of(const Mesh& mesh, const Bounds& bounds, const Ve
 
 /// The middle of the bounding box where the mesh encloses nothing.
 Vec3 middle_of_volume(const Mesh& mesh, const Bounds& bounds) {
-    const Vec3 origin = 0.5 * (bounds.min + bounds.max);
+    const Vec3 origin = bounds.middle();
     double volume = 0;
     Vec3 moment;
     for (const auto& [ia, ib, ic] : mesh.triangles) {
@@ -144,7 +144,7 @@ double superfluous_crossings(const Mesh& mesh, const Vec3& from) {
 
 StarCenter find_star_center(const Mesh& mesh, const RadialCaster& caster) {
     const Bounds bounds = bounds_of_faces(mesh);
-    const Vec3 origin = 0.5 * (bounds.min + bounds.max);
+    const Vec3 origin = bounds.middle();
     const InnerBall ball = largest_ball(walls_of(mesh, bounds, origin), 1.01 * length(bounds.max - origin));
     const Vec3 middle = origin + ball.center;
     if (ball.radius > 0) return {middle, ball.radius};

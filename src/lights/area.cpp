@@ -31,7 +31,7 @@ AreaEmitter::AreaEmitter(const AreaLight& light, const Surroundings& surrounding
         }
     }
     by_area_ = math::DiscreteDistribution(areas);
-    middle_ = 0.5 * (bounds.min + bounds.max);
+    middle_ = bounds.middle();
     radius_m_ = length(bounds.max - bounds.min) / 2;
 }
 

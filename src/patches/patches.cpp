@@ -171,7 +171,7 @@ Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& m
         for (const Vec3& vertex : divisions.back().coarse.vertices) bounds.include(vertex);
     }
     Patches patches;
-    if (!bounds.is_empty()) patches.center = 0.5 * (bounds.min + bounds.max);
+    if (!bounds.is_empty()) patches.center = bounds.middle();
     Collector collector(patches);
     Stage stage(monitor, "patches", divisions.size());
     for (std::size_t i = 0; i < divisions.size(); ++i) {

@@ -92,9 +92,9 @@ class RayCaster {
     /// For lanes that are set: `end` becomes negative where a surface is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;
 
-    /// The origin of packet coordinates: the middle of the scene's bounding box.
+    /// The origin of packet coordinates: where single precision is best (scene::lift_of).
     const Vec3& center() const;
-    /// Half of the longest edge of the scene's bounding box [m]; lights and surfaces, not sensors.
+    /// The largest coordinate relative to the centre [m]; of lights and surfaces, not of sensors.
     double half_extent_m() const;
     /// The rule for lifting points off surfaces.
     Lift lift() const;

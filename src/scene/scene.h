@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "base/rays.h"
 #include "base/vec.h"
 #include "geometry/shape.h"
 #include "lights/light.h"
@@ -62,6 +63,10 @@ class LightSurroundings final : public lights::Surroundings {
 
 /// Bounds of all objects and point lights; a point at the origin where there are none.
 Bounds bounds_of(const Scene& scene);
+/// How points are lifted off surfaces. Single precision is best near its centre: the middle of the bounding
+/// box, or in a scene of more than 64 m the median of the middles of all objects and lights, so that the
+/// details of a house count, not the middle of the ground around it.
+Lift lift_of(const Scene& scene);
 /// Flux of a light per band; luminance() of it is lumen.
 Rgb flux_lm(const Scene& scene, const Light& light);
 /// The area of all objects; each surface once, though both its sides reflect.

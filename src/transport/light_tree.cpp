@@ -24,7 +24,7 @@ void LightTree::divide(std::uint32_t node, std::span<Light> lights) {
         middles.include(middle(light));
         intensity_cd += light.intensity_cd;
     }
-    nodes_[node].center = 0.5 * (bounds.min + bounds.max);
+    nodes_[node].center = bounds.middle();
     nodes_[node].half = 0.5 * (bounds.max - bounds.min);
     nodes_[node].squared_radius_m2 = squared_length(nodes_[node].half);
     nodes_[node].intensity_cd = intensity_cd;

@@ -38,10 +38,11 @@ double Verification::widest_interval() const {
 
 bool Verification::contradicts() const { return !(std::abs(worst().z) < kContradictionZ); }
 
-CheckedReading check(const ExactReading& exact, const statistics::Estimate& measured, int replicates) {
+CheckedReading check(const ExactReading& exact, const statistics::Estimate& measured, int replicates,
+                     double patch_error) {
     statistics::Estimate estimate = measured;
     estimate.standard_error = std::hypot(measured.standard_error, kRounding * exact.value);
-    const double off = exact.tolerance * exact.value;
+    const double off = exact.tolerance * exact.value + patch_error;
     const double nearest = std::clamp(measured.value, exact.value - off, exact.value + off);
     return {exact, measured, statistics::equivalent_z(z_score(estimate, nearest), replicates - 1)};
 }
@@ -62,8 +63,9 @@ Verification verify(const VerificationCase& verification_case, const RunOptions&
                         measured.stop_reason,
                         measured.elapsed_s};
     for (std::size_t j = 0; j < sensors.size(); ++j) {
-        result.readings.push_back(check(verification_case.readings[j],
-                                        measured.sensors[j].readings[0].estimate, measured.replicates));
+        const Reading& reading = measured.sensors[j].readings[0];
+        result.readings.push_back(check(verification_case.readings[j], reading.estimate, measured.replicates,
+                                        reading.patch_error.value_or(0)));
     }
     return result;
 }

@@ -71,7 +71,10 @@ struct Verification {
     bool contradicts() const;
 };
 
-CheckedReading check(const ExactReading& exact, const statistics::Estimate& measured, int replicates);
+/// Whether a measured value contradicts the exact one. `patch_error`: the part of the measured interval that
+/// stands for the bias of patches, on each side; nothing within it is a contradiction.
+CheckedReading check(const ExactReading& exact, const statistics::Estimate& measured, int replicates,
+                     double patch_error = 0);
 
 /// Measures with `options`; every reading meets the requested error, not only 95 % of them.
 Verification verify(const VerificationCase& verification_case, const RunOptions& options,

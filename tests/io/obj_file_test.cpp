@@ -244,6 +244,7 @@ TEST(MeshFile, files_that_cannot_be_read) {
     std::filesystem::create_directory(directory);
     EXPECT_EQ(message(directory),
               directory.string() + ": cannot be read, because it is a folder. Name a file.");
+    EXPECT_EQ(message("/tmp"), "/tmp: cannot be read, because it is a folder. Name a file.");
 }
 
 TEST(MeshFile, extension_in_any_case) {

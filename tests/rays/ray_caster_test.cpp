@@ -252,6 +252,25 @@ TEST(RayCaster, FlatSurfacesDoNotShadowThemselves) {
     }
 }
 
+TEST(RayCaster, LiftsPointsOfAHouseAsFarFromTheMiddleOfItsGround) {
+    // In a room of 8 m, points are lifted by 8 micrometres; here by no more than the ground's parts of 8 m.
+    constexpr double kMost_m = 16e-6;
+    Scene scene;
+    scene.materials.push_back({"white", Material{Diffuse{Rgb::grey(0.5)}}});
+    const Vec3 house{2900, -3300, 0};
+    const auto add = [&](Shape shape) { scene.objects.push_back({"", std::move(shape), {MaterialId{0}}}); };
+    add(Rectangle{{-4000, -4000, 0}, {8000, 0, 0}, {0, 8000, 0}});
+    add(Box{house - Vec3{4, 4, 0}, house + Vec3{4, 4, 3}});
+    add(Box{house + Vec3{1, 1, 0}, house + Vec3{2, 2, 1}});
+    const RayCaster caster(scene);
+    for (const Vec3& start : {Vec3{-2.2, 0.3, 1}, Vec3{1.4, 1.3, 1.5}, Vec3{6.1, 1.2, 1}}) {
+        const auto hit = caster.closest(house + start, {0, 0, -1});
+        ASSERT_TRUE(hit);
+        EXPECT_GT(hit->lift_m, 0);
+        EXPECT_LE(hit->lift_m, kMost_m);
+    }
+}
+
 TEST(RayCaster, SpheresDoNotShadowThemselves) {
     for (const double radius : {1e-3, 5.0, 1e4}) {
         Scene scene;

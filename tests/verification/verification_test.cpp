@@ -60,6 +60,11 @@ TEST(Check, TakesNothingWithinTheToleranceForAContradiction) {
     EXPECT_NEAR(too_bright.z, check({{}, 101}, estimate(101.3, 0.1), kReplicates).z, 1e-9);
 }
 
+TEST(Check, TakesNothingWithinTheStatedErrorOfPatchesForAContradiction) {
+    EXPECT_EQ(check({{}, 100}, estimate(95.1, 0.1), kReplicates, 5).z, 0);
+    EXPECT_GT(std::abs(check({{}, 100}, estimate(94, 0.1), kReplicates, 5).z), kContradictionZ);
+}
+
 TEST(Verification, JudgesByTheFarthestReadingAndTheWidestInterval) {
     const Verification fine =
         verification_of({{{}, estimate(1, 0.001), 1.5}, {{}, estimate(2, 0.004), -3.9}});

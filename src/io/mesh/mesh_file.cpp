@@ -16,6 +16,7 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
     const std::string extension = extension_of(path);
     if (extension == ".obj") return read_obj(read_whole_file(path), path.string());
     if (extension == ".ply") return read_ply(read_whole_file(path), path.string());
+    if (extension.empty()) read_beginning(path, 1);  // names folders, and files that are not there
     throw InputError(fmt::format("the extension {} is not a supported mesh format: use .obj or .ply",
                                  in_quotes(extension)),
                      {path.string()});

@@ -75,7 +75,7 @@ void CrossedLines::add(const Vec3& origin, std::span<const Crossing> crossings) 
 LineGrid::LineGrid(const Bounds& bounds, const Bundle& bundle) {
     if (bounds.is_empty()) return;
     const auto& [u, v, w] = bundle.frame;
-    const Vec3 middle = 0.5 * (bounds.min + bounds.max), half = bounds.max - middle;
+    const Vec3 middle = bounds.middle(), half = bounds.max - middle;
     const double half_u = half_extent_along(u, half), half_v = half_extent_along(v, half);
     const double half_w = half_extent_along(w, half) + kRelativeMargin * bounds.half_extent();
     width = line_count(2 * half_u, bundle.spacing_m);
