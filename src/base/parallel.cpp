@@ -5,10 +5,18 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+
 namespace stilb {
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); });
+}
+
+void parallel_for_parts(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
+    constexpr std::size_t part = 4096;
+    parallel_for((count + part - 1) / part,
+                 [&](std::size_t p) { body(p * part, std::min(count, (p + 1) * part)); });
 }
 
 struct ThreadPool::Arena {

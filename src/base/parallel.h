@@ -11,6 +11,10 @@ namespace stilb {
 /// exception of a call ends the loop and is passed on.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
+/// Calls `body(first, last)` for consecutive parts of 0 <= i < count, as above: for loops with little work
+/// for each i. The parts do not depend on threads.
+void parallel_for_parts(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
+
 /// Threads for parallel loops.
 class ThreadPool {
   public:

@@ -32,6 +32,9 @@ struct MeasureRequest {
     RunFlags flags;
 };
 
+/// Of the statistics of a reading, and of its place in a file, on two threads. It counts for many readings.
+constexpr double kFinishing_s = 3e-6;
+
 /// Writes the files that the request names.
 void write_files(const RunResult& result, const MeasureRequest& request) {
     if (!request.output.empty()) io::replace_file(request.output, io::to_json(result, request.scene));
@@ -46,7 +49,10 @@ void write_files(const RunResult& result, const MeasureRequest& request) {
 int run_measure(const MeasureRequest& request) {
     const io::SceneFile file = read_scene(request.scene);
     const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, request.sensors, request.scene);
-    const RunOptions options = request.flags.over(file.run);
+    std::size_t readings = 0;
+    for (const Sensor& sensor : sensors) readings += sensor.size();
+    const RunOptions options =
+        with_reserve(request.flags.over(file.run), kFinishing_s * static_cast<double>(readings));
     if (!request.output.empty()) io::require_output(request.output, io::FileKind::results, file.sources);
     if (!request.picture.empty()) plot::require_picture_path(request.picture, file.sources);
     if (!request.csv_directory.empty()) io::prepare_results_csv(sensors, request.csv_directory);

@@ -25,6 +25,8 @@ namespace stilb::cli {
 namespace {
 
 constexpr double kPreviewEvery_s = 3;
+/// Of the statistics of a pixel, and of its place in a file, on two threads. It counts for large pictures.
+constexpr double kFinishing_s = 3e-7;
 
 struct RenderRequest {
     std::string scene, solution, sensor, output, preview, command;
@@ -117,7 +119,8 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
         return render_solution(file.scene, sensor, std::move(stored->solution), threads, &progress,
                                &watch_for_interrupt());
     }
-    const RunOptions options = request.flags.over(file.run);
+    const auto [width, height] = sensor.camera()->resolution;
+    const RunOptions options = with_reserve(request.flags.over(file.run), kFinishing_s * width * height);
     origin.method = options.method;
     origin.seed = options.seed;
     RenderProgress progress(request, *sensor.camera(), origin);

@@ -106,6 +106,11 @@ RunOptions RunFlags::over(RunOptions options) const {
     return options;
 }
 
+RunOptions with_reserve(RunOptions options, double time_s) {
+    if (options.time_s) options.reserved_s = std::min(time_s, *options.time_s / 2);
+    return options;
+}
+
 namespace {
 
 constexpr std::array<std::string_view, 3> kWindowNames{"cube", "hemicube", "tetrahedron"};

@@ -105,8 +105,12 @@ void Campaign::require_valid() const {
 }
 
 Campaign::Estimates Campaign::estimates(std::size_t first, std::size_t count, double confidence) const {
-    const std::vector<double> means = replicate_means(first, count);
-    Estimates all{statistics::estimate_readings({means, count}, confidence, rare_light(first, count)), {}};
+    Estimates all;
+    all.replicate_means = replicate_means(first, count);
+    all.largest = largest(first, count);
+    for (const statistics::LargestContributions& reading : all.largest)
+        all.rare_light.push_back(statistics::rare_light(reading, samples_in_all()));
+    all.readings = statistics::estimate_readings({all.replicate_means, count}, confidence, all.rare_light);
     const std::vector<double> differences = lacking(first, count);
     if (differences.empty()) return all;
     std::vector<double> values;
@@ -118,46 +122,57 @@ Campaign::Estimates Campaign::estimates(std::size_t first, std::size_t count, do
 }
 
 std::vector<double> Campaign::replicate_means(std::size_t first, std::size_t count) const {
-    std::vector<double> means;
-    means.reserve(replicates_.size() * count);
+    std::vector<double> means(replicates_.size() * count);
     const auto known = estimator_.known_part();
-    for (const Replicate& replicate : replicates_) {
-        for (std::size_t j = first; j < first + count; ++j) {
-            means.push_back(known[j].luminance() + replicate.mean(j).luminance());
+    parallel_for(replicates_.size(), [&](std::size_t r) {
+        for (std::size_t j = 0; j < count; ++j) {
+            means[r * count + j] = known[first + j].luminance() + replicates_[r].mean(first + j).luminance();
         }
-    }
+    });
     return means;
 }
 
 std::vector<double> Campaign::lacking(std::size_t first, std::size_t count) const {
-    std::vector<double> differences;
-    for (const Replicate& replicate : replicates_) {
-        const estimators::ReadingSums& sums = replicate.sums;
-        if (sums.comparisons == 0) return {};
-        for (std::size_t j = first; j < first + count; ++j)
-            differences.push_back(sums.lacking[j].luminance() / static_cast<double>(sums.comparisons));
-    }
+    const auto is_compared = [](const Replicate& replicate) { return replicate.sums.comparisons > 0; };
+    if (!std::ranges::all_of(replicates_, is_compared)) return {};
+    std::vector<double> differences(replicates_.size() * count);
+    parallel_for(replicates_.size(), [&](std::size_t r) {
+        const estimators::ReadingSums& sums = replicates_[r].sums;
+        for (std::size_t j = 0; j < count; ++j) {
+            differences[r * count + j] =
+                sums.lacking[first + j].luminance() / static_cast<double>(sums.comparisons);
+        }
+    });
     return differences;
 }
 
-std::vector<double> Campaign::rare_light(std::size_t first, std::size_t count) const {
-    std::vector<double> rare(count);
-    for (std::size_t j = 0; j < count; ++j)
-        rare[j] = statistics::rare_light(largest(first + j), samples_in_all());
-    return rare;
+std::vector<Rgb> Campaign::rgb(std::size_t first, std::size_t count) const {
+    std::vector<Rgb> all(count);
+    const auto known = estimator_.known_part();
+    parallel_for_parts(count, [&](std::size_t begin, std::size_t end) {
+        for (const Replicate& replicate : replicates_) {
+            for (std::size_t j = begin; j < end; ++j) all[j] += replicate.mean(first + j);
+        }
+        for (std::size_t j = begin; j < end; ++j)
+            all[j] = known[first + j] + all[j] * (1 / static_cast<double>(replicates_.size()));
+    });
+    return all;
 }
 
-Rgb Campaign::rgb(std::size_t reading) const {
-    Rgb sum;
-    for (const Replicate& replicate : replicates_) sum += replicate.mean(reading);
-    return estimator_.known_part()[reading] + sum * (1 / static_cast<double>(replicates_.size()));
-}
-
-statistics::LargestContributions Campaign::largest(std::size_t reading) const {
-    std::vector<double> of_replicates;
-    of_replicates.reserve(replicates_.size());
-    for (const Replicate& replicate : replicates_) of_replicates.push_back(replicate.sums.largest[reading]);
-    return statistics::largest_contributions(of_replicates);
+std::vector<statistics::LargestContributions> Campaign::largest(std::size_t first, std::size_t count) const {
+    std::vector<statistics::LargestContributions> all(count);
+    const std::size_t width = replicates_.size();
+    parallel_for_parts(count, [&](std::size_t begin, std::size_t end) {
+        // Replicate by replicate, in the order of the memory.
+        std::vector<double> of_replicates((end - begin) * width);
+        for (std::size_t r = 0; r < width; ++r) {
+            const double* own = &replicates_[r].sums.largest[first];
+            for (std::size_t j = begin; j < end; ++j) of_replicates[(j - begin) * width + r] = own[j];
+        }
+        for (std::size_t j = begin; j < end; ++j)
+            all[j] = statistics::largest_contributions({&of_replicates[(j - begin) * width], width});
+    });
+    return all;
 }
 
 }  // namespace stilb::run

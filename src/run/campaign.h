@@ -52,16 +52,15 @@ class Campaign final : public Work {
 
     struct Estimates {
         std::vector<statistics::Estimate> readings;
+        /// Replicates x readings, luminance-weighted [lx or cd/m2].
+        std::vector<double> replicate_means;
+        std::vector<statistics::LargestContributions> largest;
+        /// Light that the readings may lack because it is rare [lx or cd/m2].
+        std::vector<double> rare_light;
         std::optional<statistics::BiasBounds> bias;  ///< of methods on patches; the intervals contain it
     };
     Estimates estimates(std::size_t first, std::size_t count, double confidence) const;
-    /// Replicates x readings, luminance-weighted [lx or cd/m2].
-    std::vector<double> replicate_means(std::size_t first, std::size_t count) const;
-    /// Light that the readings may lack because it is rare [lx or cd/m2].
-    std::vector<double> rare_light(std::size_t first, std::size_t count) const;
-
-    Rgb rgb(std::size_t reading) const;
-    statistics::LargestContributions largest(std::size_t reading) const;
+    std::vector<Rgb> rgb(std::size_t first, std::size_t count) const;
 
   private:
     struct Replicate {
@@ -75,7 +74,8 @@ class Campaign final : public Work {
         std::uint64_t samples = 0;
     };
 
-    bool is_compared() const { return replicates_[0].sums.comparisons > 0; }
+    std::vector<double> replicate_means(std::size_t first, std::size_t count) const;
+    std::vector<statistics::LargestContributions> largest(std::size_t first, std::size_t count) const;
     /// Replicates x readings: by how much path tracing finds more light, luminance-weighted.
     std::vector<double> lacking(std::size_t first, std::size_t count) const;
 

@@ -79,76 +79,71 @@ std::vector<std::string> patch_error_warnings(const RunResult& result) {
     std::vector<std::string> warnings;
     for (const SensorResult& sensor : result.sensors) {
         if (!sensor.patch_error || *sensor.patch_error <= much * sensor.attained_error) continue;
-        warnings.push_back(
-            fmt::format("sensor \"{}\": path tracing from some of its points differs by up to {:.2g} % from "
-                        "the light of the "
-                        "patches of {:.2g} m. The intervals include this error. Choose smaller patches, or "
-                        "method auto, which "
-                        "needs none.",
-                        sensor.sensor.name, 100 * *sensor.patch_error, result.patches->size_m));
+        warnings.push_back(fmt::format(
+            "sensor \"{}\": path tracing from some of its points differs by up to {:.2g} % from the "
+            "light of the patches of {:.2g} m. The intervals include this error. Choose smaller "
+            "patches, or method auto, which needs none.",
+            sensor.sensor.name, 100 * *sensor.patch_error, result.patches->size_m));
     }
     return warnings;
 }
 
+/// " at 3 of 12 readings", where there are several.
+std::string at_readings(std::size_t count, const Sensor& sensor) {
+    const std::size_t all = sensor.size();
+    return all == 1 ? "" : fmt::format(" at {} of {} readings", count, all);
+}
+
+/// Warns of readings whose light was found by few samples, or by none.
+std::vector<std::string> rarity_warnings(const Campaign::Estimates& estimates, std::uint64_t samples,
+                                         const Sensor& sensor) {
+    std::size_t dark = 0, uncertain = 0;
+    for (std::size_t j = 0; j < sensor.size(); ++j) {
+        const bool is_dark = estimates.readings[j].value == 0;
+        dark += is_dark;
+        uncertain += !is_dark && rests_on_few_samples(estimates.readings[j], estimates.largest[j], samples);
+    }
+    std::vector<std::string> warnings;
+    if (dark > 0) {
+        warnings.push_back(
+            fmt::format("sensor \"{}\": {} samples found no light{}. If light gets there, the run needs more "
+                        "paths or more time to find it.",
+                        sensor.name, samples, at_readings(dark, sensor)));
+    }
+    // As for the limit on the error, the worst readings of a large sensor do not count.
+    const double tolerated = (1 - statistics::kReadingShare) * static_cast<double>(sensor.size());
+    if (static_cast<double>(uncertain) > tolerated) {
+        warnings.push_back(
+            fmt::format("sensor \"{}\": a few rare light paths make up much of the light, or of its error{}. "
+                        "More of them may be missing, so that the interval is too narrow: give the run more "
+                        "paths or more time.",
+                        sensor.name, at_readings(uncertain, sensor)));
+    }
+    return warnings;
+}
+
+/// `first`: of the sensor's readings.
 SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::size_t first,
-                           std::span<const std::optional<Vec3>> sight_ends, double confidence) {
+                           std::span<const std::optional<Vec3>> sight_ends, double confidence,
+                           std::vector<std::string>& warnings) {
     const std::size_t count = sensor.size();
     SensorResult result;
     result.sensor = sensor;
-    result.replicate_means = campaign.replicate_means(first, count);
-    const Campaign::Estimates estimates = campaign.estimates(first, count, confidence);
-    result.summary = statistics::summarize_grid({result.replicate_means, count}, confidence,
-                                                campaign.rare_light(first, count));
+    Campaign::Estimates estimates = campaign.estimates(first, count, confidence);
+    std::ranges::move(rarity_warnings(estimates, campaign.samples_in_all(), sensor),
+                      std::back_inserter(warnings));
+    result.summary =
+        statistics::summarize_grid({estimates.replicate_means, count}, confidence, estimates.rare_light);
+    result.replicate_means = std::move(estimates.replicate_means);
     result.attained_error = statistics::attained_error(estimates.readings);
-    for (std::size_t j = 0; j < count; ++j)
-        result.readings.push_back({estimates.readings[j], campaign.rgb(first + j)});
+    const std::vector<Rgb> rgb = campaign.rgb(first, count);
+    for (std::size_t j = 0; j < count; ++j) result.readings.push_back({estimates.readings[j], rgb[j]});
     if (estimates.bias) include_patch_error(*estimates.bias, result);
     if (std::holds_alternative<Luminance>(sensor.kind)) {
         const auto ends = sight_ends.subspan(first, count);
         result.sub_points.assign(ends.begin(), ends.end());
     }
     return result;
-}
-
-/// " at 3 of 12 readings", where there are several.
-std::string at_readings(std::size_t count, const SensorResult& sensor) {
-    const std::size_t all = sensor.readings.size();
-    return all == 1 ? "" : fmt::format(" at {} of {} readings", count, all);
-}
-
-/// Warns of readings whose light was found by few samples, or by none.
-std::vector<std::string> rarity_warnings(const Campaign& campaign, std::span<const SensorResult> sensors) {
-    std::vector<std::string> warnings;
-    const std::uint64_t samples = campaign.samples_in_all();
-    std::size_t first = 0;
-    for (const SensorResult& sensor : sensors) {
-        std::size_t dark = 0, uncertain = 0;
-        for (std::size_t j = 0; j < sensor.readings.size(); ++j) {
-            const statistics::Estimate& estimate = sensor.readings[j].estimate;
-            const bool is_dark = estimate.value == 0;
-            dark += is_dark;
-            uncertain += !is_dark && rests_on_few_samples(estimate, campaign.largest(first + j), samples);
-        }
-        // As for the limit on the error, the worst readings of a large sensor do not count.
-        const double tolerated =
-            (1 - statistics::kReadingShare) * static_cast<double>(sensor.readings.size());
-        if (dark > 0) {
-            warnings.push_back(
-                fmt::format("sensor \"{}\": {} samples found no light{}. If light gets there, the run needs "
-                            "more paths or more "
-                            "time to find it.",
-                            sensor.sensor.name, samples, at_readings(dark, sensor)));
-        }
-        if (static_cast<double>(uncertain) > tolerated) {
-            warnings.push_back(fmt::format(
-                "sensor \"{}\": a few rare light paths make up much of the light, or of its error{}. More of "
-                "them "
-                "may be missing, so that the interval is too narrow: give the run more paths or more time.",
-                sensor.sensor.name, at_readings(uncertain, sensor)));
-        }
-        first += sensor.readings.size();
-    }
-    return warnings;
 }
 
 /// The measurands of all sensors, with the weights for a run that stops when each sensor as a whole is exact
@@ -176,17 +171,6 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
         "object \"{}\" reflects or refracts small lamps sharply, and few samples find such light. The "
         "intervals may be too narrow with fewer than {:.2g} paths; this run had {}.",
         scene.object(sharp.object).name, static_cast<double>(sharp.samples), samples)};
-}
-
-void add_warnings(const Campaign& campaign, const Scene& scene, std::vector<std::string> of_scene,
-                  const transport::SharpLight& sharp, RunResult& result) {
-    const auto append = [&](std::vector<std::string> more) {
-        std::ranges::move(more, std::back_inserter(result.warnings));
-    };
-    append(std::move(of_scene));
-    append(rarity_warnings(campaign, result.sensors));
-    append(sharp_light_warnings(sharp, result.samples, scene));
-    append(patch_error_warnings(result));
 }
 
 }  // namespace
@@ -230,12 +214,18 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     // A run that stopped by its own error estimate stops sooner where the estimate happens to be too small
     // (docs/statistics.md).
     const double confidence = options.error ? statistics::kStoppedConfidence : kConfidence;
+    const auto warn = [&](std::vector<std::string> more) {
+        std::ranges::move(more, std::back_inserter(result.warnings));
+    };
+    warn(std::move(of_scene));
     std::size_t first = 0;
     for (const Sensor& sensor : sensors) {
-        result.sensors.push_back(sensor_result(campaign, sensor, first, estimator->sight_ends(), confidence));
+        result.sensors.push_back(
+            sensor_result(campaign, sensor, first, estimator->sight_ends(), confidence, result.warnings));
         first += sensor.size();
     }
-    add_warnings(campaign, scene, std::move(of_scene), sharp, result);
+    warn(sharp_light_warnings(sharp, result.samples, scene));
+    warn(patch_error_warnings(result));
     session.finish(result);
     return result;
 }

@@ -52,11 +52,13 @@ class PictureSums {
 
     void add(const std::vector<std::array<float, 3>>& pass) {
         const std::size_t replicate = passes_ % replicates_;
-        for (std::size_t i = 0; i < rgb_.size(); ++i) {
-            for (std::size_t b = 0; b < kBands; ++b) rgb_[i][b] += pass[i][b];
-            luminance_[i * replicates_ + replicate] +=
-                static_cast<float>(Rgb{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
-        }
+        parallel_for_parts(rgb_.size(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                for (std::size_t b = 0; b < kBands; ++b) rgb_[i][b] += pass[i][b];
+                luminance_[i * replicates_ + replicate] +=
+                    static_cast<float>(Rgb{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
+            }
+        });
         ++passes_;
     }
 
@@ -84,12 +86,16 @@ class PictureSums {
 
     Pixels pixels() const {
         Pixels pixels;
+        pixels.rgb_cd_m2.resize(rgb_.size());
+        if (replicates() > 1) pixels.standard_error_cd_m2.resize(rgb_.size());
         const float per_pass = 1 / static_cast<float>(passes_);
-        for (std::size_t i = 0; i < rgb_.size(); ++i) {
-            pixels.rgb_cd_m2.push_back({rgb_[i][0] * per_pass, rgb_[i][1] * per_pass, rgb_[i][2] * per_pass});
-            if (replicates() < 2) continue;
-            pixels.standard_error_cd_m2.push_back(static_cast<float>(standard_error_cd_m2(i)));
-        }
+        parallel_for_parts(rgb_.size(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                for (std::size_t b = 0; b < kBands; ++b) pixels.rgb_cd_m2[i][b] = rgb_[i][b] * per_pass;
+                if (replicates() > 1)
+                    pixels.standard_error_cd_m2[i] = static_cast<float>(standard_error_cd_m2(i));
+            }
+        });
         return pixels;
     }
 
@@ -115,12 +121,16 @@ double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
     if (used < 2) return std::numeric_limits<double>::infinity();
     const double t =
         statistics::student_t_quantile((1 + statistics::kStoppedConfidence) / 2, static_cast<int>(used) - 1);
-    std::vector<double> half_widths;
-    for (std::size_t i = 0; i < blind.size(); ++i) {
-        if (blind[i]) continue;
-        const double error = t * sums.standard_error_cd_m2(i);
-        half_widths.push_back(error > 0 ? error / sums.luminance_cd_m2(i) : 0);
-    }
+    constexpr double none = -1;
+    std::vector<double> half_widths(blind.size(), none);
+    parallel_for_parts(blind.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            if (blind[i]) continue;
+            const double error = t * sums.standard_error_cd_m2(i);
+            half_widths[i] = error > 0 ? error / sums.luminance_cd_m2(i) : 0;
+        }
+    });
+    std::erase(half_widths, none);
     return statistics::attained_error_of(std::move(half_widths));
 }
 
@@ -247,20 +257,23 @@ void add_geometry(const Camera& camera, const rays::RayCaster& caster, RenderRes
     });
 }
 
-void add_means(const PictureSums& sums, const std::vector<bool>& blind, RenderResult& result) {
+void add_means(const std::vector<bool>& blind, RenderResult& result) {
     double luminance = 0, error = 0, pixels = 0;
+    auto& [rgb_cd_m2, standard_error_cd_m2] = result.pixels;
     for (std::size_t i = 0; i < blind.size(); ++i) {
         if (blind[i]) {
-            result.pixels.rgb_cd_m2[i] = {kNoValue, kNoValue, kNoValue};
-            if (sums.replicates() > 1) result.pixels.standard_error_cd_m2[i] = kNoValue;
+            rgb_cd_m2[i] = {kNoValue, kNoValue, kNoValue};
+            if (!standard_error_cd_m2.empty()) standard_error_cd_m2[i] = kNoValue;
             continue;
         }
-        luminance += sums.luminance_cd_m2(i);
-        error += sums.standard_error_cd_m2(i);
+        const auto& [r, g, b] = rgb_cd_m2[i];
+        luminance += Rgb{{r, g, b}}.luminance();
+        if (!standard_error_cd_m2.empty()) error += standard_error_cd_m2[i];
         ++pixels;
     }
     result.mean_luminance_cd_m2 = luminance / pixels;
-    result.mean_standard_error_cd_m2 = error / pixels;
+    result.mean_standard_error_cd_m2 =
+        standard_error_cd_m2.empty() ? std::numeric_limits<double>::infinity() : error / pixels;
 }
 
 /// The options with defaults for a picture without targets.
@@ -282,13 +295,11 @@ void add_patch_error(const PictureComparison::Bias& bias, RenderResult& result) 
     constexpr double much = 0.5;
     result.patch_error = bias.at_most;
     if (kBiasesOfMostPixels * bias.at_most <= much * result.attained_error) return;
-    result.warnings.push_back(
-        fmt::format("path tracing through some pixels differs by up to {:.2g} % (root mean square) from this "
-                    "picture, whose "
-                    "light is stored on patches. The stated error of the pixels includes this, their "
-                    "standard errors do not. "
-                    "Choose smaller patches, or method auto, which needs none.",
-                    100 * bias.at_most));
+    result.warnings.push_back(fmt::format(
+        "path tracing through some pixels differs by up to {:.2g} % (root mean square) from this "
+        "picture, whose light is stored on patches. The stated error of the pixels includes this, "
+        "their standard errors do not. Choose smaller patches, or method auto, which needs none.",
+        100 * bias.at_most));
 }
 
 /// `options`: `asked` with defaults.
@@ -305,6 +316,7 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
             session.problem(math::RandomKey{options.seed}.derived(kPicturePreparation));
         problem.camera = camera;
         const auto estimator = method.make(problem);
+        add_geometry(camera, session.caster(), result);  // before the samples, so that it counts in the time
         std::optional<PictureComparison> comparison;
         if (method.lights_patches)
             comparison.emplace(problem, blind, math::RandomKey{options.seed}.derived(kPictureComparison));
@@ -314,9 +326,8 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
         session.describe(*estimator, result);
         result.replicates = static_cast<int>(passes.sums().replicates());
         result.pixels = passes.sums().pixels();
-        add_means(passes.sums(), blind, result);
+        add_means(blind, result);
         if (comparison) add_patch_error(passes.bias(), result);
-        add_geometry(camera, session.caster(), result);
     });
     std::ranges::move(of_scene, std::back_inserter(result.warnings));
     session.finish(result);

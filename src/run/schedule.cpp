@@ -17,8 +17,15 @@ std::optional<Monitor::Clock::time_point> deadline_of(const RunOptions& asked) {
     if (!asked.time_s) return std::nullopt;
     // Durations beyond the range of the clock count as unlimited.
     constexpr double longest_s = 1e9;
-    const std::chrono::duration<double> time(std::min(*asked.time_s, longest_s));
+    const std::chrono::duration<double> time(std::min(*asked.time_s - asked.reserved_s, longest_s));
     return Monitor::Clock::now() + std::chrono::duration_cast<Monitor::Clock::duration>(time);
+}
+
+/// Why samples end before the time limit, where a user would notice.
+std::string reserve_text(double reserved_s) {
+    constexpr double noticeable_s = 0.1;
+    if (reserved_s < noticeable_s) return "";
+    return fmt::format(" ({:.1f} s are for writing the result)", reserved_s);
 }
 
 Monitor::Report report_to(ProgressSink* sink, const Clock& clock) {
@@ -62,11 +69,11 @@ std::optional<StopReason> Schedule::advance(std::uint64_t count, Work& work) con
         if (!is_interrupted()) work.advance(count);
     } catch (const Cancelled&) {
         if (!work.has_result() && !is_interrupted()) {
-            throw Cancelled(
-                fmt::format("time limit reached after {:.2g} s, before the first result: there is no "
-                            "result yet. Allow more time, or reduce the work: fewer readings or "
-                            "pixels, larger patches.",
-                            clock_.elapsed_s()));
+            throw Cancelled(fmt::format(
+                "time limit reached after {:.2g} s{}, before the first result: there is no result "
+                "yet. Allow more time, or reduce the work: fewer readings or pixels, larger "
+                "patches.",
+                clock_.elapsed_s(), reserve_text(options_.reserved_s)));
         }
         if (!is_interrupted()) return StopReason::time_over;
     }
@@ -80,7 +87,8 @@ std::optional<StopReason> Schedule::advance(std::uint64_t count, Work& work) con
 bool Schedule::is_time_over(const Work& work, std::uint64_t next) const {
     if (!options_.time_s) return false;
     const double per_sample_s = begun_.elapsed_s() / static_cast<double>(work.samples());
-    return clock_.elapsed_s() + per_sample_s * static_cast<double>(next) > *options_.time_s;
+    const double end_s = clock_.elapsed_s() + per_sample_s * static_cast<double>(next);
+    return end_s > *options_.time_s - options_.reserved_s;
 }
 
 void Schedule::report(const Work& work, std::uint64_t last, double error) const {

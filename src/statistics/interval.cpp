@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/parallel.h"
+
 namespace stilb::statistics {
 
 double student_t_quantile(double probability, int degrees_of_freedom) {
@@ -50,13 +52,14 @@ ReplicateMoments compute_replicate_moments(const ReplicateTable& table) {
     // exactly 0.
     const std::span<const double> origin = table.row(0);
     std::vector<double> means(table.readings, 0.0);
-    for (std::size_t r = 1; r < replicates; ++r) {
-        const std::span<const double> row = table.row(r);
-        for (std::size_t j = 0; j < means.size(); ++j) means[j] += row[j] - origin[j];
-    }
-    for (std::size_t j = 0; j < means.size(); ++j) {
-        means[j] = origin[j] + means[j] / static_cast<double>(replicates);
-    }
+    parallel_for_parts(means.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t r = 1; r < replicates; ++r) {
+            const std::span<const double> row = table.row(r);
+            for (std::size_t j = first; j < last; ++j) means[j] += row[j] - origin[j];
+        }
+        for (std::size_t j = first; j < last; ++j)
+            means[j] = origin[j] + means[j] / static_cast<double>(replicates);
+    });
     const std::vector<double> slopes(table.readings, 0.0), common(replicates, 0.0);
     std::vector<double> errors = residual_standard_errors(table, means, slopes, common);
     return {std::move(means), std::move(errors)};
@@ -65,16 +68,19 @@ ReplicateMoments compute_replicate_moments(const ReplicateTable& table) {
 std::vector<double> residual_standard_errors(const ReplicateTable& table, std::span<const double> means,
                                              std::span<const double> slopes, std::span<const double> common) {
     std::vector<double> errors(table.readings, 0.0);
-    for (std::size_t r = 0; r < table.replicates(); ++r) {
-        const std::span<const double> row = table.row(r);
-        const double shift = common[r];
-        for (std::size_t j = 0; j < errors.size(); ++j) {
-            const double residual = row[j] - means[j] - slopes[j] * shift;
-            errors[j] += residual * residual;
-        }
-    }
     const double replicates = static_cast<double>(table.replicates());
-    for (double& error : errors) error = std::sqrt(error / (replicates * (replicates - 1)));
+    parallel_for_parts(errors.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t r = 0; r < table.replicates(); ++r) {
+            const std::span<const double> row = table.row(r);
+            const double shift = common[r];
+            for (std::size_t j = first; j < last; ++j) {
+                const double residual = row[j] - means[j] - slopes[j] * shift;
+                errors[j] += residual * residual;
+            }
+        }
+        for (std::size_t j = first; j < last; ++j)
+            errors[j] = std::sqrt(errors[j] / (replicates * (replicates - 1)));
+    });
     return errors;
 }
 

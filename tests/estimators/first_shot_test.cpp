@@ -321,7 +321,47 @@ TEST(FirstShot, CountsPatchesThatNoPixelSees) {
     };
     EXPECT_GT(missed(32), patches / 2);
     EXPECT_EQ(missed(32) + seen(32), patches);
-    EXPECT_EQ(missed(first_shot_resolution(patches)), 0u);
+    EXPECT_EQ(missed(first_shot_resolution(patches, 1)), 0u);
+}
+
+/// A cube with many points of light.
+Scene cube_with_lights(int along_edge) {
+    Scene scene;
+    add_object(scene, inward({{0, 0, 0}, {4, 4, 4}}), diffuse(0.5));
+    for (int i = 0; i < along_edge * along_edge * along_edge; ++i) {
+        const Vec3 steps(i % along_edge, i / along_edge % along_edge, i / (along_edge * along_edge));
+        add_point_light(scene, Vec3{0.9, 1, 1.1} + (2.0 / along_edge) * steps, {{10, 10, 10}});
+    }
+    return scene;
+}
+
+TEST(FirstShot, NeedsFewerPixelsForManySamples) {
+    const auto error = [](int along_edge) {
+        const PreparedScene cube(cube_with_lights(along_edge), 0.4);
+        const auto shot_at = [&](int resolution) {
+            return cube.first_shot(options(FirstShotVariant::incoming, resolution));
+        };
+        const FirstShot automatic = shot_at(ShootingOptions::kAutomatic), fine = shot_at(256);
+        EXPECT_EQ(automatic.resolution(),
+                  first_shot_resolution(cube.patches.count(), std::pow(along_edge, 3)));
+        return difference(
+            cube, [&](std::uint32_t side) { return reflected_from_middle(cube, automatic, side); },
+            [&](std::uint32_t side) { return reflected_from_middle(cube, fine, side); });
+    };
+    EXPECT_LT(error(4), error(1));
+    EXPECT_EQ(first_shot_resolution(12000, 16), first_shot_resolution(12000, 1));
+    EXPECT_LT(first_shot_resolution(12000, 125), 0.52 * first_shot_resolution(12000, 16));
+}
+
+TEST(FirstShot, CountsTheSamplesThatMatter) {
+    const auto number_of = [](const Scene& scene) {
+        const PreparedScene room(scene, 1);
+        return effective_number(room.scene, choose_first_shot_lights(room.scene, room.caster, {}));
+    };
+    Scene cube = cube_with_lights(3);
+    EXPECT_NEAR(number_of(cube), 27, 1e-9);
+    add_point_light(cube, {2, 2, 2}, Rgb::grey(10'000));
+    EXPECT_NEAR(number_of(cube), 1, 0.1);
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ TEST(ExrFile, SaysWhatItsValuesAre) {
         EXPECT_EQ(it.channel().type, Imf::FLOAT);
     }
     EXPECT_EQ(channels, "B G N.X N.Y N.Z R SE.Y Y Z ");
-    EXPECT_EQ(header.compression(), Imf::ZIP_COMPRESSION);
+    EXPECT_EQ(header.compression(), Imf::PIZ_COMPRESSION);
     EXPECT_EQ(Imf::whiteLuminance(header), 1);
     EXPECT_EQ(Imf::chromaticities(header).green, Imath::V2f(0.30f, 0.60f));
     const auto text = [&](const char* name) {

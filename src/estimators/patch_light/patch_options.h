@@ -29,6 +29,7 @@ struct ShootingOptions {
     patches::BufferShape window =
         patches::BufferShape::hemicube;  ///< around samples of area lights; points have cubes
     patches::BufferBackend backend = patches::BufferBackend::rays;
+    static constexpr int kAutomatic = 0;  ///< first shot: by the numbers of patches and light samples
     int resolution = 512;
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "base/parallel.h"
 #include "io/results/locations.h"
 #include "io/text/table.h"
 #include "stilb/error.h"
@@ -54,10 +55,7 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     if (const auto count = sensor.count()) json["count"] = *count;
     json["attained_error"] = result.attained_error;
     if (result.patch_error) json["patch_error"] = *result.patch_error;
-    Json values = Json::array();
-    for (std::size_t j = 0; j < result.readings.size(); ++j)
-        values.push_back(reading_json(result, sensor, j));
-    json["values"] = std::move(values);
+    json["values"] = nullptr;  // with_readings() fills them in
     json["summary"] = summary_json(result.summary, !sensor.measures_luminance());
     return json;
 }
@@ -98,6 +96,35 @@ const char* text_of(StopReason reason) {
     return "";
 }
 
+/// The readings of a sensor as JSON, in their order.
+std::vector<std::string> reading_texts(const SensorResult& result) {
+    std::vector<std::string> texts(result.readings.size());
+    parallel_for_parts(texts.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t j = first; j < last; ++j) texts[j] = reading_json(result, result.sensor, j).dump();
+    });
+    return texts;
+}
+
+/// `document` with an array of the readings in place of each `"values": null`, a line for each reading.
+/// Documents of many readings would take long as one tree.
+std::string with_readings(std::string_view document, std::span<const SensorResult> sensors) {
+    constexpr std::string_view kKey = "\"values\": ", kNone = "null";
+    std::string text;
+    for (const SensorResult& sensor : sensors) {
+        // It occurs for each sensor only, because quotation marks within texts are escaped.
+        const std::size_t end = document.find(kKey) + kKey.size();
+        text += document.substr(0, end);
+        std::string_view before = "[\n    ";
+        for (const std::string& reading : reading_texts(sensor)) {
+            text.append(before).append(reading);
+            before = ",\n    ";
+        }
+        text += "\n   ]";
+        document.remove_prefix(end + kNone.size());
+    }
+    return text.append(document);
+}
+
 }  // namespace
 
 std::string to_json(const RunResult& result, const std::string& scene) {
@@ -127,7 +154,7 @@ std::string to_json(const RunResult& result, const std::string& scene) {
     Json list = Json::array();
     for (const SensorResult& sensor : result.sensors) list.push_back(sensor_json(sensor, sensor.sensor));
     json["sensors"] = std::move(list);
-    return json.dump(1) + "\n";
+    return with_readings(json.dump(1), result.sensors) + "\n";
 }
 
 namespace {

@@ -95,10 +95,11 @@ std::vector<std::vector<Lit>> shoot_all(const patches::PatchCaster& caster,
 
 }  // namespace
 
-int first_shot_resolution(std::size_t patches) {
-    constexpr double kPixelsPerPatch = 100, kFaces = 6, kMost = 2048;
-    const double wanted = std::sqrt(kPixelsPerPatch / kFaces * static_cast<double>(patches));
-    return 2 * static_cast<int>(std::ceil(std::clamp(wanted, 64., kMost) / 2));
+int first_shot_resolution(std::size_t patches, double samples) {
+    constexpr double kPixelsPerPatch = 100, kFaces = 6, kLeast = 64, kMost = 2048, kFewSamples = 16;
+    const double of_few = std::sqrt(kPixelsPerPatch / kFaces * static_cast<double>(patches));
+    const double wanted = std::min(of_few, kMost) * std::cbrt(std::min(1.0, kFewSamples / samples));
+    return 2 * static_cast<int>(std::ceil(std::max(wanted, kLeast) / 2));
 }
 
 FirstShotFactors::FirstShotFactors(const patches::PatchCaster& caster, std::span<const LightSample> samples,

@@ -42,10 +42,12 @@ void FirstShot::set_up(const Scene& scene, const rays::RayCaster& caster,
         stored_.emplace<ShadowRays>(rays);
         return;
     }
-    resolution_ = options.shooting.resolution;
-    FirstShotFactors factors(patch_caster, lights_.samples, options.shooting, monitor);
-    missed_ =
-        count_missed(scene, caster, patches, lights_.samples, factors, options.shooting.resolution, monitor);
+    ShootingOptions shooting = options.shooting;
+    if (shooting.resolution == ShootingOptions::kAutomatic)
+        shooting.resolution = first_shot_resolution(patches.count(), effective_number(scene, lights_));
+    resolution_ = shooting.resolution;
+    FirstShotFactors factors(patch_caster, lights_.samples, shooting, monitor);
+    missed_ = count_missed(scene, caster, patches, lights_.samples, factors, shooting.resolution, monitor);
     IncomingFirstShot incoming(scene, patches, lights_, std::move(factors));
     if (variant == FirstShotVariant::classical) {
         stored_.emplace<ClassicalFirstShot>(scene, patches, incoming, HemisphereBins(options.bin_rings));
@@ -78,9 +80,9 @@ std::size_t FirstShot::bytes() const {
 
 namespace {
 
-FirstShotOptions first_shot_options(const PatchOptions& asked, const patches::Patches& patches) {
+FirstShotOptions first_shot_options(const PatchOptions& asked) {
     FirstShotOptions options = asked.first_shot;
-    options.shooting.resolution = asked.resolution.value_or(first_shot_resolution(patches.count()));
+    options.shooting.resolution = asked.resolution.value_or(ShootingOptions::kAutomatic);
     return options;
 }
 
@@ -111,7 +113,7 @@ FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays
       size_m(options.patch_m.value_or(patches::patch_size_m(scene))),
       patches(patches::make_patches(scene, size_m, monitor)),
       patch_caster(patches),
-      first_shot(scene, caster, lights, patch_caster, first_shot_options(options, patches), monitor) {}
+      first_shot(scene, caster, lights, patch_caster, first_shot_options(options), monitor) {}
 
 FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, patches::Patches made,
                                    std::optional<FirstShotFactors> factors)

@@ -225,4 +225,15 @@ FirstShotLights choose_first_shot_lights(const Scene& scene, const rays::RayCast
     return Chooser(scene, caster, center).run();
 }
 
+double effective_number(const Scene& scene, const FirstShotLights& lights) {
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < lights.lights.size(); ++i) {
+        if (!lights.lights[i].is_replaced) continue;
+        const double flux = flux_lm(scene, scene.lights[i]).luminance();
+        sum += flux;
+        squares += flux * flux / static_cast<double>(lights.lights[i].samples);
+    }
+    return squares > 0 ? sum * sum / squares : 1;
+}
+
 }  // namespace stilb::estimators

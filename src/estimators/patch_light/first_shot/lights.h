@@ -71,4 +71,7 @@ struct FirstShotLights {
 FirstShotLights choose_first_shot_lights(const Scene& scene, const rays::RayCaster& caster,
                                          const Vec3& center);
 
+/// The number of samples of equal flux whose independent errors, relative to all light, would be the same.
+double effective_number(const Scene& scene, const FirstShotLights& lights);
+
 }  // namespace stilb::estimators
