@@ -71,7 +71,7 @@ struct PacketPlacement {
 class Lift {
   public:
     Lift() = default;
-    /// The rule for a scene with its largest coordinate relative to this centre.
+    /// The rule for a scene around `center`. `half_extent_m`: its largest coordinate relative to that.
     Lift(const Vec3& center, double half_extent_m) : center_(center), half_extent_m_(half_extent_m) {}
 
     const Vec3& center() const { return center_; }

@@ -32,7 +32,7 @@ struct MeasureRequest {
     RunFlags flags;
 };
 
-/// Of the statistics of a reading, and of its place in a file, on two threads. It counts for many readings.
+/// Seconds a reading that statistics and files take after the last sample. Two threads were measured.
 constexpr double kFinishing_s = 3e-6;
 
 /// Writes the files that the request names.

@@ -52,7 +52,7 @@ struct RunFlags {
     RunOptions over(RunOptions options) const;
 };
 
-/// Leaves so much of a time limit, half of it at most, for what follows the samples: statistics and files.
+/// Keeps `time_s` seconds of a time limit, but half of it at most, for statistics and files.
 RunOptions with_reserve(RunOptions options, double time_s);
 
 }  // namespace stilb::cli

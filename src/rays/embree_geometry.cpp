@@ -12,8 +12,8 @@ namespace stilb::rays {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// Triangles up to this size lift points by 15 micrometres at most, near the centre. Between planes 1 m
-/// apart, readings are wrong by less than 0.005 % then. Smaller rooms stay as they are.
+/// Triangles up to this size lift points by 15 micrometres at most, near the centre: little beside the
+/// distances of lighting. Smaller rooms stay as they are.
 constexpr double kLargeTriangle_m = 8;
 
 /// The common data of a curved surface's callbacks for N rays, at lane i.

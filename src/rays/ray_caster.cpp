@@ -118,15 +118,15 @@ void occlude_in_parts(RayPacket& packet, const LaneMask& lanes, Occlude occlude)
 
 struct RayCaster::Implementation {
     const Scene& scene;
-    Lift rule;                           ///< for points of this scene
-    const Vec3& center = rule.center();  ///< the origin of Embree's coordinates
+    Lift lift_rule;
+    const Vec3& center = lift_rule.center();  ///< the origin of Embree's coordinates
     bool has_panes = false;
     RTCDevice device = nullptr;
     RTCScene embree_scene = nullptr;
     int packet_width = 4;                                     ///< widest that the processor takes natively
     std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
 
-    explicit Implementation(const Scene& s) : scene(s), rule(scene::lift_of(s)) {
+    explicit Implementation(const Scene& s) : scene(s), lift_rule(scene::lift_of(s)) {
         require_within_reach(s);
         has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
             return std::ranges::any_of(object.materials,
@@ -305,8 +305,8 @@ RayCaster::RayCaster(const Scene& scene) : implementation_(std::make_unique<Impl
 RayCaster::~RayCaster() = default;
 
 const Vec3& RayCaster::center() const { return implementation_->center; }
-Lift RayCaster::lift() const { return implementation_->rule; }
-double RayCaster::half_extent_m() const { return implementation_->rule.half_extent_m(); }
+Lift RayCaster::lift() const { return implementation_->lift_rule; }
+double RayCaster::half_extent_m() const { return implementation_->lift_rule.half_extent_m(); }
 double RayCaster::offset_m(const Vec3& position, double size_m) const {
     return implementation_->offset(position - center(), size_m);
 }

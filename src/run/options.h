@@ -16,7 +16,7 @@ struct RunOptions {
     /// (of a picture's pixels, of a solution's light).
     std::optional<double> error;
     std::optional<double> time_s;
-    /// Of this time, for what the caller does with the result, such as writing it to a file.
+    /// The part of time_s that the caller needs after the run, for example to write files.
     double reserved_s = 0;
     /// The total number of samples: light paths; for method `path` paths per reading; for pictures passes;
     /// for solutions steps.

@@ -24,9 +24,9 @@
 namespace stilb::estimators {
 
 /// An even number of pixels along a face, such that a cube has 100 pixels or more per patch in the mean,
-/// but at most 2048: from 250,000 patches on there are fewer. Also where there are more than 16 samples: a
-/// patch's errors, in proportion to resolution^-1.5, compensate each other, so that those of their sum stay
-/// the same. `samples`: their effective_number().
+/// but at most 2048: from 250,000 patches on there are fewer. With more than 16 samples there are fewer, too:
+/// the samples' errors, in proportion to resolution^-1.5, compensate each other, so that the error of their
+/// sum stays the same. `samples`: their effective_number().
 int first_shot_resolution(std::size_t patches, double samples);
 
 /// Rows of different lengths, one for each side, with the samples that see it.
