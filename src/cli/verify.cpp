@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,7 @@
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "estimators/estimator_list.h"
-#include "io/results/locations.h"
+#include "io/results/results_writer.h"
 #include "run/options.h"
 #include "stilb/error.h"
 #include "verification/verification.h"

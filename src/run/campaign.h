@@ -13,7 +13,6 @@
 #include "sensors/sensor.h"
 #include "statistics/bias.h"
 #include "statistics/interval.h"
-#include "statistics/rare.h"
 
 namespace stilb::run {
 

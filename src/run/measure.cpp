@@ -9,7 +9,6 @@
 #include "run/campaign.h"
 #include "run/level_of_detail.h"
 #include "run/run.h"
-#include "statistics/rare.h"
 #include "stilb/error.h"
 #include "transport/line_of_sight.h"
 #include "transport/sharp_light.h"

@@ -35,7 +35,7 @@ struct ReplicateTable {
 /// probability < 1).
 double student_t_quantile(double probability, int degrees_of_freedom);
 
-/// Mean, standard error and two-sided Student-t interval, whose upper end allows for rare light (rare.h; in
+/// Mean, standard error and two-sided Student-t interval, whose upper end allows for rare light (in
 /// quadrature). Throws std::invalid_argument for fewer than two replicates.
 Estimate estimate_from_replicates(std::span<const double> replicate_means, double confidence = 0.95,
                                   double rare_light = 0);
@@ -62,6 +62,34 @@ ReplicateMoments compute_replicate_moments(const ReplicateTable& table);
 /// common_r, where the residuals `common` have mean 0 over the replicates.
 std::vector<double> residual_standard_errors(const ReplicateTable& table, std::span<const double> means,
                                              std::span<const double> slopes, std::span<const double> common);
+
+// Rare contributions: light that few samples find. Replicates tell little about it: those that contain no
+// such sample agree with each other, and their mean is too low. The largest contribution of each replicate
+// tells more. docs/statistics.md has the measurements behind the constants.
+
+/// The largest single contributions to the sum of a reading.
+struct LargestContributions {
+    double overall = 0;  ///< in all replicates
+    double typical = 0;  ///< the median of the replicates' largest ones
+};
+
+/// `of_replicates`: the largest contribution of each, at least one; they are reordered.
+LargestContributions largest_contributions(std::span<double> of_replicates);
+
+/// How far above its value the interval of a reading must reach for contributions that may be missing: four
+/// contributions as large as the largest one exceeds the typical one. Where such contributions come once,
+/// twice or four times in a run, a Poisson distribution with an expectation 4.6, 5.2 or 6.2 higher has a
+/// probability of 2.5 % of so few; with the replicates' part in quadrature, four give 4.5, 4.9 and 5.7.
+/// `samples`: of all replicates.
+double rare_light(const LargestContributions& largest, std::uint64_t samples);
+
+/// Whether the interval of a reading cannot be trusted, because the reading and its error depend on the few
+/// samples that happened to be drawn: one contribution is more than four times the typical one, and its
+/// excess is more than 2 % of the reading, more than 0.7 of its standard error, or a larger share of n
+/// samples than 1/sqrt(n). The last test finds infinite variance: with a finite one, the largest share times
+/// sqrt(n) falls towards 0 as n grows; with an infinite one it grows without limit.
+bool rests_on_few_samples(const Estimate& reading, const LargestContributions& largest,
+                          std::uint64_t samples);
 
 // The stopping rule: when a run is accurate enough, and its progress.
 

@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "patches/visibility/buffer_backend.h"
+#include "patches/visibility/bundle.h"
+#include "patches/visibility/item_buffer.h"
 #include "patches/visibility/opengl.h"
 #include "stilb/error.h"
 

@@ -1,5 +1,3 @@
-#include "statistics/rare.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,8 @@
 #include <functional>
 #include <random>
 #include <vector>
+
+#include "statistics/interval.h"
 
 namespace stilb::statistics {
 namespace {

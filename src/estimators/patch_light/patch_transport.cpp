@@ -8,8 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "patches/visibility/buffer_backend.h"
-
 namespace stilb::estimators {
 
 namespace {

@@ -10,7 +10,6 @@
 
 #include "estimators/patch_light/first_shot/first_shot.h"
 #include "patches/vertex_interpolation.h"
-#include "patches/visibility/buffer_backend.h"
 #include "patches/visibility/bundle.h"
 #include "patches/visibility/patch_caster.h"
 #include "rays/ray_caster.h"

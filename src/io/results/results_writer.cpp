@@ -5,17 +5,35 @@
 
 #include <array>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/parallel.h"
-#include "io/results/locations.h"
 #include "io/text/table.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
 
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Json location_json(const Location& location) {
+    Json json{{"position", vector_json(location.position)}};
+    for (const Location::Direction& direction : location.directions)
+        json[std::string(direction.name)] = vector_json(direction.value);
+    return json;
+}
+
 namespace {
 
-using Json = nlohmann::ordered_json;
+/// The surface point whose luminance reading `j` of a sensor is: the end of the line of sight, or the
+/// point of a goniometer. Nothing where the line of sight leaves the scene, or the run did not record it.
+std::optional<Vec3> sub_point(const SensorResult& result, const Sensor& sensor, std::size_t j) {
+    const Measurand measurand = sensor.measurand(j);
+    if (const auto* ray = std::get_if<EmergentRay>(&measurand)) return ray->position;
+    return result.sub_points.empty() ? std::nullopt : result.sub_points[j];
+}
 
 Json interval_json(const statistics::Estimate& e) { return {e.lower, e.upper}; }
 
@@ -108,7 +126,7 @@ std::vector<std::string> reading_texts(const SensorResult& result) {
 /// `document` with an array of the readings in place of each `"values": null`, a line for each reading.
 /// Documents of many readings would take long as one tree.
 std::string with_readings(std::string_view document, std::span<const SensorResult> sensors) {
-    constexpr std::string_view kKey = "\"values\": ", kNone = "null";
+    constexpr std::string_view kKey = "\"values\": ", kNull = "null";
     std::string text;
     for (const SensorResult& sensor : sensors) {
         // It occurs for each sensor only, because quotation marks within texts are escaped.
@@ -120,7 +138,7 @@ std::string with_readings(std::string_view document, std::span<const SensorResul
             before = ",\n    ";
         }
         text += "\n   ]";
-        document.remove_prefix(end + kNone.size());
+        document.remove_prefix(end + kNull.size());
     }
     return text.append(document);
 }

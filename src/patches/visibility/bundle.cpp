@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "patches/visibility/opengl.h"
 #include "stilb/error.h"
 
 namespace stilb::patches {
@@ -151,6 +152,11 @@ void RayBundles::cast(const Bundle& bundle, const LineVisitor& visit) const {
             if (lines.count() > 0) visit(lines);
         }
     }
+}
+
+std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& caster) {
+    if (backend == BufferBackend::rays) return std::make_unique<RayBundles>(caster);
+    return std::make_unique<OpenGlBundles>(caster.patches());
 }
 
 }  // namespace stilb::patches

@@ -12,11 +12,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/vec.h"
 #include "patches/patches.h"
+#include "patches/visibility/buffer_options.h"
 #include "patches/visibility/patch_caster.h"
 
 namespace stilb::patches {
@@ -103,6 +105,10 @@ class Bundles {
     /// of the grid.
     virtual void cast(const Bundle& bundle, const LineVisitor& visit) const = 0;
 };
+
+/// By rays or by OpenGL. Keeps a reference to the caster or its patches. Throws InputError where OpenGL is
+/// requested but missing.
+std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& caster);
 
 inline constexpr int kMostLines = 65'536;
 

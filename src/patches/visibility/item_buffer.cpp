@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "patches/visibility/opengl.h"
 #include "stilb/error.h"
 
 namespace stilb::patches {
@@ -187,6 +188,11 @@ void RayItemBuffers::fill(const ItemBufferLayout& layout, const Viewpoint& viewp
             }
         }
     }
+}
+
+std::unique_ptr<ItemBuffers> make_item_buffers(BufferBackend backend, const PatchCaster& caster) {
+    if (backend == BufferBackend::rays) return std::make_unique<RayItemBuffers>(caster);
+    return std::make_unique<OpenGlItemBuffers>(caster.patches());
 }
 
 }  // namespace stilb::patches

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -106,6 +107,10 @@ class ItemBuffers {
     virtual void fill(const ItemBufferLayout& layout, const Viewpoint& viewpoint,
                       std::span<std::uint32_t> sides) = 0;
 };
+
+/// By rays or by OpenGL. Keeps a reference to the caster or its patches. Throws InputError where OpenGL is
+/// requested but missing.
+std::unique_ptr<ItemBuffers> make_item_buffers(BufferBackend backend, const PatchCaster& caster);
 
 // Item buffers by rays.
 

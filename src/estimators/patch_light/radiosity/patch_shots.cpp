@@ -8,7 +8,7 @@
 #include <memory>
 #include <numbers>
 
-#include "patches/visibility/buffer_backend.h"
+#include "patches/visibility/item_buffer.h"
 
 namespace stilb::estimators {
 namespace {
