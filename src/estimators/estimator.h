@@ -128,6 +128,9 @@ class Estimator {
     /// The end of the line of sight of each luminance reading; nothing where it leaves the scene, and nothing
     /// for illuminances.
     virtual std::span<const std::optional<Vec3>> sight_ends() const = 0;
+    /// The largest single contribution to each reading that the set-up has met, as ReadingSums::largest: a
+    /// short run may not meet such a one, and must allow for it. Empty where the set-up takes no samples.
+    virtual std::vector<double> expected_largest() const { return {}; }
     /// The number of samples of a batch is a multiple of this.
     virtual std::uint64_t batch_granularity() const = 0;
     /// The number of samples of a replicate before the first error estimate: one from fewer may be far too

@@ -21,7 +21,10 @@ constexpr std::size_t kLeastReplicates = 8;
 Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors,
                    std::size_t readings, math::RandomKey key, const RunOptions& options,
                    std::uint64_t least_samples)
-    : estimator_(estimator), sensors_(sensors), granularity_(estimator.batch_granularity()) {
+    : estimator_(estimator),
+      sensors_(sensors),
+      granularity_(estimator.batch_granularity()),
+      expected_largest_(estimator.expected_largest()) {
     const auto count = static_cast<std::size_t>(options.replicates);
     replicates_.reserve(count);
     for (std::size_t r = 0; r < count; ++r) {
@@ -108,8 +111,11 @@ Campaign::Estimates Campaign::estimates(std::size_t first, std::size_t count, do
     Estimates all;
     all.replicate_means = replicate_means(first, count);
     all.largest = largest(first, count);
-    for (const statistics::LargestContributions& reading : all.largest)
-        all.rare_light.push_back(statistics::rare_light(reading, samples_in_all()));
+    for (std::size_t j = 0; j < count; ++j) {
+        statistics::LargestContributions known = all.largest[j];
+        if (!expected_largest_.empty()) known.overall = std::max(known.overall, expected_largest_[first + j]);
+        all.rare_light.push_back(statistics::rare_light(known, samples_in_all()));
+    }
     all.readings = statistics::estimate_readings({all.replicate_means, count}, confidence, all.rare_light);
     const std::vector<double> differences = lacking(first, count);
     if (differences.empty()) return all;

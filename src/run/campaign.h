@@ -81,6 +81,7 @@ class Campaign final : public Work {
     const estimators::Estimator& estimator_;
     std::span<const Sensor> sensors_;
     std::uint64_t granularity_;
+    std::vector<double> expected_largest_;
     std::vector<Replicate> replicates_;
     std::uint64_t first_check_ = 1;
     std::uint64_t batch_ = 1;

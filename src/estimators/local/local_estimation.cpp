@@ -127,6 +127,15 @@ class LocalReadings {
 
     std::span<const Rgb> known_part() const { return seen_.known_part; }
     std::span<const std::optional<Vec3>> sight_ends() const { return seen_.ends; }
+    std::vector<double> expected_largest() const {
+        std::vector<double> all(seen_.known_part.size());
+        for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
+            double& largest = all[seen_.receivers[j].reading()];
+            largest =
+                std::max(largest, plans_[j].largest_of_rays * static_cast<double>(plans_[j].paths_per_ray));
+        }
+        return all;
+    }
     std::uint64_t batch_granularity() const { return selected_per_ray_ * paths_per_selected_; }
     std::uint64_t first_check() const { return kSelectedBeforeCheck * paths_per_selected_; }
     double rays_per_sample() const {
@@ -466,6 +475,7 @@ class LocalEstimation final : public Estimator {
     void run_batch(const Batch& batch, ReadingSums& sums) const override { readings_.run_batch(batch, sums); }
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
+    std::vector<double> expected_largest() const override { return readings_.expected_largest(); }
     std::uint64_t batch_granularity() const override { return readings_.batch_granularity(); }
     std::uint64_t first_check() const override { return readings_.first_check(); }
     double rays_per_sample() const override { return readings_.rays_per_sample(); }

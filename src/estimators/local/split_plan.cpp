@@ -28,9 +28,10 @@ constexpr double kEvenNodes = 512;
 
 /// The hit of a ray from a receiver.
 struct RaySample {
-    double g_per_m2 = 0;   ///< infinite for a mirror, whose light is always gathered
-    double luminance = 0;  ///< over the mean; both weighted by the response
-    double own_share = 1;  ///< share of the density of its packet's rays at the same point
+    double g_per_m2 = 0;      ///< infinite for a mirror, whose light is always gathered
+    double luminance = 0;     ///< over the mean; both weighted by the response
+    double own_share = 1;     ///< share of the density of its packet's rays at the same point
+    double contribution = 0;  ///< to the reading [lx or cd/m2]
 };
 
 /// The model's prediction for a point and a k.
@@ -39,6 +40,7 @@ struct Outcome {
     double connection_variance = 0;  ///< of one light path, relative to the indirect light squared
     double gather_variance = 0;      ///< of one gathering ray, likewise
     double gather_cost = 0;          ///< of one gathering ray
+    double largest_of_rays = 0;      ///< as SplitPlan
 };
 struct Prediction {
     double variance = 0, cost = 0;  ///< of a light path with its share of gathering
@@ -64,26 +66,27 @@ PointModel model_of(std::span<const RaySample> rays, double density_per_m2) {
     const double largest = kLargestFactorPerRay * static_cast<double>(rays.size());
     for (double factor = kLeastFactor; factor <= largest; factor *= 2) {
         const double k = factor * kPi * density_per_m2;
-        double connection_moment = 0, gathered = 0, gathered_moment = 0;
-        for (const auto& [g, l, own_share] : rays) {
+        double connection_moment = 0, gathered = 0, gathered_moment = 0, largest_gathered = 0;
+        for (const auto& [g, l, own_share, contribution] : rays) {
             const double rest = transport::GatheredShare{g / k}(1);
             const double w = 1 - rest;
             if (w > 0)
                 connection_moment += l * w * w * g * remaining_variance(g / (kEvenNodes * density_per_m2));
             gathered += rest;
             gathered_moment += l * l * rest * own_share;
+            largest_gathered = std::max(largest_gathered, contribution * rest * own_share);
         }
         const double per_ray = 1 / static_cast<double>(rays.size());
         model.push_back({k, per_ray * connection_moment / (kPi * density_per_m2),
-                         per_ray * kPathVariance * gathered_moment,
-                         kRayCost + kPathCost * per_ray * gathered});
+                         per_ray * kPathVariance * gathered_moment, kRayCost + kPathCost * per_ray * gathered,
+                         largest_gathered});
     }
     return model;
 }
 
 struct Choice {
     Prediction prediction;
-    double k_per_m2 = 0;
+    SplitPlan plan;
 };
 /// The best k for a given number of light paths per ray, when a unit of cost is worth `price` units of
 /// variance.
@@ -95,7 +98,7 @@ Choice best_constant(const PointModel& point, std::uint64_t paths_per_ray, doubl
         const double loss = prediction.variance + price * prediction.cost;
         if (loss < least) {
             least = loss;
-            best = {prediction, outcome.k_per_m2};
+            best = {prediction, {outcome.k_per_m2, paths_per_ray, outcome.largest_of_rays}};
         }
     }
     return best;
@@ -112,7 +115,7 @@ Prediction plan_packet(std::span<const PointModel> packet, std::uint64_t most_pa
         Prediction sum;
         for (std::size_t j = 0; j < packet.size(); ++j) {
             const Choice choice = best_constant(packet[j], light_paths, price);
-            tried[j] = {choice.k_per_m2, light_paths};
+            tried[j] = choice.plan;
             sum.variance += choice.prediction.variance;
             sum.cost += choice.prediction.cost;
         }
@@ -175,13 +178,13 @@ RaySamples sample_rays(const rays::RayCaster& caster, const transport::PathTrace
         }
         const Rgb luminance =
             tracer.luminance_without_direct(*hit, direction, packet.reflections_left[lane], stream);
-        rays[i].luminance = (sample->weight * luminance).luminance();
-        sum += rays[i].luminance;
+        rays[i].contribution = (sample->weight * luminance).luminance();
+        sum += rays[i].contribution;
     }
     const double mean = sum / count;
     for (RaySample& ray : rays) {
         if (ray.g_per_m2 == 0) continue;
-        ray.luminance = mean > 0 ? (ray.luminance / mean + floor) / (1 + floor) : 1;
+        ray.luminance = mean > 0 ? (ray.contribution / mean + floor) / (1 + floor) : 1;
     }
     return {std::move(rays), mean};
 }
@@ -250,8 +253,9 @@ std::vector<Survey> survey_packet(const rays::RayCaster& caster, const transport
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         RaySamples samples = sample_rays(caster, tracer, tile.front(), i, rays_per_receiver, key.derived(i));
         const double seen = light_paths * std::max(mean_connected_share(samples.rays, k_per_m2), 0.01);
-        // A glossy sub-point reflects few or no vertices: there rays are more reliable.
-        const double indirect = receivers[i].constant_response() ? sums.indirect[i] / seen : samples.indirect;
+        // A glossy sub-point reflects few or no vertices, and any point may see none: rays are more reliable.
+        const double from_nodes = receivers[i].constant_response() ? sums.indirect[i] / seen : 0;
+        const double indirect = std::max(from_nodes, samples.indirect);
         // Without any light seen, planning cannot gain anything.
         const double density_per_m2 =
             indirect > 0 ? std::max(sums.density_per_m2[i] / seen, 1e-3 * mean_density) : mean_density;

@@ -16,6 +16,8 @@ namespace stilb::estimators {
 struct SplitPlan {
     double k_per_m2 = 0;
     std::uint64_t paths_per_ray = 1;  ///< light paths for each gathering ray: a power of two
+    /// The largest contribution of a gathering ray to the reading that the pilot has met [lx or cd/m2].
+    double largest_of_rays = 0;
 };
 
 /// An estimate of the light before planning, and its sampling.
