@@ -66,15 +66,10 @@ double Receiver::sensitivity(const Vec3& direction) const {
     return body_->of(surface_.frame().to_local(direction));
 }
 
-Rgb Receiver::response(const Vec3& direction) const {
-    if (constant_response_) return *constant_response_;
-    return factor_ * surface_.brdf_per_sr(surface_.frame().to_local(direction), outgoing_);
-}
-
-double Receiver::relative_response(const Vec3& direction) const {
-    if (constant_response_) return 1;
-    return relative_brdf(surface_.material(),
-                         surface_.brdf_per_sr(surface_.frame().to_local(direction), outgoing_));
+Receiver::Response Receiver::response(const Vec3& direction) const {
+    if (constant_response_) return {*constant_response_};
+    const Rgb brdf = surface_.brdf_per_sr(surface_.frame().to_local(direction), outgoing_);
+    return {factor_ * brdf, relative_brdf(surface_.material(), brdf)};
 }
 
 std::optional<Receiver::Sample> Receiver::sample(double u1, double u2) const {
@@ -178,7 +173,7 @@ Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, 
         if (!lights.is_point(i)) continue;
         if (const auto light = lights.sample_incident(i, receiving_point(receiver), {})) {
             const Rgb received = illuminance_lx(*light, receiver, caster);
-            if (received.max() > 0) sum += received * receiver.response(light->direction);
+            if (received.max() > 0) sum += received * receiver.response(light->direction).value;
         }
     }
     return sum;
@@ -193,7 +188,7 @@ Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& ca
         if (!(received.max() > 0)) return;
         const double weight =
             directional ? balance(light.pdf_per_sr, receiver.pdf_per_sr(light.direction)) : 1;
-        sum += received * receiver.response(light.direction) * weight;
+        sum += received * receiver.response(light.direction).value * weight;
     });
     if (directional && lights.has_visible_lights())
         sum += sample_by_response(receiver, caster, lights, stream);

@@ -52,10 +52,12 @@ class Receiver {
 
     /// The response where it does not depend on direction.
     const std::optional<Rgb>& constant_response() const { return constant_response_; }
-    /// 1, or [1/sr]; for unit directions above the surface, towards the incident light.
-    Rgb response(const Vec3& direction) const;
-    /// pi f / albedo: s of weights.h; 1 where the response is constant.
-    double relative_response(const Vec3& direction) const;
+    struct Response {
+        Rgb value;            ///< 1, or [1/sr]
+        double relative = 1;  ///< pi f / albedo: s of weights.h; 1 where the response is constant
+    };
+    /// For unit directions above the surface, towards the incident light.
+    Response response(const Vec3& direction) const;
 
     struct Sample {
         Vec3 direction;

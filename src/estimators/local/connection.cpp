@@ -67,13 +67,12 @@ void add_visible_directional(const ConnectedVertex& node, const PointTile& tile,
         const Vec3 to_point =
             normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
         const Rgb brdf = surface.brdf_per_sr(in, frame.to_local(to_point));
-        const transport::Receiver& receiver = tile.receivers[i];
-        const double relative =
-            transport::relative_brdf(*vertex.material, brdf) * receiver.relative_response(-to_point);
+        const transport::Receiver::Response response = tile.receivers[i].response(-to_point);
+        const double relative = transport::relative_brdf(*vertex.material, brdf) * response.relative;
         const double g = g_per_m2[i];
         const double connected_share = vertex.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
         Rgb added = vertex.flux_lm * brdf * (g * connected_share);
-        if (tile.directional) added = added * receiver.response(-to_point);
+        if (tile.directional) added = added * response.value;
         for (std::size_t b = 0; b < kBands; ++b) sums.band[b][i] += static_cast<float>(added[b]);
         sums.largest[i] = std::max(sums.largest[i], static_cast<float>(added.luminance()));
     }

@@ -115,13 +115,13 @@ class SharedPoint {
             normalized(Vec3{segments_.direction_x[i], segments_.direction_y[i], segments_.direction_z[i]});
         out_[i] = surface_.frame().to_local(segment);
         const transport::Receiver& receiver = tile_.receivers[i];
-        response_[i] = receiver.response(-segment);
+        const transport::Receiver::Response response = receiver.response(-segment);
+        response_[i] = response.value;
+        relative_response_[i] = response.relative;
         if (receiver.constant_response()) {
-            relative_response_[i] = 1;
             ray_density_per_m2_[i] = double{g_per_m2_[i]} / kPi;
             return;
         }
-        relative_response_[i] = receiver.relative_response(-segment);
         const double squared_distance = squared_length(receiver.position() - hit.position);
         ray_density_per_m2_[i] = receiver.pdf_per_sr(-segment) * out_[i].z / squared_distance;
     }

@@ -173,7 +173,7 @@ RaySamples sample_rays(const rays::RayCaster& caster, const transport::PathTrace
             const double cosines = receiver.sensitivity(direction) * -dot(hit->normal, direction);
             rays[i].g_per_m2 = cosines / (hit->distance_m * hit->distance_m) *
                                mean_concentration(tracer.material(*hit)) *
-                               receiver.relative_response(direction);
+                               receiver.response(direction).relative;
             rays[i].own_share = own_share(caster, *hit, packet, lane);
         }
         const Rgb luminance =
