@@ -113,7 +113,9 @@ bool print(std::string_view run, Tally& tally, std::size_t seeds) {
         return 100 * static_cast<double>(count) / static_cast<double>(seeds);
     };
     const double truth_error = tally.truth_error / tally.truth, half_width = tally.median_half_width();
-    const bool is_known = !(truth_error > kMostUncertain * half_width);  // 0 of 0 in the dark
+    // Where nearly all runs warn, nothing depends on the truth. In the dark, its error is 0 of 0.
+    const bool is_known =
+        percent(tally.warned) >= 100 * (1 - kMostWrong) || !(truth_error > kMostUncertain * half_width);
     const bool holds = percent(tally.wrong) <= 100 * kMostWrong;
     fmt::print("| {} | {} | {:.3g} ± {:.1g} %{} | {:.2g} % | {:.1f} % | {:.1f} % | {:.1f} %{} |\n", run,
                tally.name, tally.truth, 100 * truth_error, is_known ? "" : " TOO UNCERTAIN", 100 * half_width,
