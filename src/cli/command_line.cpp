@@ -83,6 +83,8 @@ std::string wrong_count(const CLI::App& command, const CLI::ParseError& error) {
             return fmt::format("{} is missing. It gives the {}.", with_value_name(*option),
                                in_mid_sentence(option->get_description()));
         }
+        if (option->get_items_expected_max() == 0 && message.find(name + " = ") != std::string::npos)
+            return fmt::format("{} takes no value. Leave out \"={}\".", name, option->results().front());
         if (!message.starts_with(name + ":")) continue;
         if (values > 1) return fmt::format("{} is given {} times. Give it once.", name, values);
         return fmt::format("{} needs a value: {}.", name, with_value_name(*option));

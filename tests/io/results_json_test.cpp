@@ -25,6 +25,17 @@ TEST(ResultsJson, LuminancesSayWhereTheLightComesFrom) {
     EXPECT_TRUE(view["values"][1]["hit"].is_null());
 }
 
+/// A reader that distinguishes integers from other numbers never gets an integer; no digit is lost.
+TEST(ResultsJson, ReadingsAreNumbersWithAllTheirDigits) {
+    RunResult made = luminance_results();
+    for (const double value : {0.0, 1.0, 1e5, 1e22, 1.0 / 3, 5e-324, 1.7976931348623157e308}) {
+        made.sensors[0].readings[0].estimate.value = value;
+        const Json written = json_of(made)[0]["values"][0]["value"];
+        EXPECT_TRUE(written.is_number_float()) << value;
+        EXPECT_EQ(written.get<double>(), value);
+    }
+}
+
 TEST(ResultsJson, UnknownSubPointsAreNull) {
     RunResult made = luminance_results();
     made.sensors[0].sub_points.clear();

@@ -47,6 +47,7 @@ class WrongInputTest(CommandLineTest):
         self.expect_wrong_input(["fit", "head.obj", "-o", "head.json"], "--degree N is missing. It gives the degree of the series")
         self.expect_wrong_input(["measure"], "SCENE is missing. It gives the scene file")
         self.expect_wrong_input(["render", self.scene, "-o"], "--output needs a value: --output FILE. See")
+        self.expect_wrong_input(["measure", self.scene, "--json=x.json"], '--json takes no value. Leave out "=x.json".')
         self.expect_wrong_input(["measure", self.scene, "--paths", "3", "--paths", "4"], "--paths is given 2 times. Give it once.")
         self.expect_wrong_input(["measure", self.scene, "--paths", "0"], "--paths: 0 is out of range",
                                 "Give a whole number from 1 to 9007199254740992.")
