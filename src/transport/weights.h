@@ -40,19 +40,23 @@ inline double balance(double pdf, double other_pdf) { return std::isinf(pdf) ? 1
 
 // Russian roulette, which ends random walks without bias.
 
+/// Below 1, so that walks end on white surfaces and in glass, too. The variance is finite only where the
+/// square of the reflectance is smaller (0.9995 and less): elsewhere few long walks with large throughputs
+/// would carry much of the light.
+inline constexpr double kMostSurvival = 0.999;
+
 /// The survival probability of a walk before its throughput is multiplied by `factor`: it keeps the value of
-/// the largest band. Below 1 even on white surfaces, so that every walk ends.
+/// the largest band.
 constexpr double survival_probability(const Rgb& throughput, const Rgb& factor) {
-    constexpr double most = 0.995;
     const double before = throughput.max();
-    return before > 0 ? std::min((throughput * factor).max() / before, most) : 0;
+    return before > 0 ? std::min((throughput * factor).max() / before, kMostSurvival) : 0;
 }
 
 /// The same for paths that gather light at every step, whose noise is less if they always survive while their
 /// throughput is large: roulette begins where the largest band would fall below a quarter.
 constexpr double patient_survival_probability(const Rgb& throughput, const Rgb& factor) {
-    constexpr double roulette_threshold = 0.25, most = 0.995;
-    return std::min((throughput * factor).max() / roulette_threshold, most);
+    constexpr double roulette_threshold = 0.25;
+    return std::min((throughput * factor).max() / roulette_threshold, kMostSurvival);
 }
 
 }  // namespace stilb::transport
