@@ -266,7 +266,10 @@ class LocalReadings {
     }
 
     std::vector<double> pilot_direct(math::RandomKey key) const {
-        constexpr int samples = 4;
+        // Few samples of a sky with a sun, or of lamps in a gloss, may be wrong by a factor.
+        constexpr std::size_t in_all = 1u << 14;
+        const auto samples =
+            static_cast<int>(std::clamp<std::size_t>(in_all / (seen_.receivers.size() + 1), 4, 64));
         std::vector<double> direct;
         for (const Rgb& known : seen_.known_part) direct.push_back(known.luminance());
         for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
