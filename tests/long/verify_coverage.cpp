@@ -52,8 +52,8 @@ constexpr Case kCases[] = {
     {"keyhole", "auto", 8192, 0, "path", 16 * kMillion},
     {"corridor", "auto", 65536, 0, "path", 16 * kMillion},
     {"gap", "auto", 2048, 0, "path", 4 * kMillion},
-    {"white_box", "auto", 2048, 0, "auto", kMillion / 4},
-    {"white_box", "path", 2048, 0, "auto", kMillion / 4},
+    {"white_box", "auto", 2048, 0, "path", kMillion / 2},
+    {"white_box", "path", 2048, 0, "path", kMillion / 2},
     {"beam", "double-local", 8192, 0, "auto", 4 * kMillion},
     {"beam", "auto", 8192, 0, "auto", 4 * kMillion},
 };
