@@ -75,7 +75,7 @@ std::string in_mid_sentence(std::string text) {
 
 /// The message where a flag that takes one value has none or several, or where a required one is missing.
 std::string wrong_count(const CLI::App& command, const CLI::ParseError& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     for (const CLI::Option* option : command.get_options()) {
         const std::string name = option->get_name();
         const std::size_t values = option->results().size();

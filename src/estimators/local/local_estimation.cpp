@@ -383,7 +383,8 @@ class LocalPicture {
 
     std::size_t cell_of(const Pixel& pixel) const {
         const int cells_per_row = (tracing_.camera.resolution[0] + cell_edge_ - 1) / cell_edge_;
-        return static_cast<std::size_t>(pixel.y / cell_edge_ * cells_per_row + pixel.x / cell_edge_);
+        const int cell = pixel.y / cell_edge_ * cells_per_row + pixel.x / cell_edge_;
+        return static_cast<std::size_t>(cell);
     }
 
     /// Appends the sub-point of a camera path; returns the emission seen and the
