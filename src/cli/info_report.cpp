@@ -8,14 +8,13 @@
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/mesh_file.h"
 #include "io/photometry/photometry_file.h"
-#include "io/results/results_writer.h"
 
 namespace stilb::cli {
 namespace {
 
 using Json = InfoReport;
-using io::vector_json;
 
+Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 Json extent_json(const Bounds& bounds) {
     return Json::array({vector_json(bounds.min), vector_json(bounds.max)});
 }

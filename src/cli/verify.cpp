@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -14,7 +15,6 @@
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "estimators/estimator_list.h"
-#include "io/results/results_writer.h"
 #include "run/options.h"
 #include "stilb/error.h"
 #include "verification/verification.h"
@@ -54,11 +54,16 @@ std::string reading_rows(const verification::Verification& v) {
     return text;
 }
 
+std::array<double, 3> components_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
 nlohmann::ordered_json to_json(const verification::Verification& v) {
     nlohmann::ordered_json readings = nlohmann::ordered_json::array();
     for (const verification::CheckedReading& reading : v.readings) {
         const statistics::Estimate& measured = reading.measured;
-        nlohmann::ordered_json json = io::location_json(location_of(reading.exact.measurand));
+        const Location location = location_of(reading.exact.measurand);
+        nlohmann::ordered_json json{{"position", components_of(location.position)}};
+        for (const Location::Direction& direction : location.directions)
+            json[std::string(direction.name)] = components_of(direction.value);
         json["exact"] = reading.exact.value;
         json["tolerance"] = reading.exact.tolerance;
         json["value"] = measured.value;

@@ -15,8 +15,8 @@ struct GridSummary {
 /// mean. The values of minimum, maximum and uniformity are the plain ones of the readings' means, and their
 /// standard errors those of the selected readings; because such a selection is biased outwards, their
 /// intervals are simultaneous ones over all readings that cannot be excluded. Valid for any correlation among
-/// the readings; the memory is proportional to the readings. `rare_light`: one for each reading, or
-/// none. Throws std::invalid_argument for fewer than two replicates.
+/// the readings; the memory is proportional to the readings. `rare_light`: one for each reading, or none.
+/// Throws std::invalid_argument for fewer than two replicates.
 GridSummary summarize_grid(const ReplicateTable& table, double confidence = 0.95,
                            std::span<const double> rare_light = {});
 

@@ -253,9 +253,9 @@ std::vector<Survey> survey_packet(const rays::RayCaster& caster, const transport
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         RaySamples samples = sample_rays(caster, tracer, tile.front(), i, rays_per_receiver, key.derived(i));
         const double seen = light_paths * std::max(mean_connected_share(samples.rays, k_per_m2), 0.01);
-        // A glossy sub-point reflects few or no vertices, and any point may see none: rays are more reliable.
-        const double from_nodes = receivers[i].constant_response() ? sums.indirect[i] / seen : 0;
-        const double indirect = std::max(from_nodes, samples.indirect);
+        // A glossy sub-point reflects few or no vertices, and any point may see none: then the rays tell.
+        const double of_vertices = receivers[i].constant_response() ? sums.indirect[i] / seen : 0;
+        const double indirect = std::max(of_vertices, samples.indirect);
         // Without any light seen, planning cannot gain anything.
         const double density_per_m2 =
             indirect > 0 ? std::max(sums.density_per_m2[i] / seen, 1e-3 * mean_density) : mean_density;

@@ -16,19 +16,9 @@
 #include "stilb/error.h"
 
 namespace stilb::io {
+namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
-
-Json location_json(const Location& location) {
-    Json json{{"position", vector_json(location.position)}};
-    for (const Location::Direction& direction : location.directions)
-        json[std::string(direction.name)] = vector_json(direction.value);
-    return json;
-}
-
-namespace {
 
 /// The surface point whose luminance reading `j` of a sensor is: the end of the line of sight, or the
 /// point of a goniometer. Nothing where the line of sight leaves the scene, or the run did not record it.
@@ -124,6 +114,10 @@ class ObjectText {
         text_ += ']';
     }
     void add(std::string_view name, const Vec3& v) { add(name, std::array{v.x, v.y, v.z}); }
+    void add_null(std::string_view name) {
+        append_name(name);
+        text_ += "null";
+    }
 
   private:
     void append_name(std::string_view name) {
@@ -156,9 +150,11 @@ void append_reading(const SensorResult& result, std::size_t j, std::string& text
     for (const Location::Direction& direction : location.directions)
         object.add(direction.name, direction.value);
     if (sensor.measures_luminance()) {
-        const auto hit = sub_point(result, sensor, j);
-        if (hit) object.add("hit", *hit);
-        if (!hit) object.add("hit", std::numeric_limits<double>::quiet_NaN());
+        if (const auto hit = sub_point(result, sensor, j)) {
+            object.add("hit", *hit);
+        } else {
+            object.add_null("hit");
+        }
     }
     for (const Location::Angle& angle : location.angles) object.add(angle.name, angle.value_deg);
     const Reading& reading = result.readings[j];

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 
@@ -13,10 +12,6 @@ namespace stilb::io {
 /// `scene` is the scene file as the user named it. Two runs with the same results give the same text except
 /// for elapsed_s and first_shot_set_up_s.
 std::string to_json(const RunResult& result, const std::string& scene);
-
-nlohmann::ordered_json vector_json(const Vec3& v);
-/// Position and directions, without the angles.
-nlohmann::ordered_json location_json(const Location& location);
 
 // The results of a run as CSV, a file per sensor.
 
