@@ -97,22 +97,6 @@ ItemBufferLayout::ItemBufferLayout(BufferShape shape, int resolution)
 
 std::size_t ItemBufferLayout::pixel_count() const { return faces_.back().pixel_at(0, faces_.back().height); }
 
-BufferPixel ItemBufferLayout::pixel(const BufferFace& face, int x, int y) const {
-    const auto point = [&](double dx, double dy) {
-        return face.forward + (face.left + (x + dx) * pixel_size_) * face.right +
-               (face.bottom + (y + dy) * pixel_size_) * face.up;
-    };
-    const auto seen_along = [&](const Vec3& counted, double area) -> BufferPixel {
-        const double r = length(counted);
-        return {point(0.5, 0.5), area / (r * r * r), counted.z / r};
-    };
-    const double area = pixel_size_ * pixel_size_;
-    // The horizon is the diagonal of a tetrahedron's faces: a pixel on it counts by half, at the centre of
-    // the half in front.
-    const bool is_on_horizon = shape_ == BufferShape::cubic_tetrahedron && x == first_column(face, y);
-    return is_on_horizon ? seen_along(point(2. / 3, 2. / 3), area / 2) : seen_along(point(0.5, 0.5), area);
-}
-
 namespace {
 
 /// A packet is a square of pixels, whose rays are the most coherent.

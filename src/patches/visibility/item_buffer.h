@@ -73,7 +73,15 @@ class ItemBufferLayout {
     int first_column(const BufferFace& face, int y) const {
         return shape_ == BufferShape::cubic_tetrahedron ? face.width - 1 - y : 0;
     }
-    BufferPixel pixel(const BufferFace& face, int x, int y) const;
+    BufferPixel pixel(const BufferFace& face, int x, int y) const {
+        // The horizon is the diagonal of a tetrahedron's faces: a pixel on it counts by half, at the centre
+        // of the half in front.
+        const bool is_on_horizon = shape_ == BufferShape::cubic_tetrahedron && x == first_column(face, y);
+        const Vec3 middle = point(face, x + 0.5, y + 0.5);
+        const double area = pixel_size_ * pixel_size_;
+        return is_on_horizon ? seen_along(middle, point(face, x + 2. / 3, y + 2. / 3), area / 2)
+                             : seen_along(middle, middle, area);
+    }
     /// Calls `visit(index, pixel)` for all pixels in front of the horizon, with their index in the buffer.
     template <typename Visitor>
     void for_each_pixel(const Visitor& visit) const {
@@ -87,6 +95,15 @@ class ItemBufferLayout {
     }
 
   private:
+    Vec3 point(const BufferFace& face, double x, double y) const {
+        return face.forward + (face.left + x * pixel_size_) * face.right +
+               (face.bottom + y * pixel_size_) * face.up;
+    }
+    static BufferPixel seen_along(const Vec3& middle, const Vec3& counted, double area) {
+        const double r = length(counted);
+        return {middle, area / (r * r * r), counted.z / r};
+    }
+
     BufferShape shape_;
     int resolution_;
     double pixel_size_;
