@@ -18,13 +18,15 @@ class SharedPoint {
     /// with the same count as `own` share.
     SharedPoint(const rays::Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
                 const Vec3& center)
-        : surface_(material, hit.normal, hit.shading_normal), tile_(tile) {
+        : surface_(material, hit.normal, hit.shading_normal), position_(hit.position), tile_(tile) {
         // There is at least one reflection, at y.
         connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, center), 1, tile, segments_, lanes_,
                 g_per_m2_);
         for_each_lane([&](std::size_t i) {
             if (tile.reflections_left[i] == tile.reflections_left[own]) {
-                join(i, hit);
+                const auto [value, relative] = response_to_y(i);
+                response_[i] = value;
+                relative_response_[i] = relative;
             } else {
                 lanes_[i] = 0;
             }
@@ -41,13 +43,18 @@ class SharedPoint {
         return largest;
     }
 
-    /// Removes receivers that y is hidden from. `own` sees y: its ray has met it.
+    /// Removes receivers that y is hidden from, and computes the densities of the others' rays: to be called
+    /// before all below. `own` sees y: its ray has met it.
     void test_visibility(const rays::RayCaster& caster, std::size_t own) {
         lanes_[own] = 0;
         caster.occlude(segments_, lanes_);
         lanes_[own] = -1;
         for_each_lane([&](std::size_t i) {
-            if (segments_.end[i] < 0) lanes_[i] = 0;
+            if (segments_.end[i] < 0) {
+                lanes_[i] = 0;
+            } else {
+                join(i);
+            }
         });
     }
 
@@ -110,29 +117,36 @@ class SharedPoint {
         return {double{g_per_m2_[lane]} * double{tile_.inverse_k[lane]} * relative_response_[lane]};
     }
 
-    void join(std::size_t i, const rays::Hit& hit) {
-        const Vec3 segment =
-            normalized(Vec3{segments_.direction_x[i], segments_.direction_y[i], segments_.direction_z[i]});
+    Vec3 towards_receiver(std::size_t i) const {
+        return normalized(Vec3{segments_.direction_x[i], segments_.direction_y[i], segments_.direction_z[i]});
+    }
+
+    transport::Receiver::Response response_to_y(std::size_t i) const {
+        const transport::Receiver& receiver = tile_.receivers[i];
+        const auto& constant = receiver.constant_response();
+        return constant ? transport::Receiver::Response{*constant} : receiver.response(-towards_receiver(i));
+    }
+
+    void join(std::size_t i) {
+        const Vec3 segment = towards_receiver(i);
         out_[i] = surface_.frame().to_local(segment);
         const transport::Receiver& receiver = tile_.receivers[i];
-        const transport::Receiver::Response response = receiver.response(-segment);
-        response_[i] = response.value;
-        relative_response_[i] = response.relative;
         if (receiver.constant_response()) {
             ray_density_per_m2_[i] = double{g_per_m2_[i]} / kPi;
             return;
         }
-        const double squared_distance = squared_length(receiver.position() - hit.position);
+        const double squared_distance = squared_length(receiver.position() - position_);
         ray_density_per_m2_[i] = receiver.pdf_per_sr(-segment) * out_[i].z / squared_distance;
     }
 
     materials::ShadedSurface surface_;
+    Vec3 position_;
     const PointTile& tile_;
     RayPacket segments_;
     LaneMask lanes_;
     alignas(64) PointTile::Floats g_per_m2_;
-    std::array<Vec3, kPacketWidth> out_;      ///< to the receivers, in the frame of y
     std::array<Rgb, kPacketWidth> response_;  ///< of the receivers to light from y
+    std::array<Vec3, kPacketWidth> out_;      ///< to the receivers that see y, in its frame
     std::array<double, kPacketWidth> relative_response_, ray_density_per_m2_;
 };
 
