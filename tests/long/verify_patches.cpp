@@ -21,6 +21,8 @@ constexpr std::array kPhongScenes{"BroadPhong", "NarrowPhong"};
 constexpr std::array kSizes_m{0.6, 0.3, 0.15};
 constexpr double kTolerance = 0.01;
 constexpr std::uint64_t kSteps = 2048, kFewSteps = 512, kParticles = 1 << 22;
+/// Of the light that radiosity has stored on the patches.
+constexpr std::uint64_t kSamples = 1 << 13;
 /// Highlights of a narrow lobe are seen from few directions: so many times the steps bring 1 % out of the
 /// noise.
 constexpr std::string_view kNoisyScene = "NarrowPhong";
@@ -109,7 +111,7 @@ std::vector<Way> ways(bool is_diffuse) {
         all.push_back(bundle_way(incoming, patches::BufferBackend::opengl));
     }
     if (!is_diffuse) return all;
-    all.push_back(way_of("radiosity", 1));
+    all.push_back(way_of("radiosity", kSamples));
     all.push_back(way_of("particles", kParticles));
     return all;
 }
