@@ -21,7 +21,7 @@ constexpr std::array kPhongScenes{"BroadPhong", "NarrowPhong"};
 constexpr std::array kSizes_m{0.6, 0.3, 0.15};
 constexpr double kTolerance = 0.01;
 constexpr std::uint64_t kSteps = 2048, kFewSteps = 512, kParticles = 1 << 22;
-/// Of the light that radiosity has stored on the patches.
+/// Samples of a reading by radiosity: their noise is far below the tolerance.
 constexpr std::uint64_t kSamples = 1 << 13;
 /// Highlights of a narrow lobe are seen from few directions: so many times the steps bring 1 % out of the
 /// noise.

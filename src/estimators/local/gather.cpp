@@ -43,9 +43,9 @@ class SharedPoint {
         return largest;
     }
 
-    /// Removes receivers that y is hidden from, and computes the densities of the others' rays: to be called
-    /// before all below. `own` sees y: its ray has met it.
-    void test_visibility(const rays::RayCaster& caster, std::size_t own) {
+    /// Keeps only the receivers that see y, and computes their directions and ray densities, which all
+    /// functions below need. `own` sees y: its ray has met it.
+    void keep_visible(const rays::RayCaster& caster, std::size_t own) {
         lanes_[own] = 0;
         caster.occlude(segments_, lanes_);
         lanes_[own] = -1;
@@ -191,7 +191,7 @@ void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t 
     const double survival = shared.gathered_share();
     if (stream.next() >= survival) return;
     weight /= survival;
-    shared.test_visibility(caster_, own);
+    shared.keep_visible(caster_, own);
     const double ray_density = shared.ray_density();
     if (const auto light = tracer_.sample_light(hit, stream)) {
         // BRDF samples may hit emitters, too; the balance heuristic weights both techniques.
