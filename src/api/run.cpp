@@ -169,7 +169,7 @@ void Solution::save(const std::filesystem::path& path) const {
             "as a scene file, and solve that.",
             {path.string()});
     }
-    write_solution_file(io::stored_solution(data_->result, data_->result.solution, file.sources, path), path);
+    write_solution_file(io::stored_solution(data_->result, data_->result.solution, file, path), path);
 }
 
 Solution solve(const Scene& scene, const std::optional<Options>& options, const Control& control) {

@@ -202,6 +202,10 @@ Flag& Flag::repeatable() {
     option_->expected(1)->take_all()->allow_extra_args(false);
     return *this;
 }
+Flag& Flag::optional_value(const std::string& otherwise) {
+    option_->expected(0, 1)->default_str(otherwise);
+    return *this;
+}
 Flag& Flag::show_default() {
     option_->capture_default_str();
     return *this;

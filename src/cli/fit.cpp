@@ -80,17 +80,16 @@ int run_fit(const FitRequest& request) {
     report.vertices = file.mesh.vertices.size();
     report.tolerated_share = options.tolerated_share;
     const fit::MeshFit& fit = report.fit;
-    io::write_harmonics(
+    report.output_bytes = io::write_harmonics(
         {fit.coefficients, fit.center, std::filesystem::path(request.mesh).filename().string(),
          fit.errors.back().rms / fit.size},
         request.output);
     report.mesh_bytes = std::filesystem::file_size(request.mesh);
-    report.output_bytes = std::filesystem::file_size(request.output);
     if (!request.plot.empty()) draw_plot(error_plot(report), request.plot);
     if (!request.quiet) {
         print_warnings(warnings_of(report));
     }
-    fmt::print("{}", request.json ? to_json(report) : to_text(report));
+    fmt::print(messages_beside(request.output), "{}", request.json ? to_json(report) : to_text(report));
     return kExitDone;
 }
 

@@ -22,10 +22,12 @@ namespace {
 
 struct InfoRequest {
     std::string file;
+    std::vector<std::string> overrides;
     bool json = false;
 };
 
-InfoReport report_file(const std::string& file) {
+InfoReport report_file(const InfoRequest& request) {
+    const std::string& file = request.file;
     switch (io::kind_of_file(file)) {
         case io::FileKind::ies_luminaire:
         case io::FileKind::eulumdat_luminaire:
@@ -34,7 +36,7 @@ InfoReport report_file(const std::string& file) {
         case io::FileKind::ply_mesh:
             return report_mesh(file);
         default:
-            return report_scene(read_scene(file), file);
+            return report_scene(read_scene(file, request.overrides), file);
     }
 }
 
@@ -52,13 +54,14 @@ void add_info(CommandLine& line) {
         .add("FILE", request->file,
              "Scene (TOML; - for standard input), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
         .required();
+    add_overrides(command, request->overrides);
     command.add(
         "--json", request->json,
         "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
         "\"total_flux_lm\", \"luminaires\", \"sensors\", \"run\", \"warnings\", \"memory\"}, as far as "
         "the file has them; units are in the keys");
     command.run([request] {
-        const InfoReport report = report_file(request->file);
+        const InfoReport report = report_file(*request);
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
         return kExitDone;
     });

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <utility>
 
 #include "cli/command_line.h"
 #include "cli/progress.h"
@@ -26,8 +27,9 @@ namespace {
 
 struct MeasureRequest {
     std::string scene;
-    std::vector<std::string> sensors;
-    bool json = false;
+    std::vector<std::string> overrides, sensors;
+    /// Where JSON goes: "-" is standard output, which then gets no table.
+    std::optional<std::string> json;
     std::string output, csv_directory, picture;
     RunFlags flags;
 };
@@ -35,9 +37,27 @@ struct MeasureRequest {
 /// Seconds a reading that statistics and files take after the last sample. Two threads were measured.
 constexpr double kFinishing_s = 3e-6;
 
+/// The scene that --json took for its file: in `stilb measure --json office.toml`.
+void take_scene_back(MeasureRequest& request) {
+    if (request.scene.empty() && request.json && !io::is_standard_output(*request.json))
+        request.scene = std::exchange(*request.json, "-");
+    if (!request.scene.empty()) return;
+    throw InputError(
+        "SCENE is missing. It gives the scene file (TOML), or - for standard input. See stilb measure "
+        "--help.");
+}
+
+std::vector<std::string> json_files(const MeasureRequest& request) {
+    std::vector<std::string> files;
+    if (!request.output.empty()) files.push_back(request.output);
+    if (request.json && *request.json != request.output) files.push_back(*request.json);
+    return files;
+}
+
 /// Writes the files that the request names.
 void write_files(const RunResult& result, const MeasureRequest& request) {
-    if (!request.output.empty()) io::replace_file(request.output, io::to_json(result, request.scene));
+    for (const std::string& file : json_files(request))
+        io::replace_file(file, io::to_json(result, request.scene));
     if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
     if (!request.picture.empty()) {
         plot::FalseColourOptions options;
@@ -47,26 +67,28 @@ void write_files(const RunResult& result, const MeasureRequest& request) {
 }
 
 int run_measure(const MeasureRequest& request) {
-    const io::SceneFile file = read_scene(request.scene);
+    const io::SceneFile file = read_scene(request.scene, request.overrides);
     const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, request.sensors, request.scene);
     std::size_t readings = 0;
     for (const Sensor& sensor : sensors) readings += sensor.size();
     const RunOptions options =
         with_reserve(request.flags.over(file.run), kFinishing_s * static_cast<double>(readings));
-    if (!request.output.empty()) io::require_output(request.output, io::FileKind::results, file.sources);
+    for (const std::string& output : json_files(request))
+        io::require_output(output, io::FileKind::results, file.sources);
     if (!request.picture.empty()) plot::require_picture_path(request.picture, file.sources);
     if (!request.csv_directory.empty()) io::prepare_results_csv(sensors, request.csv_directory);
     RunResult result;
     {
-        TerminalProgress progress(std::string(estimators::find_estimator(options.method).samples));
+        TerminalProgress progress(std::string(estimators::find_estimator(options.method).samples),
+                                  request.flags.off_terminal());
         result = run::measure(file.scene, sensors, options, request.flags.quiet ? nullptr : &progress,
                               &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
     write_files(result, request);  // before all messages: the terminal may be closed by now
     if (!request.flags.quiet) print_warnings(result.warnings);
-    fmt::print("{}", request.json ? io::to_json(result, request.scene)
-                                  : to_table(result) + shortfall_text(result, ""));
+    if (std::ranges::none_of(json_files(request), io::is_standard_output))
+        fmt::print("{}", to_table(result) + shortfall_text(result, ""));
     return result.converged ? kExitDone : kExitStoppedEarly;
 }
 
@@ -81,20 +103,30 @@ void add_measure(CommandLine& line) {
         "  stilb measure office.toml -o office.json\n"
         "  stilb measure office.toml --csv results --falsecolor office.png\n");
     auto request = std::make_shared<MeasureRequest>();
-    command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input").required();
+    command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input (required)");
     command.add("--sensor", request->sensors, "Measure only this sensor (may be repeated)")
         .value_name("NAME")
         .repeatable();
-    command.add("--json", request->json, "One JSON document on stdout instead of the table");
-    command.add("-o,--output", request->output, "Write also the JSON document into this file")
+    command
+        .add("--json", request->json,
+             "One JSON document on stdout instead of the table, or beside it into this file")
+        .optional_value("-")
+        .value_name("[FILE]");
+    command
+        .add("-o,--output", request->output,
+             "Write also the JSON document into this file, in one step; - is stdout, instead of the table")
         .value_name("FILE");
     command.add("--csv", request->csv_directory, "Write also a CSV file per sensor into this folder")
         .value_name("DIR");
     command
         .add("--falsecolor", request->picture, "Write also a false-colour picture of the grids (.png, .svg)")
         .value_name("FILE");
+    add_overrides(command, request->overrides);
     request->flags.add_to(command);
-    command.run([request] { return run_measure(*request); });
+    command.run([request] {
+        take_scene_back(*request);
+        return run_measure(*request);
+    });
 }
 
 }  // namespace stilb::cli

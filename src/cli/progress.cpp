@@ -40,15 +40,26 @@ void write_message(const std::string& text) { std::fputs(text.c_str(), stderr); 
 
 }  // namespace
 
-ProgressLine::ProgressLine() : is_terminal_(isatty(STDERR_FILENO) != 0) {}
+std::FILE* messages_beside(const std::string& output) {
+    return io::is_standard_output(output) ? stderr : stdout;
+}
+
+ProgressLine::ProgressLine(OffTerminal off_terminal)
+    : is_terminal_(isatty(STDERR_FILENO) != 0),
+      is_plain_(!is_terminal_ && off_terminal == OffTerminal::plain_lines) {}
 
 ProgressLine::~ProgressLine() {
     if (is_terminal_) write_message("\r\033[K");
 }
 
 void ProgressLine::show(double elapsed_s, const std::string& text) {
-    if (!is_terminal_) return;
-    write_message(fmt::format("\r\033[K{:.1f} s  {}", elapsed_s, text));
+    constexpr double between_plain_lines_s = 1;
+    if (is_terminal_) {
+        write_message(fmt::format("\r\033[K{:.1f} s  {}", elapsed_s, text));
+    } else if (is_plain_ && (shown_s_ < 0 || elapsed_s - shown_s_ >= between_plain_lines_s)) {
+        write_message(fmt::format("{:.1f} s  {}\n", elapsed_s, text));
+        shown_s_ = elapsed_s;
+    }
     std::fflush(stderr);
 }
 

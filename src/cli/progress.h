@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdio>
 #include <span>
 #include <string>
 #include <utility>
@@ -10,24 +11,33 @@
 
 namespace stilb::cli {
 
-/// Rewrites one line of stderr and clears it at the end. Shows nothing where stderr is not a terminal.
+/// Where a command says what it has done: beside what it writes to standard output, if its output is "-".
+std::FILE* messages_beside(const std::string& output);
+
+/// How progress is shown where stderr is not a terminal.
+enum class OffTerminal { nothing, plain_lines };
+
+/// Rewrites one line of stderr and clears it at the end. Where stderr is not a terminal, it shows nothing, or
+/// a plain line every second.
 class ProgressLine {
   public:
-    ProgressLine();
+    explicit ProgressLine(OffTerminal off_terminal);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
     void show(double elapsed_s, const std::string& text);
 
   private:
-    bool is_terminal_;
+    bool is_terminal_, is_plain_;
+    double shown_s_ = -1;
 };
 
 /// Progress of any run. Requests no unfinished pictures.
 class TerminalProgress : public PictureSink {
   public:
     /// `samples`: the name of the run's samples.
-    explicit TerminalProgress(std::string samples = "paths") : samples_(std::move(samples)) {}
+    explicit TerminalProgress(std::string samples = "paths", OffTerminal off_terminal = OffTerminal::nothing)
+        : samples_(std::move(samples)), line_(off_terminal) {}
     void report_set_up(const SetUp& set_up) override;
     void report(const Progress& progress) override;
     bool wants_picture() override { return false; }

@@ -30,6 +30,7 @@ constexpr double kFinishing_s = 3e-7;
 
 struct RenderRequest {
     std::string scene, solution, sensor, output, preview, command;
+    std::vector<std::string> overrides;
     io::ToneOptions tone;
     RunFlags flags;
 };
@@ -38,7 +39,10 @@ struct RenderRequest {
 class RenderProgress final : public TerminalProgress {
   public:
     RenderProgress(const RenderRequest& request, const Camera& camera, const io::PictureOrigin& origin)
-        : TerminalProgress("passes"), request_(request), camera_(camera), origin_(origin) {}
+        : TerminalProgress("passes", request.flags.off_terminal()),
+          request_(request),
+          camera_(camera),
+          origin_(origin) {}
 
     void report_set_up(const SetUp& set_up) override {
         if (!request_.flags.quiet) TerminalProgress::report_set_up(set_up);
@@ -63,21 +67,22 @@ class RenderProgress final : public TerminalProgress {
 };
 
 void print_summary(const RenderResult& result, const Sensor& sensor, const std::string& output) {
+    std::FILE* const stream = messages_beside(output);
     const auto& [width, height] = sensor.camera()->resolution;
-    fmt::print("{}: {} x {} pixels, mean luminance {:.4g} cd/m²\n", sensor.name, width, height,
+    fmt::print(stream, "{}: {} x {} pixels, mean luminance {:.4g} cd/m²\n", sensor.name, width, height,
                result.mean_luminance_cd_m2);
     if (result.replicates > 1) {
-        fmt::print("mean standard error of a pixel: {:.3g} cd/m², {} of the mean luminance\n",
+        fmt::print(stream, "mean standard error of a pixel: {:.3g} cd/m², {} of the mean luminance\n",
                    result.mean_standard_error_cd_m2,
                    percent(result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2));
-        fmt::print("95 % of the pixels have a 95 % interval within {} of their value\n",
+        fmt::print(stream, "95 % of the pixels have a 95 % interval within {} of their value\n",
                    percent(result.attained_error));
     }
-    fmt::print("{}, {} passes in {:.1f} s: {}\n", result.method, result.samples, result.elapsed_s,
+    fmt::print(stream, "{}, {} passes in {:.1f} s: {}\n", result.method, result.samples, result.elapsed_s,
                ending(result.stop_reason, "passes"));
-    fmt::print("{}", shortfall_text(result, output));
-    fmt::print("{}", detail_text(result.levels_of_detail));
-    if (result.patches) fmt::print("{}", patch_text(*result.patches));
+    fmt::print(stream, "{}", shortfall_text(result, output));
+    fmt::print(stream, "{}", detail_text(result.levels_of_detail));
+    if (result.patches) fmt::print(stream, "{}", patch_text(*result.patches));
 }
 
 /// Refuses flags of the light computation, which a stored solution cannot follow.
@@ -143,8 +148,8 @@ int run_render(RenderRequest request) {
             "the scene is missing. Give a scene (stilb render SCENE -o FILE) or a solution (stilb render "
             "--from FILE -o FILE).");
     }
-    const io::SceneFile file = read_scene(request.scene);
-    if (stored) require_same_light(*stored, file.sources, request.solution);
+    const io::SceneFile file = read_scene(request.scene, request.overrides);
+    if (stored) require_same_light(*stored, file, request.solution);
     const Sensor& sensor = sensors::choose_camera(file.sensors, request.sensor, request.scene);
     require_pictures(request, file);
     io::PictureOrigin origin;
@@ -161,7 +166,9 @@ int run_render(RenderRequest request) {
     if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
     if (!request.flags.quiet) print_warnings(result.warnings);
     print_summary(result, sensor, request.output);
-    if (curve) fmt::print("{}: exposure {:.3g} per cd/m²\n", request.output, curve->exposure());
+    if (curve)
+        fmt::print(messages_beside(request.output), "{}: exposure {:.3g} per cd/m²\n", request.output,
+                   curve->exposure());
     return result.converged ? kExitDone : kExitStoppedEarly;
 }
 
@@ -182,7 +189,9 @@ void add_render(CommandLine& line) {
         .add("--from", request->solution,
              "Take the light from this solution (written by `stilb solve`); only the view is computed")
         .value_name("FILE");
-    command.add("-o,--output", request->output, "Picture to write: .exr, .hdr or .png")
+    command
+        .add("-o,--output", request->output,
+             "Picture to write: .exr, .hdr or .png; - writes OpenEXR to stdout")
         .required()
         .value_name("FILE");
     command.add("--sensor", request->sensor, "The camera, if the scene has several").value_name("NAME");
@@ -196,6 +205,7 @@ void add_render(CommandLine& line) {
              "the picture)")
         .above_zero()
         .value_name("E");
+    add_overrides(command, request->overrides);
     request->flags.add_to(command);
     command.run([request, &line] {
         request->command = line.text();

@@ -66,6 +66,8 @@ void RunFlags::add_those_of_one_method(Command& command) {
         .from_to(0, kMostThreads)
         .value_name("N");
     command.add("--quiet", quiet, "Print no progress and no warnings");
+    command.add("--progress", progress,
+                "Print progress on stderr as plain lines, also where that is not a terminal");
     patches.add_to(command);
 }
 

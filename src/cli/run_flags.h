@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/progress.h"
 #include "estimators/patch_light/patch_options.h"
 #include "run/options.h"
 
@@ -39,8 +40,10 @@ struct RunFlags {
     std::optional<double> time_s;
     std::optional<std::uint64_t> paths, seed;
     std::optional<int> bounces, threads;
-    bool quiet = false;
+    bool quiet = false, progress = false;
     PatchFlags patches;
+
+    OffTerminal off_terminal() const { return progress ? OffTerminal::plain_lines : OffTerminal::nothing; }
 
     void add_to(Command& command);
     /// Adds all flags except --method and --bounces.

@@ -32,10 +32,19 @@ std::string command_for(io::FileKind kind, const std::string& path) {
 
 }  // namespace
 
-io::SceneFile read_scene(const std::string& path) {
+void add_overrides(Command& command, std::vector<std::string>& overrides) {
+    command
+        .add("--set", overrides,
+             "Take this value instead of the scene file's, such as materials.wall.reflectance=0.4 (may be "
+             "repeated)")
+        .value_name("KEY=VALUE")
+        .repeatable();
+}
+
+io::SceneFile read_scene(const std::string& path, const std::vector<std::string>& overrides) {
     const io::FileKind kind = io::kind_of_file(path);
     if (!io::may_be_scene(kind)) throw InputError(io::not_a_scene(kind) + command_for(kind, path), {path});
-    return io::read_scene_file(path);
+    return io::read_scene_file(path, overrides);
 }
 
 }  // namespace stilb::cli

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -21,38 +21,43 @@ namespace {
 
 struct SolveRequest {
     std::string scene, output;
+    std::vector<std::string> overrides;
     int degree = run::kDefaultDegree;
     RunFlags flags;
 };
 
-void print_summary(const SolveResult& result, const io::StoredSolution& stored, const std::string& output) {
-    fmt::print("{}: {} lit sides of patches, {:.1f} MB\n", output, stored.solution.lit_sides.size(),
-               1e-6 * static_cast<double>(std::filesystem::file_size(output)));
-    fmt::print("95 % of the light falls on sides with a 95 % interval within {} of their illuminance\n",
+void print_summary(const SolveResult& result, const io::StoredSolution& stored, std::size_t bytes,
+                   const std::string& output) {
+    std::FILE* const stream = messages_beside(output);
+    fmt::print(stream, "{}: {} lit sides of patches, {:.1f} MB\n", output, stored.solution.lit_sides.size(),
+               1e-6 * static_cast<double>(bytes));
+    fmt::print(stream,
+               "95 % of the light falls on sides with a 95 % interval within {} of their illuminance\n",
                percent(result.attained_error));
-    fmt::print("ray-bundle, {} steps in {:.1f} s: {}\n", result.samples, result.elapsed_s,
+    fmt::print(stream, "ray-bundle, {} steps in {:.1f} s: {}\n", result.samples, result.elapsed_s,
                ending(result.stop_reason, "steps"));
-    fmt::print("{}", shortfall_text(result, output));
-    fmt::print("{}", patch_text(*result.patches));
+    fmt::print(stream, "{}", shortfall_text(result, output));
+    fmt::print(stream, "{}", patch_text(*result.patches));
 }
 
 int run_solve(const SolveRequest& request) {
-    io::SceneFile file = read_scene(request.scene);
+    io::SceneFile file = read_scene(request.scene, request.overrides);
     file.run.method = "ray-bundle";
     const RunOptions options = request.flags.over(file.run);
     io::require_output(request.output, io::FileKind::solution, file.sources);
     SolveResult result;
     {
-        TerminalProgress progress("steps");
+        TerminalProgress progress("steps", request.flags.off_terminal());
         result = solve(file.scene, options, request.degree, request.flags.quiet ? nullptr : &progress,
                        &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
     const io::StoredSolution solution =
-        io::stored_solution(result, std::move(result.solution), file.sources, request.output);
-    write_solution_file(solution, request.output);  // before all messages: the terminal may be closed by now
+        io::stored_solution(result, std::move(result.solution), file, request.output);
+    // Before all messages: the terminal may be closed by now.
+    const std::size_t bytes = write_solution_file(solution, request.output);
     if (!request.flags.quiet) print_warnings(result.warnings);
-    print_summary(result, solution, request.output);
+    print_summary(result, solution, bytes, request.output);
     return result.converged ? kExitDone : kExitStoppedEarly;
 }
 
@@ -67,7 +72,9 @@ void add_solve(CommandLine& line) {
         "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<SolveRequest>();
     command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input").required();
-    command.add("-o,--output", request->output, "Solution to write").required().value_name("FILE");
+    command.add("-o,--output", request->output, "Solution to write; - is stdout")
+        .required()
+        .value_name("FILE");
     command
         .add("--degree", request->degree,
              fmt::format(
@@ -76,6 +83,7 @@ void add_solve(CommandLine& line) {
                  run::kDefaultDegree))
         .from_to(0, math::ZernikeBasis::kMostDegree)
         .value_name("N");
+    add_overrides(command, request->overrides);
     request->flags.add_those_of_one_method(command);
     command.find("--error").description(
         "Stop when 95 % of the light falls on sides of patches with a 95 % interval within this share of "

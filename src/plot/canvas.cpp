@@ -73,7 +73,9 @@ void set_stroke(cairo_t* context, const Stroke& stroke) {
 }
 
 /// The kind of picture that the extension stands for. Throws InputError where no picture can have it.
+/// Standard output gets PNG.
 io::FileKind picture_kind(const std::filesystem::path& path) {
+    if (io::is_standard_output(path)) return io::FileKind::png_picture;
     const io::FileKind kind = io::kind_of_name(path);
     if (kind != io::FileKind::png_picture && kind != io::FileKind::svg_drawing) {
         throw InputError(fmt::format(

@@ -21,8 +21,9 @@ namespace stilb::io {
 namespace {
 
 /// The kind of picture that the extension stands for. Throws InputError where it belongs to no format of
-/// luminance pictures.
+/// luminance pictures. Standard output gets OpenEXR.
 FileKind luminance_picture_kind(const std::filesystem::path& path) {
+    if (is_standard_output(path)) return FileKind::exr_picture;
     const FileKind kind = kind_of_name(path);
     if (!is_luminance_picture(kind) && kind != FileKind::png_picture) {
         throw InputError(fmt::format(

@@ -163,8 +163,10 @@ std::string to_text(const HarmonicsFile& file) {
     return text + "]\n}\n";
 }
 
-void write_harmonics(const HarmonicsFile& file, const std::filesystem::path& path) {
-    replace_file(path, to_text(file));
+std::size_t write_harmonics(const HarmonicsFile& file, const std::filesystem::path& path) {
+    const std::string text = to_text(file);
+    replace_file(path, text);
+    return text.size();
 }
 
 }  // namespace stilb::io

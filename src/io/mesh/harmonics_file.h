@@ -30,7 +30,7 @@ HarmonicsFile parse_harmonics(std::string_view content, const std::string& name)
 /// The text of the file: coefficients rounded to single precision, in the fewest digits that identify the
 /// number.
 std::string to_text(const HarmonicsFile& file);
-/// Throws InputError where the file cannot be written. The file is replaced in one step.
-void write_harmonics(const HarmonicsFile& file, const std::filesystem::path& path);
+/// Returns the size of the file, which is replaced in one step. Throws InputError where it cannot be written.
+std::size_t write_harmonics(const HarmonicsFile& file, const std::filesystem::path& path);
 
 }  // namespace stilb::io

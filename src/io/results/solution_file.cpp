@@ -217,18 +217,19 @@ StoredSolution read_solution_file(const std::filesystem::path& path) {
     return read_solution(read_whole_file(path), path.string());
 }
 
-void write_solution_file(const StoredSolution& stored, const std::filesystem::path& path) {
-    replace_file(path, to_bytes(stored));
+std::size_t write_solution_file(const StoredSolution& stored, const std::filesystem::path& path) {
+    const std::string bytes = to_bytes(stored);
+    replace_file(path, bytes);
+    return bytes.size();
 }
 
 StoredSolution stored_solution(const RunSummary& run, estimators::PatchSolution solution,
-                               std::span<const std::filesystem::path> sources,
-                               const std::filesystem::path& path) {
+                               const SceneFile& scene, const std::filesystem::path& path) {
     StoredSolution stored;
     stored.version = STILB_VERSION;
     const auto folder = std::filesystem::absolute(path).parent_path();
-    stored.scene = std::filesystem::proximate(sources.front(), folder).generic_string();
-    stored.light_hash = light_hash(sources);
+    stored.scene = std::filesystem::proximate(scene.sources.front(), folder).generic_string();
+    stored.light_hash = light_hash(scene.sources, scene.overrides);
     stored.seed = run.seed;
     stored.steps = run.samples;
     stored.attained_error = run.attained_error;
@@ -236,13 +237,14 @@ StoredSolution stored_solution(const RunSummary& run, estimators::PatchSolution 
     return stored;
 }
 
-void require_same_light(const StoredSolution& stored, std::span<const std::filesystem::path> sources,
+void require_same_light(const StoredSolution& stored, const SceneFile& scene,
                         const std::string& solution_file) {
-    if (light_hash(sources) == stored.light_hash) return;
+    if (light_hash(scene.sources, scene.overrides) == stored.light_hash) return;
     throw InputError(
         fmt::format("materials, objects or lights of '{}', or files that it refers to, have changed "
-                    "since the scene was solved (only sensors may change). Solve it again.",
-                    sources.front().string()),
+                    "since the scene was solved (only sensors may change), or values given beside it are "
+                    "others. Solve it again.",
+                    scene.sources.front().string()),
         {solution_file});
 }
 

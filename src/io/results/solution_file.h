@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "estimators/patch_light/patch_solution.h"
+#include "io/scene/scene_file.h"
 #include "run/result.h"
 
 namespace stilb::io {
@@ -22,14 +22,13 @@ struct StoredSolution {
     estimators::PatchSolution solution;
 };
 
-/// The content of a file at `path` with a solution. `sources`: of the scene (SceneFile), its file first.
+/// The content of a file at `path` with the solution of a scene.
 StoredSolution stored_solution(const RunSummary& run, estimators::PatchSolution solution,
-                               std::span<const std::filesystem::path> sources,
-                               const std::filesystem::path& path);
+                               const SceneFile& scene, const std::filesystem::path& path);
 
 /// Throws InputError, which names the solution's file, where the scene's light is not the one that was
 /// solved.
-void require_same_light(const StoredSolution& stored, std::span<const std::filesystem::path> sources,
+void require_same_light(const StoredSolution& stored, const SceneFile& scene,
                         const std::string& solution_file);
 
 std::string to_bytes(const StoredSolution& stored);
@@ -37,9 +36,10 @@ std::string to_bytes(const StoredSolution& stored);
 /// damaged. require_consistency() checks whether the parts fit a scene.
 StoredSolution read_solution(std::string_view bytes, const std::string& name);
 
-/// Throw InputError as above, and where the file cannot be read or written. The file is replaced in one step.
+/// Throw InputError as above, and where the file cannot be read or written. The file is replaced in one step;
+/// its size is returned.
 StoredSolution read_solution_file(const std::filesystem::path& path);
-void write_solution_file(const StoredSolution& stored, const std::filesystem::path& path);
+std::size_t write_solution_file(const StoredSolution& stored, const std::filesystem::path& path);
 
 /// The header of a file with these contents: for the fuzz target, whose contents are arbitrary.
 std::string solution_header(std::string_view body);

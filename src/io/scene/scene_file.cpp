@@ -9,6 +9,7 @@
 
 #include "estimators/estimator_list.h"
 #include "io/scene/fields.h"
+#include "io/scene/overrides.h"
 #include "io/scene/sections.h"
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
@@ -117,14 +118,18 @@ RunOptions read_run(TomlTable section) {
     return run;
 }
 
-SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory) {
-    const TomlValue document = parse_toml(toml, name);
-    const auto& members = std::get<TomlMembers>(document.content);
+SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory,
+                     std::span<const std::string> overrides) {
+    TomlValue document = parse_toml(toml, name);
+    auto& members = std::get<TomlMembers>(document.content);
     if (members.empty()) {
         throw InputError(
             "the scene file is empty. Needed: the sections materials, objects, lights and sensors.", {name});
     }
-    return read_scene(members, name, directory);
+    override_values(members, overrides);
+    SceneFile file = read_scene(members, name, directory);
+    file.overrides.assign(overrides.begin(), overrides.end());
+    return file;
 }
 
 SceneFile read_scene(const TomlMembers& members, const std::string& name,
@@ -151,10 +156,10 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     return file;
 }
 
-SceneFile read_scene_file(const std::filesystem::path& path) {
+SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std::string> overrides) {
     const FileKind kind = kind_of_file(path);
     if (!may_be_scene(kind)) throw InputError(not_a_scene(kind), {path.string()});
-    SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path());
+    SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path(), overrides);
     file.sources.insert(file.sources.begin(), path);
     return file;
 }

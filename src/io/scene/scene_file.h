@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,17 +20,20 @@ struct SceneFile {
     RunOptions run;
     /// The scene file and all files that it refers to (none for a scene read from memory).
     std::vector<std::filesystem::path> sources;
+    /// Values that replaced those of the scene file (overrides.h).
+    std::vector<std::string> overrides;
     /// Unusual but valid contents (degenerate triangles dropped, normals normalised, ...), for `info` and
     /// stderr.
     std::vector<std::string> warnings;
 };
 
 /// Throws InputError with file, line, key, the value found and the allowed values.
-SceneFile read_scene_file(const std::filesystem::path& path);
+SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 
 /// The reader for content in memory; `directory` is the base of the scene's file paths, `name` is used in
 /// messages.
-SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory);
+SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory,
+                     std::span<const std::string> overrides = {});
 /// The same for a tree that was built in code: its lines are 0, and messages leave an empty name out.
 SceneFile read_scene(const TomlMembers& members, const std::string& name,
                      const std::filesystem::path& directory);

@@ -147,6 +147,7 @@ std::string not_a_scene(FileKind kind) {
 
 void require_output(const std::filesystem::path& output, FileKind kind,
                     std::span<const std::filesystem::path> inputs) {
+    if (is_standard_output(output)) return;
     std::error_code error;
     for (const std::filesystem::path& input : inputs) {
         if (!std::filesystem::equivalent(output, input, error)) continue;

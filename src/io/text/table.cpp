@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <random>
 #include <stdexcept>
@@ -77,7 +78,10 @@ class TemporaryFile {
 
 }  // namespace
 
+bool is_standard_output(const std::filesystem::path& path) { return path == "-"; }
+
 void require_writable(const std::filesystem::path& path) {
+    if (is_standard_output(path)) return;
     std::error_code error;
     const std::filesystem::path folder = path.parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
@@ -102,6 +106,11 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
 const char* unfinished_file() { return unfinished; }
 
 void replace_file(const std::filesystem::path& path, std::string_view content) {
+    if (is_standard_output(path)) {
+        // What fails here shows at the end of the program, like all that is printed.
+        std::fwrite(content.data(), 1, content.size(), stdout);
+        return;
+    }
     const std::filesystem::path target = without_links(path);
     if (must_stay(target)) return write_file(path, content);
     TemporaryFile(target, content).take_name();

@@ -10,7 +10,9 @@
 
 namespace stilb::io {
 
-// Whole files written at once.
+// Whole files written at once. The path "-" is standard output.
+
+bool is_standard_output(const std::filesystem::path& path);
 
 /// Throws InputError where replace_file could not write: the folder is missing or not writable, or `path` is
 /// itself a folder. For a check before a long computation; it tries to create a file beside `path`.

@@ -13,6 +13,7 @@
 #include <limits>
 #include <system_error>
 
+#include "io/scene/overrides.h"
 #include "io/scene/toml.h"
 #include "stilb/error.h"
 
@@ -188,10 +189,12 @@ std::string content_hash(std::span<const std::filesystem::path> files) {
     return digits(hash_of_files(files, kEmptyHash));
 }
 
-std::string light_hash(std::span<const std::filesystem::path> sources) {
+std::string light_hash(std::span<const std::filesystem::path> sources,
+                       std::span<const std::string> overrides) {
     const std::filesystem::path& scene = sources.front();
     TomlValue document = parse_toml(read_whole_file(scene), scene.string());
     auto& sections = std::get<TomlMembers>(document.content);
+    override_values(sections, overrides);
     std::erase_if(sections, [](const TomlMember& section) {
         return std::ranges::find(kLightSections, section.key) == kLightSections.end();
     });

@@ -22,6 +22,15 @@ namespace {
         "or use visibility by rays.");
 }
 
+/// Gives back what EGL keeps for a thread. Where a thread ends together with the program, EGL and the thread
+/// would free it both.
+struct EglOfThread {
+    EglOfThread() = default;
+    ~EglOfThread() { eglReleaseThread(); }
+    EglOfThread(const EglOfThread&) = delete;
+    EglOfThread& operator=(const EglOfThread&) = delete;
+};
+
 std::vector<EGLDisplay> displays() {
     std::vector<EGLDisplay> found;
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") &&
@@ -64,6 +73,7 @@ EGLContext context_of(EGLDisplay display) {
 
 OpenGlContext::OpenGlContext() {
     if (!epoxy_has_egl()) throw_missing("the library libEGL.so.1 is missing.");
+    const EglOfThread egl;
     for (const EGLDisplay display : displays()) {
         const EGLContext context = context_of(display);
         if (context == EGL_NO_CONTEXT) continue;
@@ -74,7 +84,10 @@ OpenGlContext::OpenGlContext() {
     throw_missing("EGL is present, but no driver has OpenGL 4.5 without a window.");
 }
 
-OpenGlContext::~OpenGlContext() { eglDestroyContext(display_, context_); }
+OpenGlContext::~OpenGlContext() {
+    const EglOfThread egl;
+    eglDestroyContext(display_, context_);
+}
 
 OpenGlContext::Current::Current(const OpenGlContext& context) : display_(context.display_) {
     eglBindAPI(EGL_OPENGL_API);
@@ -84,6 +97,7 @@ OpenGlContext::Current::Current(const OpenGlContext& context) : display_(context
 }
 
 OpenGlContext::Current::~Current() {
+    const EglOfThread egl;
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 

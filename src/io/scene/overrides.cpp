@@ -1,0 +1,82 @@
+#include "io/scene/overrides.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/text/text.h"
+#include "stilb/error.h"
+
+namespace stilb::io {
+namespace {
+
+TomlMembers parse_override(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos)
+        throw InputError("a key and a value are needed, such as materials.wall.reflectance=0.4.", {text});
+    try {
+        return std::get<TomlMembers>(parse_toml(text, text).content);
+    } catch (const InputError&) {
+        // Perhaps a text without quotes.
+        std::string value = text.substr(equals + 1);
+        value.erase(0, value.find_first_not_of(' '));
+        if (value.find_first_of("'\n\"[]{}") != std::string::npos) throw;
+        return std::get<TomlMembers>(parse_toml(text.substr(0, equals) + "='" + value + "'", text).content);
+    }
+}
+
+/// Lines of the scene file mean nothing for what is not in it.
+void forget_lines(TomlValue& value) {
+    value.line = 0;
+    if (auto* members = std::get_if<TomlMembers>(&value.content)) {
+        for (TomlMember& member : *members) {
+            member.line = 0;
+            forget_lines(member.value);
+        }
+    } else if (auto* array = std::get_if<TomlArray>(&value.content)) {
+        for (TomlValue& element : *array) forget_lines(element);
+    }
+}
+
+/// `path`: of the tables around the members; empty for those of the document.
+void merge(TomlMembers& members, TomlMembers&& others, const std::string& path, const std::string& text) {
+    for (TomlMember& other : others) {
+        const auto found = std::ranges::find(members, other.key, &TomlMember::key);
+        auto* const inner = std::get_if<TomlMembers>(&other.value.content);
+        if (found == members.end()) {
+            if (inner && !path.empty()) {
+                std::vector<std::string_view> names;
+                for (const TomlMember& member : members) names.push_back(member.key);
+                throw InputError(fmt::format("the scene has no {}.{}.{}", path, other.key,
+                                             did_you_mean(other.key, names)),
+                                 {text});
+            }
+            members.push_back(std::move(other));
+            continue;
+        }
+        auto* const tables = std::get_if<TomlMembers>(&found->value.content);
+        if (inner && tables) {
+            merge(*tables, std::move(*inner), path.empty() ? other.key : path + "." + other.key, text);
+        } else {
+            found->value = std::move(other.value);
+        }
+    }
+}
+
+}  // namespace
+
+void override_values(TomlMembers& document, std::span<const std::string> overrides) {
+    for (const std::string& text : overrides) {
+        TomlMembers members = parse_override(text);
+        for (TomlMember& member : members) {
+            member.line = 0;
+            forget_lines(member.value);
+        }
+        merge(document, std::move(members), "", text);
+    }
+}
+
+}  // namespace stilb::io
