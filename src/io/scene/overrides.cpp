@@ -50,9 +50,9 @@ void merge(TomlMembers& members, TomlMembers&& others, const std::string& path, 
             if (inner && !path.empty()) {
                 std::vector<std::string_view> names;
                 for (const TomlMember& member : members) names.push_back(member.key);
-                throw InputError(fmt::format("the scene has no {}.{}.{}", path, other.key,
-                                             did_you_mean(other.key, names)),
-                                 {text});
+                throw InputError(
+                    fmt::format("the scene has no {}.{}.{}", path, other.key, did_you_mean(other.key, names)),
+                    {text});
             }
             members.push_back(std::move(other));
             continue;
