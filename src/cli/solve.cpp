@@ -72,7 +72,7 @@ void add_solve(CommandLine& line) {
         "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<SolveRequest>();
     command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input").required();
-    command.add("-o,--output", request->output, "Solution to write; - is stdout")
+    command.add("-o,--output", request->output, "Solution to write (- is stdout)")
         .required()
         .value_name("FILE");
     command

@@ -42,12 +42,12 @@ class WrongInputTest(CommandLineTest):
         self.expect_wrong_input(["measure", self.scene, "--eror", "1%"], "no flag --eror", 'Did you mean "--error"?',
                                 "stilb measure --help")
         self.expect_wrong_input(["measure", self.scene, "other.toml"], '"other.toml" is one argument too many')
-        self.expect_wrong_input(["solve", self.scene], "--output FILE is missing. It gives the solution to write.",
+        self.expect_wrong_input(["solve", self.scene], "--output FILE is missing. It gives the solution to write (- is stdout).",
                                 "stilb solve --help")
         self.expect_wrong_input(["fit", "head.obj", "-o", "head.json"], "--degree N is missing. It gives the degree of the series")
         self.expect_wrong_input(["measure"], "SCENE is missing. It gives the scene file")
         self.expect_wrong_input(["render", self.scene, "-o"], "--output needs a value: --output FILE. See")
-        self.expect_wrong_input(["measure", self.scene, "--json=x.json"], '--json takes no value. Leave out "=x.json".')
+        self.expect_wrong_input(["measure", self.scene, "--quiet=x"], '--quiet takes no value. Leave out "=x".')
         self.expect_wrong_input(["measure", self.scene, "--paths", "3", "--paths", "4"], "--paths is given 2 times. Give it once.")
         self.expect_wrong_input(["measure", self.scene, "--paths", "0"], "--paths: 0 is out of range",
                                 "Give a whole number from 1 to 9007199254740992.")
