@@ -36,8 +36,8 @@ class Flag {
     Flag& above_zero();
     /// The flag takes one value each time it is given, and may be repeated.
     Flag& repeatable();
-    /// The flag may be given without a value, which then is this one. It leaves arguments that the command
-    /// needs.
+    /// The flag may be given without a value: its value then is `otherwise`. An argument that follows it is
+    /// taken for its value.
     Flag& optional_value(const std::string& otherwise);
     /// --help shows the present value of the variable as the default.
     Flag& show_default();

@@ -37,7 +37,7 @@ struct MeasureRequest {
 /// Seconds a reading that statistics and files take after the last sample. Two threads were measured.
 constexpr double kFinishing_s = 3e-6;
 
-/// The scene that --json took for its file: in `stilb measure --json office.toml`.
+/// In `stilb measure --json office.toml`, --json has taken the scene for its own value: gives it back.
 void take_scene_back(MeasureRequest& request) {
     if (request.scene.empty() && request.json && !io::is_standard_output(*request.json))
         request.scene = std::exchange(*request.json, "-");
@@ -47,6 +47,7 @@ void take_scene_back(MeasureRequest& request) {
         "--help.");
 }
 
+/// Where the JSON document is written, "-" for standard output.
 std::vector<std::string> json_files(const MeasureRequest& request) {
     std::vector<std::string> files;
     if (!request.output.empty()) files.push_back(request.output);

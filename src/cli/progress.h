@@ -11,7 +11,7 @@
 
 namespace stilb::cli {
 
-/// Where a command says what it has done: beside what it writes to standard output, if its output is "-".
+/// Where a command prints what it has done: stdout, or stderr where its output "-" takes stdout.
 std::FILE* messages_beside(const std::string& output);
 
 /// How progress is shown where stderr is not a terminal.

@@ -241,9 +241,8 @@ void require_same_light(const StoredSolution& stored, const SceneFile& scene,
                         const std::string& solution_file) {
     if (light_hash(scene.sources, scene.overrides) == stored.light_hash) return;
     throw InputError(
-        fmt::format("materials, objects or lights of '{}', or files that it refers to, have changed "
-                    "since the scene was solved (only sensors may change), or values given beside it are "
-                    "others. Solve it again.",
+        fmt::format("materials, objects or lights of '{}', files that it refers to, or values given beside "
+                    "it have changed since the scene was solved (only sensors may change). Solve it again.",
                     scene.sources.front().string()),
         {solution_file});
 }

@@ -13,22 +13,23 @@
 namespace stilb::io {
 namespace {
 
-TomlMembers parse_override(const std::string& text) {
+/// A document with the one key.
+TomlValue parse_override(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
         throw InputError("a key and a value are needed, such as materials.wall.reflectance=0.4.", {text});
     try {
-        return std::get<TomlMembers>(parse_toml(text, text).content);
+        return parse_toml(text, text);
     } catch (const InputError&) {
         // Perhaps a text without quotes.
         std::string value = text.substr(equals + 1);
         value.erase(0, value.find_first_not_of(' '));
         if (value.find_first_of("'\n\"[]{}") != std::string::npos) throw;
-        return std::get<TomlMembers>(parse_toml(text.substr(0, equals) + "='" + value + "'", text).content);
+        return parse_toml(text.substr(0, equals) + "='" + value + "'", text);
     }
 }
 
-/// Lines of the scene file mean nothing for what is not in it.
+/// Sets all lines to 0: messages must not name a line of the scene file for a value that is not in it.
 void forget_lines(TomlValue& value) {
     value.line = 0;
     if (auto* members = std::get_if<TomlMembers>(&value.content)) {
@@ -41,7 +42,8 @@ void forget_lines(TomlValue& value) {
     }
 }
 
-/// `path`: of the tables around the members; empty for those of the document.
+/// Puts the values of `others` into `members`. `path`: the names of the tables around both, joined by dots;
+/// empty for the document itself. `text`: the override, for messages.
 void merge(TomlMembers& members, TomlMembers&& others, const std::string& path, const std::string& text) {
     for (TomlMember& other : others) {
         const auto found = std::ranges::find(members, other.key, &TomlMember::key);
@@ -70,12 +72,9 @@ void merge(TomlMembers& members, TomlMembers&& others, const std::string& path, 
 
 void override_values(TomlMembers& document, std::span<const std::string> overrides) {
     for (const std::string& text : overrides) {
-        TomlMembers members = parse_override(text);
-        for (TomlMember& member : members) {
-            member.line = 0;
-            forget_lines(member.value);
-        }
-        merge(document, std::move(members), "", text);
+        TomlValue given = parse_override(text);
+        forget_lines(given);
+        merge(document, std::move(std::get<TomlMembers>(given.content)), "", text);
     }
 }
 

@@ -107,7 +107,7 @@ const char* unfinished_file() { return unfinished; }
 
 void replace_file(const std::filesystem::path& path, std::string_view content) {
     if (is_standard_output(path)) {
-        // What fails here shows at the end of the program, like all that is printed.
+        // Errors are not handled here: main() checks at the end whether standard output was written.
         std::fwrite(content.data(), 1, content.size(), stdout);
         return;
     }

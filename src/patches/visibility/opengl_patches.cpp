@@ -22,8 +22,8 @@ namespace {
         "or use visibility by rays.");
 }
 
-/// Gives back what EGL keeps for a thread. Where a thread ends together with the program, EGL and the thread
-/// would free it both.
+/// Frees what EGL keeps for this thread. If it were kept until the program ends, the ending thread and EGL
+/// would both free it.
 struct EglOfThread {
     EglOfThread() = default;
     ~EglOfThread() { eglReleaseThread(); }
