@@ -212,6 +212,7 @@ class Walks final : public Work {
 
     static double error_of(estimators::LightGather::Illuminances illuminances, double share_of_noise) {
         const std::size_t vertices = illuminances.area_m2.size();
+        if (vertices == 0) return 0;
         std::vector<statistics::Estimate> estimates = statistics::estimate_readings(
             {illuminances.replicate_means, vertices}, statistics::kStoppedConfidence);
         std::vector<double> flux_lm;

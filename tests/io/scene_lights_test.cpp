@@ -164,7 +164,7 @@ TEST(SceneLights, RefusesUnknownTypesAndKeys) {
     EXPECT_REFUSAL(
         light("type = \"point\"\nflus = 1"),
         "s.toml:11: lights.a: unknown key \"flus\" for type \"point\". Did you mean \"flux\"? Allowed: "
-        "type, position, flux, intensity, cct, color.");
+        "type, position, flux, intensity, cct, color, group.");
 }
 
 TEST(SceneLights, RefusesWrongQuantities) {
@@ -295,6 +295,15 @@ TEST_F(ScenePhotometry, RefusesABrokenFile) {
     const std::string message =
         refusal("[lights.a]\ntype = \"photometry\"\nposition = [1, 2, 3]\nfile = \"broken.ies\"", directory_);
     EXPECT_TRUE(message.starts_with((directory_ / "broken.ies").string() + ":3: ")) << message;
+}
+
+/// Groups are names; nothing else about a light depends on them.
+TEST(SceneLights, GroupsAreNamed) {
+    const std::string point = "type = \"point\"\nposition = [1, 1, 1]\nflux = 1\n";
+    EXPECT_EQ(read_text(light(point + "group = \"desk\"")).scene.lights.back().group, "desk");
+    EXPECT_EQ(read_text(light(point)).scene.lights.back().group, "");
+    EXPECT_EQ(refusal(light(point + "group = \"\"")),
+              "s.toml:13: lights.a.group: the name is empty. Allowed: a text with at least one character.");
 }
 
 }  // namespace

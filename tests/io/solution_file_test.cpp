@@ -56,17 +56,23 @@ TEST(SolutionFile, KeepsEveryBit) {
     EXPECT_EQ(read.steps, written.steps);
     EXPECT_EQ(read.attained_error, written.attained_error);
     EXPECT_EQ(read.solution.degree, written.solution.degree);
-    EXPECT_EQ(read.solution.lit_sides, written.solution.lit_sides);
+    EXPECT_EQ(read.solution.groups, written.solution.groups);
+    EXPECT_EQ(read.solution.lit_vertices, written.solution.lit_vertices);
+    EXPECT_EQ(read.solution.terms, written.solution.terms);
     EXPECT_EQ(read.solution.replicates, written.solution.replicates);
+    EXPECT_EQ(read.solution.bias, written.solution.bias);
     EXPECT_EQ(read.solution.patches.corners, written.solution.patches.corners);
-    ASSERT_TRUE(read.solution.factors);
     EXPECT_EQ(to_bytes(read), to_bytes(written));
 }
 
 TEST(SolutionFile, SidesWithoutLightCostNothing) {
-    const StoredSolution stored = sample_solution();
-    const std::size_t patches = stored.solution.patches.count();
-    EXPECT_LT(stored.solution.lit_sides.size(), patches + patches / 4);
+    const estimators::PatchSolution solution = sample_solution().solution;
+    const std::uint32_t first_of_floor = solution.patches.corners[solution.patches.first_of_object[1]][0];
+    for (const std::uint32_t side : solution.lit_vertices) {
+        EXPECT_FALSE(side >= solution.patches.vertices.size() &&
+                     side < solution.patches.vertices.size() + first_of_floor)
+            << "an outer side of the room";
+    }
 }
 
 /// The offsets that the format's page states.
@@ -77,7 +83,7 @@ TEST(SolutionFile, BeginsAsDocumented) {
         return number;
     };
     EXPECT_EQ(bytes.substr(0, 8), "STILBSOL");
-    EXPECT_EQ(number_at(8, std::uint32_t{}), 1u);
+    EXPECT_EQ(number_at(8, std::uint32_t{}), 2u);
     EXPECT_EQ(number_at(12, std::uint64_t{}), bytes.size());
     EXPECT_EQ(number_at(28, std::uint64_t{}), 5u);
     EXPECT_EQ(bytes.substr(36, 5), "0.1.0");
@@ -93,7 +99,7 @@ TEST(SolutionFile, NamesWhatIsWrong) {
     std::string other = good;
     other[8] = 9;
     EXPECT_EQ(message_of(other), "a.solution: the solution is of version 9, but Stilb " STILB_VERSION
-                                 " reads version 1. Solve the scene again.");
+                                 " reads version 2. Solve the scene again.");
     EXPECT_EQ(message_of(good.substr(0, good.size() - 1)),
               "a.solution: the file has " + std::to_string(good.size() - 1) + " bytes instead of " +
                   std::to_string(good.size()) +

@@ -27,7 +27,7 @@ class SolveTest(CommandLineTest):
     def test_pictures_of_a_solution(self):
         result = self.solve()
         self.assertEqual((result.returncode, result.stderr), (0, ""))
-        for part in ("room.solution: ", "lit sides of patches", "ray-bundle, 64 steps", "all steps done"):
+        for part in ("room.solution: ", "light at ", "1 group of lights", "ray-bundle, 64 steps", "all steps done"):
             self.assertIn(part, result.stdout)
         self.assertIn("mean luminance", self.expect_picture("--from", self.solution))
 

@@ -72,10 +72,12 @@ std::vector<FloatRgb> reflection_factors(const PatchTransport& transport, const 
 }
 
 Rgb reflected_cd_m2(std::span<const FloatRgb> terms, std::span<const FloatRgb> factors) {
-    Rgb luminance;
-    for (std::size_t k = 0; k < terms.size(); ++k) luminance += to_rgb(terms[k]) * to_rgb(factors[k]);
-    for (double& band : luminance.band) band = std::max(band, 0.0);
-    return luminance;
+    FloatRgb luminance{};
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+        for (std::size_t b = 0; b < kBands; ++b) luminance[b] += terms[k][b] * factors[k][b];
+    }
+    for (float& band : luminance) band = std::max(band, 0.0F);
+    return to_rgb(luminance);
 }
 
 }  // namespace stilb::estimators

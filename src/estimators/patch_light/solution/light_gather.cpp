@@ -21,6 +21,9 @@ constexpr std::uint32_t kTogether = 32;
 /// Rays start so far from the vertex towards the middle of a patch around it, because a vertex may lie where
 /// two objects touch.
 constexpr double kShareToMiddle = 0.2;
+/// From then on the light gathered twice is gathered again: by and by all reflections are seen from vertices,
+/// and what patches lack (light by mirrors) fades out of the result.
+constexpr std::uint64_t kStepsToTrustSecond = 8;
 /// Rays that tell whether a place is covered by another object.
 constexpr std::uint32_t kRaysToCover = 8;
 
@@ -177,18 +180,23 @@ void LightGather::add_direct_light() {
     for (std::size_t i = 0; i < direct_lx_.size(); ++i) direct_lx_[i] /= area_m2_[i];
 }
 
-void LightGather::step() {
-    if (std::has_single_bit(steps_)) {
-        source_ = once_;
-        for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-            const auto scale = static_cast<float>(1. / static_cast<double>(rays_[i] * walks_.size()));
-            for (std::size_t g = 0; g < groups_.count(); ++g) {
-                for (std::uint32_t t = vertices_.first_term(i); t < vertices_.first_term(i + 1); ++t) {
-                    for (float& band : source_[index(g, t)]) band *= scale;
-                }
+/// The light that the rays have found so far, as light that reaches the vertices.
+void LightGather::renew_source() {
+    const bool by_second = steps_ >= kStepsToTrustSecond;
+    source_ = by_second ? twice_ : once_;
+    for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
+        const std::uint64_t rays = (by_second ? rays_[i] - 1 : rays_[i]) * walks_.size();
+        const auto scale = static_cast<float>(1. / static_cast<double>(rays));
+        for (std::size_t g = 0; g < groups_.count(); ++g) {
+            for (std::uint32_t t = vertices_.first_term(i); t < vertices_.first_term(i + 1); ++t) {
+                for (float& band : source_[index(g, t)]) band *= scale;
             }
         }
     }
+}
+
+void LightGather::step() {
+    if (std::has_single_bit(steps_)) renew_source();
     const auto count = static_cast<std::uint32_t>(vertices_.count());
     parallel_for((count + kTogether - 1) / kTogether, [&](std::size_t part) {
         monitor_.require_more();
@@ -403,7 +411,7 @@ patches::FinePatches patches_near_contacts(const PatchTransport& coarse, const s
     // Light that surfaces send varies over about the distance to them [Ward, Rubinstein, Clear 1988, A ray
     // tracing solution for diffuse interreflection: the harmonic mean of the distances].
     constexpr double share_of_distance = 1;
-    constexpr double least_share_of_size = 1. / 8;
+    constexpr double least_share_of_size = 1. / 5;
     const auto inverse_distance = [&](std::uint32_t side, const Vec3& position) {
         const Vec3 lifted = lifted_off(coarse.scene, coarse.patches, coarse.caster, side, position);
         const Frame frame = Frame::around(coarse.patches.normal_of(side));

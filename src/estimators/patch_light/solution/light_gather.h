@@ -1,10 +1,10 @@
 // The light that reaches the vertices of a solution after one reflection or more, by rays from the vertices.
 //
-// Where a ray meets a surface, the direct light there is sampled, and the light that it reflects after
-// further reflections is known in two ways: from the patches of the walks (gathered once), or from the
-// vertices around, as the rays have found it so far (gathered twice). The result is gathered twice. What the
-// two differ by, along the same rays, is the error of the patches in the light of one more reflection: a
-// bound for the error of the result.
+// Where a ray meets a surface, the direct light there is sampled, and the light that it reflects after further
+// reflections is known in two ways: from the patches of the walks (gathered once), or from the vertices
+// around, as the rays have found it so far (gathered twice, and more often as the run goes on). The result is
+// gathered twice. What the two differ by, along the same rays, is the error of the patches in the light of one
+// more reflection: a bound for the error of the result.
 #pragma once
 
 #include <cstdint>
@@ -67,6 +67,7 @@ class LightGather {
     void find_origins(const std::vector<bool>& is_lit);
     bool is_covered(const Origin& origin, const std::vector<bool>& is_lit) const;
     void add_direct_light();
+    void renew_source();
     /// All replicates' next rays of some vertices.
     void gather(std::uint32_t first, std::uint32_t last);
     std::optional<GatheredRay> start(std::uint32_t vertex, std::uint32_t replicate) const;
@@ -106,7 +107,7 @@ class LightGather {
     std::vector<std::uint64_t> rays_;  ///< of each replicate, per vertex
     // Sums over the rays of all replicates, group by group:
     std::vector<FloatRgb> once_, twice_;
-    std::vector<FloatRgb> source_;       ///< the mean gathered once, from time to time
+    std::vector<FloatRgb> source_;       ///< the mean at the vertices, renewed from time to time
     std::vector<double> replicate_lx_;   ///< vertices x replicates: sums gathered twice, luminance-weighted
     std::vector<double> difference_lx_;  ///< per vertex: sum of what the two ways differ by
 };

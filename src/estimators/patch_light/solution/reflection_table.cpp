@@ -64,21 +64,20 @@ void add_row(std::span<const FloatRgb> row, float weight, std::span<FloatRgb> su
     }
 }
 
-/// Turns the factors of azimuth 0 to the azimuth with this cosine and sine.
+/// Turns factors of a basis about the normal by the angle with this cosine and sine.
 void turn(double cosine, double sine, std::span<FloatRgb> factors) {
-    double cos_m = 1, sin_m = 0;
-    for (int m = 0;; ++m) {
-        bool has_terms = false;
+    double cos_m = cosine, sin_m = sine;
+    for (int m = 1; static_cast<std::size_t>(term_number(m, m)) < factors.size(); ++m) {
+        const auto c = static_cast<float>(cos_m), s = static_cast<float>(sin_m);
         for (int n = m; static_cast<std::size_t>(term_number(n, m)) < factors.size(); n += 2) {
-            has_terms = true;
             FloatRgb& even = factors[static_cast<std::size_t>(term_number(n, m))];
             FloatRgb& odd = factors[static_cast<std::size_t>(term_number(n, -m))];
-            for (std::size_t b = 0; m > 0 && b < kBands; ++b) {
-                odd[b] = even[b] * static_cast<float>(sin_m);
-                even[b] *= static_cast<float>(cos_m);
+            for (std::size_t b = 0; b < kBands; ++b) {
+                const float turned = even[b] * c - odd[b] * s;
+                odd[b] = even[b] * s + odd[b] * c;
+                even[b] = turned;
             }
         }
-        if (!has_terms) return;
         const double next = cos_m * cosine - sin_m * sine;
         sin_m = sin_m * cosine + cos_m * sine;
         cos_m = next;
@@ -110,8 +109,9 @@ ReflectionTable make_reflection_table(const Material& material, int degree) {
         const double theta = static_cast<double>(i / table.phis) / (table.thetas - 1) * kMostTheta;
         const double phi = static_cast<double>(i % table.phis) / table.phis * 2 * kPi;
         const Vec3 out{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
-        integrate_factors(material, basis, out, kNodesOfTables,
-                          std::span(table.factors).subspan(i * basis.count(), basis.count()));
+        const auto factors = std::span(table.factors).subspan(i * basis.count(), basis.count());
+        integrate_factors(material, basis, out, kNodesOfTables, factors);
+        turn(std::cos(phi), -std::sin(phi), factors);
     }
     return table;
 }
@@ -134,12 +134,12 @@ void interpolate_factors(const ReflectionTable& table, const Vec3& local_out, st
     };
     if (phis == 1) {
         add_azimuth(0, 1);
-        if (sine > 0) turn(local_out.x / sine, local_out.y / sine, factors);
-        return;
+    } else {
+        const Between phi = between_azimuths(std::atan2(local_out.y, local_out.x), table.phis);
+        add_azimuth(phi.first, 1 - phi.weight);
+        add_azimuth(phi.second, phi.weight);
     }
-    const Between phi = between_azimuths(std::atan2(local_out.y, local_out.x), table.phis);
-    add_azimuth(phi.first, 1 - phi.weight);
-    add_azimuth(phi.second, phi.weight);
+    if (sine > 0) turn(local_out.x / sine, local_out.y / sine, factors);
 }
 
 }  // namespace stilb::estimators

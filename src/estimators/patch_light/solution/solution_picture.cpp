@@ -16,8 +16,6 @@
 namespace stilb::estimators {
 namespace {
 
-/// Samples of each light with a surface in a pass.
-constexpr int kSamplesOfExtended = 4;
 /// With more lights, so many are chosen at each point.
 constexpr std::size_t kMostLights = 16;
 
@@ -98,10 +96,10 @@ class SolutionPicture final : public Estimator {
         const auto locations = find_patch_locations(caster_, points);
         for (std::size_t i = 0; i < standing.size(); ++i) {
             transport::Path& path = *standing[i];
-            Rgb luminance = direct(path);
-            if (locations[i]) luminance += indirect(*locations[i], pass.replicate);
-            path.luminance_cd_m2 += path.throughput * luminance;
+            if (locations[i])
+                path.luminance_cd_m2 += path.throughput * indirect(*locations[i], pass.replicate);
         }
+        add_direct(standing);
         return started.write_to(pixels);
     }
 
@@ -122,37 +120,48 @@ class SolutionPicture final : public Estimator {
         return weight > 0 ? sum * (1 / weight) : Rgb{};
     }
 
-    /// Direct light at the end of a path, by shadow rays.
-    Rgb direct(transport::Path& path) const {
-        const Material& material = tracing_.scene.material(path.hit.material);
-        if (reflects_nothing(material)) return {};
-        const materials::ShadedSurface surface(material, path.hit.normal, path.hit.shading_normal);
-        const Vec3 out = surface.frame().to_local(path.outgoing);
-        Rgb sum;
-        const auto add = [&](const std::optional<transport::IncidentLight>& light, double weight) {
-            if (!light || dot(light->direction, path.hit.normal) <= 0) return;
-            const Vec3 in = surface.frame().to_local(light->direction);
-            const Rgb reflected =
-                surface.brdf_per_sr(in, out) * (in.z * weight) * light->normal_illuminance_lx;
-            if (!(reflected.max() > 0)) return;
-            sum += reflected * tracing_.caster.transmittance({path.hit.lifted, light->source_point});
-        };
-        if (lights_.count() > kMostLights) {
-            for (std::size_t i = 0; i < kMostLights; ++i)
-                add(lights_.sample_one_light(path.hit.position, path.hit.normal, path.stream),
-                    1. / kMostLights);
-            return sum;
-        }
-        for (std::size_t light = 0; light < lights_.count(); ++light) {
-            const int samples = lights_.is_point(light) ? 1 : kSamplesOfExtended;
-            for (int i = 0; i < samples; ++i) {
-                add(lights_.sample_incident(light, {path.hit.position, path.hit.normal},
-                                            path.stream.next_two()),
-                    1. / samples);
+    /// Direct light at the ends of paths, one sample of each light, or of some where there are many.
+    void add_direct(std::span<transport::Path* const> paths) const {
+        std::vector<rays::Segment> segments;
+        std::vector<Reflected> all;
+        const std::size_t lights = std::min(lights_.count(), kMostLights);
+        for (std::size_t light = 0; light < lights; ++light) {
+            for (transport::Path* const path : paths) {
+                const auto incident = sample_light(light, *path);
+                if (!incident || dot(incident->direction, path->hit.normal) <= 0) continue;
+                const Rgb luminance = reflected(*path, *incident);
+                if (!(luminance.max() > 0)) continue;
+                segments.push_back({path->hit.lifted, incident->source_point});
+                all.push_back({path, path->throughput * luminance});
             }
         }
-        return sum;
+        std::vector<Rgb> transmittances(segments.size());
+        tracing_.caster.transmittances(segments, rays::Coherence::coherent, transmittances);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            all[i].path->luminance_cd_m2 += all[i].luminance_cd_m2 * transmittances[i];
     }
+
+    std::optional<transport::IncidentLight> sample_light(std::size_t number, transport::Path& path) const {
+        if (lights_.count() <= kMostLights)
+            return lights_.sample_incident(number, {path.hit.position, path.hit.normal}, path.stream.next_two());
+        auto incident = lights_.sample_one_light(path.hit.position, path.hit.normal, path.stream);
+        if (incident) incident->normal_illuminance_lx *= 1. / kMostLights;
+        return incident;
+    }
+
+    /// Without shadows.
+    Rgb reflected(const transport::Path& path, const transport::IncidentLight& light) const {
+        const Material& material = tracing_.scene.material(path.hit.material);
+        const materials::ShadedSurface surface(material, path.hit.normal, path.hit.shading_normal);
+        const Vec3 in = surface.frame().to_local(light.direction);
+        const Vec3 out = surface.frame().to_local(path.outgoing);
+        return surface.brdf_per_sr(in, out) * in.z * light.normal_illuminance_lx;
+    }
+
+    struct Reflected {
+        transport::Path* path;
+        Rgb luminance_cd_m2;  ///< if nothing lies in between
+    };
 
     PatchSolution solution_;
     transport::LightSampler lights_;
