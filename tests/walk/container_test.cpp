@@ -43,8 +43,8 @@ TEST(Container, HasTheStatedLayout) {
     const std::string header =
         R"({"arrays":{"a":{"type":"u16","components":2,"count":2,"offset":0,"planes":true}}})";
     EXPECT_EQ(bytes.substr(0, 8), "STILBWLK");
-    EXPECT_EQ(bytes.substr(8, 8), std::string("\1\0\0\0", 4) + static_cast<char>(header.size()) +
-                                      std::string("\0\0\0", 3));
+    EXPECT_EQ(bytes.substr(8, 8),
+              std::string("\1\0\0\0", 4) + static_cast<char>(header.size()) + std::string("\0\0\0", 3));
     EXPECT_EQ(bytes.substr(16, header.size()), header);
     const std::size_t start = (16 + header.size() + 7) / 8 * 8;
     EXPECT_EQ(bytes.substr(start), std::string("\1\5\2\6\3\7\4\10"));
@@ -52,8 +52,8 @@ TEST(Container, HasTheStatedLayout) {
 
 TEST(Container, ArraysStartAtMultiplesOfEight) {
     const std::vector<std::uint16_t> three{1, 2, 3};
-    const ContainerReader read(container_bytes(Json::object(), {make_half_array("a", 1, three),
-                                                                make_half_array("b", 3, three)}));
+    const ContainerReader read(
+        container_bytes(Json::object(), {make_half_array("a", 1, three), make_half_array("b", 3, three)}));
     EXPECT_EQ(read.info("b").at("offset"), 8);
     EXPECT_EQ(read.numbers("b").size(), 3U);
 }
