@@ -232,6 +232,19 @@ TEST(DisplayMesh, HasNoBlobsWhereBodiesTouch) {
     }
 }
 
+TEST(DisplayMesh, RefusesTooManyPatches) {
+    const Scene scene = furnished_room();
+    const rays::RayCaster caster(scene);
+    patches::Patches patches;
+    patches.corners.resize(kMostWalkPatches + 1);
+    try {
+        make_display_mesh(scene, caster, patches, std::vector<bool>(2 * patches.count()));
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("Choose a larger patch size"), std::string::npos);
+    }
+}
+
 TEST(DisplayMesh, IsTheSameForAnyNumberOfThreads) {
     std::vector<DisplayMesh> meshes;
     for (const int threads : {1, 3}) {
