@@ -19,6 +19,7 @@ using LightSource = std::variant<PointLight, Luminaire, AreaLight, EnvironmentLi
 struct Light {
     std::string name;
     LightSource source;
+    std::string group = {};  ///< of lights that are dimmed together; empty: it is one of its own
 };
 
 template <typename Sources>

@@ -10,8 +10,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/parallel.h"
 #include "geometry/harmonics/surface.h"
 #include "geometry/mesh_topology.h"
+#include "patches/refinement.h"
 #include "patches/vertex_interpolation.h"
 #include "stilb/error.h"
 
@@ -98,14 +100,16 @@ class Collector {
   public:
     explicit Collector(Patches& patches) : patches_(patches) {}
 
-    void add(const Object& object, const Division& division) {
-        const RefinedMesh fine = refined(division.coarse, division.longest_edge_m, division.middle_of);
+    /// `parents` are those of the object's own triangles, or of its whole. Triangles without area are left
+    /// out: returns the numbers of the others.
+    std::vector<std::uint32_t> add(const Object& object, const RefinedMesh& fine) {
         triangles_.clear();
         normals_.clear();
+        std::vector<std::uint32_t> kept;
         const std::size_t first = patches_.count();
-        for (std::size_t i = 0; i < fine.parents.size(); ++i) {
+        for (std::uint32_t i = 0; i < fine.parents.size(); ++i) {
             const std::size_t parent = object.materials.size() == 1 ? 0 : fine.parents[i];
-            add_triangle(fine.mesh, fine.mesh.triangles[i], object.materials[parent]);
+            if (add_triangle(fine.mesh, fine.mesh.triangles[i], object.materials[parent])) kept.push_back(i);
         }
         const auto smooth =
             divide_at_creases(triangles_, normals_, std::span(patches_.materials).subspan(first));
@@ -117,6 +121,7 @@ class Collector {
             patches_.corners.push_back({t[0] + before, t[1] + before, t[2] + before});
         }
         patches_.first_of_object.push_back(static_cast<std::uint32_t>(patches_.count()));
+        return kept;
     }
 
   private:
@@ -124,16 +129,17 @@ class Collector {
         return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
     }
 
-    void add_triangle(const Mesh& mesh, const Triangle& t, MaterialId material) {
+    bool add_triangle(const Mesh& mesh, const Triangle& t, MaterialId material) {
         const Vec3& a = mesh.vertices[t[0]];
         const Vec3 doubled = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
         const double doubled_area = length(doubled);
-        if (!(static_cast<float>(doubled_area) > 0)) return;
+        if (!(static_cast<float>(doubled_area) > 0)) return false;
         triangles_.push_back(t);
         normals_.push_back(doubled / doubled_area);
         patches_.normals.push_back(in_floats(normals_.back()));
         patches_.areas_m2.push_back(static_cast<float>(doubled_area / 2));
         patches_.materials.push_back(material);
+        return true;
     }
 
     Patches& patches_;
@@ -161,24 +167,142 @@ Vec3 Patches::normal_of(std::uint32_t side) const {
     return is_front(side) ? normal : -normal;
 }
 
-Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor) {
-    check_size(scene, longest_edge_m);
+namespace {
+
+std::vector<Division> divisions_of(const Scene& scene, double longest_edge_m) {
     std::vector<Division> divisions;
-    Bounds bounds;
     for (const Object& object : scene.objects) {
         divisions.push_back(
             std::visit([&](const auto& shape) { return division_of(shape, longest_edge_m); }, object.shape));
-        for (const Vec3& vertex : divisions.back().coarse.vertices) bounds.include(vertex);
     }
+    return divisions;
+}
+
+Vec3 center_of(const std::vector<Division>& divisions) {
+    Bounds bounds;
+    for (const Division& division : divisions) {
+        for (const Vec3& vertex : division.coarse.vertices) bounds.include(vertex);
+    }
+    return bounds.is_empty() ? Vec3{} : bounds.middle();
+}
+
+RefinedMesh refined(const Division& division) {
+    return patches::refined(division.coarse, division.longest_edge_m, division.middle_of);
+}
+
+}  // namespace
+
+Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor) {
+    check_size(scene, longest_edge_m);
+    const std::vector<Division> divisions = divisions_of(scene, longest_edge_m);
     Patches patches;
-    if (!bounds.is_empty()) patches.center = bounds.middle();
+    patches.center = center_of(divisions);
     Collector collector(patches);
     Stage stage(monitor, "patches", divisions.size());
     for (std::size_t i = 0; i < divisions.size(); ++i) {
-        collector.add(scene.objects[i], divisions[i]);
+        collector.add(scene.objects[i], refined(divisions[i]));
         stage.advance();
     }
     return patches;
+}
+
+namespace {
+
+using EdgeLimits = std::unordered_map<std::uint64_t, double>;
+
+/// An object on its way from patches to finer ones.
+struct RefinedObject {
+    Division division;
+    RefinedMesh patches;                   ///< the triangles of the patches, and some without area
+    std::vector<std::uint32_t> number_of;  ///< per triangle of `patches`: the patch before or at it
+    RefinedMesh fine;                      ///< its parents are triangles of `patches`
+};
+
+/// For each edge, the shortest of the limits of the triangles that share it.
+EdgeLimits limits_of(const RefinedObject& object, const LongestEdge& longest_edge_m) {
+    const Mesh& mesh = object.fine.mesh;
+    std::vector<double> limits(mesh.triangles.size());
+    parallel_for_parts(limits.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const auto [a, b, c] = mesh.triangles[i];
+            limits[i] = longest_edge_m(object.number_of[object.fine.parents[i]],
+                                       {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+        }
+    });
+    EdgeLimits of_edges;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Triangle& t = mesh.triangles[i];
+            const auto [found, is_new] = of_edges.try_emplace(edge_key(t[k], t[(k + 1) % 3]), limits[i]);
+            if (!is_new) found->second = std::min(found->second, limits[i]);
+        }
+    }
+    return of_edges;
+}
+
+/// Halves the edges that are longer than the limit once; returns whether there were any.
+bool halve_once(RefinedObject& object, const LongestEdge& longest_edge_m) {
+    const EdgeLimits limits = limits_of(object, longest_edge_m);
+    return halve_edges(
+        object.fine,
+        [&](const Edge& edge) {
+            const double limit_m = limits.at(edge_key(edge.a, edge.b));
+            return edge.squared_length_m2 > limit_m * limit_m;
+        },
+        object.division.middle_of);
+}
+
+std::vector<RefinedObject> objects_of(const Scene& scene, double longest_edge_m) {
+    std::vector<RefinedObject> objects;
+    Patches again;
+    Collector collector(again);
+    for (Division& division : divisions_of(scene, longest_edge_m)) {
+        RefinedMesh patches = refined(division);
+        RefinedMesh fine = unrefined(patches.mesh);
+        const auto first = static_cast<std::uint32_t>(again.count());
+        std::vector<std::uint32_t> number_of(patches.parents.size(), first);
+        const auto kept = collector.add(scene.objects[objects.size()], patches);
+        for (std::uint32_t i = 0; i < kept.size(); ++i) number_of[kept[i]] = first + i;
+        objects.push_back({std::move(division), std::move(patches), std::move(number_of), std::move(fine)});
+    }
+    return objects;
+}
+
+std::size_t count_of(const std::vector<RefinedObject>& objects) {
+    std::size_t count = 0;
+    for (const RefinedObject& object : objects) count += object.fine.parents.size();
+    return count;
+}
+
+}  // namespace
+
+FinePatches make_fine_patches(const Scene& scene, double size_m, const LongestEdge& longest_edge_m,
+                              std::size_t most, const Monitor& monitor) {
+    constexpr std::uint64_t most_rounds = 8;
+    std::vector<RefinedObject> objects = objects_of(scene, size_m);
+    Stage stage(monitor, "finer patches", most_rounds * objects.size());
+    bool has_changed = true;
+    for (std::uint64_t round = 0; round < most_rounds && has_changed; ++round) {
+        has_changed = false;
+        for (RefinedObject& object : objects) {
+            if (count_of(objects) < most && halve_once(object, longest_edge_m)) has_changed = true;
+            stage.advance();
+        }
+    }
+    FinePatches fine;
+    std::vector<Division> divisions;
+    for (const RefinedObject& object : objects) divisions.push_back(object.division);
+    fine.patches.center = center_of(divisions);
+    Collector collector(fine.patches);
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+        const RefinedObject& object = objects[o];
+        RefinedMesh whole{object.fine.mesh, {}};
+        for (const std::uint32_t parent : object.fine.parents)
+            whole.parents.push_back(object.patches.parents[parent]);
+        for (const std::uint32_t i : collector.add(scene.objects[o], whole))
+            fine.parents.push_back(object.number_of[object.fine.parents[i]]);
+    }
+    return fine;
 }
 
 Bounds bounds_of(const Patches& patches) {
@@ -189,126 +313,6 @@ Bounds bounds_of(const Patches& patches) {
 
 double patch_size_m(const Scene& scene, double count) {
     return std::sqrt(surface_area_m2(scene) / (kMeanArea * count));
-}
-
-namespace {
-
-constexpr std::uint32_t kNone = ~0u;
-/// A tolerance, so that edges of exactly the limit are not divided because of rounding.
-constexpr double kRounding = 1 + 1e-9;
-
-/// The vertices in the middle of edges, each created on first use.
-class Middles {
-  public:
-    Middles(std::vector<Vec3>& vertices, const MiddleOf& middle_of, std::size_t about)
-        : vertices_(vertices), middle_of_(middle_of) {
-        of_edge_.reserve(about);
-    }
-
-    std::uint32_t between(std::uint32_t a, std::uint32_t b) {
-        const std::uint64_t edge = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-        const auto [found, is_new] = of_edge_.try_emplace(edge, static_cast<std::uint32_t>(vertices_.size()));
-        if (is_new) vertices_.push_back(middle_of_(vertices_[a], vertices_[b]));
-        return found->second;
-    }
-
-  private:
-    std::vector<Vec3>& vertices_;
-    const MiddleOf& middle_of_;
-    std::unordered_map<std::uint64_t, std::uint32_t> of_edge_;
-};
-
-/// A triangle rotated so that its longest edge comes first; edge i runs from corner i to corner i + 1.
-struct TurnedTriangle {
-    Triangle corners;
-    std::array<double, 3> squared_lengths;
-};
-
-TurnedTriangle longest_first(const Triangle& t, const std::vector<Vec3>& vertices) {
-    TurnedTriangle turned{t, {}};
-    for (std::size_t i = 0; i < 3; ++i) {
-        turned.squared_lengths[i] = squared_length(vertices[t[(i + 1) % 3]] - vertices[t[i]]);
-    }
-    const auto longest = std::ranges::max_element(turned.squared_lengths) - turned.squared_lengths.begin();
-    std::rotate(turned.squared_lengths.begin(), turned.squared_lengths.begin() + longest,
-                turned.squared_lengths.end());
-    std::rotate(turned.corners.begin(), turned.corners.begin() + longest, turned.corners.end());
-    return turned;
-}
-
-/// One round: all edges above the limit are halved once.
-class Halving {
-  public:
-    Halving(RefinedMesh& coarse, double longest_edge_m, const MiddleOf& middle_of)
-        : coarse_(coarse),
-          squared_limit_(longest_edge_m * longest_edge_m * kRounding),
-          middles_(coarse.mesh.vertices, middle_of, coarse.mesh.triangles.size()) {}
-
-    /// Returns false where no edge was left to halve.
-    bool run() {
-        const std::size_t count = coarse_.mesh.triangles.size();
-        finer_.reserve(2 * count);
-        parents_.reserve(2 * count);
-        for (std::size_t i = 0; i < count; ++i) {
-            divide(coarse_.mesh.triangles[i]);
-            parents_.resize(finer_.size(), coarse_.parents[i]);
-        }
-        coarse_.mesh.triangles = std::move(finer_);
-        coarse_.parents = std::move(parents_);
-        return coarse_.mesh.triangles.size() > count;
-    }
-
-  private:
-    void divide(const Triangle& triangle) {
-        const TurnedTriangle turned = longest_first(triangle, coarse_.mesh.vertices);
-        if (!is_too_long(turned.squared_lengths[0])) {
-            finer_.push_back(triangle);
-            return;
-        }
-        const auto [a, b, c] = turned.corners;
-        const std::uint32_t ab = middles_.between(a, b);
-        const std::uint32_t bc = is_too_long(turned.squared_lengths[1]) ? middles_.between(b, c) : kNone;
-        const std::uint32_t ca = is_too_long(turned.squared_lengths[2]) ? middles_.between(c, a) : kNone;
-        if (bc != kNone && ca != kNone && is_shorter(bc, ca, ab, c)) {
-            finer_.insert(finer_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}});
-            return;
-        }
-        divide_half(a, ab, c, ca);
-        divide_half(c, ab, b, bc);
-    }
-
-    /// The half whose corners `from` and `to` are the ends of an edge of the whole, with that edge's middle
-    /// if it has one.
-    void divide_half(std::uint32_t from, std::uint32_t ab, std::uint32_t to, std::uint32_t middle) {
-        if (middle == kNone) {
-            finer_.push_back({from, ab, to});
-        } else {
-            finer_.insert(finer_.end(), {{from, ab, middle}, {middle, ab, to}});
-        }
-    }
-
-    bool is_too_long(double squared_length_m2) const { return squared_length_m2 > squared_limit_; }
-
-    bool is_shorter(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-        const std::vector<Vec3>& v = coarse_.mesh.vertices;
-        return squared_length(v[b] - v[a]) * kRounding < squared_length(v[d] - v[c]);
-    }
-
-    RefinedMesh& coarse_;
-    double squared_limit_;
-    Middles middles_;
-    std::vector<Triangle> finer_;
-    std::vector<std::uint32_t> parents_;
-};
-
-}  // namespace
-
-RefinedMesh refined(Mesh coarse, double longest_edge_m, const MiddleOf& middle_of) {
-    RefinedMesh result{std::move(coarse), {}};
-    result.parents.resize(result.mesh.triangles.size());
-    for (std::uint32_t i = 0; i < result.parents.size(); ++i) result.parents[i] = i;
-    while (Halving(result, longest_edge_m, middle_of).run()) continue;
-    return result;
 }
 
 }  // namespace stilb::patches

@@ -12,6 +12,7 @@
 // lights emit.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -73,31 +74,25 @@ inline constexpr std::size_t kMostPatches = 100'000'000;
 /// InputError where the size is not above 0, and where there would be more than about kMostPatches; Cancelled
 /// as the monitor says.
 Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor = Monitor::none());
+
+/// The longest edge [m] that a part of a patch may have, by the patch's number and the corners of the part.
+/// Called in parallel.
+using LongestEdge = std::function<double(std::uint32_t patch, const std::array<Vec3, 3>& corners)>;
+
+/// Patches divided into finer ones where something changes quickly.
+struct FinePatches {
+    Patches patches;
+    std::vector<std::uint32_t> parents;  ///< per fine patch: the number of the coarse one
+};
+/// The patches of make_patches(scene, size_m), divided until no edge is longer than the limit of the patches
+/// that share it, or until there are about `most`.
+FinePatches make_fine_patches(const Scene& scene, double size_m, const LongestEdge& longest_edge_m,
+                              std::size_t most, const Monitor& monitor = Monitor::none());
+
 /// Bounds of all vertices, relative to Patches::center [m].
 Bounds bounds_of(const Patches& patches);
 /// The longest edge with which the scene has about `count` patches (within a factor of two where its surfaces
 /// are large against that).
 double patch_size_m(const Scene& scene, double count = 10'000);
-
-// Meshes made finer, without T-junctions.
-//
-// Every edge above the limit is halved, in all triangles that share it, until none is left. Whether an edge
-// is halved, and where, thus depends on its two ends alone: neighbours always agree, also those of other
-// objects along edges that they share. A triangle is halved at its longest edge first, which keeps its angles
-// from becoming small [Rivara 1984, Algorithms for refining triangular grids].
-
-/// The position of a new vertex between two others; the same for (a, b) and (b, a).
-using MiddleOf = std::function<Vec3(const Vec3& a, const Vec3& b)>;
-
-struct RefinedMesh {
-    Mesh mesh;
-    /// For each triangle, its parent in the coarse mesh. Triangles of the same parent follow one
-    /// another, in the order of the parents.
-    std::vector<std::uint32_t> parents;
-};
-
-/// `coarse` with all edges halved until none is longer than `longest_edge_m` (up to rounding). Triangles
-/// keep their front.
-RefinedMesh refined(Mesh coarse, double longest_edge_m, const MiddleOf& middle_of);
 
 }  // namespace stilb::patches

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "io/image/picture_file.h"
 #include "io/photometry/photometry_file.h"
@@ -29,6 +30,12 @@ struct Context {
     SceneFile& file;
 };
 
+/// The keys of a type, and those of all types.
+void expect_light_keys(TomlTable& table, std::vector<std::string_view> keys, std::string_view kind) {
+    keys.emplace_back("group");
+    table.expect_keys(keys, kind);
+}
+
 /// A colour of luminance 1.
 Rgb read_colour(const TomlTable& table) {
     table.expect_not_both("cct", "color");
@@ -44,7 +51,7 @@ Rgb read_colour(const TomlTable& table) {
 }
 
 PointLight read_point(TomlTable& table) {
-    table.expect_keys({"type", "position", "flux", "intensity", "cct", "color"}, "type \"point\"");
+    expect_light_keys(table, {"type", "position", "flux", "intensity", "cct", "color"}, "type \"point\"");
     const double quantity = table.one_of({"flux", "intensity"}).item.number(kLightQuantity);
     const double intensity_cd = table.has("flux") ? quantity / (4 * kPi) : quantity;
     return {table.at("position").vector(), intensity_cd * read_colour(table)};
@@ -60,7 +67,7 @@ double read_luminance(const TomlTable& table, const Shape& shape) {
 }
 
 AreaLight read_area(TomlTable& table, const Context& context) {
-    table.expect_keys({"type", "object", "flux", "luminance", "cct", "color"}, "type \"area\"");
+    expect_light_keys(table, {"type", "object", "flux", "luminance", "cct", "color"}, "type \"area\"");
     const Scene& scene = context.file.scene;
     std::vector<std::string_view> names;
     for (const Object& object : scene.objects) names.push_back(object.name);
@@ -88,7 +95,7 @@ MaterialId black_of_lights(Scene& scene) {
 }
 
 AreaLight read_sphere(TomlTable& table, const Context& context) {
-    table.expect_keys({"type", "center", "radius", "flux", "luminance", "cct", "color"}, "type \"sphere\"");
+    expect_light_keys(table, {"type", "center", "radius", "flux", "luminance", "cct", "color"}, "type \"sphere\"");
     Scene& scene = context.file.scene;
     const Sphere sphere{table.at("center").vector(), table.at("radius").number(kRadius)};
     for (const Object& object : scene.objects) {
@@ -123,7 +130,7 @@ SolidId read_solid(const TomlItem& item, const Context& context) {
 }
 
 Luminaire read_photometry(TomlTable& table, const Context& context) {
-    table.expect_keys({"type", "file", "position", "aim", "spin", "dimming", "flux", "cct", "color"},
+    expect_light_keys(table, {"type", "file", "position", "aim", "spin", "dimming", "flux", "cct", "color"},
                       "type \"photometry\"");
     const Vec3 position = table.at("position").vector();
     const auto aim = table.find("aim"), spin = table.find("spin"), dimming = table.find("dimming"),
@@ -160,7 +167,7 @@ std::shared_ptr<const Panorama> read_panorama(const TomlItem& item, double dimmi
 }
 
 EnvironmentLight read_environment(TomlTable& table, const Context& context) {
-    table.expect_keys({"type", "luminance", "file", "up", "rotation", "dimming", "cct", "color"},
+    expect_light_keys(table, {"type", "luminance", "file", "up", "rotation", "dimming", "cct", "color"},
                       "type \"environment\"");
     for (const Light& other : context.file.scene.lights) {
         if (location_of(other) != LightLocation::infinity) continue;
@@ -213,11 +220,21 @@ lights::LightSource read_source(TomlTable& table, const Context& context) {
     return std::ranges::find(kReaders, type, &Reader::type)->read(table, context);
 }
 
+/// Lights with the same text are dimmed together in solutions.
+std::string read_group(const TomlTable& table) {
+    const auto group = table.find("group");
+    if (!group) return {};
+    std::string name(group->text());
+    if (name.empty()) group->fail("the name is empty. Allowed: a text with at least one character.");
+    return name;
+}
+
 }  // namespace
 
 void read_lights(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file) {
     for (auto& [name, table] : named_tables(section)) {
-        file.scene.lights.push_back({name, read_source(table, {name, directory, file})});
+        lights::LightSource source = read_source(table, {name, directory, file});
+        file.scene.lights.push_back({name, std::move(source), read_group(table)});
     }
 }
 

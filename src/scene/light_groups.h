@@ -1,0 +1,46 @@
+// Groups of lights whose light is stored apart, so that it can be dimmed and coloured afterwards.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/rgb.h"
+#include "scene/scene.h"
+
+namespace stilb::scene {
+
+/// Memory and time of solutions grow with the number of groups.
+inline constexpr std::size_t kMostLightGroups = 32;
+/// The group of all lights beyond that number.
+inline constexpr std::string_view kOtherLights = "others";
+
+struct LightGroups {
+    std::vector<std::string> names;
+    std::vector<std::uint32_t> of_light;  ///< as Scene::lights: the number of its group
+
+    std::size_t count() const { return names.size(); }
+};
+
+/// Lights with the same `group` are one group; each other light is a group of its own name. Where there are
+/// more than kMostLightGroups, the last one holds all further lights.
+LightGroups light_groups(const Scene& scene);
+
+/// A factor for the light of a light or of a group, band by band.
+struct LightFactor {
+    std::string name;
+    Rgb factor = Rgb::grey(1);
+};
+
+/// The factor of each group; 1 where none is given. Names are those of groups, or of lights that are a group
+/// of their own. Throws InputError where a name is neither, with the names that are allowed.
+std::vector<Rgb> factors_of_groups(std::span<const LightFactor> factors, std::span<const std::string> groups);
+
+}  // namespace stilb::scene
+
+namespace stilb {
+using scene::LightFactor;
+using scene::LightGroups;
+}  // namespace stilb
