@@ -38,7 +38,8 @@ std::array<double, 3> three_numbers(const Json& value, std::string_view name, do
 }
 
 Vec3 vector_of(const Json& object, std::string_view name) {
-    const auto [x, y, z] = three_numbers(member_of(object, name), name, -kMostCoordinate_m, kMostCoordinate_m);
+    const auto [x, y, z] =
+        three_numbers(member_of(object, name), name, -kMostCoordinate_m, kMostCoordinate_m);
     return {x, y, z};
 }
 

@@ -33,7 +33,8 @@ constexpr std::size_t kWorkers = 32;
 constexpr std::chrono::milliseconds kGlance{50};
 
 constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src "
+    "'self'; "
     "worker-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// Waits until the socket is ready for `event`, the deadline passes or the server ends.
@@ -60,7 +61,8 @@ class Connection final : public httplib::Stream {
 
     /// Waits for the first byte of the next request.
     bool await_request() {
-        if (begin_ == end_ && !wait_for(socket_, POLLIN, Clock::now() + limits_.idle, is_ending_)) return false;
+        if (begin_ == end_ && !wait_for(socket_, POLLIN, Clock::now() + limits_.idle, is_ending_))
+            return false;
         deadline_ = Clock::now() + limits_.request;
         left_ = limits_.header_bytes + limits_.body_bytes;
         is_responding_ = false;
@@ -160,7 +162,9 @@ void answer(httplib::Response& response, int status, std::string json) {
 }
 
 void answer(httplib::Response& response, const Refusal& refusal) {
-    answer(response, refusal.status, nlohmann::json{{"error", refusal.message}}.dump());
+    answer(response, refusal.status,
+           nlohmann::json{{"error", refusal.message}}.dump(-1, ' ', false,
+                                                           nlohmann::json::error_handler_t::replace));
 }
 
 /// Sends bytes without a copy of them.
@@ -224,7 +228,7 @@ std::string random_token() {
 
 class Server::Http final : private httplib::Server {
   public:
-    Http(Handlers handlers, int port, const ServerLimits& limits)
+    Http(walk::Handlers handlers, int port, const ServerLimits& limits)
         : handlers_(std::move(handlers)), limits_(limits), token_(random_token()) {
         // Not SO_REUSEPORT, the library's choice: with it two servers share a port, and nobody notices.
         set_socket_options([](socket_t socket) {
@@ -288,10 +292,9 @@ class Server::Http final : private httplib::Server {
                       response);
         });
         // Of the library's own refusals, which have no text.
-        set_error_handler([](const httplib::Request&, httplib::Response& response) {
+        set_error_handler(Handler([](const httplib::Request&, httplib::Response& response) {
             if (response.body.empty()) answer(response, {response.status, "The request is not valid HTTP."});
-            return HandlerResponse::Handled;
-        });
+        }));
         set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
             answer(response, {500, "Stilb could not answer this request, because of an internal error."});
         });
@@ -384,7 +387,7 @@ class Server::Http final : private httplib::Server {
         return true;
     }
 
-    Handlers handlers_;
+    walk::Handlers handlers_;
     ServerLimits limits_;
     std::string token_;
     int port_ = 0;
