@@ -268,7 +268,12 @@ class Server::Http final : private httplib::Server {
     void bind(int port) {
         errno = 0;
         port_ = port == 0 ? bind_to_any_port(kLoopback) : bind_to_port(kLoopback, port) ? port : -1;
-        if (port_ > 0) return;
+        if (port_ > 0) {
+            // With the library's queue of five, the system lets a sixth connection wait for a second.
+            constexpr int most_waiting = 128;
+            ::listen(svr_sock_, most_waiting);
+            return;
+        }
         const char* const reason = errno == EACCES ? "only the system's administrator may use it"
                                                    : "it is in use by another program";
         throw InputError(fmt::format(

@@ -235,6 +235,7 @@ TEST_F(ServerTest, HeadersAreLimited) {
 }
 
 TEST_F(ServerTest, SurvivesWhatIsNotHttp) {
+    start({.request = milliseconds(200)});
     for (const std::string& bytes :
          {std::string("\r\n\r\n"), std::string("\x16\x03\x01\x02\x00\x01", 6), std::string(5000, '\0'),
           std::string("GET / HTTP/9.9\r\n\r\n"), std::string("GET \r\n\r\n"), "GET " + path("")})
