@@ -1,0 +1,195 @@
+#include "walk/display_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "stilb/error.h"
+#include "walk/refinement.h"
+
+namespace stilb::walk {
+namespace {
+
+void require_walkable(const patches::Patches& patches) {
+    if (patches.count() <= kMostWalkPatches) return;
+    throw InputError(fmt::format(
+        "the surfaces are {} patches, too many to walk through: a browser takes {} at most. Choose a larger "
+        "patch size, or meshes of fewer triangles.",
+        patches.count(), kMostWalkPatches));
+}
+
+/// Builds the mesh of one scene.
+class DisplayBuilder {
+  public:
+    DisplayBuilder(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
+                   const DisplayOptions& options, const Monitor& monitor)
+        : caster_(caster),
+          options_(options),
+          monitor_(monitor),
+          direct_(scene, caster),
+          light_(scene, caster, patches, direct_),
+          scene_{scene, patches, light_},
+          surface_(make_display_surface(scene, caster, patches)) {
+        lights_.lights = direct_.count();
+    }
+
+    DisplayMesh run(const std::vector<bool>& carries_light) {
+        light_all(1);
+        remove_unseen(carries_light);
+        light_all(kMostAround);
+        const std::vector<float> errors =
+            refine(scene_, options_, typical_lx(), 2 * caster_.half_extent_m(), surface_, lights_, monitor_);
+        return assembled(errors);
+    }
+
+  private:
+    /// Triangles around a vertex that are looked at.
+    static constexpr std::size_t kMostAround = 12;
+
+    /// `most`: triangles around each vertex that are looked at. With one, contacts are not found.
+    void light_all(std::size_t most) {
+        const TrianglesAround triangles(surface_);
+        std::vector<std::vector<Adjoining>> around(surface_.vertices.size());
+        for (std::uint32_t v = 0; v < around.size(); ++v) {
+            for (const std::uint32_t t : triangles.of(v)) {
+                const SurfaceTriangle& triangle = surface_.triangles[t];
+                if (around[v].size() == most || scene_.is_specular(triangle.side)) break;
+                around[v].push_back({surface_.middle(triangle), triangle.side});
+            }
+        }
+        light_vertices(scene_, surface_, 0, around, lights_, monitor_);
+    }
+
+    /// Removes triangles that are dark or hidden.
+    void remove_unseen(const std::vector<bool>& carries_light) {
+        std::vector<bool> emits(scene_.scene.objects.size());
+        for (const Light& light : scene_.scene.lights) {
+            if (const auto surface = lights::surface_emission(light)) emits[index_of(surface->object)] = true;
+        }
+        std::vector<bool> is_reached(2 * scene_.scene.objects.size());
+        std::erase_if(surface_.triangles, [&](const SurfaceTriangle& triangle) {
+            const std::uint32_t side = triangle.side;
+            const ObjectId object = scene_.patches.object_of(scene_.patches.patch_of(side));
+            const bool is_front = scene_.patches.is_front(side);
+            const bool is_seen = carries_light[side] || scene_.is_specular(side) ||
+                                 (is_front && emits[index_of(object)]) || is_lit(triangle);
+            if (is_seen) is_reached[object_side(object, is_front)] = true;
+            return !is_seen;
+        });
+        remove_unused_vertices();
+        light_.set_reached(std::move(is_reached));
+    }
+
+    bool is_lit(const SurfaceTriangle& triangle) const {
+        return std::ranges::any_of(triangle.corners,
+                                   [&](std::uint32_t corner) { return lights_.sum_lx(corner) > 0; });
+    }
+
+    void remove_unused_vertices() {
+        const std::vector<std::uint32_t> kept = renumber();
+        std::vector<SurfaceVertex> vertices;
+        vertices.reserve(kept.size());
+        for (const std::uint32_t v : kept) vertices.push_back(surface_.vertices[v]);
+        surface_.vertices = std::move(vertices);
+    }
+
+    /// Numbers the vertices in the order in which triangles use them; returns the old numbers.
+    std::vector<std::uint32_t> renumber() {
+        constexpr std::uint32_t kUnused = ~0u;
+        std::vector<std::uint32_t> number(surface_.vertices.size(), kUnused), old;
+        for (SurfaceTriangle& triangle : surface_.triangles) {
+            for (std::uint32_t& corner : triangle.corners) {
+                if (number[corner] == kUnused) {
+                    number[corner] = static_cast<std::uint32_t>(old.size());
+                    old.push_back(corner);
+                }
+                corner = number[corner];
+            }
+        }
+        return old;
+    }
+
+    /// The mean direct illuminance of the surfaces.
+    double typical_lx() const {
+        double sum = 0, area_m2 = 0;
+        for (const SurfaceTriangle& triangle : surface_.triangles) {
+            if (scene_.is_specular(triangle.side)) continue;
+            const double own_m2 = surface_.area_m2(triangle);
+            area_m2 += own_m2;
+            for (const std::uint32_t corner : triangle.corners) sum += own_m2 / 3 * lights_.sum_lx(corner);
+        }
+        return area_m2 > 0 ? sum / area_m2 : 0;
+    }
+
+    // The result.
+
+    /// Object, back, material.
+    std::tuple<std::uint32_t, bool, std::uint32_t> part_of(const SurfaceTriangle& triangle) const {
+        const std::uint32_t patch = scene_.patches.patch_of(triangle.side);
+        return {index_of(scene_.patches.object_of(patch)), !scene_.patches.is_front(triangle.side),
+                index_of(scene_.patches.materials[patch])};
+    }
+
+    DisplayMesh assembled(const std::vector<float>& interpolation_errors) {
+        std::ranges::stable_sort(surface_.triangles, {},
+                                 [&](const SurfaceTriangle& triangle) { return part_of(triangle); });
+        const std::vector<std::uint32_t> old = renumber();
+        DisplayMesh mesh;
+        for (const std::uint32_t v : old)
+            mesh.vertices.push_back({surface_.vertices[v].position, surface_.vertices[v].normal});
+        for (const SurfaceTriangle& triangle : surface_.triangles) add_triangle(triangle, mesh);
+        mesh.direct_lx.reserve(lights_.lights * old.size());
+        for (std::size_t light = 0; light < lights_.lights; ++light) {
+            for (const std::uint32_t v : old) mesh.direct_lx.push_back(lights_.of(v)[light]);
+        }
+        for (const std::uint32_t v : old)
+            mesh.direct_error_lx.push_back(error_lx(v, interpolation_errors[v]));
+        return mesh;
+    }
+
+    void add_triangle(const SurfaceTriangle& triangle, DisplayMesh& mesh) const {
+        const auto [object, is_back, material] = part_of(triangle);
+        const DisplayPart part{ObjectId{object}, MaterialId{material}, !is_back, mesh.triangles.size()};
+        if (mesh.parts.empty() || mesh.parts.back().object != part.object ||
+            mesh.parts.back().material != part.material || mesh.parts.back().is_front != part.is_front)
+            mesh.parts.push_back(part);
+        ++mesh.parts.back().count;
+        mesh.triangles.push_back(triangle.corners);
+        for (std::size_t i = 0; i < 3; ++i) {
+            DisplayVertex& vertex = mesh.vertices[triangle.corners[i]];
+            const auto& [b0, b1, b2] = triangle.barycentric[i];
+            vertex.side = triangle.side;
+            vertex.barycentric = {b0, b1, b2};
+        }
+    }
+
+    float error_lx(std::uint32_t vertex, double interpolation) const {
+        constexpr double kNormal95 = 1.959964, kHalfPrecision = 0x1p-11;
+        const double sampling = kNormal95 * std::sqrt(double{lights_.squared_error_lx2[vertex]});
+        const double rounding = kHalfPrecision * lights_.sum_lx(vertex);
+        return static_cast<float>(std::hypot(sampling, interpolation, rounding));
+    }
+
+    const rays::RayCaster& caster_;
+    const DisplayOptions& options_;
+    const Monitor& monitor_;
+    DirectLight direct_;
+    VertexLight light_;
+    RefinementScene scene_;
+    DisplaySurface surface_;
+    VertexLights lights_;
+};
+
+}  // namespace
+
+DisplayMesh make_display_mesh(const Scene& scene, const rays::RayCaster& caster,
+                              const patches::Patches& patches, const std::vector<bool>& carries_light,
+                              const DisplayOptions& options, const Monitor& monitor) {
+    require_walkable(patches);
+    return DisplayBuilder(scene, caster, patches, options, monitor).run(carries_light);
+}
+
+}  // namespace stilb::walk

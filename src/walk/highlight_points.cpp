@@ -1,0 +1,92 @@
+#include "walk/highlight_points.h"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "lights/emitter_elements.h"
+#include "math/random.h"
+#include "math/sampling.h"
+
+namespace stilb::walk {
+namespace {
+
+constexpr std::size_t kRows = 4, kOnSurface = kRows * kRows, kAround = 64;
+/// The distance of light from infinity, in extents of the scene.
+constexpr double kFar = 100;
+
+/// Point i of n on the unit sphere, evenly spread (a Fibonacci lattice).
+Vec3 lattice_direction(std::size_t i, std::size_t n) {
+    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(n);
+    const double azimuth = static_cast<double>(i) * kPi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
+    return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
+std::vector<HighlightPoint> points_on(const Rectangle& rectangle) {
+    const Vec3 normal = normalized(cross(rectangle.edge_u, rectangle.edge_v));
+    std::vector<HighlightPoint> points;
+    for (std::size_t i = 0; i < kOnSurface; ++i) {
+        const double s = (static_cast<double>(i % kRows) + 0.5) / kRows;
+        const double t = (static_cast<double>(i / kRows) + 0.5) / kRows;
+        points.push_back({rectangle.corner + s * rectangle.edge_u + t * rectangle.edge_v, normal, 1});
+    }
+    return points;
+}
+
+std::vector<HighlightPoint> points_on(const Sphere& sphere) {
+    std::vector<HighlightPoint> points;
+    for (std::size_t i = 0; i < kOnSurface; ++i) {
+        const Vec3 outwards = lattice_direction(i, kOnSurface);
+        points.push_back({sphere.center + sphere.radius * outwards, outwards, 1});
+    }
+    return points;
+}
+
+/// Any other shape: elements by area, and on these the points of a (0, 2)-sequence.
+template <typename AnyShape>
+std::vector<HighlightPoint> points_on(const AnyShape& shape) {
+    const std::vector<lights::EmitterElement> elements = lights::emitter_elements(shape);
+    std::vector<double> areas;
+    for (const lights::EmitterElement& element : elements) areas.push_back(element.area_m2);
+    const math::DiscreteDistribution by_area(areas);
+    std::vector<HighlightPoint> points;
+    for (std::size_t i = 0; i < kOnSurface; ++i) {
+        const auto u = math::SampleStream(math::RandomKey{2}, i).next_two();
+        const auto choice = by_area.choose(u[0]);
+        const auto point = sample_by_area(elements[choice.index], {choice.remainder, u[1]});
+        points.push_back({point.position, point.normal, point.weight});
+    }
+    return points;
+}
+
+std::vector<HighlightPoint> points_around(const Scene& scene, const EnvironmentLight& light) {
+    const scene::LightSurroundings surroundings(scene);
+    const EnvironmentLight::Emitter emitter(light, surroundings, scene::lift_of(scene));
+    const Bounds bounds = surroundings.bounds();
+    std::vector<HighlightPoint> points;
+    for (std::size_t i = 0; i < kAround; ++i) {
+        const Vec3 direction = lattice_direction(i, kAround);
+        points.push_back({bounds.middle() + 2 * kFar * bounds.half_extent() * direction, Vec3{},
+                          emitter.luminance_cd_m2(direction).luminance()});
+    }
+    return points;
+}
+
+}  // namespace
+
+std::vector<HighlightPoint> highlight_points(const Scene& scene, const Light& light) {
+    if (const auto origin = lights::point_origin(light)) return {{origin->position, Vec3{}, 1}};
+    std::vector<HighlightPoint> points;
+    if (const auto surface = lights::surface_emission(light)) {
+        points = std::visit([](const auto& shape) { return points_on(shape); },
+                            scene.object(surface->object).shape);
+    } else if (const auto* environment = std::get_if<EnvironmentLight>(&light.source)) {
+        points = points_around(scene, *environment);
+    }
+    double sum = 0;
+    for (const HighlightPoint& point : points) sum += point.weight;
+    for (HighlightPoint& point : points) point.weight = sum > 0 ? point.weight / sum : 0;
+    return points;
+}
+
+}  // namespace stilb::walk

@@ -1,0 +1,320 @@
+#include "walk/walk_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
+
+#include "walk/container.h"
+#include "walk/display_mesh.h"
+#include "walk/highlight_points.h"
+#include "walk/scene_header.h"
+
+namespace stilb::walk {
+namespace {
+
+using estimators::LightVertices;
+using estimators::PatchSolution;
+using WalkJson = nlohmann::ordered_json;
+
+/// The largest number in half precision.
+constexpr float kMostHalf = 65504;
+
+std::uint16_t half_of(double value) {
+    return to_half(std::clamp(static_cast<float>(value), -kMostHalf, kMostHalf));
+}
+
+/// In half precision, or in single precision where the values are too large for that (the sun's).
+ContainerArray illuminance_array(const std::string& name, const std::vector<float>& values) {
+    if (std::ranges::any_of(values, [](float value) { return value > kMostHalf; }))
+        return make_array(name, 1, std::span<const float>(values));
+    std::vector<std::uint16_t> halves(values.size());
+    std::ranges::transform(values, halves.begin(), to_half);
+    return make_half_array(name, 1, halves);
+}
+
+/// Gathers numbers of elements of several components.
+template <typename Number>
+class Rows {
+  public:
+    explicit Rows(std::size_t count, std::size_t components) { numbers_.reserve(count * components); }
+    void add(std::initializer_list<Number> row) { numbers_.insert(numbers_.end(), row); }
+    operator std::span<const Number>() const { return numbers_; }
+
+  private:
+    std::vector<Number> numbers_;
+};
+
+void add_position(Rows<float>& rows, const Vec3& v) {
+    rows.add({static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+}
+
+void add_unit(Rows<std::int16_t>& rows, const Vec3& v) {
+    const auto rounded = [](double x) { return static_cast<std::int16_t>(std::lround(32767 * x)); };
+    rows.add({rounded(v.x), rounded(v.y), rounded(v.z)});
+}
+
+/// The light vertices of a display vertex, and their weights: those of its patch's corners that carry light.
+struct LightShares {
+    std::array<std::uint32_t, 3> vertices{LightVertices::kDark, LightVertices::kDark, LightVertices::kDark};
+    std::array<double, 3> weights{};
+};
+
+LightShares light_shares(const patches::Patches& patches, const LightVertices& light,
+                         const DisplayVertex& vertex) {
+    const auto& [b0, b1, b2] = vertex.barycentric;
+    const std::array<double, 3> barycentric{b0, b1, b2};
+    const Triangle& corners = patches.corners[patches.patch_of(vertex.side)];
+    LightShares shares;
+    double sum = 0;
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t number = light.number_of(corners[i], patches.is_front(vertex.side));
+        if (number == LightVertices::kDark) continue;
+        ++lit;
+        shares.vertices[i] = number;
+        sum += shares.weights[i] = barycentric[i];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (shares.vertices[i] == LightVertices::kDark) continue;
+        // A vertex in a dark corner takes the mean of the others.
+        shares.weights[i] = sum > 0 ? shares.weights[i] / sum : 1 / static_cast<double>(lit);
+    }
+    return shares;
+}
+
+std::vector<bool> sides_with_light(const patches::Patches& patches, const LightVertices& light) {
+    std::vector<bool> carries(2 * patches.count());
+    for (std::uint32_t side = 0; side < carries.size(); ++side) {
+        carries[side] = std::ranges::any_of(patches.corners[patches.patch_of(side)], [&](auto corner) {
+            return light.number_of(corner, patches.is_front(side)) != LightVertices::kDark;
+        });
+    }
+    return carries;
+}
+
+/// Arrays and header of a scene.
+class SceneContainer {
+  public:
+    SceneContainer(const Scene& scene, const PatchSolution& solution, const WalkScene& walk)
+        : scene_(scene),
+          solution_(solution),
+          walk_(walk),
+          light_(scene, solution.patches, solution.degree, solution.lit_vertices) {}
+
+    const LightVertices& light() const { return light_; }
+
+    std::string bytes(const DisplayMesh& mesh) {
+        add_vertices(mesh);
+        add_light_vertices();
+        WalkJson header{{"name", walk_.name},
+                        {"stilb", STILB_VERSION},
+                        {"file", walk_.file},
+                        {"degree", solution_.degree},
+                        {"bounds", bounds_json(mesh)}};
+        header["materials"] = materials_json();
+        header["objects"] = names_json(scene_.objects, [](const Object& object) { return object.name; });
+        header["groups"] = names_json(solution_.groups, [](const std::string& name) { return name; });
+        header["lights"] = lights_json();
+        header["cameras"] = json_of_cameras(walk_.sensors);
+        header["sensors"] = json_of_other_sensors(walk_.sensors);
+        header["meshes"] = json_of_meshes(scene_, mesh.parts);
+        return container_bytes(std::move(header), arrays_);
+    }
+
+  private:
+    void add_vertices(const DisplayMesh& mesh) {
+        const std::size_t count = mesh.vertices.size();
+        Rows<float> positions(count, 3);
+        Rows<std::int16_t> normals(count, 3);
+        Rows<std::uint32_t> triangles(mesh.triangles.size(), 3), light_of(count, 3);
+        Rows<std::uint16_t> weights(count, 3);
+        for (const DisplayVertex& vertex : mesh.vertices) {
+            add_position(positions, vertex.position);
+            add_unit(normals, vertex.normal);
+            const LightShares shares = light_shares(solution_.patches, light_, vertex);
+            light_of.add({shares.vertices[0], shares.vertices[1], shares.vertices[2]});
+            weights.add({half_of(shares.weights[0]), half_of(shares.weights[1]), half_of(shares.weights[2])});
+        }
+        for (const auto& [a, b, c] : mesh.triangles) triangles.add({a, b, c});
+        arrays_.push_back(make_array("positions", 3, positions));
+        arrays_.push_back(make_array("normals", 3, normals));
+        arrays_.push_back(make_array("triangles", 3, triangles));
+        arrays_.push_back(illuminance_array("direct", mesh.direct_lx));
+        arrays_.push_back(illuminance_array("direct_error", mesh.direct_error_lx));
+        arrays_.push_back(make_array("light_of", 3, light_of));
+        arrays_.push_back(make_half_array("light_weights", 3, weights));
+    }
+
+    void add_light_vertices() {
+        const auto count = static_cast<std::uint32_t>(light_.count());
+        Rows<float> positions(count, 3);
+        Rows<std::int16_t> normals(count, 3), axes(count, 3);
+        Rows<std::uint16_t> materials(count, 1);
+        Rows<std::uint32_t> terms(count + 1, 1);
+        for (std::uint32_t number = 0; number < count; ++number) {
+            add_position(positions, light_.position(number));
+            const Frame frame = light_.frame(number);
+            add_unit(normals, frame.w);
+            add_unit(axes, frame.u);
+            materials.add({static_cast<std::uint16_t>(index_of(light_.material(number)))});
+            terms.add({light_.first_term(number)});
+        }
+        terms.add({light_.first_term(count)});
+        arrays_.push_back(make_array("light_positions", 3, positions));
+        arrays_.push_back(make_array("light_normals", 3, normals));
+        arrays_.push_back(make_array("light_axes", 3, axes));
+        arrays_.push_back(make_array("light_materials", 1, std::span<const std::uint16_t>(materials)));
+        arrays_.push_back(make_array("light_terms", 1, terms));
+    }
+
+    WalkJson materials_json() {
+        WalkJson list = WalkJson::array();
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+            const Material& material = scene_.materials[i].material;
+            WalkJson json = json_of(scene_.materials[i]);
+            json["reflection"] = nullptr;
+            if (!std::holds_alternative<Diffuse>(material) && !std::holds_alternative<Black>(material) &&
+                !is_specular(material)) {
+                add_table(material, fmt::format("reflection_{}", i), json);
+            }
+            list.push_back(std::move(json));
+        }
+        return list;
+    }
+
+    void add_table(const Material& material, const std::string& name, WalkJson& json) {
+        const estimators::ReflectionTable table =
+            estimators::make_reflection_table(material, solution_.degree);
+        Rows<float> factors(table.factors.size(), 3);
+        for (const auto& [red, green, blue] : table.factors) factors.add({red, green, blue});
+        arrays_.push_back(make_array(name, 3, factors));
+        json["reflection"] = name;
+        json["thetas"] = table.thetas;
+        json["phis"] = table.phis;
+    }
+
+    WalkJson lights_json() {
+        const scene::LightGroups groups = scene::light_groups(scene_);
+        WalkJson list = WalkJson::array();
+        Rows<float> rows(0, 8);
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            const std::vector<HighlightPoint> points = highlight_points(scene_, scene_.lights[i]);
+            list.push_back(json_of(scene_, scene_.lights[i], groups.of_light[i], first, points.size()));
+            first += points.size();
+            for (const auto& [position, normal, weight] : points) {
+                add_position(rows, position);
+                add_position(rows, normal);
+                rows.add({static_cast<float>(weight), 0});
+            }
+        }
+        arrays_.push_back(make_array("light_points", 8, rows));
+        return list;
+    }
+
+    template <typename Things, typename NameOf>
+    static WalkJson names_json(const Things& things, const NameOf& name_of) {
+        WalkJson list = WalkJson::array();
+        for (const auto& thing : things) list.push_back({{"name", name_of(thing)}});
+        return list;
+    }
+
+    static WalkJson bounds_json(const DisplayMesh& mesh) {
+        Bounds bounds;
+        for (const DisplayVertex& vertex : mesh.vertices) bounds.include(vertex.position);
+        if (bounds.is_empty()) bounds.include({});
+        return {{"min", json_of(bounds.min)}, {"max", json_of(bounds.max)}};
+    }
+
+    const Scene& scene_;
+    const PatchSolution& solution_;
+    const WalkScene& walk_;
+    LightVertices light_;
+    std::vector<ContainerArray> arrays_;
+};
+
+// The page.
+
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::string_view three = bytes.substr(i, 3);
+        std::uint32_t bits = 0;
+        for (std::size_t j = 0; j < 3; ++j)
+            bits = bits << 8 | (j < three.size() ? static_cast<unsigned char>(three[j]) : 0u);
+        for (std::size_t j = 0; j < 4; ++j)
+            text += j <= three.size() ? kDigits[bits >> (18 - 6 * j) & 63] : '=';
+    }
+    return text;
+}
+
+std::string with_replaced(std::string text, std::string_view from, std::string_view to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+/// Puts `text` in the place of a part that the page must have.
+void substitute(std::string& page, std::string_view part, const std::string& text) {
+    const std::size_t at = page.find(part);
+    if (at == std::string::npos) throw std::runtime_error(fmt::format("the page lacks {}", part));
+    page.replace(at, part.size(), text);
+}
+
+std::string data_tag(std::string_view id, std::string_view bytes) {
+    return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", id,
+                       base64(bytes));
+}
+
+}  // namespace
+
+std::string scene_data(const Scene& scene, const rays::RayCaster& caster, const PatchSolution& solution,
+                       const WalkScene& walk, const Monitor& monitor) {
+    SceneContainer container(scene, solution, walk);
+    const DisplayMesh mesh = make_display_mesh(
+        scene, caster, solution.patches, sides_with_light(solution.patches, container.light()), {}, monitor);
+    return gzip(container.bytes(mesh));
+}
+
+std::string light_data(const PatchSolution& solution, const LightState& state) {
+    Rows<std::uint16_t> terms(0, 3);
+    std::vector<ContainerArray> arrays;
+    for (const auto& group : solution.terms) {
+        for (const auto& [red, green, blue] : group) terms.add({red, green, blue});
+    }
+    std::vector<std::uint16_t> errors(solution.error.size());
+    std::ranges::transform(solution.error, errors.begin(), half_of);
+    arrays.push_back(make_half_array("terms", 3, terms));
+    arrays.push_back(make_half_array("terms_error", 1, errors));
+    WalkJson header{{"version", state.version},
+                    {"steps", state.steps},
+                    {"error", state.error},
+                    {"elapsed_s", state.elapsed_s},
+                    {"done", state.done}};
+    return gzip(container_bytes(std::move(header), arrays));
+}
+
+std::string self_contained_page(std::string_view scene, std::string_view light, const PageFiles& files) {
+    // Inline text must not contain what would end it; in strings of JavaScript and CSS a backslash before
+    // the slash changes nothing.
+    const std::string script =
+        with_replaced(with_replaced(std::string(files.script), "</script", "<\\/script"), "<!--", "<\\!--");
+    const std::string style = with_replaced(std::string(files.style), "</style", "<\\/style");
+    std::string page(files.html);
+    substitute(page, R"(<link rel="stylesheet" href="./page.css">)", "<style>\n" + style + "\n</style>");
+    substitute(page, R"(<script type="module" src="./page.js"></script>)",
+               "<script type=\"module\">\n" + script + "\n</script>");
+    const std::size_t end = page.rfind("</body>");
+    if (end == std::string::npos) throw std::runtime_error("the page lacks </body>");
+    page.insert(end, data_tag("stilb-scene", scene) + data_tag("stilb-light", light));
+    return page;
+}
+
+}  // namespace stilb::walk
