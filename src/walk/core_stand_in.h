@@ -9,50 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "base/half.h"
 #include "base/vec.h"
 #include "estimators/patch_light/first_shot/shadow_rays.h"
 #include "math/zernike.h"
 #include "patches/patches.h"
+#include "scene/light_groups.h"
 #include "scene/scene.h"
 
 namespace stilb {
 
-inline std::uint16_t to_half(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    const auto sign = static_cast<std::uint16_t>(bits >> 16 & 0x8000u);
-    const float magnitude = std::abs(value);
-    if (!(magnitude < 65520.f)) return static_cast<std::uint16_t>(sign | 0x7c00u);
-    if (magnitude < 0x1p-14f)
-        return static_cast<std::uint16_t>(sign | static_cast<unsigned>(std::nearbyint(magnitude * 0x1p24f)));
-    std::uint32_t rounded = (bits & 0x7fffffffu) + 0xfffu + (bits >> 13 & 1u);
-    return static_cast<std::uint16_t>(sign | ((rounded >> 13) - (112u << 10)));
-}
-inline float to_float(std::uint16_t half) {
-    const float sign = half & 0x8000u ? -1.f : 1.f;
-    const int exponent = half >> 10 & 31, mantissa = half & 1023;
-    if (exponent == 0) return sign * std::ldexp(static_cast<float>(mantissa), -24);
-    return sign * std::ldexp(static_cast<float>(1024 + mantissa), exponent - 25);
-}
-
-namespace scene {
-struct LightGroups {
-    std::vector<std::string> names;
-    std::vector<std::uint32_t> of_light;
-};
-inline LightGroups light_groups(const Scene& scene) {
-    LightGroups groups;
-    for (const Light& light : scene.lights) {
-        groups.of_light.push_back(static_cast<std::uint32_t>(groups.names.size()));
-        groups.names.push_back(light.name);
-    }
-    return groups;
-}
-}  // namespace scene
-
 namespace walk_stand_in {
 
 using ::stilb::estimators::lifted_off;
-using HalfRgb = std::array<std::uint16_t, 3>;
+using ::stilb::HalfRgb;
 using FloatRgb = std::array<float, 3>;
 
 struct PatchSolution {

@@ -132,4 +132,16 @@ std::optional<std::filesystem::path> save_beside(const std::filesystem::path& sc
     return std::nullopt;
 }
 
+std::string keep_placed_sensors(std::string_view json, const std::vector<Sensor>& present,
+                                const std::filesystem::path& scene) {
+    const std::string toml = to_toml(read_placed_sensors(json, present));
+    const std::string comment =
+        fmt::format("# Sensors that were placed in a walk through {}: paste them into that file.\n\n",
+                    scene.filename().string());
+    const auto saved = save_beside(scene, comment + toml);
+    nlohmann::ordered_json answer{{"toml", toml}, {"saved", saved ? saved->filename().string() : ""}};
+    if (!saved) answer["message"] = "No file could be written beside the scene. Copy the text instead.";
+    return answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace stilb::walk

@@ -117,5 +117,22 @@ TEST(PlacedSensors, AreSavedIntoNewFilesOnly) {
     std::filesystem::remove_all(folder);
 }
 
+TEST(PlacedSensors, TheAnswerSaysWhereTheyAre) {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "stilb_kept_sensors";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+    const std::string request =
+        one(R"("name": "a", "type": "illuminance", "position": [1, 1, 1], "normal": [0, 0, 1])");
+    const std::string answer = keep_placed_sensors(request, {}, folder / "room.toml");
+    EXPECT_NE(answer.find(R"("toml":"[sensors.a]\ntype = )"), std::string::npos) << answer;
+    EXPECT_NE(answer.find(R"("saved":"room-sensors.toml")"), std::string::npos) << answer;
+    const std::string text = io::read_whole_file(folder / "room-sensors.toml");
+    EXPECT_EQ(io::read_scene(kRoom + text, "s.toml", ".").sensors.size(), 1u);
+    const std::string unsaved = keep_placed_sensors(request, {}, folder / "none" / "room.toml");
+    EXPECT_NE(unsaved.find(R"("saved":"")"), std::string::npos) << unsaved;
+    EXPECT_NE(unsaved.find("Copy the text"), std::string::npos) << unsaved;
+    std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace stilb::walk
