@@ -17,6 +17,7 @@
 #include "cli/scene_argument.h"
 #include "io/image/picture_file.h"
 #include "io/results/solution_file.h"
+#include "io/scene/overrides.h"
 #include "io/text/text.h"
 #include "run/run.h"
 #include "stilb/error.h"
@@ -31,6 +32,7 @@ constexpr double kFinishing_s = 3e-7;
 struct RenderRequest {
     std::string scene, solution, sensor, output, preview, command;
     std::vector<std::string> overrides;
+    std::vector<LightFactor> factors;  ///< of lights, with a solution
     io::ToneOptions tone;
     RunFlags flags;
 };
@@ -121,8 +123,8 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
         origin.seed = stored->seed;
         const int threads = request.flags.threads.value_or(file.run.threads);
         RenderProgress progress(request, *sensor.camera(), origin);
-        return render_solution(file.scene, sensor, std::move(stored->solution), threads, &progress,
-                               &watch_for_interrupt());
+        return render_solution(file.scene, sensor, std::move(stored->solution), request.factors, threads,
+                               &progress, &watch_for_interrupt());
     }
     const auto [width, height] = sensor.camera()->resolution;
     const RunOptions options = with_reserve(request.flags.over(file.run), kFinishing_s * width * height);
@@ -142,7 +144,10 @@ void require_pictures(const RenderRequest& request, const io::SceneFile& file) {
 
 int run_render(RenderRequest request) {
     std::optional<io::StoredSolution> stored;
-    if (!request.solution.empty()) stored = read_solution_for(request);
+    if (!request.solution.empty()) {
+        request.factors = io::take_light_factors(request.overrides);
+        stored = read_solution_for(request);
+    }
     if (request.scene.empty()) {
         throw InputError(
             "the scene is missing. Give a scene (stilb render SCENE -o FILE) or a solution (stilb render "
@@ -181,7 +186,8 @@ void add_render(CommandLine& line) {
         "  stilb render office.toml -o office.exr\n"
         "  stilb render office.toml -o office.png --time 20 --sensor desk\n"
         "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n"
-        "  stilb render --from office.solution --sensor door -o door.png\n");
+        "  stilb render --from office.solution --sensor door -o door.png\n"
+        "  stilb render --from office.solution --set desk_lamp=0.4 --set ceiling=0 -o evening.png\n");
     auto request = std::make_shared<RenderRequest>();
     command.add("SCENE", request->scene,
                 "Scene file (TOML), or - for standard input; with --from only if it has moved");
@@ -206,6 +212,9 @@ void add_render(CommandLine& line) {
         .above_zero()
         .value_name("E");
     add_overrides(command, request->overrides);
+    command.find("--set").description(
+        "Take this value instead of the scene file's (materials.wall.reflectance=0.4); with --from also a "
+        "factor for the light of a group or of a lamp (lamp=0.4, lamp=[1, 0.8, 0.5])");
     request->flags.add_to(command);
     command.run([request, &line] {
         request->command = line.text();

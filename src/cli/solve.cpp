@@ -29,10 +29,12 @@ struct SolveRequest {
 void print_summary(const SolveResult& result, const io::StoredSolution& stored, std::size_t bytes,
                    const std::string& output) {
     std::FILE* const stream = messages_beside(output);
-    fmt::print(stream, "{}: {} lit sides of patches, {:.1f} MB\n", output, stored.solution.lit_sides.size(),
-               1e-6 * static_cast<double>(bytes));
+    const estimators::PatchSolution& solution = stored.solution;
+    fmt::print(stream, "{}: light at {} vertices, {} {} of lights, {:.1f} MB\n", output,
+               solution.lit_vertices.size(), solution.groups.size(),
+               solution.groups.size() == 1 ? "group" : "groups", 1e-6 * static_cast<double>(bytes));
     fmt::print(stream,
-               "95 % of the light falls on sides with a 95 % interval within {} of their illuminance\n",
+               "95 % of the light falls on places with a 95 % interval within {} of their illuminance\n",
                percent(result.attained_error));
     fmt::print(stream, "ray-bundle, {} steps in {:.1f} s: {}\n", result.samples, result.elapsed_s,
                ending(result.stop_reason, "steps"));
@@ -86,8 +88,7 @@ void add_solve(CommandLine& line) {
     add_overrides(command, request->overrides);
     request->flags.add_those_of_one_method(command);
     command.find("--error").description(
-        "Stop when 95 % of the light falls on sides of patches with a 95 % interval within this share of "
-        "their "
+        "Stop when 95 % of the light falls on places with a 95 % interval within this share of their "
         "illuminance: 1% or 0.01");
     command.find("--paths").description(
         "Stop after this many steps of ray-bundle iteration, rounded up to a multiple of 8");

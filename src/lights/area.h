@@ -17,6 +17,7 @@ struct AreaLight {
     static constexpr std::string_view kType = "area";
     static constexpr LightLocation kLocation = LightLocation::surface;
     using Emitter = AreaEmitter;
+    void scale(const Rgb& by) { luminance_cd_m2 *= by; }
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
 };

@@ -78,6 +78,21 @@ std::array<double, 6> rough_illuminances_lx(const EnvironmentLight& light) {
 
 }  // namespace
 
+void EnvironmentLight::scale(const Rgb& by) {
+    luminance_cd_m2 *= by;
+    if (!panorama) return;
+    if (!(by.max() > 0)) {  // a panorama is never black
+        panorama.reset();
+        luminance_cd_m2 = {};
+        return;
+    }
+    Panorama::Image image = panorama->image();
+    for (auto& rgb : image.rgb_cd_m2) {
+        for (std::size_t b = 0; b < kBands; ++b) rgb[b] *= static_cast<float>(by[b]);
+    }
+    panorama = std::make_shared<const Panorama>(std::move(image));
+}
+
 Rgb EnvironmentLight::flux_lm(const Surroundings& surroundings) const {
     return flux_into(enlarged(surroundings.bounds()), *this);
 }

@@ -18,6 +18,7 @@ struct EnvironmentLight {
     static constexpr std::string_view kType = "environment";
     static constexpr LightLocation kLocation = LightLocation::infinity;
     using Emitter = EnvironmentEmitter;
+    void scale(const Rgb& by);
     /// The flux that enters the scene's bounding box.
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;

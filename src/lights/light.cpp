@@ -37,6 +37,12 @@ std::optional<SurfaceEmission> surface_emission(const Light& light) {
         light.source);
 }
 
+LightSource scaled(const LightSource& source, const Rgb& factor) {
+    LightSource result = source;
+    std::visit([&](auto& light) { light.scale(factor); }, result);
+    return result;
+}
+
 std::optional<LightOrigin> point_origin(const Light& light) {
     return std::visit(
         []<LightKind L>(const L& source) -> std::optional<LightOrigin> {

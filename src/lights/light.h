@@ -44,6 +44,8 @@ struct SurfaceEmission {
     Rgb luminance_cd_m2;
 };
 std::optional<SurfaceEmission> surface_emission(const Light& light);
+/// The same light, its emission multiplied by a factor, band by band.
+LightSource scaled(const LightSource& source, const Rgb& factor);
 /// The emitter of a point light; nothing for other lights.
 std::optional<LightOrigin> point_origin(const Light& light);
 

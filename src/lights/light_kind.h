@@ -128,6 +128,9 @@ concept LightKind = EmitterKind<typename L::Emitter> &&
     /// Per band; luminance() of it is lumen.
     { light.flux_lm(surroundings) } -> std::same_as<Rgb>;
     { light.details(surroundings) } -> std::same_as<std::vector<LightDetail>>;
+} && requires(L& light, const Rgb& factor) {
+    /// Multiplies its emission, band by band.
+    light.scale(factor);
 } &&(L::kLocation != LightLocation::point || (PointEmitterKind<typename L::Emitter> &&
                                               requires(const L& light) {
                                                   { light.origin() } -> std::same_as<LightOrigin>;

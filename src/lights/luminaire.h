@@ -22,6 +22,7 @@ struct Luminaire {
     using Emitter = LuminaireEmitter;
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
+    void scale(const Rgb& by) { factor *= by; }
     LightOrigin origin() const { return {position, nadir}; }
 };
 

@@ -23,6 +23,7 @@ class Panorama {
     /// or all are 0.
     explicit Panorama(Image image);
 
+    const Image& image() const { return image_; }
     int width() const { return image_.width; }
     int height() const { return image_.height; }
     const Image& image() const { return image_; }

@@ -19,6 +19,7 @@ struct PointLight {
     using Emitter = PointEmitter;
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
+    void scale(const Rgb& by) { intensity_cd *= by; }
     LightOrigin origin() const { return {position, std::nullopt}; }
 };
 

@@ -12,7 +12,7 @@
 
 #include "base/parallel.h"
 #include "estimators/estimator_list.h"
-#include "estimators/patch_light/patch_solution.h"
+#include "estimators/patch_light/solution/solution_picture.h"
 #include "math/random.h"
 #include "run/level_of_detail.h"
 #include "run/picture_comparison.h"
@@ -364,7 +364,12 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
 }
 
 RenderResult render_solution(const Scene& scene, const Sensor& camera, estimators::PatchSolution solution,
-                             int threads, PictureSink* sink, const std::atomic<bool>* interrupt) {
+                             std::span<const LightFactor> factors, int threads, PictureSink* sink,
+                             const std::atomic<bool>* interrupt) {
+    require_consistency(solution, scene);
+    const std::vector<Rgb> of_groups = scene::factors_of_groups(factors, solution.groups);
+    const Scene relit_scene = scene::relit(scene, scene::light_groups(scene), of_groups);
+    solution = relit(std::move(solution), of_groups);
     const std::uint64_t replicates = solution.replicates.size();
     RunOptions options;
     options.method = "solution";
@@ -374,7 +379,7 @@ RenderResult render_solution(const Scene& scene, const Sensor& camera, estimator
                           return make_solution_picture(problem, std::move(solution));
                       },
                       replicates, true},
-                     scene, camera, options, options, sink, interrupt);
+                     relit_scene, camera, options, options, sink, interrupt);
 }
 
 }  // namespace stilb::run

@@ -8,6 +8,7 @@
 
 #include "run/options.h"
 #include "run/result.h"
+#include "scene/light_groups.h"
 #include "scene/scene.h"
 
 namespace stilb::estimators {
@@ -69,11 +70,12 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
 RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& options,
                     PictureSink* sink = nullptr, const std::atomic<bool>* interrupt = nullptr);
 
-/// Renders one camera from a solution: a few passes for smooth edges. Errors come from the solution's
-/// replicates. Throws InputError where the solution does not fit the scene.
+/// Renders one camera from a solution, its groups of lights multiplied by factors: a few passes for smooth
+/// edges. Errors come from the solution's replicates. Throws InputError where the solution does not fit the
+/// scene, and for names that are no groups.
 RenderResult render_solution(const Scene& scene, const Sensor& camera, estimators::PatchSolution solution,
-                             int threads = 0, PictureSink* sink = nullptr,
-                             const std::atomic<bool>* interrupt = nullptr);
+                             std::span<const LightFactor> factors = {}, int threads = 0,
+                             PictureSink* sink = nullptr, const std::atomic<bool>* interrupt = nullptr);
 
 }  // namespace stilb::run
 

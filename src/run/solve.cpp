@@ -6,11 +6,14 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "base/parallel.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/incoming_light.h"
+#include "estimators/patch_light/solution/light_gather.h"
 #include "run/schedule.h"
+#include "scene/light_groups.h"
 #include "statistics/interval.h"
 #include "stilb/error.h"
 #include "transport/receiver.h"
@@ -25,114 +28,212 @@ constexpr std::size_t kSolutionReplicates = 8;
 constexpr std::uint64_t kFirstCheck = 16;
 constexpr std::uint64_t kStepsAtOnce = 4;
 
-/// Independent walks, each with its own sums.
-class Walks final : public Work {
+enum SolvePurpose : std::uint64_t { kWalks, kGather };
+/// Counted steps of the walks before it is known which sides of patches light reaches at all.
+constexpr std::uint64_t kStepsToFindLight = 4;
+
+/// What each group of lights brings to the walks.
+class GroupSources {
   public:
-    Walks(const estimators::PatchTransport& transport, const estimators::TermLayout& layout,
-          std::uint64_t seed, const Monitor& monitor)
-        : transport_(transport), layout_(layout), monitor_(monitor), walks_(kSolutionReplicates) {
-        const std::uint64_t dark = first_steps(transport);
-        Stage stage(monitor, "first steps", kSolutionReplicates * dark);
-        parallel_for(kSolutionReplicates, [&](std::size_t w) {
-            walks_[w] = std::make_unique<Walk>(transport, layout, math::RandomKey{seed}.derived(w));
-            for (std::uint64_t i = 0; i < dark; ++i) {
-                walks_[w]->iteration.step();
-                stage.advance();
-            }
-        });
+    GroupSources(const estimators::PatchTransport& transport, const LightGroups& groups)
+        : transport_(transport) {
+        for (std::uint32_t g = 0; g < groups.count(); ++g) add(g, groups);
     }
 
-    /// Steps of each walk.
-    std::uint64_t samples() const override { return walks_[0]->sums.steps(); }
-    std::uint64_t samples_in_all() const override {
-        std::uint64_t all = 0;
-        for (const auto& walk : walks_) all += walk->sums.steps();
-        return all;
-    }
-    std::uint64_t samples_for(std::uint64_t paths) const override {
-        return (paths + kSolutionReplicates - 1) / kSolutionReplicates;
-    }
-    std::uint64_t most_samples() const override {
-        return std::numeric_limits<std::uint64_t>::max() / kSolutionReplicates;
-    }
-    std::uint64_t next_check() const override { return statistics::next_check(samples(), kFirstCheck); }
-    std::uint64_t most_at_once() const override { return kStepsAtOnce; }
-
-    bool has_result() const override {
-        return std::ranges::all_of(walks_, [](const auto& walk) { return walk->sums.steps() > 0; });
-    }
-
-    /// Where the run is ended, some walks may have made more steps than others.
-    void advance(std::uint64_t steps) override {
-        parallel_for(kSolutionReplicates, [&](std::size_t w) {
-            for (std::uint64_t i = 0; i < steps; ++i) {
-                monitor_.require_more();
-                walks_[w]->iteration.step();
-                walks_[w]->sums.add(walks_[w]->iteration);
-            }
-        });
-    }
-
-    std::vector<std::uint32_t> lit_sides() const {
-        std::vector<std::uint32_t> sides;
-        std::ranges::copy_if(layout_.sides(), std::back_inserter(sides), [&](std::uint32_t side) {
-            return std::ranges::any_of(
-                walks_, [&](const auto& walk) { return walk->sums.mean_illuminance_lx(side).max() > 0; });
-        });
-        return sides;
-    }
-
-    /// The errors of the sides' illuminances, first shot included, weighted by flux: sides with hardly
-    /// any light, in cracks and where things touch, must not decide.
-    double attained_error() const override {
-        const std::vector<std::uint32_t> sides = lit_sides();
-        if (sides.empty()) return 0;
-        const estimators::IncomingFirstShot* const first_shot = transport_.first_shot.incoming();
-        std::vector<double> means;
-        for (const auto& walk : walks_) {
-            for (const std::uint32_t side : sides) {
-                Rgb illuminance_lx = walk->sums.mean_illuminance_lx(side);
-                if (first_shot) illuminance_lx += first_shot->illuminance_lx(side);
-                means.push_back(illuminance_lx.luminance());
-            }
+    std::vector<estimators::BundleSource> sources() const {
+        std::vector<estimators::BundleSource> sources;
+        for (const Group& group : groups_) {
+            sources.push_back(
+                {group.first_reflection, group.emission, group.first_shot.get(), group.has_outside});
         }
-        const std::vector<statistics::Estimate> estimates =
-            statistics::estimate_readings({means, sides.size()}, statistics::kStoppedConfidence);
-        std::vector<double> flux_lm;
-        for (std::size_t i = 0; i < sides.size(); ++i) {
-            const std::uint32_t patch = transport_.patches.patch_of(sides[i]);
-            flux_lm.push_back(estimates[i].value * double{transport_.patches.areas_m2[patch]});
-        }
-        return stilb::statistics::attained_error(estimates, flux_lm);
-    }
-
-    /// The terms of the sides, replicate by replicate.
-    std::vector<std::vector<estimators::FloatRgb>> terms_of(std::span<const std::uint32_t> sides) const {
-        std::vector<std::vector<estimators::FloatRgb>> replicates;
-        for (const auto& walk : walks_) {
-            const std::vector<estimators::FloatRgb> all = walk->sums.mean();
-            std::vector<estimators::FloatRgb>& terms = replicates.emplace_back();
-            for (const std::uint32_t side : sides) {
-                const estimators::FloatRgb* const first = &all[layout_.first_of(side)];
-                terms.insert(terms.end(), first, first + layout_.count_of(side));
-            }
-        }
-        return replicates;
+        return sources;
     }
 
   private:
+    struct Group {
+        std::vector<estimators::FloatRgb> first_reflection, emission;
+        std::unique_ptr<estimators::FirstShot> first_shot;
+        bool has_outside = false;
+    };
+
+    void add(std::uint32_t number, const LightGroups& groups) {
+        const patches::Patches& patches = transport_.patches;
+        Group& group = groups_.emplace_back();
+        group.first_shot = first_shot_of(number, groups);
+        group.first_reflection.resize(2 * patches.count());
+        for (std::uint32_t side = 0; side < group.first_reflection.size(); ++side) {
+            const std::uint32_t patch = patches.patch_of(side);
+            if (!transport_.reflects_alike(patch)) continue;
+            group.first_reflection[side] = estimators::to_float_rgb(
+                group.first_shot->reflected(side, patches.middle(patch), {}, patches.normal_of(side)));
+        }
+        group.emission.resize(patches.count());
+        for (std::size_t light = 0; light < groups.of_light.size(); ++light) {
+            if (groups.of_light[light] == number) add_light(light, group);
+        }
+    }
+
+    void add_light(std::size_t light, Group& group) const {
+        const Light& source = transport_.scene.lights[light];
+        if (location_of(source) == LightLocation::infinity) group.has_outside = true;
+        const auto surface = lights::surface_emission(source);
+        if (!surface) return;
+        const std::size_t object = index_of(surface->object);
+        const auto& first = transport_.patches.first_of_object;
+        for (std::uint32_t p = first[object]; p < first[object + 1]; ++p)
+            group.emission[p] = transport_.emission[p];
+    }
+
+    std::unique_ptr<estimators::FirstShot> first_shot_of(std::uint32_t number,
+                                                         const LightGroups& groups) const {
+        using estimators::FirstShotFactors;
+        std::vector<std::uint32_t> rows(2 * transport_.patches.count() + 1);
+        std::vector<FirstShotFactors::Factor> factors;
+        if (const auto* incoming = transport_.first_shot.incoming()) {
+            const auto samples = transport_.first_shot.samples();
+            for (std::uint32_t side = 0; side + 1 < rows.size(); ++side) {
+                for (const auto& factor : incoming->factors().of(side)) {
+                    if (groups.of_light[samples[factor.sample].light] == number) factors.push_back(factor);
+                }
+                rows[side + 1] = static_cast<std::uint32_t>(factors.size());
+            }
+        }
+        return std::make_unique<estimators::FirstShot>(transport_.scene, transport_.caster,
+                                                       transport_.patches,
+                                                       FirstShotFactors(std::move(rows), std::move(factors)));
+    }
+
+    const estimators::PatchTransport& transport_;
+    std::vector<Group> groups_;
+};
+
+/// Independent walks, each with its own sums, and the gathering of their light at the vertices.
+class Walks final : public Work {
+  public:
+    Walks(const estimators::PatchTransport& transport, const estimators::TermLayout& layout,
+          const LightGroups& groups, std::uint64_t seed, const Monitor& monitor, SolutionSink* sink)
+        : transport_(transport),
+          layout_(layout),
+          groups_(groups),
+          sources_(transport, groups),
+          monitor_(monitor),
+          sink_(sink) {
+        const math::RandomKey key{seed};
+        const std::uint64_t dark = first_steps(transport);
+        Stage stage(monitor, "first steps", kSolutionReplicates * (dark + kStepsToFindLight));
+        for (std::size_t w = 0; w < kSolutionReplicates; ++w)
+            walks_.push_back(std::make_unique<Walk>(*this, key.derived(kWalks).derived(w)));
+        parallel_for(kSolutionReplicates, [&](std::size_t w) {
+            for (std::uint64_t i = 0; i < dark + kStepsToFindLight; ++i) {
+                walks_[w]->iteration.step();
+                if (i >= dark) walks_[w]->sums.add(walks_[w]->iteration);
+                stage.advance();
+            }
+        });
+        const std::vector<bool> is_lit = lit_sides();
+        fine_ = patches_near_contacts(transport, is_lit, kMostFinePatches, monitor);
+        std::vector<const estimators::TermSums*> sums;
+        for (const auto& walk : walks_) sums.push_back(&walk->sums);
+        gather_.emplace(transport, layout, std::move(sums), is_lit, fine_, groups, key.derived(kGather),
+                        monitor);
+        if (sink_) sink_->prepare(transport.caster, gather_->solution());
+    }
+
+    /// Steps of each walk.
+    std::uint64_t samples() const override { return gather_->steps(); }
+    std::uint64_t samples_in_all() const override { return samples() * kSolutionReplicates; }
+    std::uint64_t samples_for(std::uint64_t paths) const override {
+        return std::max((paths + kSolutionReplicates - 1) / kSolutionReplicates,
+                        estimators::LightGather::kFirstSteps);
+    }
+    std::uint64_t most_samples() const override {
+        return std::numeric_limits<std::uint32_t>::max() / kSolutionReplicates;
+    }
+    std::uint64_t next_check() const override { return statistics::next_check(samples(), kFirstCheck); }
+    std::uint64_t most_at_once() const override { return kStepsAtOnce; }
+    bool has_result() const override { return samples() >= estimators::LightGather::kFirstSteps; }
+
+    void advance(std::uint64_t steps) override {
+        for (std::uint64_t i = 0; i < steps; ++i) {
+            parallel_for(kSolutionReplicates, [&](std::size_t w) {
+                monitor_.require_more();
+                walks_[w]->iteration.step();
+                walks_[w]->sums.add(walks_[w]->iteration);
+            });
+            gather_->step();
+        }
+    }
+
+    /// The errors of the illuminances, direct light included, weighted by flux: places with hardly any
+    /// light, in cracks and where things touch, must not decide.
+    double attained_error() const override { return error_of(gather_->illuminances(), 1); }
+    bool is_beyond_reach(double error) const override { return error_of(gather_->illuminances(), 0) > error; }
+
+    void show() override {
+        if (!sink_ || !has_result() || !sink_->wants_solution()) return;
+        RunSummary so_far;
+        so_far.samples = samples_in_all();
+        so_far.attained_error = attained_error();
+        sink_->show(gather_->solution(), so_far);
+    }
+
+    estimators::PatchSolution solution() const { return gather_->solution(); }
+
+  private:
     struct Walk {
-        Walk(const estimators::PatchTransport& transport, const estimators::TermLayout& layout,
-             math::RandomKey key)
-            : iteration(transport, key), sums(transport, layout) {}
+        Walk(const Walks& walks, math::RandomKey key)
+            : iteration(walks.transport_, walks.sources_.sources(), key),
+              sums(walks.transport_, walks.layout_, walks.groups_.count()) {}
         estimators::BundleIteration iteration;
         estimators::TermSums sums;
     };
 
+    /// Per side of the patches: whether any light has reached it.
+    std::vector<bool> lit_sides() const {
+        const patches::Patches& patches = transport_.patches;
+        std::vector<bool> is_lit(2 * patches.count());
+        for (std::uint32_t patch = 0; patch < patches.count(); ++patch)
+            is_lit[patch] = estimators::to_rgb(transport_.emission[patch]).max() > 0;
+        const estimators::IncomingFirstShot* const first_shot = transport_.first_shot.incoming();
+        for (const std::uint32_t side : layout_.sides()) {
+            is_lit[side] =
+                is_lit[side] || (first_shot && first_shot->illuminance_lx(side).max() > 0) ||
+                std::ranges::any_of(walks_, [&](const auto& walk) { return has_lit(*walk, side); });
+        }
+        return is_lit;
+    }
+
+    bool has_lit(const Walk& walk, std::uint32_t side) const {
+        for (std::size_t g = 0; g < groups_.count(); ++g) {
+            if (estimators::to_rgb(walk.sums.sums_of(g, side)[0]).max() > 0) return true;
+        }
+        return false;
+    }
+
+    static double error_of(estimators::LightGather::Illuminances illuminances, double share_of_noise) {
+        const std::size_t vertices = illuminances.area_m2.size();
+        std::vector<statistics::Estimate> estimates = statistics::estimate_readings(
+            {illuminances.replicate_means, vertices}, statistics::kStoppedConfidence);
+        std::vector<double> flux_lm;
+        for (std::size_t i = 0; i < vertices; ++i) {
+            statistics::Estimate& estimate = estimates[i];
+            const double bias_lx = illuminances.bias_lx[i];
+            estimate.lower = estimate.value - share_of_noise * (estimate.value - estimate.lower) - bias_lx;
+            estimate.upper = estimate.value + share_of_noise * (estimate.upper - estimate.value) + bias_lx;
+            flux_lm.push_back(estimate.value * illuminances.area_m2[i]);
+        }
+        return stilb::statistics::attained_error(estimates, flux_lm);
+    }
+
     const estimators::PatchTransport& transport_;
     const estimators::TermLayout& layout_;
+    const LightGroups& groups_;
+    GroupSources sources_;
     const Monitor& monitor_;
+    SolutionSink* sink_;
     std::vector<std::unique_ptr<Walk>> walks_;
+    patches::FinePatches fine_;
+    std::optional<estimators::LightGather> gather_;
 };
 
 RunOptions with_solution_target(RunOptions options) {
@@ -160,28 +261,36 @@ void require_storable(const Scene& scene, const RunOptions& options, int degree)
 
 }  // namespace
 
+std::vector<float> relative_errors(const estimators::PatchSolution& solution) {
+    std::vector<float> errors;
+    std::vector<double> shares(solution.replicates.size());
+    for (std::size_t i = 0; i < solution.bias.size(); ++i) {
+        for (std::size_t r = 0; r < shares.size(); ++r) shares[r] = to_float(solution.replicates[r][i]);
+        const double noise = statistics::relative_half_width(statistics::estimate_from_replicates(shares));
+        errors.push_back(static_cast<float>(noise) + to_float(solution.bias[i]));
+    }
+    return errors;
+}
+
 SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degree, ProgressSink* progress,
-                  const std::atomic<bool>* interrupt) {
+                  const std::atomic<bool>* interrupt, SolutionSink* sink) {
     require_valid(asked_options);
     require_storable(scene, asked_options, degree);
     RunOptions options = with_solution_target(asked_options);
     options.method = kMethod;
     Session session(scene, asked_options, options, progress, interrupt);
     std::vector<std::string> of_scene = session.scene_warnings({});
+    if (!options.patches.patch_m) options.patches.patch_m = patches::patch_size_m(scene, kSolutionPatches);
     SolveResult result;
     session.on_threads([&] {
         const Monitor& monitor = session.monitor();
         const estimators::PatchTransport transport(scene, session.caster(), options.patches, monitor);
         const estimators::TermLayout layout(transport, degree, reflecting_sides(transport));
-        Walks walks(transport, layout, options.seed, monitor);
+        const LightGroups groups = scene::light_groups(scene);
+        Walks walks(transport, layout, groups, options.seed, monitor, sink);
         session.run(walks, result);
         result.patches = transport.report();
-        estimators::PatchSolution& solution = result.solution;
-        solution.patches = transport.patches;
-        if (const auto* incoming = transport.first_shot.incoming()) solution.factors = incoming->factors();
-        solution.degree = degree;
-        solution.lit_sides = walks.lit_sides();
-        solution.replicates = walks.terms_of(solution.lit_sides);
+        result.solution = walks.solution();
     });
     result.replicates = static_cast<int>(kSolutionReplicates);
     result.warnings = estimators::patch_warnings(scene, kMethod);

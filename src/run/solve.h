@@ -3,8 +3,9 @@
 #pragma once
 
 #include <atomic>
+#include <vector>
 
-#include "estimators/patch_light/patch_solution.h"
+#include "estimators/patch_light/solution/patch_solution.h"
 #include "run/options.h"
 #include "run/result.h"
 #include "run/run.h"
@@ -15,20 +16,44 @@ namespace stilb::run {
 /// The degree of the basis for the light of glossy sides; docs/solution.md states its cost and accuracy.
 inline constexpr int kDefaultDegree = 6;
 
-/// The attained error is that of the sides which get 95 % of the flux.
+/// The attained error is that of the places which get 95 % of the flux.
 struct SolveResult : RunSummary {
     estimators::PatchSolution solution;
 };
 
-/// Solves by method ray-bundle, regardless of the options' method; their `paths` are steps of all walks
-/// together. Without any limit, for a minute. The result depends on scene, patches, degree and seed, and on
-/// the steps done: not on threads. `interrupt` ends the run early, with a result. Throws as measure(), and
-/// InputError for first shots that cannot be stored: all but incoming and none.
+/// A sink that can show unfinished solutions.
+class SolutionSink {
+  public:
+    virtual ~SolutionSink() = default;
+    /// The surfaces are divided: everything but the light is known. Called once, from the run's thread.
+    virtual void prepare(const rays::RayCaster& caster, const estimators::PatchSolution& dark) = 0;
+    /// Whether the unfinished solution is wanted now; asked some times in a second. If so, show() is called
+    /// with it.
+    virtual bool wants_solution() = 0;
+    virtual void show(const estimators::PatchSolution& solution, const RunSummary& so_far) = 0;
+};
+
+/// The longest edge of patches: by the scene, unless the options say. Light is gathered at the vertices of
+/// finer patches, so that far fewer are needed than for pictures by ray-bundle.
+inline constexpr double kSolutionPatches = 3000;
+/// At most so many finer patches.
+inline constexpr std::size_t kMostFinePatches = 60'000;
+
+/// Per lit vertex: the relative half-width of the 95 % interval of its illuminance without direct light: the
+/// noise of the replicates, and beside it the bias of the patches.
+std::vector<float> relative_errors(const estimators::PatchSolution& solution);
+
+/// Solves by method ray-bundle and by gathering at vertices, regardless of the options' method; their `paths`
+/// are steps of all walks together. Without any limit, for a minute. The result depends on scene, patches,
+/// degree and seed, and on the steps done: not on threads. `interrupt` ends the run early, with a result.
+/// Throws as measure(), and InputError for first shots that cannot be stored: all but incoming and none.
 SolveResult solve(const Scene& scene, const RunOptions& options, int degree = kDefaultDegree,
-                  ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
+                  ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr,
+                  SolutionSink* sink = nullptr);
 
 }  // namespace stilb::run
 
 namespace stilb {
+using run::SolutionSink;
 using run::SolveResult;
 }  // namespace stilb

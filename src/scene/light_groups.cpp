@@ -44,4 +44,10 @@ std::vector<Rgb> factors_of_groups(std::span<const LightFactor> factors,
     return of_groups;
 }
 
+Scene relit(Scene scene, const LightGroups& groups, std::span<const Rgb> factors) {
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        scene.lights[i].source = lights::scaled(scene.lights[i].source, factors[groups.of_light[i]]);
+    return scene;
+}
+
 }  // namespace stilb::scene

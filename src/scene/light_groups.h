@@ -38,6 +38,9 @@ struct LightFactor {
 /// of their own. Throws InputError where a name is neither, with the names that are allowed.
 std::vector<Rgb> factors_of_groups(std::span<const LightFactor> factors, std::span<const std::string> groups);
 
+/// The scene with the light of each group multiplied by its factor.
+Scene relit(Scene scene, const LightGroups& groups, std::span<const Rgb> factors);
+
 }  // namespace stilb::scene
 
 namespace stilb {

@@ -46,18 +46,23 @@ class TermLayout {
 /// Sides that reflect light.
 std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport);
 
-/// Terms of the mean of a walk's steps. Keeps references to both arguments.
+/// Terms of the mean of a walk's steps, for each of its groups of lights. Keeps references to transport and
+/// layout.
 class TermSums {
   public:
-    TermSums(const PatchTransport& transport, const TermLayout& layout)
-        : transport_(transport), layout_(layout), sums_(layout.count()) {}
+    TermSums(const PatchTransport& transport, const TermLayout& layout, std::size_t groups = 1)
+        : transport_(transport), layout_(layout), sums_(groups * layout.count()) {}
 
     /// Adds the light received in the last step.
     void add(const BundleIteration& iteration);
     std::uint64_t steps() const { return steps_; }
-    /// [lx / sqrt(sr)]
+    /// Group by group [lx / sqrt(sr)].
     std::vector<FloatRgb> mean() const;
-    Rgb mean_illuminance_lx(std::uint32_t side) const;
+    /// The sum over the steps, of a side's terms.
+    std::span<const FloatRgb> sums_of(std::size_t group, std::uint32_t side) const {
+        return std::span(sums_).subspan(group * layout_.count() + layout_.first_of(side),
+                                        layout_.count_of(side));
+    }
 
   private:
     const PatchTransport& transport_;

@@ -12,6 +12,7 @@
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
+#include "scene/light_groups.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -19,13 +20,13 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 /// Magic, version, size and hash.
 constexpr std::size_t kHeaderSize = kSolutionBeginning.size() + 4 + 8 + 8;
 
 /// Numbers, or structs of numbers of one size, which have no gaps.
 template <typename T>
-constexpr bool kIsPlain = std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0;
+constexpr bool kIsPlain = std::is_trivially_copyable_v<T> && sizeof(T) % 2 == 0;
 
 class ByteWriter {
   public:
@@ -128,15 +129,14 @@ std::string body_of(const StoredSolution& stored) {
     bytes.add(stored.steps);
     bytes.add(stored.attained_error);
     write_patches(solution.patches, bytes);
-    bytes.add(static_cast<std::uint32_t>(solution.factors ? 1 : 0));
-    if (solution.factors) {
-        bytes.add_list(solution.factors->rows());
-        bytes.add_list(solution.factors->all());
-    }
+    bytes.add(static_cast<std::uint32_t>(solution.groups.size()));
+    for (const std::string& group : solution.groups) bytes.add_list(group);
     bytes.add(static_cast<std::uint32_t>(solution.degree));
-    bytes.add_list(solution.lit_sides);
+    bytes.add_list(solution.lit_vertices);
+    for (const std::vector<HalfRgb>& terms : solution.terms) bytes.add_list(terms);
     bytes.add(static_cast<std::uint32_t>(solution.replicates.size()));
-    for (const std::vector<estimators::FloatRgb>& terms : solution.replicates) bytes.add_list(terms);
+    for (const std::vector<Half>& shares : solution.replicates) bytes.add_list(shares);
+    bytes.add_list(solution.bias);
     return bytes.take();
 }
 
@@ -150,19 +150,20 @@ StoredSolution read_body(ByteReader& bytes) {
     stored.attained_error = bytes.take<double>("the error");
     estimators::PatchSolution& solution = stored.solution;
     solution.patches = read_patches(bytes);
-    const auto first_shot = bytes.take<std::uint32_t>("first shot");
-    if (first_shot > 1) bytes.fail(fmt::format("first shot is {}, but must be 0 or 1", first_shot));
-    if (first_shot == 1) {
-        auto rows = bytes.take_list<std::vector<std::uint32_t>>("the rows of first shot");
-        auto factors =
-            bytes.take_list<std::vector<estimators::FirstShotFactors::Factor>>("the factors of first shot");
-        solution.factors.emplace(std::move(rows), std::move(factors));
-    }
+    const auto groups = bytes.take<std::uint32_t>("the number of groups of lights");
+    if (groups > scene::kMostLightGroups)
+        bytes.fail(
+            fmt::format("{} groups of lights; at most {} are allowed", groups, scene::kMostLightGroups));
+    for (std::uint32_t g = 0; g < groups; ++g)
+        solution.groups.push_back(bytes.take_list<std::string>("a group of lights"));
     solution.degree = static_cast<int>(bytes.take<std::uint32_t>("the degree"));
-    solution.lit_sides = bytes.take_list<std::vector<std::uint32_t>>("the sides with light");
+    solution.lit_vertices = bytes.take_list<std::vector<std::uint32_t>>("the vertices with light");
+    for (std::uint32_t g = 0; g < groups; ++g)
+        solution.terms.push_back(bytes.take_list<std::vector<HalfRgb>>("the light"));
     const auto replicates = bytes.take<std::uint32_t>("the number of replicates");
     for (std::uint32_t r = 0; r < replicates; ++r)
-        solution.replicates.push_back(bytes.take_list<std::vector<estimators::FloatRgb>>("the light"));
+        solution.replicates.push_back(bytes.take_list<std::vector<Half>>("the replicates"));
+    solution.bias = bytes.take_list<std::vector<Half>>("the bias of the patches");
     bytes.expect_end();
     return stored;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "estimators/patch_light/patch_solution.h"
+#include "estimators/patch_light/solution/patch_solution.h"
 #include "io/scene/scene_file.h"
 #include "run/result.h"
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -68,6 +69,22 @@ void merge(TomlMembers& members, TomlMembers&& others, const std::string& path, 
     }
 }
 
+Rgb factor_of(const TomlValue& value, const std::string& text) {
+    const auto number = [&](const TomlValue& given) {
+        const auto* real = std::get_if<double>(&given.content);
+        const auto* whole = std::get_if<std::int64_t>(&given.content);
+        const double factor = real ? *real : whole ? static_cast<double>(*whole) : -1;
+        if (factor >= 0 && std::isfinite(factor)) return factor;
+        throw InputError(
+            "a factor for light is a number of 0 or more, or three of them: lamp=0.4, "
+            "lamp=[1, 0.8, 0.5].",
+            {text});
+    };
+    const auto* bands = std::get_if<TomlArray>(&value.content);
+    if (!bands || bands->size() != kBands) return Rgb::grey(number(value));
+    return {{number((*bands)[0]), number((*bands)[1]), number((*bands)[2])}};
+}
+
 }  // namespace
 
 void override_values(TomlMembers& document, std::span<const std::string> overrides) {
@@ -76,6 +93,18 @@ void override_values(TomlMembers& document, std::span<const std::string> overrid
         forget_lines(given);
         merge(document, std::move(std::get<TomlMembers>(given.content)), "", text);
     }
+}
+
+std::vector<LightFactor> take_light_factors(std::vector<std::string>& overrides) {
+    std::vector<LightFactor> factors;
+    std::erase_if(overrides, [&](const std::string& text) {
+        const TomlValue given = parse_override(text);
+        const TomlMember& member = std::get<TomlMembers>(given.content).front();
+        if (std::holds_alternative<TomlMembers>(member.value.content)) return false;
+        factors.push_back({member.key, factor_of(member.value, text)});
+        return true;
+    });
+    return factors;
 }
 
 }  // namespace stilb::io

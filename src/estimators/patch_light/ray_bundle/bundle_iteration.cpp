@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "math/random.h"
 
@@ -62,14 +63,20 @@ double weight_of(BundleDirections directions) {
 }  // namespace
 
 BundleIteration::BundleIteration(const PatchTransport& transport, math::RandomKey key)
+    : BundleIteration(transport,
+                      {{transport.first_reflection, transport.emission, &transport.first_shot, true}}, key) {}
+
+BundleIteration::BundleIteration(const PatchTransport& transport, std::vector<BundleSource> sources,
+                                 math::RandomKey key)
     : transport_(transport),
+      sources_(std::move(sources)),
       key_(key),
       axes_(axes_of(transport.options.directions)),
       weight_(weight_of(transport.options.directions)),
-      radiance_(2 * transport.patches.count()),
+      radiance_(2 * transport.patches.count() * groups()),
       received_(radiance_.size()),
       receiving_(radiance_.size()),
-      glossy_received_(2 * axes_ * transport.glossy_patches.size()),
+      glossy_received_(2 * axes_ * transport.glossy_patches.size() * groups()),
       glossy_receiving_(glossy_received_.size()) {}
 
 void BundleIteration::step() {
@@ -105,26 +112,45 @@ std::uint64_t first_steps(const PatchTransport& transport) {
 void BundleIteration::radiate_constant() {
     const auto weight = static_cast<float>(weight_);
     const std::size_t patches = transport_.patches.count();
-    for (std::size_t side = 0; side < radiance_.size(); ++side) {
+    for (std::uint32_t side = 0; side < 2 * patches; ++side) {
         const bool is_front = side < patches;
         const std::size_t patch = is_front ? side : side - patches;
-        for (std::size_t b = 0; b < kBands; ++b) {
-            radiance_[side][b] = transport_.first_reflection[side][b] +
-                                 weight * transport_.constant_brdf[patch][b] * received_[side][b];
-            if (is_front) radiance_[side][b] += transport_.emission[patch][b];
+        for (std::size_t g = 0; g < groups(); ++g) {
+            const BundleSource& source = sources_[g];
+            const FloatRgb& received = received_[index(side, g)];
+            FloatRgb& radiance = radiance_[index(side, g)];
+            for (std::size_t b = 0; b < kBands; ++b) {
+                radiance[b] = source.first_reflection[side][b] +
+                              weight * transport_.constant_brdf[patch][b] * received[b];
+                if (is_front) radiance[b] += source.emission[patch][b];
+            }
         }
     }
 }
 
 void BundleIteration::radiate_glossy(const Vec3& axis) {
     for (std::uint32_t patch : transport_.glossy_patches) {
+        const Vec3 middle = transport_.patches.middle(patch);
         for (const Vec3& out : {axis, -axis}) {
             const std::uint32_t side = transport_.side_towards(patch, out);
-            Rgb luminance = transport_.first_reflected(side, out) + reflected(side, out);
-            if (side == patch) luminance += to_rgb(transport_.emission[patch]);
-            radiance_[side] = to_float_rgb(luminance);
+            for (std::size_t g = 0; g < groups(); ++g) {
+                const BundleSource& source = sources_[g];
+                Rgb luminance = reflected_of(g, side, transport_.glossy_number[patch], out);
+                if (!source.first_shot->needs_position(side))
+                    luminance += source.first_shot->reflected(side, middle, {}, out);
+                if (side == patch) luminance += to_rgb(source.emission[patch]);
+                radiance_[index(side, g)] = to_float_rgb(luminance);
+            }
         }
     }
+}
+
+FloatRgb BundleIteration::sent(std::size_t group, std::uint32_t side, const patches::CrossedLine& line,
+                               std::size_t i, const Vec3& out, const Vec3& along) const {
+    const FloatRgb& radiance = radiance_[index(side, group)];
+    if (!transport_.first_shot.needs_position(side)) return radiance;
+    const Vec3 position = line.origin + double{line.distances_m[i]} * along;
+    return to_float_rgb(to_rgb(radiance) + transport_.first_reflected_at(side, position, {}, out));
 }
 
 void BundleIteration::transfer(std::size_t axis, const patches::Bundle& bundle) {
@@ -132,12 +158,6 @@ void BundleIteration::transfer(std::size_t axis, const patches::Bundle& bundle) 
     const bool both_ways = transport_.options.directions != BundleDirections::single;
     const Vec3& along = bundle.frame.w;
     const double ray_area_m2 = bundle.spacing_m * bundle.spacing_m;
-    const auto luminance = [&](std::uint32_t side, const patches::CrossedLine& line, std::size_t i,
-                               const Vec3& out) {
-        if (!transport_.first_shot.needs_position(side)) return radiance_[side];
-        const Vec3 position = line.origin + double{line.distances_m[i]} * along;
-        return to_float_rgb(to_rgb(radiance_[side]) + transport_.first_reflected_at(side, position, {}, out));
-    };
     const bool has_outside = transport_.lights.has_light_from_outside();
     const FloatRgb from_behind = to_float_rgb(transport_.lights.outside_luminance(-along));
     const FloatRgb from_ahead = to_float_rgb(transport_.lights.outside_luminance(along));
@@ -146,47 +166,65 @@ void BundleIteration::transfer(std::size_t axis, const patches::Bundle& bundle) 
             const patches::CrossedLine line = lines.line(n);
             for (std::size_t i = 0; i + 1 < line.sides.size(); ++i) {
                 const std::uint32_t from = patches.other_side(line.sides[i]), to = line.sides[i + 1];
-                receive(to, axis, luminance(from, line, i, along), ray_area_m2);
-                if (both_ways) receive(from, axis, luminance(to, line, i + 1, -along), ray_area_m2);
+                for (std::size_t g = 0; g < groups(); ++g) {
+                    receive(g, to, axis, sent(g, from, line, i, along, along), ray_area_m2);
+                    if (both_ways)
+                        receive(g, from, axis, sent(g, to, line, i + 1, -along, along), ray_area_m2);
+                }
             }
-            if (has_outside) {
+            for (std::size_t g = 0; has_outside && g < groups(); ++g) {
+                if (!sources_[g].has_outside) continue;
                 const std::uint32_t last = patches.other_side(line.sides.back());
-                receive(line.sides.front(), axis, from_behind, ray_area_m2);
-                if (both_ways) receive(last, axis, from_ahead, ray_area_m2);
+                receive(g, line.sides.front(), axis, from_behind, ray_area_m2);
+                if (both_ways) receive(g, last, axis, from_ahead, ray_area_m2);
             }
             rays_ += line.sides.size();
         }
     });
 }
 
-void BundleIteration::receive(std::uint32_t side, std::size_t axis, const FloatRgb& luminance,
-                              double ray_area_m2) {
+void BundleIteration::receive(std::size_t group, std::uint32_t side, std::size_t axis,
+                              const FloatRgb& luminance, double ray_area_m2) {
     const std::uint32_t patch = transport_.patches.patch_of(side);
     const std::uint32_t glossy = transport_.glossy_number[patch];
-    FloatRgb& sum = glossy == PatchTransport::kConstant ? receiving_[side]
-                                                        : glossy_receiving_[glossy_index(side, glossy, axis)];
+    FloatRgb& sum = glossy == PatchTransport::kConstant
+                        ? receiving_[index(side, group)]
+                        : glossy_receiving_[glossy_index(side, glossy, axis) + group];
     const auto weight = static_cast<float>(ray_area_m2 / double{transport_.patches.areas_m2[patch]});
     for (std::size_t b = 0; b < kBands; ++b) sum[b] += weight * luminance[b];
 }
 
 std::size_t BundleIteration::glossy_index(std::uint32_t side, std::uint32_t number, std::size_t axis) const {
     const std::size_t back = transport_.patches.is_front(side) ? 0 : 1;
-    return (2 * std::size_t{number} + back) * axes_ + axis;
+    return ((2 * std::size_t{number} + back) * axes_ + axis) * groups();
 }
 
 Rgb BundleIteration::reflected(std::uint32_t side, const Vec3& out) const {
     const std::uint32_t patch = transport_.patches.patch_of(side);
     const std::uint32_t glossy = transport_.glossy_number[patch];
-    if (glossy == PatchTransport::kConstant) {
-        return to_rgb(transport_.constant_brdf[patch]) * to_rgb(received_[side]) * weight_;
+    Rgb luminance;
+    for (std::size_t g = 0; g < groups(); ++g) {
+        luminance += glossy == PatchTransport::kConstant ? to_rgb(transport_.constant_brdf[patch]) *
+                                                               to_rgb(received_[index(side, g)]) * weight_
+                                                         : reflected_of(g, side, glossy, out);
     }
-    const Material& material = transport_.material_of(patch);
-    const Frame frame = Frame::of_surface(transport_.patches.normal_of(side));
+    return luminance;
+}
+
+Rgb BundleIteration::reflected_of(std::size_t group, std::uint32_t side, std::uint32_t glossy,
+                                  const Vec3& out) const {
+    const Material& material = transport_.material_of(transport_.patches.patch_of(side));
+    const Vec3 normal = transport_.patches.normal_of(side);
+    const Frame frame = Frame::of_surface(normal);
     const Vec3 local_out = frame.to_local(out);
     Rgb luminance;
-    for_each_arrival(side, [&](const Vec3& in, const Rgb& illuminance_lx) {
-        luminance += evaluate_brdf_per_sr(material, frame.to_local(in), local_out) * illuminance_lx;
-    });
+    for (std::size_t axis = 0; axis < axes_; ++axis) {
+        const Rgb received = to_rgb(glossy_received_[glossy_index(side, glossy, axis) + group]);
+        if (!(received.max() > 0)) continue;
+        const Vec3& along = axis_of(received_along_, axis);
+        const Vec3 in = dot(along, normal) < 0 ? -along : along;
+        luminance += evaluate_brdf_per_sr(material, frame.to_local(in), local_out) * (received * weight_);
+    }
     return luminance;
 }
 

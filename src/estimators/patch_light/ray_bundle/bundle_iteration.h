@@ -19,28 +19,40 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "estimators/patch_light/patch_readings.h"
 #include "math/random.h"
+#include "scene/light_groups.h"
 
 namespace stilb::estimators {
 
-/// One walk of the iteration. Keeps a reference to the transport. One thread at a time.
+/// The light of a group of lights that a walk carries apart from others.
+struct BundleSource {
+    std::span<const FloatRgb> first_reflection;  ///< as PatchTransport has it, of the group's lights
+    std::span<const FloatRgb> emission;          ///< likewise
+    const FirstShot* first_shot = nullptr;
+    bool has_outside = false;  ///< light from outside of the scene is of this group
+};
+
+/// One walk of the iteration. Keeps references to the arguments except the key. One thread at a time.
 class BundleIteration final : public PatchLight {
   public:
-    /// Starts from darkness. The steps depend on the key alone.
+    /// Starts from darkness. The steps depend on the key alone. All light together:
     BundleIteration(const PatchTransport& transport, math::RandomKey key);
+    /// Each source apart, along the same rays. More than one needs light that is stored (or no first shot).
+    BundleIteration(const PatchTransport& transport, std::vector<BundleSource> sources, math::RandomKey key);
 
     void step();
 
-    /// The illuminance received in the last step.
+    std::size_t groups() const { return sources_.size(); }
+    /// The luminance by the illuminance received in the last step, of all groups.
     Rgb reflected(std::uint32_t side, const Vec3& out) const override;
 
-    /// Calls `visit(in, illuminance_lx)` for the light that a side received in the last step from the
-    /// unit world direction `in`. Of sides with constant reflection only the sum is known: once, with
-    /// their normal.
+    /// Calls `visit(in, illuminances_lx)` for the light that a side received in the last step from the
+    /// unit world direction `in`, of each group. Of sides with constant reflection only the sum is known:
+    /// once, with their normal.
     template <typename Visit>
     void for_each_arrival(std::uint32_t side, const Visit& visit) const;
 
@@ -50,21 +62,30 @@ class BundleIteration final : public PatchLight {
     void radiate_constant();
     void radiate_glossy(const Vec3& axis);
     void transfer(std::size_t axis, const patches::Bundle& bundle);
-    void receive(std::uint32_t side, std::size_t axis, const FloatRgb& luminance, double ray_area_m2);
+    /// What a group sends into a line at its crossing number i.
+    FloatRgb sent(std::size_t group, std::uint32_t side, const patches::CrossedLine& line, std::size_t i,
+                  const Vec3& out, const Vec3& along) const;
+    void receive(std::size_t group, std::uint32_t side, std::size_t axis, const FloatRgb& luminance,
+                 double ray_area_m2);
+    /// Of the glossy `side` towards `out`, by the light received in the last step.
+    Rgb reflected_of(std::size_t group, std::uint32_t side, std::uint32_t glossy, const Vec3& out) const;
     static const Vec3& axis_of(const Frame& frame, std::size_t axis) {
         return axis == 0 ? frame.w : axis == 1 ? frame.u : frame.v;
     }
+    std::size_t index(std::uint32_t side, std::size_t group) const { return side * sources_.size() + group; }
+    /// Of the first group.
     std::size_t glossy_index(std::uint32_t side, std::uint32_t number, std::size_t axis) const;
 
     const PatchTransport& transport_;
+    std::vector<BundleSource> sources_;
     math::RandomKey key_;
     std::size_t axes_;
     double weight_;  ///< of each axis
     std::uint64_t steps_ = 0;
     std::uint64_t rays_ = 0;
     Frame received_along_;  ///< the axes that `received_` came along
-    std::vector<FloatRgb>
-        radiance_;  ///< of every side along the present axis; see FirstShot::needs_position()
+    // Side by side, of each group:
+    std::vector<FloatRgb> radiance_;   ///< along the present axis; see FirstShot::needs_position()
     std::vector<FloatRgb> received_;   ///< sum over the axes of J, of sides with constant reflection
     std::vector<FloatRgb> receiving_;  ///< the same of the unfinished step
     /// J of the other sides, for each axis separately.
@@ -75,12 +96,24 @@ template <typename Visit>
 void BundleIteration::for_each_arrival(std::uint32_t side, const Visit& visit) const {
     const std::uint32_t glossy = transport_.glossy_number[transport_.patches.patch_of(side)];
     const Vec3 normal = transport_.patches.normal_of(side);
-    if (glossy == PatchTransport::kConstant) return visit(normal, to_rgb(received_[side]) * weight_);
+    std::array<Rgb, scene::kMostLightGroups> illuminances_lx;
+    const std::span<const Rgb> of_groups(illuminances_lx.data(), groups());
+    const auto read = [&](const FloatRgb* received) {
+        bool is_lit = false;
+        for (std::size_t g = 0; g < groups(); ++g) {
+            illuminances_lx[g] = to_rgb(received[g]) * weight_;
+            is_lit |= illuminances_lx[g].max() > 0;
+        }
+        return is_lit;
+    };
+    if (glossy == PatchTransport::kConstant) {
+        read(&received_[index(side, 0)]);
+        return visit(normal, of_groups);
+    }
     for (std::size_t axis = 0; axis < axes_; ++axis) {
-        const Rgb received = to_rgb(glossy_received_[glossy_index(side, glossy, axis)]);
-        if (!(received.max() > 0)) continue;
+        if (!read(&glossy_received_[glossy_index(side, glossy, axis)])) continue;
         const Vec3& along = axis_of(received_along_, axis);
-        visit(dot(along, normal) < 0 ? -along : along, received * weight_);
+        visit(dot(along, normal) < 0 ? -along : along, of_groups);
     }
 }
 

@@ -1,0 +1,434 @@
+#include "estimators/patch_light/solution/light_gather.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/parallel.h"
+#include "math/sampling.h"
+#include "transport/receiver.h"
+
+namespace stilb::estimators {
+namespace {
+
+using GroupLight = std::array<Rgb, scene::kMostLightGroups>;
+
+/// Vertices whose rays are followed together.
+constexpr std::uint32_t kTogether = 32;
+/// Rays start so far from the vertex towards the middle of a patch around it, because a vertex may lie where
+/// two objects touch.
+constexpr double kShareToMiddle = 0.2;
+/// Rays that tell whether a place is covered by another object.
+constexpr std::uint32_t kRaysToCover = 8;
+
+Vec3 drawn_direction(std::uint32_t i, std::uint32_t count) {
+    return math::sample_cosine_hemisphere((i + 0.5) / count, math::unit_interval(math::sobol(i, 0)))
+        .direction;
+}
+
+std::vector<ReflectionTable> tables_of(const Scene& scene, int degree) {
+    std::vector<ReflectionTable> tables(scene.materials.size());
+    parallel_for(tables.size(), [&](std::size_t i) {
+        const Material& material = scene.materials[i].material;
+        if (!reflects_nothing(material)) tables[i] = make_reflection_table(material, degree);
+    });
+    return tables;
+}
+
+Rgb reflected_cd_m2(std::span<const FloatRgb> terms, std::span<const FloatRgb> factors, double scale) {
+    return estimators::reflected_cd_m2(terms, factors) * scale;
+}
+
+/// The sides of vertices of patches that reflect light.
+std::vector<std::uint32_t> reflecting_vertices(const PatchTransport& coarse, const patches::FinePatches& fine,
+                                               const std::vector<bool>& is_lit) {
+    const patches::Patches& patches = fine.patches;
+    std::vector<bool> reflects(2 * patches.vertices.size());
+    for (std::uint32_t p = 0; p < patches.count(); ++p) {
+        if (reflects_nothing(coarse.material_of(fine.parents[p]))) continue;
+        for (const std::uint32_t corner : patches.corners[p]) {
+            if (is_lit[fine.parents[p]]) reflects[corner] = true;
+            if (is_lit[coarse.patches.other_side(fine.parents[p])])
+                reflects[corner + patches.vertices.size()] = true;
+        }
+    }
+    std::vector<std::uint32_t> sides;
+    for (std::uint32_t side = 0; side < reflects.size(); ++side) {
+        if (reflects[side]) sides.push_back(side);
+    }
+    return sides;
+}
+
+}  // namespace
+
+struct LightGather::GatheredRay {
+    std::uint32_t vertex = 0, replicate = 0;
+    Vec3 local_direction;
+    rays::Ray ray;
+    transport::Path path;
+    bool stands = false;  ///< on a surface that scatters
+    GroupLight once{}, twice{};
+};
+
+LightGather::LightGather(const PatchTransport& coarse, const TermLayout& layout,
+                         std::vector<const TermSums*> walks, const std::vector<bool>& is_lit,
+                         const patches::FinePatches& fine, const LightGroups& groups, math::RandomKey key,
+                         const Monitor& monitor)
+    : coarse_(coarse),
+      layout_(layout),
+      walks_(std::move(walks)),
+      fine_(fine),
+      groups_(groups),
+      key_(key),
+      monitor_(monitor),
+      fine_caster_(fine.patches),
+      basis_(layout.basis().degree()),
+      tables_(tables_of(coarse.scene, basis_.degree())),
+      lights_(coarse.scene, coarse.caster, groups, [](std::size_t) { return true; }),
+      tracer_(coarse.scene, coarse.caster, coarse.lights),
+      vertices_(coarse.scene, fine.patches, basis_.degree(), reflecting_vertices(coarse, fine, is_lit)) {
+    const auto is_replaced = [&](std::size_t light) { return coarse.first_shot.replaces(light); };
+    for (std::size_t light = 0; light < coarse.scene.lights.size() && !replaced_lights_; ++light) {
+        if (!is_replaced(light)) replaced_lights_.emplace(coarse.scene, coarse.caster, groups, is_replaced);
+    }
+    find_origins(is_lit);
+    add_direct_light();
+    rays_.resize(vertices_.count());
+    once_.resize(groups.count() * vertices_.terms());
+    twice_.resize(once_.size());
+    replicate_lx_.resize(vertices_.count() * walks_.size());
+    difference_lx_.resize(vertices_.count());
+}
+
+/// Drops vertices that are covered all around: nothing reaches them.
+void LightGather::find_origins(const std::vector<bool>& is_lit) {
+    const patches::Patches& patches = fine_.patches;
+    std::vector<std::vector<Origin>> of_vertices(vertices_.count());
+    for (std::uint32_t p = 0; p < patches.count(); ++p) {
+        const Vec3 middle = patches.middle(p);
+        for (const std::uint32_t corner : patches.corners[p]) {
+            const Vec3 place = patches.center + Vec3(patches.vertices[corner]);
+            const Vec3 inside = place + kShareToMiddle * (middle - place);
+            for (const std::uint32_t side : {p, patches.other_side(p)}) {
+                const std::uint32_t number = vertices_.number_of(corner, patches.is_front(side));
+                if (number == LightVertices::kDark) continue;
+                of_vertices[number].push_back(
+                    {lifted_off(coarse_.scene, patches, coarse_.caster, side, inside),
+                     patches.normal_of(side)});
+            }
+        }
+    }
+    parallel_for_parts(of_vertices.size(), [&](std::size_t first, std::size_t last) {
+        monitor_.require_more();
+        for (std::size_t i = first; i < last; ++i)
+            std::erase_if(of_vertices[i], [&](const Origin& origin) { return is_covered(origin, is_lit); });
+    });
+    std::vector<std::uint32_t> lit;
+    first_origin_ = {0};
+    for (std::uint32_t i = 0; i < of_vertices.size(); ++i) {
+        if (of_vertices[i].empty()) continue;
+        lit.push_back(vertices_.sides()[i]);
+        origins_.insert(origins_.end(), of_vertices[i].begin(), of_vertices[i].end());
+        first_origin_.push_back(origins_.size());
+    }
+    vertices_ = LightVertices(coarse_.scene, patches, basis_.degree(), std::move(lit));
+}
+
+/// Whether all that a place sees is dark: below something that stands on the surface.
+bool LightGather::is_covered(const Origin& origin, const std::vector<bool>& is_lit) const {
+    const Frame frame = Frame::around(origin.normal);
+    RayPacket packet;
+    LaneMask lanes{};
+    for (std::uint32_t i = 0; i < kRaysToCover; ++i) {
+        packet.set(i, origin.lifted - fine_.patches.center, frame.to_world(drawn_direction(i, kRaysToCover)),
+                   std::numeric_limits<float>::infinity());
+        lanes[i] = -1;
+    }
+    const patches::PatchHits hits = fine_caster_.closest(packet, lanes);
+    return std::ranges::all_of(std::span(hits.sides).first(kRaysToCover), [&](std::uint32_t side) {
+        if (side == patches::kNoSide) return false;
+        const std::uint32_t parent = fine_.parents[fine_.patches.patch_of(side)];
+        if (is_specular(coarse_.material_of(parent))) return false;
+        return !is_lit[fine_.patches.is_front(side) ? parent : coarse_.patches.other_side(parent)];
+    });
+}
+
+/// By first shot on the patches of the walks: for the relative errors only.
+void LightGather::add_direct_light() {
+    direct_lx_.resize(vertices_.count());
+    area_m2_.resize(vertices_.count());
+    const IncomingFirstShot* const first_shot = coarse_.first_shot.incoming();
+    for (std::uint32_t p = 0; p < fine_.patches.count(); ++p) {
+        const std::uint32_t parent = fine_.parents[p];
+        for (const bool is_front : {true, false}) {
+            const std::uint32_t side = is_front ? parent : coarse_.patches.other_side(parent);
+            for (const std::uint32_t corner : fine_.patches.corners[p]) {
+                const std::uint32_t number = vertices_.number_of(corner, is_front);
+                if (number == LightVertices::kDark) continue;
+                const double area_m2 = double{fine_.patches.areas_m2[p]} / 3;
+                area_m2_[number] += area_m2;
+                if (first_shot) direct_lx_[number] += area_m2 * first_shot->illuminance_lx(side).luminance();
+            }
+        }
+    }
+    for (std::size_t i = 0; i < direct_lx_.size(); ++i) direct_lx_[i] /= area_m2_[i];
+}
+
+void LightGather::step() {
+    if (std::has_single_bit(steps_)) {
+        source_ = once_;
+        for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
+            const auto scale = static_cast<float>(1. / static_cast<double>(rays_[i] * walks_.size()));
+            for (std::size_t g = 0; g < groups_.count(); ++g) {
+                for (std::uint32_t t = vertices_.first_term(i); t < vertices_.first_term(i + 1); ++t) {
+                    for (float& band : source_[index(g, t)]) band *= scale;
+                }
+            }
+        }
+    }
+    const auto count = static_cast<std::uint32_t>(vertices_.count());
+    parallel_for((count + kTogether - 1) / kTogether, [&](std::size_t part) {
+        monitor_.require_more();
+        const auto first = static_cast<std::uint32_t>(part) * kTogether;
+        gather(first, std::min(first + kTogether, count));
+    });
+    ++steps_;
+}
+
+void LightGather::gather(std::uint32_t first, std::uint32_t last) {
+    std::vector<GatheredRay> rays;
+    for (std::uint32_t vertex = first; vertex < last; ++vertex) {
+        for (std::uint32_t r = 0; r < walks_.size(); ++r) {
+            if (auto ray = start(vertex, r)) rays.push_back(std::move(*ray));
+        }
+        ++rays_[vertex];
+    }
+    follow(rays);
+    std::vector<ViewedHit> points;
+    std::vector<GatheredRay*> standing;
+    for (GatheredRay& ray : rays) {
+        if (!ray.stands) continue;
+        standing.push_back(&ray);
+        points.push_back({ray.path.hit, ray.path.outgoing});
+    }
+    const auto locations = find_patch_locations(fine_caster_, points, rays::Coherence::scattered);
+    for (std::size_t i = 0; i < standing.size(); ++i) reflect(*standing[i], locations[i]);
+    for (const GatheredRay& ray : rays) add(ray);
+}
+
+/// Nothing where the ray would leave the surface to the other side of a patch.
+auto LightGather::start(std::uint32_t vertex, std::uint32_t replicate) const -> std::optional<GatheredRay> {
+    math::SampleStream stream(key_.derived(replicate).derived(vertices_.sides()[vertex]), steps_);
+    const auto [u1, u2] = stream.next_two();
+    const Vec3 local = math::sample_cosine_hemisphere(u1, u2).direction;
+    const std::size_t count = first_origin_[vertex + 1] - first_origin_[vertex];
+    const auto number = static_cast<std::size_t>(stream.next() * static_cast<double>(count));
+    const Origin& origin = origins_[first_origin_[vertex] + number];
+    const Vec3 direction = vertices_.frame(vertex).to_world(local);
+    if (dot(direction, origin.normal) <= 0) return std::nullopt;
+    return GatheredRay{vertex, replicate, local, {origin.lifted, direction}, {{}, -direction, stream}};
+}
+
+/// To the first surface that scatters. Light that mirrors and glass bring from a lamp is light that was
+/// reflected; direct light, also through panes, is left out.
+void LightGather::follow(std::span<GatheredRay> rays) const {
+    std::vector<rays::Ray> started;
+    for (const GatheredRay& ray : rays) started.push_back(ray.ray);
+    std::vector<std::optional<rays::Hit>> hits(rays.size());
+    coarse_.caster.closest(started, rays::Coherence::scattered, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!hits[i]) continue;
+        GatheredRay& ray = rays[i];
+        ray.path.hit = *hits[i];
+        ray.path.reflections_left = transport::kUnlimited;
+        ray.path.previous_vertex = transport::kDirectIsKnown;
+        ray.stands = tracer_.follow_to_scattering(ray.path);
+        if (!(ray.path.luminance_cd_m2.max() > 0)) continue;
+        const std::size_t group = group_of(ray.path);
+        ray.once[group] += ray.path.luminance_cd_m2;
+        ray.twice[group] += ray.path.luminance_cd_m2;
+    }
+}
+
+/// The group of the lamp that a path ends on, or of the light from outside.
+std::size_t LightGather::group_of(const transport::Path& ended) const {
+    std::size_t outside = 0;
+    for (std::size_t light = 0; light < coarse_.scene.lights.size(); ++light) {
+        const auto surface = lights::surface_emission(coarse_.scene.lights[light]);
+        if (surface && surface->object == ended.hit.object) return groups_.of_light[light];
+        if (location_of(coarse_.scene.lights[light]) == LightLocation::infinity)
+            outside = groups_.of_light[light];
+    }
+    return outside;
+}
+
+void LightGather::reflect(GatheredRay& ray, const std::optional<PatchLocation>& location) const {
+    transport::Path& path = ray.path;
+    if (reflects_nothing(coarse_.scene.material(path.hit.material))) return;
+    GroupLight once{}, twice{};
+    const std::span<Rgb> of_once(once.data(), groups_.count()), of_twice(twice.data(), groups_.count());
+    lights_.add_reflected(path.hit, path.outgoing, path.stream, of_twice);
+    if (replaced_lights_) {
+        replaced_lights_->add_reflected(path.hit, path.outgoing, path.stream, of_once);
+    } else {
+        once = twice;
+    }
+    if (location) {
+        const std::uint32_t parent = fine_.parents[fine_.patches.patch_of(location->side)];
+        const bool is_front = fine_.patches.is_front(location->side);
+        add_of_walk(ray, is_front ? parent : coarse_.patches.other_side(parent), of_once);
+        if (!source_.empty()) add_of_vertices(ray, *location, of_twice);
+    }
+    for (std::size_t g = 0; g < groups_.count(); ++g) {
+        ray.once[g] += path.throughput * once[g];
+        ray.twice[g] += path.throughput * twice[g];
+    }
+}
+
+void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side,
+                              std::span<Rgb> of_groups) const {
+    const TermSums& walk = *walks_[ray.replicate];
+    const std::size_t count = layout_.count_of(coarse_side);
+    if (count == 0) return;
+    std::array<FloatRgb, math::ZernikeBasis::kMostCount> factors;
+    const std::span<FloatRgb> used(factors.data(), count);
+    const Frame frame = frame_of(coarse_.patches, coarse_side);
+    const Vec3 out = frame.to_local(ray.path.outgoing);
+    interpolate_factors(tables_[index_of(ray.path.hit.material)], {out.x, out.y, std::abs(out.z)}, used);
+    const double scale = 1 / static_cast<double>(walk.steps());
+    for (std::size_t g = 0; g < of_groups.size(); ++g)
+        of_groups[g] += reflected_cd_m2(walk.sums_of(g, coarse_side), used, scale);
+}
+
+void LightGather::add_of_vertices(const GatheredRay& ray, const PatchLocation& location,
+                                  std::span<Rgb> of_groups) const {
+    const std::uint32_t patch = fine_.patches.patch_of(location.side);
+    const auto& [b0, b1, b2] = location.barycentric;
+    const std::array weights{b0, b1, b2};
+    GroupLight sums{};
+    double weight = 0;
+    std::array<FloatRgb, math::ZernikeBasis::kMostCount> factors;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t number =
+            vertices_.number_of(fine_.patches.corners[patch][c], fine_.patches.is_front(location.side));
+        if (number == LightVertices::kDark) continue;
+        const std::span<FloatRgb> used(factors.data(), vertices_.terms_of(number));
+        const Vec3 out = vertices_.frame(number).to_local(ray.path.outgoing);
+        interpolate_factors(tables_[index_of(vertices_.material(number))], {out.x, out.y, std::abs(out.z)},
+                            used);
+        for (std::size_t g = 0; g < of_groups.size(); ++g) {
+            const auto terms =
+                std::span(source_).subspan(index(g, vertices_.first_term(number)), used.size());
+            sums[g] += reflected_cd_m2(terms, used, weights[c]);
+        }
+        weight += weights[c];
+    }
+    for (std::size_t g = 0; weight > 0 && g < of_groups.size(); ++g) of_groups[g] += sums[g] * (1 / weight);
+}
+
+void LightGather::add(const GatheredRay& ray) {
+    std::array<double, math::ZernikeBasis::kMostCount> values{1 / std::sqrt(kPi)};
+    const std::uint32_t first = vertices_.first_term(ray.vertex), count = vertices_.terms_of(ray.vertex);
+    if (count > 1) basis_.evaluate(ray.local_direction, values);
+    const bool has_second = !source_.empty();
+    for (std::size_t g = 0; g < groups_.count(); ++g) {
+        const Rgb once_lx = ray.once[g] * kPi, twice_lx = ray.twice[g] * kPi;
+        if (!once_lx.is_finite() || !twice_lx.is_finite()) continue;
+        for (std::uint32_t k = 0; k < count; ++k) {
+            add_to(once_[index(g, first + k)], once_lx * values[k]);
+            if (has_second) add_to(twice_[index(g, first + k)], twice_lx * values[k]);
+        }
+        if (!has_second) continue;
+        replicate_lx_[ray.vertex * walks_.size() + ray.replicate] += twice_lx.luminance();
+        difference_lx_[ray.vertex] += twice_lx.luminance() - once_lx.luminance();
+    }
+}
+
+double LightGather::illuminance_lx(std::uint32_t vertex) const {
+    const auto first = replicate_lx_.begin() + static_cast<std::ptrdiff_t>(vertex * walks_.size());
+    double sum = 0;
+    for (std::size_t r = 0; r < walks_.size(); ++r) sum += first[static_cast<std::ptrdiff_t>(r)];
+    return sum / static_cast<double>((rays_[vertex] - 1) * walks_.size());
+}
+
+double LightGather::bias_lx(std::uint32_t vertex) const {
+    return std::abs(difference_lx_[vertex]) / static_cast<double>((rays_[vertex] - 1) * walks_.size());
+}
+
+auto LightGather::illuminances() const -> Illuminances {
+    Illuminances result;
+    result.area_m2 = area_m2_;
+    for (std::size_t r = 0; r < walks_.size(); ++r) {
+        for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
+            result.replicate_means.push_back(direct_lx_[i] + replicate_lx_[i * walks_.size() + r] /
+                                                                 static_cast<double>(rays_[i] - 1));
+        }
+    }
+    for (std::uint32_t i = 0; i < vertices_.count(); ++i) result.bias_lx.push_back(bias_lx(i));
+    return result;
+}
+
+PatchSolution LightGather::solution() const {
+    PatchSolution solution;
+    solution.patches = fine_.patches;
+    solution.groups = groups_.names;
+    solution.degree = basis_.degree();
+    solution.lit_vertices.assign(vertices_.sides().begin(), vertices_.sides().end());
+    if (steps_ < kFirstSteps) return solution;
+    solution.terms.resize(groups_.count());
+    for (std::size_t g = 0; g < groups_.count(); ++g) {
+        for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
+            const double scale = 1 / static_cast<double>((rays_[i] - 1) * walks_.size());
+            for (std::uint32_t t = vertices_.first_term(i); t < vertices_.first_term(i + 1); ++t)
+                solution.terms[g].push_back(to_half_rgb(to_rgb(twice_[index(g, t)]) * scale));
+        }
+    }
+    solution.replicates.resize(walks_.size());
+    for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
+        const double mean_lx = illuminance_lx(i), rays = static_cast<double>(rays_[i] - 1);
+        for (std::size_t r = 0; r < walks_.size(); ++r) {
+            const double share = mean_lx > 0 ? replicate_lx_[i * walks_.size() + r] / rays / mean_lx : 1;
+            solution.replicates[r].push_back(to_half(static_cast<float>(share)));
+        }
+        solution.bias.push_back(to_half(static_cast<float>(mean_lx > 0 ? bias_lx(i) / mean_lx : 0)));
+    }
+    return solution;
+}
+
+patches::FinePatches patches_near_contacts(const PatchTransport& coarse, const std::vector<bool>& is_lit,
+                                           std::size_t most, const Monitor& monitor) {
+    // Light that surfaces send varies over about the distance to them [Ward, Rubinstein, Clear 1988, A ray
+    // tracing solution for diffuse interreflection: the harmonic mean of the distances].
+    constexpr double share_of_distance = 1;
+    constexpr double least_share_of_size = 1. / 8;
+    const auto inverse_distance = [&](std::uint32_t side, const Vec3& position) {
+        const Vec3 lifted = lifted_off(coarse.scene, coarse.patches, coarse.caster, side, position);
+        const Frame frame = Frame::around(coarse.patches.normal_of(side));
+        RayPacket packet;
+        LaneMask lanes{};
+        for (std::uint32_t i = 0; i < kPacketWidth; ++i) {
+            packet.set(i, lifted - coarse.patches.center, frame.to_world(drawn_direction(i, kPacketWidth)),
+                       std::numeric_limits<float>::infinity());
+            lanes[i] = -1;
+        }
+        coarse.patch_caster.closest(packet, lanes);
+        double sum = 0;
+        for (const float distance_m : packet.end) sum += 1 / double{distance_m};
+        return sum / kPacketWidth;
+    };
+    const auto longest_edge_m = [&](std::uint32_t patch, const std::array<Vec3, 3>& corners) {
+        const Vec3 middle = (1. / 3) * (corners[0] + corners[1] + corners[2]);
+        double limit_m = coarse.size_m;
+        if (reflects_nothing(coarse.material_of(patch))) return limit_m;
+        for (const std::uint32_t side : {patch, coarse.patches.other_side(patch)}) {
+            if (is_lit[side]) limit_m = std::min(limit_m, share_of_distance / inverse_distance(side, middle));
+        }
+        return std::max(limit_m, least_share_of_size * coarse.size_m);
+    };
+    return patches::make_fine_patches(coarse.scene, coarse.size_m, longest_edge_m, most, monitor);
+}
+
+}  // namespace stilb::estimators

@@ -1,0 +1,114 @@
+// The light that reaches the vertices of a solution after one reflection or more, by rays from the vertices.
+//
+// Where a ray meets a surface, the direct light there is sampled, and the light that it reflects after
+// further reflections is known in two ways: from the patches of the walks (gathered once), or from the
+// vertices around, as the rays have found it so far (gathered twice). The result is gathered twice. What the
+// two differ by, along the same rays, is the error of the patches in the light of one more reflection: a
+// bound for the error of the result.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/monitor.h"
+#include "estimators/patch_light/incoming_light.h"
+#include "estimators/patch_light/patch_transport.h"
+#include "estimators/patch_light/solution/grouped_lights.h"
+#include "estimators/patch_light/solution/light_vertices.h"
+#include "estimators/patch_light/solution/patch_solution.h"
+#include "estimators/patch_light/solution/reflection_table.h"
+#include "math/zernike.h"
+#include "transport/path_tracer.h"
+
+namespace stilb::estimators {
+
+/// Finer patches than those of a walk: at most `most`, divided where other surfaces are near. `is_lit`: per
+/// side of the walk's patches.
+patches::FinePatches patches_near_contacts(const PatchTransport& coarse, const std::vector<bool>& is_lit,
+                                           std::size_t most, const Monitor& monitor);
+
+/// Keeps references to all arguments but the key.
+class LightGather {
+  public:
+    /// `walks`: their light, one for each replicate. `is_lit`: per side of the walks' patches.
+    LightGather(const PatchTransport& coarse, const TermLayout& layout, std::vector<const TermSums*> walks,
+                const std::vector<bool>& is_lit, const patches::FinePatches& fine, const LightGroups& groups,
+                math::RandomKey key, const Monitor& monitor);
+
+    /// One ray from every vertex for each replicate. Throws Cancelled as the monitor says: some vertices have
+    /// one step more then.
+    void step();
+    /// Steps of all vertices.
+    std::uint64_t steps() const { return steps_; }
+    /// Steps before there is light that was gathered twice, in all replicates.
+    static constexpr std::uint64_t kFirstSteps = 2;
+
+    /// The layout and the light; without light before kFirstSteps.
+    PatchSolution solution() const;
+
+    /// The illuminances of the vertices, for errors.
+    struct Illuminances {
+        /// Replicates x vertices: the mean of each, direct light included [lx].
+        std::vector<double> replicate_means;
+        std::vector<double> bias_lx;  ///< per vertex: what the patches add or lack at most
+        std::vector<double> area_m2;  ///< per vertex: of the surface around
+    };
+    Illuminances illuminances() const;
+
+  private:
+    /// A place of a vertex that rays start from.
+    struct Origin {
+        Vec3 lifted, normal;
+    };
+    struct GatheredRay;
+
+    void find_origins(const std::vector<bool>& is_lit);
+    bool is_covered(const Origin& origin, const std::vector<bool>& is_lit) const;
+    void add_direct_light();
+    /// All replicates' next rays of some vertices.
+    void gather(std::uint32_t first, std::uint32_t last);
+    std::optional<GatheredRay> start(std::uint32_t vertex, std::uint32_t replicate) const;
+    void follow(std::span<GatheredRay> rays) const;
+    void reflect(GatheredRay& ray, const std::optional<PatchLocation>& location) const;
+    void add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side, std::span<Rgb> of_groups) const;
+    void add_of_vertices(const GatheredRay& ray, const PatchLocation& location,
+                         std::span<Rgb> of_groups) const;
+    void add(const GatheredRay& ray);
+    std::size_t group_of(const transport::Path& ended) const;
+    /// The number of a term in arrays of all groups.
+    std::size_t index(std::size_t group, std::size_t term) const { return group * vertices_.terms() + term; }
+    double illuminance_lx(std::uint32_t vertex) const;
+    double bias_lx(std::uint32_t vertex) const;
+
+    const PatchTransport& coarse_;
+    const TermLayout& layout_;
+    std::vector<const TermSums*> walks_;
+    const patches::FinePatches& fine_;
+    const LightGroups& groups_;
+    math::RandomKey key_;
+    const Monitor& monitor_;
+    patches::PatchCaster fine_caster_;
+    math::ZernikeBasis basis_;
+    std::vector<ReflectionTable> tables_;  ///< per material of the scene
+    GroupedLights lights_;
+    /// The lights that first shot replaces; the walks' patches have the direct light of others.
+    std::optional<GroupedLights> replaced_lights_;
+    transport::PathTracer tracer_;
+
+    LightVertices vertices_;
+    std::vector<std::size_t> first_origin_;  ///< per vertex, and the end
+    std::vector<Origin> origins_;
+    std::vector<double> direct_lx_, area_m2_;  ///< per vertex
+
+    std::uint64_t steps_ = 0;
+    std::vector<std::uint64_t> rays_;  ///< of each replicate, per vertex
+    // Sums over the rays of all replicates, group by group:
+    std::vector<FloatRgb> once_, twice_;
+    std::vector<FloatRgb> source_;       ///< the mean gathered once, from time to time
+    std::vector<double> replicate_lx_;   ///< vertices x replicates: sums gathered twice, luminance-weighted
+    std::vector<double> difference_lx_;  ///< per vertex: sum of what the two ways differ by
+};
+
+}  // namespace stilb::estimators
