@@ -26,7 +26,6 @@ class Panorama {
     const Image& image() const { return image_; }
     int width() const { return image_.width; }
     int height() const { return image_.height; }
-    const Image& image() const { return image_; }
     Rgb luminance_cd_m2(const Vec3& direction) const { return rgb_of(pixel_towards(direction)); }
     /// Integral of the luminance over the sphere [lx]: 4 pi times its mean.
     const Rgb& total_lx() const { return total_lx_; }

@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
@@ -33,29 +32,6 @@ std::vector<LightFactor> factors_of(const nlohmann::json& request) {
         throw InputError("\"factors\" must be an object of names of light groups and numbers.");
     for (const auto& [name, factor] : given->items()) factors.push_back({name, factor_of(factor, name)});
     return factors;
-}
-
-lights::LightSource dimmed(lights::PointLight light, const Rgb& factor) {
-    light.intensity_cd *= factor;
-    return light;
-}
-lights::LightSource dimmed(lights::Luminaire light, const Rgb& factor) {
-    light.factor *= factor;
-    return light;
-}
-lights::LightSource dimmed(lights::AreaLight light, const Rgb& factor) {
-    light.luminance_cd_m2 *= factor;
-    return light;
-}
-lights::LightSource dimmed(lights::EnvironmentLight light, const Rgb& factor) {
-    light.luminance_cd_m2 *= factor;
-    if (!light.panorama) return light;
-    lights::Panorama::Image image = light.panorama->image();
-    for (auto& pixel : image.rgb_cd_m2) {
-        for (std::size_t b = 0; b < kBands; ++b) pixel[b] *= static_cast<float>(factor[b]);
-    }
-    light.panorama = std::make_shared<lights::Panorama>(std::move(image));
-    return light;
 }
 
 double triangles_in(const Scene& scene) {
@@ -110,10 +86,7 @@ Scene with_factors(const Scene& scene, std::span<const LightFactor> factors) {
         const Rgb& factor = of_groups[groups.of_light[i]];
         Light light = scene.lights[i];
         if (factor.max() < kLeastFactor) continue;
-        if (factor != Rgb::grey(1)) {
-            light.source = std::visit([&](const auto& source) { return dimmed(source, factor); },
-                                      scene.lights[i].source);
-        }
+        if (factor != Rgb::grey(1)) light.source = lights::scaled(light.source, factor);
         changed.lights.push_back(std::move(light));
     }
     return changed;
