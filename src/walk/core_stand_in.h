@@ -21,8 +21,8 @@ namespace stilb {
 
 namespace walk_stand_in {
 
-using ::stilb::estimators::lifted_off;
 using ::stilb::HalfRgb;
+using ::stilb::estimators::lifted_off;
 using FloatRgb = std::array<float, 3>;
 
 struct PatchSolution {

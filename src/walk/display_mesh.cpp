@@ -32,14 +32,24 @@ class DisplayBuilder {
           direct_(scene, caster),
           light_(scene, caster, patches, direct_),
           scene_{scene, patches, light_},
-          surface_(make_display_surface(scene, caster, patches)) {
+          surface_(make_display_surface(scene, caster, patches)),
+          is_emitter_(scene.objects.size()) {
         lights_.lights = direct_.count();
+        for (const Light& light : scene.lights) {
+            const auto surface = lights::surface_emission(light);
+            if (surface) is_emitter_[index_of(surface->object)] = true;
+        }
     }
 
     DisplayMesh run(const std::vector<bool>& carries_light) {
-        light_all(1);
-        remove_unseen(carries_light);
-        light_all(kMostAround);
+        const auto is_certain = [&](const SurfaceTriangle& triangle) {
+            return carries_light[triangle.side] || scene_.is_specular(triangle.side) || emits(triangle.side);
+        };
+        light_all(1, [&](const SurfaceTriangle& triangle) { return !is_certain(triangle); });
+        remove_unseen(is_certain);
+        // Contacts matter where triangles are large.
+        const std::size_t most = surface_.triangles.size() > options_.most_triangles ? 1 : kMostAround;
+        light_all(most, [&](const SurfaceTriangle& triangle) { return !scene_.is_specular(triangle.side); });
         const std::vector<float> errors =
             refine(scene_, options_, typical_lx(), 2 * caster_.half_extent_m(), surface_, lights_, monitor_);
         return assembled(errors);
@@ -49,35 +59,36 @@ class DisplayBuilder {
     /// Triangles around a vertex that are looked at.
     static constexpr std::size_t kMostAround = 12;
 
-    /// `most`: triangles around each vertex that are looked at. With one, contacts are not found.
-    void light_all(std::size_t most) {
+    /// Light at the vertices of triangles that meet a condition. `most`: triangles around each vertex that
+    /// are looked at. With one, contacts are not found.
+    template <typename Condition>
+    void light_all(std::size_t most, const Condition& condition) {
         const TrianglesAround triangles(surface_);
         std::vector<std::vector<Adjoining>> around(surface_.vertices.size());
         for (std::uint32_t v = 0; v < around.size(); ++v) {
             for (const std::uint32_t t : triangles.of(v)) {
                 const SurfaceTriangle& triangle = surface_.triangles[t];
-                if (around[v].size() == most || scene_.is_specular(triangle.side)) break;
-                around[v].push_back({surface_.middle(triangle), triangle.side});
+                if (around[v].size() == most) break;
+                if (condition(triangle)) around[v].push_back({surface_.middle(triangle), triangle.side});
             }
         }
         light_vertices(scene_, surface_, 0, around, lights_, monitor_);
     }
 
-    /// Removes triangles that are dark or hidden.
-    void remove_unseen(const std::vector<bool>& carries_light) {
-        std::vector<bool> emits(scene_.scene.objects.size());
-        for (const Light& light : scene_.scene.lights) {
-            if (const auto surface = lights::surface_emission(light)) emits[index_of(surface->object)] = true;
-        }
+    bool emits(std::uint32_t side) const {
+        const ObjectId object = scene_.patches.object_of(scene_.patches.patch_of(side));
+        return scene_.patches.is_front(side) && is_emitter_[index_of(object)];
+    }
+
+    /// Removes triangles that are dark or hidden, and remembers the sides of objects that are left.
+    template <typename Condition>
+    void remove_unseen(const Condition& is_certain) {
         std::vector<bool> is_reached(2 * scene_.scene.objects.size());
         std::erase_if(surface_.triangles, [&](const SurfaceTriangle& triangle) {
-            const std::uint32_t side = triangle.side;
-            const ObjectId object = scene_.patches.object_of(scene_.patches.patch_of(side));
-            const bool is_front = scene_.patches.is_front(side);
-            const bool is_seen = carries_light[side] || scene_.is_specular(side) ||
-                                 (is_front && emits[index_of(object)]) || is_lit(triangle);
-            if (is_seen) is_reached[object_side(object, is_front)] = true;
-            return !is_seen;
+            if (!is_certain(triangle) && !is_lit(triangle)) return true;
+            const ObjectId object = scene_.patches.object_of(scene_.patches.patch_of(triangle.side));
+            is_reached[object_side(object, scene_.patches.is_front(triangle.side))] = true;
+            return false;
         });
         remove_unused_vertices();
         light_.set_reached(std::move(is_reached));
@@ -181,6 +192,7 @@ class DisplayBuilder {
     RefinementScene scene_;
     DisplaySurface surface_;
     VertexLights lights_;
+    std::vector<bool> is_emitter_;  ///< per object
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr double kSmallBulge = 0.005;
 /// The largest error inside of a triangle over that in its edges' middles, for smooth light.
 constexpr double kInside = 4. / 3;
 /// Triangles that halving an edge adds, with those that have to follow it.
-constexpr std::size_t kTrianglesPerEdge = 3;
+constexpr std::size_t kTrianglesPerEdge = 4;
 
 /// Two vertices, a < b, with the triangles on the edge between them.
 struct SurfaceEdge {

@@ -1,0 +1,233 @@
+// The data of a walk, read as the page reads it.
+#include "walk/walk_data.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stilb/error.h"
+#include "walk/container_reader.h"
+#include "walk/walk_rooms.h"
+
+namespace stilb::walk {
+namespace {
+
+using nlohmann::json;
+
+/// A floor of boards, a wall, a pane, a mirror and a lamp.
+Scene small_scene() {
+    Scene scene;
+    const auto phong =
+        materials::make<materials::Phong>({Rgb{{0.3, 0.2, 0.1}}, Rgb::grey(0.2), 12}, "boards");
+    const auto ward =
+        materials::make<materials::Ward>({Rgb::grey(0.1), Rgb::grey(0.3), {0.1, 0.3}, 30}, "steel");
+    add_object(scene, Rectangle{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, phong);
+    add_object(scene, Rectangle{{0, 3, 0}, {3, 0, 0}, {0, 0, 2}}, diffuse(0.6));
+    add_object(scene, Rectangle{{0, 0, 0}, {0, 3, 0}, {0, 0, 2}}, ward);
+    add_object(scene, Rectangle{{3, 0, 0}, {0, 0, 2}, {0, 3, 0}}, Mirror{Rgb::grey(0.9)});
+    add_area_light(scene, Rectangle{{1, 1, 2}, {0, 0.5, 0}, {0.5, 0, 0}}, Rgb{{2000, 1000, 500}},
+                   diffuse(0.2));
+    add_point_light(scene, {1, 2, 1.5}, Rgb::grey(80));
+    return scene;
+}
+
+/// As the core prepares it: all vertices of surfaces that scatter, seen from their fronts.
+estimators::PatchSolution prepared(const Scene& scene) {
+    estimators::PatchSolution solution;
+    solution.patches = patches::make_patches(scene, 0.5);
+    solution.groups = scene::light_groups(scene).names;
+    solution.degree = 3;
+    std::vector<bool> is_lit(solution.patches.vertices.size());
+    for (std::uint32_t p = 0; p < solution.patches.count(); ++p) {
+        if (is_specular(scene.material(solution.patches.materials[p]))) continue;
+        for (const std::uint32_t corner : solution.patches.corners[p]) is_lit[corner] = true;
+    }
+    is_lit[0] = false;  // a dark corner
+    for (std::uint32_t v = 0; v < is_lit.size(); ++v) {
+        if (is_lit[v]) solution.lit_vertices.push_back(v);
+    }
+    return solution;
+}
+
+WalkScene walk_scene() {
+    const Camera camera{{1, 0.2, 1.6}, {1, 3, 1}, {0, 0, 1}, 75, {100, 80}};
+    return {"A small scene",
+            "small.toml",
+            {{"view", camera},
+             {"grid", Grid{{0, 0, 0.8}, {2, 0, 0}, {0, 1, 0}, {4, 2}, std::nullopt}},
+             {"eye", Luminance{{LineOfSight{{1, 1, 1.2}, {0, 1, 0}}}}}}};
+}
+
+struct SceneRead : ContainerReader {
+    Scene scene = small_scene();
+    estimators::PatchSolution solution = prepared(scene);
+
+    SceneRead() : ContainerReader(bytes_of()) {}
+    static std::string bytes_of() {
+        const Scene scene = small_scene();
+        return gunzipped(scene_data(scene, rays::RayCaster(scene), prepared(scene), walk_scene()));
+    }
+};
+
+TEST(SceneData, ListsMaterialsByTheNamesOfSceneFiles) {
+    const SceneRead read;
+    const json& materials = read.header.at("materials");
+    ASSERT_EQ(materials.size(), read.scene.materials.size());
+    EXPECT_EQ(materials[0].at("type"), "phong");
+    EXPECT_EQ(materials[0].at("diffuse"), (json{0.3, 0.2, 0.1}));
+    EXPECT_EQ(materials[0].at("exponent"), 12);
+    EXPECT_EQ(materials[0].at("reflection"), "reflection_0");
+    EXPECT_EQ(materials[0].at("phis"), 1);
+    EXPECT_EQ(materials[1].at("reflectance"), (json{0.6, 0.6, 0.6}));
+    EXPECT_TRUE(materials[1].at("reflection").is_null());
+    EXPECT_EQ(materials[2].at("roughness"), (json{0.1, 0.3}));
+    EXPECT_EQ(materials[2].at("rotation"), 30);
+    EXPECT_EQ(materials[2].at("phis"), 32);
+    EXPECT_EQ(materials[3].at("type"), "mirror");
+    EXPECT_TRUE(materials[3].at("reflection").is_null());
+    EXPECT_EQ(read.count("reflection_0"), 33U * 10U);
+    EXPECT_EQ(read.count("reflection_2"), 33U * 32U * 10U);
+}
+
+TEST(SceneData, ListsLightsWithPointsForHighlights) {
+    const SceneRead read;
+    const json& lights = read.header.at("lights");
+    const std::vector<double> points = read.numbers("light_points");
+    ASSERT_EQ(lights.size(), 2U);
+    EXPECT_EQ(lights[0].at("type"), "area");
+    EXPECT_EQ(lights[0].at("points"), (json{0, 16}));
+    EXPECT_EQ(lights[1].at("points"), (json{16, 1}));
+    EXPECT_EQ(lights[1].at("group"), 1);
+    const Rgb colour{{lights[0].at("colour")[0], lights[0].at("colour")[1], lights[0].at("colour")[2]}};
+    EXPECT_NEAR(colour.luminance(), 1, 1e-9);
+    EXPECT_NEAR(colour[0] / colour[1], 2, 1e-9);
+    ASSERT_EQ(points.size(), 17U * 8U);
+    double weights = 0;
+    for (std::size_t i = 0; i < 16; ++i) {
+        EXPECT_EQ(points[8 * i + 2], 2);
+        EXPECT_EQ(points[8 * i + 5], -1);
+        weights += points[8 * i + 6];
+    }
+    EXPECT_NEAR(weights, 1, 1e-6);
+    EXPECT_EQ(points[16 * 8 + 6], 1);
+    EXPECT_EQ(points[16 * 8 + 5], 0);
+}
+
+TEST(SceneData, ListsPlacesToJumpTo) {
+    const SceneRead read;
+    const json& camera = read.header.at("cameras").at(0);
+    EXPECT_EQ(camera.at("name"), "view");
+    EXPECT_EQ(camera.at("fov"), 75);
+    const json& sensors = read.header.at("sensors");
+    ASSERT_EQ(sensors.size(), 2U);
+    EXPECT_EQ(sensors[0].at("position"), (json{1, 0.5, 0.8}));
+    EXPECT_EQ(sensors[0].at("normal"), (json{0, 0, 1}));
+    EXPECT_EQ(sensors[1].at("direction"), (json{0, 1, 0}));
+}
+
+TEST(SceneData, DividesTrianglesIntoMeshes) {
+    const SceneRead read;
+    std::size_t next = 0, shining = 0;
+    for (const json& mesh : read.header.at("meshes")) {
+        EXPECT_EQ(mesh.at("first"), next);
+        next += mesh.at("count").get<std::size_t>();
+        if (mesh.at("light") != -1) {
+            ++shining;
+            EXPECT_EQ(mesh.at("luminance_cd_m2"), (json{2000, 1000, 500}));
+        }
+    }
+    EXPECT_EQ(shining, 1U);
+    EXPECT_EQ(next, read.count("triangles"));
+    const auto triangles = read.numbers("triangles");
+    EXPECT_LT(*std::ranges::max_element(triangles), read.count("positions"));
+    EXPECT_EQ(read.count("direct"), 2 * read.count("positions"));
+}
+
+/// A display vertex lies at the weighted mean of its light vertices, where none of these is dark.
+TEST(SceneData, InterpolatesBetweenLightVertices) {
+    const SceneRead read;
+    const auto positions = read.numbers("positions"), of = read.numbers("light_of"),
+               weights = read.numbers("light_weights"), light = read.numbers("light_positions");
+    std::size_t complete = 0, partial = 0, none = 0;
+    for (std::size_t v = 0; v < read.count("positions"); ++v) {
+        Vec3 mean;
+        double sum = 0;
+        std::size_t dark = 0;
+        for (std::size_t i = 3 * v; i < 3 * v + 3; ++i) {
+            sum += weights[i];
+            if (of[i] == 4294967295.0) {
+                ++dark;
+                EXPECT_EQ(weights[i], 0);
+                continue;
+            }
+            const auto n = 3 * static_cast<std::size_t>(of[i]);
+            mean += weights[i] * Vec3{light[n], light[n + 1], light[n + 2]};
+        }
+        (dark == 0 ? complete : dark == 3 ? none : partial) += 1;
+        EXPECT_NEAR(sum, dark < 3 ? 1 : 0, 2e-3);
+        if (dark > 0) continue;
+        const Vec3 position{positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
+        EXPECT_LT(length(mean - position), 5e-3);
+    }
+    EXPECT_GT(complete, 0U);
+    EXPECT_GT(partial, 0U);
+    EXPECT_GT(none, 0U);  // the mirror
+}
+
+TEST(SceneData, NumbersTheTermsOfLightVertices) {
+    const SceneRead read;
+    const auto first = read.numbers("light_terms"), materials = read.numbers("light_materials");
+    ASSERT_EQ(first.size(), materials.size() + 1);
+    for (std::size_t n = 0; n < materials.size(); ++n) {
+        const bool is_diffuse =
+            read.header.at("materials")[static_cast<std::size_t>(materials[n])].at("type") == "diffuse";
+        EXPECT_EQ(first[n + 1] - first[n], is_diffuse ? 1 : 10);
+    }
+}
+
+/// The sun is beyond the range of half precision.
+TEST(SceneData, TakesSinglePrecisionWhereHalfDoesNotSuffice) {
+    Scene scene = small_scene();
+    add_point_light(scene, {1, 1, 30}, Rgb::grey(1e8));
+    const ContainerReader read(
+        gunzipped(scene_data(scene, rays::RayCaster(scene), prepared(scene), walk_scene())));
+    EXPECT_EQ(read.info("direct").at("type"), "f32");
+    EXPECT_GT(std::ranges::max(read.numbers("direct")), 1e5);
+}
+
+TEST(LightData, HoldsTheTermsOfAllGroups) {
+    estimators::PatchSolution solution;
+    solution.terms = {{{to_half(1), to_half(2), to_half(3)}, {to_half(4), to_half(5), to_half(6)}},
+                      {{to_half(7), to_half(8), to_half(9)}, {to_half(10), to_half(11), to_half(12)}}};
+    solution.error = {0.25F, std::numeric_limits<float>::infinity()};
+    const ContainerReader read(gunzipped(light_data(solution, {3, 512, 0.021, 2.4, true})));
+    EXPECT_EQ(read.numbers("terms"), (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+    EXPECT_EQ(read.count("terms"), 4U);
+    EXPECT_EQ(read.numbers("terms_error"), (std::vector<double>{0.25, 65504}));
+    EXPECT_EQ(read.header.at("version"), 3);
+    EXPECT_EQ(read.header.at("steps"), 512);
+    EXPECT_EQ(read.header.at("done"), true);
+}
+
+constexpr PageFiles kPage{
+    "<!doctype html>\n<html><head>\n<link rel=\"stylesheet\" href=\"./page.css\">\n"
+    "<script type=\"module\" src=\"./page.js\"></script>\n</head><body></body></html>\n",
+    "const end = \"</script>\", comment = \"<!--\";", "a { color: red }"};
+
+TEST(SelfContainedPage, HoldsEverything) {
+    const std::string page = self_contained_page("abcde", "l", kPage);
+    EXPECT_NE(page.find("<style>\na { color: red }\n</style>"), std::string::npos);
+    EXPECT_NE(page.find(R"(const end = "<\/script>", comment = "<\!--";)"), std::string::npos);
+    EXPECT_NE(page.find(R"(id="stilb-scene">YWJjZGU=</script>)"), std::string::npos);
+    EXPECT_NE(page.find(R"(id="stilb-light">bA==</script>)"), std::string::npos);
+    EXPECT_EQ(page.find("page.js"), std::string::npos);
+    EXPECT_EQ(page.find("page.css"), std::string::npos);
+}
+
+TEST(SelfContainedPage, NeedsThePagesTags) {
+    EXPECT_THROW(self_contained_page("", "", {"<html></html>", "", ""}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace stilb::walk
