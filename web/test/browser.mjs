@@ -3,11 +3,11 @@ import { createServer } from "node:http";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { pathToFileURL } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 import { chromium } from "playwright-core";
 
-const BUILT = process.env.STILB_PAGE ?? join(import.meta.dirname ?? ".", "..", "dist");
+const BUILT = process.env.STILB_PAGE ?? fileURLToPath(new URL("../dist", import.meta.url));
 const CHROMIUM = process.env.STILB_CHROMIUM ?? "/usr/bin/chromium";
 
 export const missing = !existsSync(CHROMIUM)
