@@ -258,8 +258,9 @@ void add_view(CommandLine& line) {
              "keep (any other name)")
         .value_name("FILE");
     command
-        .add("--port", request->port, "Port of this machine to serve the page at (default: any that is free)")
-        .from_to(1, 65535)
+        .add("--port", request->port,
+             "Port of this machine to serve the page at (default: 0, any that is free)")
+        .from_to(0, 65535)
         .value_name("N");
     command.add("--no-browser", request->no_browser, "Print the address only, and open no browser");
     command

@@ -139,9 +139,9 @@ std::string keep_placed_sensors(std::string_view json, const std::vector<Sensor>
         fmt::format("# Sensors that were placed in a walk through {}: paste them into that file.\n\n",
                     scene.filename().string());
     const auto saved = save_beside(scene, comment + toml);
-    nlohmann::ordered_json answer{{"toml", toml}, {"saved", saved ? saved->filename().string() : ""}};
-    if (!saved) answer["message"] = "No file could be written beside the scene. Copy the text instead.";
-    return answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (!saved) throw InputError("No file can be written beside the scene. Copy the text instead.");
+    return nlohmann::ordered_json{{"toml", toml}, {"saved", saved->filename().string()}}.dump(
+        -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace stilb::walk

@@ -24,9 +24,8 @@ std::string to_toml(const std::vector<Sensor>& sensors);
 /// from standard input.
 std::optional<std::filesystem::path> save_beside(const std::filesystem::path& scene, std::string_view text);
 
-/// The answer to a request: {"toml": "...", "saved": "room-sensors.toml"}, with "saved" empty and a "message"
-/// where no file could be written. `present`: the sensors of the scene file `scene`. Throws as
-/// read_placed_sensors().
+/// The answer to a request: {"toml": "...", "saved": "room-sensors.toml"}. `present`: the sensors of the
+/// scene file `scene`. Throws as read_placed_sensors(), and InputError where no file can be written.
 std::string keep_placed_sensors(std::string_view json, const std::vector<Sensor>& present,
                                 const std::filesystem::path& scene);
 
