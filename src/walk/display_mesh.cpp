@@ -47,8 +47,7 @@ class DisplayBuilder {
         };
         light_all(1, [&](const SurfaceTriangle& triangle) { return !is_certain(triangle); });
         remove_unseen(is_certain);
-        // Contacts matter where triangles are large.
-        const std::size_t most = surface_.triangles.size() > options_.most_triangles ? 1 : kMostAround;
+        const std::size_t most = surface_.triangles.size() > kManyTriangles ? 1 : kMostAround;
         light_all(most, [&](const SurfaceTriangle& triangle) { return !scene_.is_specular(triangle.side); });
         const std::vector<float> errors =
             refine(scene_, options_, typical_lx(), 2 * caster_.half_extent_m(), surface_, lights_, monitor_);
@@ -58,6 +57,8 @@ class DisplayBuilder {
   private:
     /// Triangles around a vertex that are looked at.
     static constexpr std::size_t kMostAround = 12;
+    /// With more triangles, these are so small that contacts need no care.
+    static constexpr std::size_t kManyTriangles = 500'000;
 
     /// Light at the vertices of triangles that meet a condition. `most`: triangles around each vertex that
     /// are looked at. With one, contacts are not found.
@@ -69,7 +70,7 @@ class DisplayBuilder {
             for (const std::uint32_t t : triangles.of(v)) {
                 const SurfaceTriangle& triangle = surface_.triangles[t];
                 if (around[v].size() == most) break;
-                if (condition(triangle)) around[v].push_back({surface_.middle(triangle), triangle.side});
+                if (condition(triangle)) around[v].push_back({surface_.opposite(triangle, v), triangle.side});
             }
         }
         light_vertices(scene_, surface_, 0, around, lights_, monitor_);

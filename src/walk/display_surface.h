@@ -35,6 +35,10 @@ struct DisplaySurface {
     std::uint32_t places = 0;
 
     Vec3 middle(const SurfaceTriangle& triangle) const;
+    /// The middle of the edge opposite to a corner.
+    Vec3 opposite(const SurfaceTriangle& triangle, std::uint32_t corner) const {
+        return 1.5 * middle(triangle) - 0.5 * vertices[corner].position;
+    }
     double area_m2(const SurfaceTriangle& triangle) const;
 };
 

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <bit>
 #include <cmath>
-#include <unordered_map>
-#include <unordered_set>
+#include <utility>
 
 #include "base/parallel.h"
 
@@ -22,17 +21,79 @@ constexpr double kInside = 4. / 3;
 /// Triangles that halving an edge adds, with those that have to follow it.
 constexpr std::size_t kTrianglesPerEdge = 4;
 
+std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) {
+    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
+/// Numbers of pairs, by open addressing: several times faster than std::unordered_map.
+class PairNumbers {
+  public:
+    explicit PairNumbers(std::size_t about = 16) : slots_(std::bit_ceil(2 * about)) {}
+
+    /// The number of a pair, which is `number` where the pair is new.
+    std::pair<std::uint32_t, bool> add(std::uint64_t pair, std::uint32_t number) {
+        if (2 * ++count_ > slots_.size()) grow();
+        Slot& slot = slot_of(pair);
+        if (slot.number != kNoIndex) {
+            --count_;
+            return {slot.number, false};
+        }
+        slot = {pair, number};
+        return {number, true};
+    }
+    /// kNoIndex where there is none.
+    std::uint32_t of(std::uint64_t pair) const {
+        return const_cast<PairNumbers*>(this)->slot_of(pair).number;
+    }
+
+  private:
+    struct Slot {
+        std::uint64_t pair = 0;
+        std::uint32_t number = kNoIndex;
+    };
+
+    Slot& slot_of(std::uint64_t pair) {
+        const std::size_t mask = slots_.size() - 1;
+        std::uint64_t hash = pair * 0x9e3779b97f4a7c15u;
+        std::size_t at = (hash ^ hash >> 32) & mask;
+        while (slots_[at].number != kNoIndex && slots_[at].pair != pair) at = (at + 1) & mask;
+        return slots_[at];
+    }
+    void grow() {
+        std::vector<Slot> old(2 * slots_.size());
+        old.swap(slots_);
+        for (const Slot& slot : old) {
+            if (slot.number != kNoIndex) slot_of(slot.pair) = slot;
+        }
+    }
+
+    std::vector<Slot> slots_;
+    std::size_t count_ = 0;
+};
+
 /// Two vertices, a < b, with the triangles on the edge between them.
 struct SurfaceEdge {
     std::uint32_t a = 0, b = 0;
+    std::uint32_t line = 0;  ///< equal for edges between the same places
+    double squared_length_m2 = 0;
     std::uint32_t triangle = kNoIndex, other_triangle = kNoIndex;
     double area_m2 = 0;               ///< of its triangles
     std::uint32_t middle = kNoIndex;  ///< the vertex that would halve it, where its light is known
 };
 
-std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) {
-    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
+struct SurfaceEdges {
+    std::vector<SurfaceEdge> edges;
+    /// Per triangle: the edges from corner i to the next one.
+    std::vector<std::array<std::uint32_t, 3>> of_triangle;
+    std::uint32_t lines = 0;
+
+    /// The corner where a triangle's longest edge begins.
+    std::size_t longest(std::uint32_t triangle) const {
+        const auto length_of = [&](std::uint32_t edge) { return edges[edge].squared_length_m2; };
+        const auto& own = of_triangle[triangle];
+        return static_cast<std::size_t>(std::ranges::max_element(own, {}, length_of) - own.begin());
+    }
+};
 
 class Refinement {
   public:
@@ -52,7 +113,7 @@ class Refinement {
 
     std::vector<float> interpolation_errors_lx() const {
         std::vector<float> errors(surface_.vertices.size());
-        for (const SurfaceEdge& edge : edges()) {
+        for (const SurfaceEdge& edge : edges().edges) {
             const auto error = static_cast<float>(error_lx(edge));
             for (const std::uint32_t end : {edge.a, edge.b}) errors[end] = std::max(errors[end], error);
         }
@@ -62,46 +123,56 @@ class Refinement {
   private:
     /// Returns false where nothing is left to do.
     bool run_round(const Monitor& monitor) {
-        std::vector<SurfaceEdge> edges = this->edges();
-        look_at_middles(edges, monitor);
+        SurfaceEdges edges = this->edges();
+        look_at_middles(edges.edges, monitor);
         const std::size_t count = surface_.triangles.size();
         if (count >= options_.most_triangles) return false;
         const std::size_t affordable = (options_.most_triangles - count) / kTrianglesPerEdge;
-        marked_ = most_urgent(edges, affordable);
-        if (marked_.empty()) return false;
-        mark_longest_edges();
-        divide();
+        if (!mark_most_urgent(edges, affordable)) return false;
+        mark_longest_edges(edges);
+        divide(edges);
         return true;
     }
 
-    std::vector<SurfaceEdge> edges() const {
-        std::vector<SurfaceEdge> edges;
-        std::unordered_map<std::uint64_t, std::uint32_t> number;
-        number.reserve(2 * surface_.triangles.size());
+    SurfaceEdges edges() const {
+        SurfaceEdges all;
+        PairNumbers numbers(2 * surface_.triangles.size()), lines(2 * surface_.triangles.size());
         for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
             const Triangle& corners = surface_.triangles[t].corners;
             const double area_m2 = surface_.area_m2(surface_.triangles[t]);
+            auto& own = all.of_triangle.emplace_back();
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::uint64_t pair = pair_of(corners[i], corners[(i + 1) % 3]);
-                const auto [found, is_new] =
-                    number.try_emplace(pair, static_cast<std::uint32_t>(edges.size()));
-                if (is_new) edges.push_back(new_edge(pair));
-                SurfaceEdge& edge = edges[found->second];
+                const auto next = static_cast<std::uint32_t>(all.edges.size());
+                const auto [number, is_new] = numbers.add(pair, next);
+                if (is_new) {
+                    all.edges.push_back(new_edge(pair));
+                    SurfaceEdge& edge = all.edges.back();
+                    const auto [line, is_new_line] = lines.add(places_of(edge.a, edge.b), all.lines);
+                    edge.line = line;
+                    all.lines += is_new_line ? 1 : 0;
+                }
+                own[i] = number;
+                SurfaceEdge& edge = all.edges[number];
                 (edge.triangle == kNoIndex ? edge.triangle : edge.other_triangle) = t;
                 edge.area_m2 += area_m2;
             }
         }
-        return edges;
+        return all;
     }
 
     SurfaceEdge new_edge(std::uint64_t pair) const {
         SurfaceEdge edge{static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair)};
-        if (const auto known = middles_.find(pair); known != middles_.end()) edge.middle = known->second;
+        edge.squared_length_m2 = squared_length_m2(edge.a, edge.b);
+        edge.middle = middles_.of(pair);
         return edge;
     }
 
     double squared_length_m2(std::uint32_t a, std::uint32_t b) const {
         return squared_length(surface_.vertices[a].position - surface_.vertices[b].position);
+    }
+    std::uint64_t places_of(std::uint32_t a, std::uint32_t b) const {
+        return pair_of(surface_.vertices[a].place, surface_.vertices[b].place);
     }
 
     // Middles.
@@ -110,8 +181,7 @@ class Refinement {
         const std::size_t first = surface_.vertices.size();
         std::vector<std::vector<Adjoining>> around;
         for (SurfaceEdge& edge : edges) {
-            if (edge.middle != kNoIndex || squared_length_m2(edge.a, edge.b) <= squared_shortest_m2_)
-                continue;
+            if (edge.middle != kNoIndex || edge.squared_length_m2 <= squared_shortest_m2_) continue;
             edge.middle = add_middle(edge);
             around.push_back(around_middle(edge));
         }
@@ -123,23 +193,28 @@ class Refinement {
         const SurfaceVertex &a = surface_.vertices[edge.a], &b = surface_.vertices[edge.b];
         const Shape& shape = scene_.shape_of(surface_.triangles[edge.triangle].side);
         SurfaceVertex vertex = middle_between(shape, a, b);
-        const auto [place, is_new] = middle_places_.try_emplace(pair_of(a.place, b.place), surface_.places);
+        const auto [place, is_new] = middle_places_.add(pair_of(a.place, b.place), surface_.places);
         if (is_new) ++surface_.places;
-        vertex.place = place->second;
+        vertex.place = place;
         surface_.vertices.push_back(vertex);
-        middles_.emplace(pair_of(edge.a, edge.b), middle);
+        middles_.add(pair_of(edge.a, edge.b), middle);
         return middle;
     }
 
     std::vector<Adjoining> around_middle(const SurfaceEdge& edge) const {
         const SurfaceTriangle& one = surface_.triangles[edge.triangle];
         if (scene_.is_specular(one.side)) return {};
-        if (edge.other_triangle == kNoIndex) return {{surface_.middle(one), one.side}};
+        if (edge.other_triangle == kNoIndex) return {{far_corner(one, edge), one.side}};
         const SurfaceTriangle& other = surface_.triangles[edge.other_triangle];
-        return {{surface_.middle(one), one.side},
-                {surface_.middle(other), other.side},
+        return {{far_corner(one, edge), one.side},
+                {far_corner(other, edge), other.side},
                 {surface_.vertices[edge.a].position, one.side},
                 {surface_.vertices[edge.b].position, one.side}};
+    }
+
+    const Vec3& far_corner(const SurfaceTriangle& triangle, const SurfaceEdge& edge) const {
+        const auto is_far = [&](std::uint32_t corner) { return corner != edge.a && corner != edge.b; };
+        return surface_.vertices[*std::ranges::find_if(triangle.corners, is_far)].position;
     }
 
     // Errors.
@@ -186,64 +261,55 @@ class Refinement {
 
     // Halving.
 
-    /// The pairs of places between which edges are to be halved: those that need it, or the most urgent ones.
-    std::unordered_set<std::uint64_t> most_urgent(const std::vector<SurfaceEdge>& edges,
-                                                  std::size_t affordable) const {
+    /// Marks the lines whose edges are to be halved: all that need it, or the most urgent ones. Returns false
+    /// where there are none.
+    bool mark_most_urgent(const SurfaceEdges& edges, std::size_t affordable) {
         struct Wish {
-            std::uint64_t places;
             double weight;
+            std::uint32_t line;
         };
         std::vector<Wish> wishes;
-        for (const SurfaceEdge& edge : edges) {
+        for (const SurfaceEdge& edge : edges.edges) {
             if (edge.middle == kNoIndex) continue;
             const double times = excess(edge);
-            if (times > 1) {
-                const double length_m = std::sqrt(squared_length_m2(edge.a, edge.b));
-                wishes.push_back({places_of(edge.a, edge.b), times * edge.area_m2 * length_m});
-            }
+            if (times > 1)
+                wishes.push_back({times * edge.area_m2 * std::sqrt(edge.squared_length_m2), edge.line});
         }
         if (wishes.size() > affordable) {
             const auto is_before = [](const Wish& one, const Wish& other) {
-                return one.weight != other.weight ? one.weight > other.weight : one.places < other.places;
+                return one.weight != other.weight ? one.weight > other.weight : one.line < other.line;
             };
             std::ranges::nth_element(wishes, wishes.begin() + static_cast<std::ptrdiff_t>(affordable),
                                      is_before);
             wishes.resize(affordable);
         }
-        std::unordered_set<std::uint64_t> marked;
-        for (const Wish& wish : wishes) marked.insert(wish.places);
-        return marked;
-    }
-
-    std::uint64_t places_of(std::uint32_t a, std::uint32_t b) const {
-        return pair_of(surface_.vertices[a].place, surface_.vertices[b].place);
-    }
-    bool is_marked(std::uint32_t a, std::uint32_t b) const { return marked_.contains(places_of(a, b)); }
-
-    /// The corner where the longest edge begins.
-    std::size_t longest_edge(const Triangle& corners) const {
-        std::array<double, 3> lengths{};
-        for (std::size_t i = 0; i < 3; ++i) lengths[i] = squared_length_m2(corners[i], corners[(i + 1) % 3]);
-        return static_cast<std::size_t>(std::ranges::max_element(lengths) - lengths.begin());
+        is_marked_.assign(edges.lines, 0);
+        for (const Wish& wish : wishes) is_marked_[wish.line] = 1;
+        return !wishes.empty();
     }
 
     /// Marks the longest edge of each triangle with a marked edge, until no more follow.
-    void mark_longest_edges() {
+    void mark_longest_edges(const SurfaceEdges& edges) {
+        std::vector<std::size_t> longest;
+        for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) longest.push_back(edges.longest(t));
+        const auto mark = [&](std::uint32_t edge) -> std::uint8_t& {
+            return is_marked_[edges.edges[edge].line];
+        };
         for (bool is_changed = true; is_changed;) {
             is_changed = false;
-            for (const SurfaceTriangle& triangle : surface_.triangles) {
-                const Triangle& t = triangle.corners;
-                if (!is_marked(t[0], t[1]) && !is_marked(t[1], t[2]) && !is_marked(t[2], t[0])) continue;
-                const std::size_t longest = longest_edge(t);
-                is_changed |= marked_.insert(places_of(t[longest], t[(longest + 1) % 3])).second;
+            for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+                const auto& own = edges.of_triangle[t];
+                if (mark(own[longest[t]]) || (!mark(own[0]) && !mark(own[1]) && !mark(own[2]))) continue;
+                mark(own[longest[t]]) = 1;
+                is_changed = true;
             }
         }
     }
 
-    void divide() {
+    void divide(const SurfaceEdges& edges) {
         std::vector<SurfaceTriangle> finer;
         finer.reserve(2 * surface_.triangles.size());
-        for (const SurfaceTriangle& triangle : surface_.triangles) divide(triangle, finer);
+        for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) divide(edges, t, finer);
         surface_.triangles = std::move(finer);
     }
 
@@ -255,22 +321,27 @@ class Refinement {
         bool exists() const { return vertex != kNoIndex; }
     };
 
-    Corner middle_of(const Corner& a, const Corner& b) const {
-        if (!is_marked(a.vertex, b.vertex)) return {};
-        Corner middle{middles_.at(pair_of(a.vertex, b.vertex))};
+    Corner middle_of(const SurfaceEdge& edge, const Corner& a, const Corner& b) const {
+        if (!is_marked_[edge.line]) return {};
+        Corner middle{edge.middle};
         for (std::size_t i = 0; i < 3; ++i) middle.barycentric[i] = (a.barycentric[i] + b.barycentric[i]) / 2;
         return middle;
     }
 
-    /// At its longest edge first, as patches are (patches.h).
-    void divide(const SurfaceTriangle& triangle, std::vector<SurfaceTriangle>& finer) const {
-        const std::size_t first = longest_edge(triangle.corners);
+    /// At its longest edge first, as patches are (patches/refinement.h).
+    void divide(const SurfaceEdges& edges, std::uint32_t number, std::vector<SurfaceTriangle>& finer) const {
+        const SurfaceTriangle& triangle = surface_.triangles[number];
+        const std::size_t first = edges.longest(number);
         const auto corner = [&](std::size_t i) {
             const std::size_t turned = (first + i) % 3;
             return Corner{triangle.corners[turned], triangle.barycentric[turned]};
         };
+        const auto edge = [&](std::size_t i) -> const SurfaceEdge& {
+            return edges.edges[edges.of_triangle[number][(first + i) % 3]];
+        };
         const Corner a = corner(0), b = corner(1), c = corner(2);
-        const Corner ab = middle_of(a, b), bc = middle_of(b, c), ca = middle_of(c, a);
+        const Corner ab = middle_of(edge(0), a, b), bc = middle_of(edge(1), b, c),
+                     ca = middle_of(edge(2), c, a);
         const auto add = [&](const Corner& p, const Corner& q, const Corner& r) {
             finer.push_back({{p.vertex, q.vertex, r.vertex},
                              triangle.side,
@@ -300,9 +371,9 @@ class Refinement {
     DisplaySurface& surface_;
     VertexLights& lights_;
     double floor_lx_, squared_shortest_m2_;
-    std::unordered_map<std::uint64_t, std::uint32_t> middles_;        ///< vertices, by two vertices
-    std::unordered_map<std::uint64_t, std::uint32_t> middle_places_;  ///< by two places
-    std::unordered_set<std::uint64_t> marked_;                        ///< pairs of places
+    PairNumbers middles_;                  ///< vertices, by two vertices
+    PairNumbers middle_places_;            ///< by two places
+    std::vector<std::uint8_t> is_marked_;  ///< per line: its edges are to be halved
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace stilb::walk {
 namespace {
 
 /// How far samples are moved, as a share of the way; where all are covered, the next one is tried.
-constexpr std::array<double, 4> kMoves{0.01, 0.25, 0.5, 0.75};
+constexpr std::array<double, 6> kMoves{0.007, 0.2, 0.4, 0.6, 0.8, 0.97};
 /// The distance of surfaces that touch, as a share of the scene's extent: 1.5 mm in a room of 6 m.
 constexpr double kHair = 1. / 4000;
 /// The least cosine between normals of triangles in one plane.

@@ -16,8 +16,8 @@
 
 namespace stilb::walk {
 
-/// A point that samples of a vertex are moved towards, on a side of a patch: the middle of a triangle at the
-/// vertex, or another point of its surface.
+/// A point that samples of a vertex are moved towards, on a side of a patch: the far end of a triangle at the
+/// vertex.
 struct Adjoining {
     Vec3 towards;
     std::uint32_t side = 0;

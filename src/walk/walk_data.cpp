@@ -9,6 +9,12 @@
 #include <span>
 #include <stdexcept>
 
+#include "base/half.h"
+#include "estimators/patch_light/first_shot/shadow_rays.h"
+#include "estimators/patch_light/solution/light_vertices.h"
+#include "estimators/patch_light/solution/reflection_table.h"
+#include "run/solve.h"
+#include "scene/light_groups.h"
 #include "walk/container.h"
 #include "walk/display_mesh.h"
 #include "walk/highlight_points.h"
@@ -24,9 +30,7 @@ using WalkJson = nlohmann::ordered_json;
 /// The largest number in half precision.
 constexpr float kMostHalf = 65504;
 
-std::uint16_t half_of(double value) {
-    return to_half(std::clamp(static_cast<float>(value), -kMostHalf, kMostHalf));
-}
+Half half_of(double value) { return to_half(static_cast<float>(value)); }
 
 /// In half precision, or in single precision where the values are too large for that (the sun's).
 ContainerArray illuminance_array(const std::string& name, const std::vector<float>& values) {
@@ -178,10 +182,8 @@ class SceneContainer {
             const Material& material = scene_.materials[i].material;
             WalkJson json = json_of(scene_.materials[i]);
             json["reflection"] = nullptr;
-            if (!std::holds_alternative<Diffuse>(material) && !std::holds_alternative<Black>(material) &&
-                !is_specular(material)) {
+            if (!estimators::reflects_alike(material))
                 add_table(material, fmt::format("reflection_{}", i), json);
-            }
             list.push_back(std::move(json));
         }
         return list;
@@ -238,6 +240,22 @@ class SceneContainer {
     std::vector<ContainerArray> arrays_;
 };
 
+/// Rounds the terms of a vertex to steps of a part of their error: the rest is noise, which takes space.
+void add_rounded(std::span<const HalfRgb> terms, float relative_error, Rows<Half>& rows) {
+    constexpr float kStep = 0.25F;
+    std::array<float, kBands> step{};
+    for (std::size_t b = 0; b < kBands; ++b) {
+        const float size = kStep * relative_error * std::abs(to_float(terms[0][b]));
+        // A power of two, so that the last bits of numbers are 0.
+        step[b] = std::isfinite(size) && size > 0 ? std::exp2(std::floor(std::log2(size))) : 0;
+    }
+    const auto rounded = [](Half half, float to) {
+        return to > 0 ? to_half(to * std::nearbyint(to_float(half) / to)) : half;
+    };
+    for (const auto& [red, green, blue] : terms)
+        rows.add({rounded(red, step[0]), rounded(green, step[1]), rounded(blue, step[2])});
+}
+
 // The page.
 
 std::string base64(std::string_view bytes) {
@@ -283,14 +301,19 @@ std::string scene_data(const Scene& scene, const rays::RayCaster& caster, const 
     return gzip(container.bytes(mesh));
 }
 
-std::string light_data(const PatchSolution& solution, const LightState& state) {
-    Rows<std::uint16_t> terms(0, 3);
+std::string light_data(const Scene& scene, const PatchSolution& solution, const LightState& state) {
+    const LightVertices light(scene, solution.patches, solution.degree, solution.lit_vertices);
+    const std::vector<float> relative = run::relative_errors(solution);
+    Rows<Half> terms(solution.terms.size() * light.terms(), 3);
     std::vector<ContainerArray> arrays;
     for (const auto& group : solution.terms) {
-        for (const auto& [red, green, blue] : group) terms.add({red, green, blue});
+        for (std::uint32_t number = 0; number < light.count(); ++number) {
+            const auto of_vertex = std::span(group).subspan(light.first_term(number), light.terms_of(number));
+            add_rounded(of_vertex, relative[number], terms);
+        }
     }
-    std::vector<std::uint16_t> errors(solution.error.size());
-    std::ranges::transform(solution.error, errors.begin(), half_of);
+    std::vector<std::uint16_t> errors(relative.size());
+    std::ranges::transform(relative, errors.begin(), to_half);
     arrays.push_back(make_half_array("terms", 3, terms));
     arrays.push_back(make_half_array("terms_error", 1, errors));
     WalkJson header{{"version", state.version},

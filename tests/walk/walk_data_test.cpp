@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimators/patch_light/solution/light_vertices.h"
+#include "scene/light_groups.h"
 #include "stilb/error.h"
 #include "walk/container_reader.h"
 #include "walk/walk_rooms.h"
@@ -196,18 +198,70 @@ TEST(SceneData, TakesSinglePrecisionWhereHalfDoesNotSuffice) {
     EXPECT_GT(std::ranges::max(read.numbers("direct")), 1e5);
 }
 
+/// Light that is the same at all vertices but for a relative error, with terms of all sizes.
+estimators::PatchSolution with_light(estimators::PatchSolution solution, const Scene& scene, float error) {
+    const estimators::LightVertices light(scene, solution.patches, solution.degree, solution.lit_vertices);
+    for (std::size_t g = 0; g < solution.groups.size(); ++g) {
+        auto& terms = solution.terms.emplace_back();
+        for (std::uint32_t n = 0; n < light.count(); ++n) {
+            for (std::uint32_t k = 0; k < light.terms_of(n); ++k) {
+                const double size = 100 * std::cos(1.3 * k + 0.01 * n) / (k + 1);
+                terms.push_back(to_half_rgb(Rgb{{size + 7, size, size / 3}}));
+            }
+        }
+    }
+    solution.replicates.assign(2, std::vector<Half>(light.count(), to_half(1)));
+    solution.bias.assign(light.count(), to_half(error));
+    return solution;
+}
+
+ContainerReader light_of(const Scene& scene, const estimators::PatchSolution& solution) {
+    return ContainerReader(gunzipped(light_data(scene, solution, {3, 512, 0.021, 2.4, true})));
+}
+
+std::vector<double> numbers_of(const estimators::PatchSolution& solution) {
+    std::vector<double> numbers;
+    for (const auto& group : solution.terms) {
+        for (const HalfRgb& term : group) {
+            for (const Half band : term) numbers.push_back(to_float(band));
+        }
+    }
+    return numbers;
+}
+
 TEST(LightData, HoldsTheTermsOfAllGroups) {
-    estimators::PatchSolution solution;
-    solution.terms = {{{to_half(1), to_half(2), to_half(3)}, {to_half(4), to_half(5), to_half(6)}},
-                      {{to_half(7), to_half(8), to_half(9)}, {to_half(10), to_half(11), to_half(12)}}};
-    solution.error = {0.25F, std::numeric_limits<float>::infinity()};
-    const ContainerReader read(gunzipped(light_data(solution, {3, 512, 0.021, 2.4, true})));
-    EXPECT_EQ(read.numbers("terms"), (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
-    EXPECT_EQ(read.count("terms"), 4U);
-    EXPECT_EQ(read.numbers("terms_error"), (std::vector<double>{0.25, 65504}));
+    const Scene scene = small_scene();
+    const estimators::PatchSolution solution = with_light(prepared(scene), scene, 0);
+    const ContainerReader read = light_of(scene, solution);
+    EXPECT_EQ(read.numbers("terms"), numbers_of(solution));
+    EXPECT_EQ(read.numbers("terms_error"), std::vector<double>(solution.bias.size()));
     EXPECT_EQ(read.header.at("version"), 3);
     EXPECT_EQ(read.header.at("steps"), 512);
     EXPECT_EQ(read.header.at("done"), true);
+}
+
+/// Rounding stays small against the error and makes the data shorter.
+TEST(LightData, RoundsTermsByTheirError) {
+    const Scene scene = small_scene();
+    const estimators::PatchSolution exact = with_light(prepared(scene), scene, 0),
+                                    rough = with_light(prepared(scene), scene, 0.0625F);
+    const ContainerReader read = light_of(scene, rough);
+    const std::vector<double> rounded = read.numbers("terms"), terms = numbers_of(rough);
+    const estimators::LightVertices light(scene, rough.patches, rough.degree, rough.lit_vertices);
+    std::size_t at = 0, changed = 0;
+    for (std::size_t g = 0; g < rough.groups.size(); ++g) {
+        for (std::uint32_t n = 0; n < light.count(); ++n) {
+            const std::size_t first = at;
+            for (std::size_t i = 0; i < 3 * light.terms_of(n); ++i, ++at) {
+                const double allowed = 0.0625 / 4 / 2 * std::abs(terms[first + i % 3]);
+                ASSERT_LE(std::abs(rounded[at] - terms[at]), allowed * 1.001);
+                changed += rounded[at] != terms[at] ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(changed, terms.size() / 2);
+    EXPECT_LT(light_data(scene, rough, {}).size(), light_data(scene, exact, {}).size());
+    for (const double error : read.numbers("terms_error")) EXPECT_EQ(error, 0.0625);
 }
 
 constexpr PageFiles kPage{
