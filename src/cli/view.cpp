@@ -86,6 +86,7 @@ Input read_input(const ViewRequest& request) {
     input.stored = io::read_solution_file(request.input);
     input.file = read_scene(scene_of(*input.stored, request.input), request.overrides);
     require_same_light(*input.stored, input.file, request.input);
+    estimators::require_consistency(input.stored->solution, input.file.scene);
     input.file.sources.emplace_back(request.input);
     return input;
 }

@@ -5,6 +5,7 @@ import gzip
 import http.client
 import json
 import os
+import random
 import re
 import signal
 import socket
@@ -25,6 +26,14 @@ def header_of(container):
     magic, version, length = struct.unpack_from("<8sII", content)
     assert (magic, version) == (b"STILBWLK", 1), content[:16]
     return json.loads(content[16:16 + length])
+
+
+def with_body(solution, body):
+    """The solution file with another body and the right size and hash: docs/solution.md."""
+    hash_of_body = 0xcbf29ce484222325
+    for byte in body:
+        hash_of_body = (hash_of_body ^ byte) * 0x100000001b3 & 0xffffffffffffffff
+    return solution[:12] + struct.pack("<QQ", 28 + len(body), hash_of_body) + body
 
 
 class Walk:
@@ -321,6 +330,21 @@ class ViewTest(CommandLineTest):
             self.assertEqual(header_of(base64.b64decode(found["stilb-scene"]))["name"], "A room")
             self.assertTrue(header_of(base64.b64decode(found["stilb-light"]))["done"])
         self.assertIn("a page to walk through", run("info", page).stderr)
+
+    def test_hostile_solutions(self):
+        solution, bad = self.folder / "room.solution", self.folder / "bad.solution"
+        run("solve", self.scene, "--patch", "1", "--paths", "16", "-o", solution)
+        content = solution.read_bytes()
+        numbers = random.Random(5)
+        for _ in range(12):
+            body = bytearray(content[28:])
+            for value in (struct.pack("<f", numbers.choice((1e30, -1e30, 3e38, 0))), struct.pack("<I", 0xffffffff)):
+                offset = 4 * numbers.randrange(40, len(body) // 4)
+                body[offset:offset + 4] = value
+            bad.write_bytes(with_body(content, bytes(body)))
+            result = run("view", bad, "-o", self.folder / "walk.html")
+            self.assertIn(result.returncode, (0, 2), result)
+            self.assertEqual(result.returncode == 2, result.stderr.startswith("stilb: "))
 
     def test_no_file_is_lost(self):
         before = self.scene.read_text()
