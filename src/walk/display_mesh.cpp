@@ -42,6 +42,7 @@ class DisplayBuilder {
     }
 
     DisplayMesh run(const std::vector<bool>& carries_light) {
+        remove_sealed();
         const auto is_certain = [&](const SurfaceTriangle& triangle) {
             return carries_light[triangle.side] || scene_.is_specular(triangle.side) || emits(triangle.side);
         };
@@ -81,14 +82,26 @@ class DisplayBuilder {
         return scene_.patches.is_front(side) && is_emitter_[index_of(object)];
     }
 
-    /// Removes triangles that are dark or hidden, and remembers the sides of objects that are left.
+    /// Removes the insides of bodies.
+    void remove_sealed() {
+        const std::vector<bool> is_sealed = sealed_sides(scene_.scene);
+        std::erase_if(surface_.triangles,
+                      [&](const SurfaceTriangle& triangle) { return is_sealed[object_side_of(triangle)]; });
+        remove_unused_vertices();
+    }
+
+    std::size_t object_side_of(const SurfaceTriangle& triangle) const {
+        return object_side(scene_.patches.object_of(scene_.patches.patch_of(triangle.side)),
+                           scene_.patches.is_front(triangle.side));
+    }
+
+    /// Removes triangles that are dark, and remembers the sides of objects that are left.
     template <typename Condition>
     void remove_unseen(const Condition& is_certain) {
         std::vector<bool> is_reached(2 * scene_.scene.objects.size());
         std::erase_if(surface_.triangles, [&](const SurfaceTriangle& triangle) {
             if (!is_certain(triangle) && !is_lit(triangle)) return true;
-            const ObjectId object = scene_.patches.object_of(scene_.patches.patch_of(triangle.side));
-            is_reached[object_side(object, scene_.patches.is_front(triangle.side))] = true;
+            is_reached[object_side_of(triangle)] = true;
             return false;
         });
         remove_unused_vertices();

@@ -13,6 +13,7 @@
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
 #include "walk/direct_light.h"
+#include "walk/sealed_sides.h"
 
 namespace stilb::walk {
 
@@ -22,11 +23,6 @@ struct Adjoining {
     Vec3 towards;
     std::uint32_t side = 0;
 };
-
-/// Sides of whole objects: the front of object i is 2 i, its back 2 i + 1.
-inline std::size_t object_side(ObjectId object, bool is_front) {
-    return 2 * std::size_t{index_of(object)} + (is_front ? 0 : 1);
-}
 
 /// Keeps references to all arguments.
 class VertexLight {

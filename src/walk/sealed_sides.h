@@ -1,0 +1,19 @@
+// The insides of closed bodies, which no light reaches.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace stilb::walk {
+
+/// Sides of whole objects: the front of object i is 2 i, its back 2 i + 1.
+inline std::size_t object_side(ObjectId object, bool is_front) {
+    return 2 * std::size_t{index_of(object)} + (is_front ? 0 : 1);
+}
+
+/// Per object_side(): whether it is the inside of a closed, opaque body without a light inside of its bounds.
+/// Solutions cannot tell: where a body stands on a surface, a little light seeps in by rounding.
+std::vector<bool> sealed_sides(const Scene& scene);
+
+}  // namespace stilb::walk
