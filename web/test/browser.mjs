@@ -12,7 +12,7 @@ const CHROMIUM = process.env.STILB_CHROMIUM ?? "/usr/bin/chromium";
 
 export const missing = !existsSync(CHROMIUM)
   ? `${CHROMIUM} is missing`
-  : !existsSync(join(BUILT, "page.js")) ? `${BUILT} holds no built page` : null;
+  : !existsSync(join(BUILT, "page.js")) ? `${BUILT} holds no built page` : false;
 
 export function openBrowser() {
   return chromium.launch({

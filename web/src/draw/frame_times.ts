@@ -3,8 +3,8 @@
 /** ms: 15 frames a second. */
 const SLOWEST = 1000 / 15;
 /** So much faster that the next finer resolution is fast enough, too. */
-const ROOM = 0.45;
-const SCALES = [1, 0.75, 0.5, 0.35];
+const ROOM = 0.55;
+const SCALES = [1, 0.8, 0.65, 0.5, 0.4];
 const REMEMBERED = 30;
 /** Frames at one resolution before another is tried. */
 const PATIENCE = 3;

@@ -4,8 +4,7 @@ import * as THREE from "three";
 
 import { Mirrors } from "./mirrors";
 import { PictureStatistics } from "./picture_statistics";
-import * as shaders from "./shaders";
-import { surfaceMaterial, type Surfaces } from "./surfaces";
+import type { Surfaces } from "./surfaces";
 import { copyPass, type Display, ToneMapping } from "./tone";
 
 /** Pictures that are averaged while the view stands still. */
@@ -23,7 +22,6 @@ export class Renderer {
   private readonly tone = new ToneMapping();
   private readonly statistics = new PictureStatistics();
   private readonly average = copyPass();
-  private readonly depth = surfaceMaterial(shaders.DEPTH_FRAGMENT, { SLOTS: 0 }, {});
   private readonly floatType: THREE.TextureDataType;
   private width = 1;
   private height = 1;
@@ -48,7 +46,7 @@ export class Renderer {
     this.frame = pictureTarget(this.floatType, true);
     this.sum = pictureTarget(this.floatType, false);
     this.mirrors = new Mirrors(this.gl, surfaces, this.floatType);
-    this.depth.colorWrite = false;
+    this.gl.setOpaqueSort((a, b) => this.reach(a.object) - this.reach(b.object));
     const blending = this.average.material;
     blending.transparent = true;
     blending.blending = THREE.CustomBlending;
@@ -114,7 +112,7 @@ export class Renderer {
 
   show(display: Display) {
     const picture = this.isAveraged ? this.sum : this.frame;
-    this.tone.draw(this.gl, picture.texture, display, this.width, this.height);
+    this.tone.draw(this.gl, picture, display, this.width, this.height);
   }
 
   /** Waits until the graphics card has drawn everything. */
@@ -155,20 +153,11 @@ export class Renderer {
     this.surfaces.lookFrom(this.camera.position, finest);
     this.gl.setRenderTarget(this.frame);
     this.gl.clear();
-    this.drawDepth();
     this.gl.render(this.surfaces.opaque, this.camera);
     this.mirrors.drawOver(this.camera);
     this.frameScale = scale;
     this.frameIsCentred = offset[0] === 0 && offset[1] === 0;
     this.isStale = false;
-  }
-
-  /** First, so that gloss is evaluated once a pixel. */
-  private drawDepth() {
-    if (this.surfaces.glossy.length === 0) return;
-    this.surfaces.opaque.overrideMaterial = this.depth;
-    this.gl.render(this.surfaces.opaque, this.camera);
-    this.surfaces.opaque.overrideMaterial = null;
   }
 
   private prepareCamera([x, y]: readonly [number, number], width: number, height: number) {
@@ -178,6 +167,12 @@ export class Renderer {
     this.camera.projectionMatrix.elements[9]! -= (2 * y) / height;
     this.camera.projectionMatrixInverse.copy(this.camera.projectionMatrix).invert();
     this.camera.updateMatrixWorld(true);
+  }
+
+  /** Near things first, and the room that is around them last: what they hide is not shaded. */
+  private reach(object: THREE.Object3D): number {
+    const sphere = (object as THREE.Mesh).geometry.boundingSphere;
+    return sphere ? sphere.center.distanceTo(this.camera.position) + sphere.radius : 0;
   }
 
   private accumulate() {
@@ -196,8 +191,6 @@ function newRenderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: false, alpha: false });
   renderer.autoClear = false;
   renderer.sortObjects = true;
-  // Near things first: what they hide is not shaded.
-  renderer.setOpaqueSort((a, b) => a.z - b.z);
   renderer.setClearColor(0, 0);
   renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
   return renderer;

@@ -1,8 +1,6 @@
 // Shaders of surfaces. All write luminance in linear RGB [cd/m2].
 
-import type { Model } from "../materials/brdf";
-
-const HEADER = /* glsl */ `
+export const HEADER = /* glsl */ `
 precision highp float;
 precision highp int;
 #define PI 3.14159265358979
@@ -33,7 +31,7 @@ out vec4 vSlots2;
 in vec4 slots3;
 out vec4 vSlots3;
 #endif
-// The depth pass and the shading pass must agree to the last bit.
+// Panes and glass are drawn over the same triangles again, and must agree to the last bit.
 invariant gl_Position;
 void main() {
   gl_Position = projectionMatrix * (viewMatrix * vec4(position, 1.0));
@@ -56,89 +54,11 @@ void main() {
 #endif
 }`;
 
-export const DEPTH_FRAGMENT = /* glsl */ `${HEADER}
-void main() {}`;
-
 export const DIFFUSE_FRAGMENT = /* glsl */ `${HEADER}
 uniform vec3 uEmission;
 in vec3 vGlow;
 layout(location = 0) out vec4 luminance;
 void main() { luminance = vec4(vGlow + uEmission, 1.0); }`;
-
-/** The mean of the BRDF over the points of each lamp, times its illuminance. */
-export function glossyFragment(model: Model): string {
-  return /* glsl */ `${HEADER}
-uniform vec3 uEmission, uEye;
-uniform highp sampler2D uLamps;
-uniform ivec2 uPoints[SLOTS];   // first, count
-uniform vec3 uColours[SLOTS];
-uniform vec3 uMiddles[SLOTS];
-in vec3 vGlow, vPosition, vNormal;
-#if SLOTS > 0
-in vec4 vSlots0;
-#endif
-#if SLOTS > 4
-in vec4 vSlots1;
-#endif
-#if SLOTS > 8
-in vec4 vSlots2;
-#endif
-#if SLOTS > 12
-in vec4 vSlots3;
-#endif
-layout(location = 0) out vec4 luminance;
-${model.glsl}
-vec3 meanLobe(ivec2 points) {
-  vec3 sum = vec3(0.0);
-  float total = 0.0;
-  for (int i = points.x; i < points.x + points.y; ++i) {
-    ivec2 at = ivec2(2 * (i % 256), i / 256);
-    vec4 lamp = texelFetch(uLamps, at, 0);
-    vec3 apart = lamp.xyz - vPosition;
-    float inverse = inversesqrt(dot(apart, apart));
-    vec3 L = apart * inverse;
-    float weight = lamp.w * dot(N, L) * inverse * inverse;
-    if (points.y > 1) {
-      vec3 front = texelFetch(uLamps, at + ivec2(1, 0), 0).xyz;
-      if (front != vec3(0.0)) weight *= max(-dot(front, L), 0.0);
-    }
-    if (weight <= 0.0) continue;
-    total += weight;
-    sum += weight * lobe(L);
-  }
-  return total > 0.0 ? sum / total : vec3(0.0);
-}
-vec3 reflectedFrom(int slot, float illuminance) {
-  if (illuminance <= 0.0) return vec3(0.0);
-  vec3 L = normalize(uMiddles[slot] - vPosition);
-  L += N * max(1e-3 - dot(N, L), 0.0);
-  return illuminance * uColours[slot] * (smoothPart(L) + meanLobe(uPoints[slot]));
-}
-float slotAt(int slot) {
-#if SLOTS > 12
-  if (slot >= 12) return vSlots3[slot - 12];
-#endif
-#if SLOTS > 8
-  if (slot >= 8) return vSlots2[slot - 8];
-#endif
-#if SLOTS > 4
-  if (slot >= 4) return vSlots1[slot - 4];
-#endif
-  return vSlots0[slot];
-}
-void main() {
-  vec3 normal = normalize(vNormal);
-  vec3 view = normalize(uEye - vPosition);
-  // At outlines of coarse meshes the shading normal leans away: mirrored to its front, as the program does.
-  float facing = dot(normal, view);
-  if (facing < 0.0) view -= 2.0 * facing * normal;
-  if (abs(facing) < 1e-3) view = normalize(view + normal * 1e-3);
-  prepareBrdf(normal, view);
-  vec3 sum = vGlow + uEmission;
-  for (int slot = 0; slot < SLOTS; ++slot) sum += reflectedFrom(slot, slotAt(slot));
-  luminance = vec4(sum, 1.0);
-}`;
-}
 
 /** What a direction shows in a probe: the direction's point on the box of the scene, seen from the probe. */
 const PROBE = /* glsl */ `

@@ -2,25 +2,31 @@
 
 import * as THREE from "three";
 
-import type { MeshEntry, Rgb, Scene } from "../data/scene";
+import type { MeshEntry, Scene } from "../data/scene";
 import type { Highlights } from "../light/highlights";
-import type { LampPoints } from "../light/lamp_points";
+import type { LampLevel, LampPoints } from "../light/lamp_points";
 import type { Lighting } from "../light/lighting";
 import { type Model, modelOf } from "../materials/brdf";
 import { type Kind, kindOf, lobeWidth, rgbOf } from "../materials/surface";
+import { glossyFragment } from "./glossy_shader";
 import * as shaders from "./shaders";
 
 /** Meshes of one look are drawn together up to this many triangles. */
 const CHUNK_TRIANGLES = 30000;
 /** Levels of detail of a lamp: an angle between its points, as a share of the lobe, that is not seen. */
 const POINT_SPACING = 0.35;
+/** Of all lamps in a mesh's shader, and of one lamp while the view moves. */
+const MOST_POINTS = 64;
+const MOST_MOVING_POINTS = 4;
 
 export interface Surface {
   entry: MeshEntry;
   kind: Kind;
   mesh: THREE.Mesh<THREE.BufferGeometry, THREE.RawShaderMaterial>;
+  /** For pictures that stand still and that move; the same where there is no gloss. */
+  fine: THREE.RawShaderMaterial;
+  moving: THREE.RawShaderMaterial;
   slots: number[];
-  lobe: number;
 }
 
 export class Surfaces {
@@ -32,7 +38,7 @@ export class Surfaces {
   private readonly glow: THREE.BufferAttribute;
   private readonly attributes: Record<string, THREE.BufferAttribute>;
   private readonly models = new Map<number, Model>();
-  private readonly lampTexture: THREE.DataTexture;
+  private readonly tables = new Map<number, THREE.DataTexture>();
   private readonly glossyRange: [number, number];
   /** Whether more than the glossy vertices has to be sent to the graphics card. */
   private allIsNew = true;
@@ -52,7 +58,6 @@ export class Surfaces {
     for (let i = 0; 4 * i < highlights.width; ++i) {
       this.attributes[`slots${i}`] = new THREE.Float16BufferAttribute(highlights.attribute(i), 4);
     }
-    this.lampTexture = lampTexture(lamps);
     this.addMeshes();
     this.glossyRange = this.rangeOfGlossyVertices();
   }
@@ -74,8 +79,8 @@ export class Surfaces {
       this.allIsNew = false;
     }
     for (const surface of this.glossy) {
+      surface.mesh.material = finest ? surface.fine : surface.moving;
       surface.mesh.material.uniforms.uEye?.value.copy(eye);
-      this.choosePoints(surface, finest);
     }
     for (const { mesh } of this.specular) mesh.material.uniforms.uEye?.value.copy(eye);
   }
@@ -110,13 +115,19 @@ export class Surfaces {
   private add(entries: MeshEntry[], kind: Kind) {
     const entry = entries[0]!;
     const slots = kind === "glossy" ? this.highlights.slots[this.scene.header.meshes.indexOf(entry)]! : [];
-    const material = this.materialOf(entry, kind, slots);
-    const mesh = new THREE.Mesh(this.geometryOf(entries), material);
-    const surface = { entry, kind, mesh, slots, lobe: lobeWidth(this.scene.materialOf(entry)) };
+    const geometry = this.geometryOf(entries);
+    const lobe = lobeWidth(this.scene.materialOf(entry));
+    const materialWith = (most: number) => {
+      const levels = slots.map((light) => this.levelOf(light, geometry.boundingBox!, lobe, most));
+      return this.materialOf(entry, kind, slots, levels);
+    };
+    const fine = materialWith(pointsPerLamp(slots.length));
+    const moving = slots.length > 0 ? materialWith(MOST_MOVING_POINTS) : fine;
+    const surface = { entry, kind, mesh: new THREE.Mesh(geometry, fine), fine, moving, slots };
     this.all.push(surface);
     if (kind === "glossy") this.glossy.push(surface);
     if (kind === "mirror" || kind === "pane" || kind === "glass") this.specular.push(surface);
-    if (kind !== "pane" && kind !== "glass") this.opaque.add(mesh);
+    if (kind !== "pane" && kind !== "glass") this.opaque.add(surface.mesh);
     this.setEmission(surface);
     this.setColours(surface);
   }
@@ -137,7 +148,7 @@ export class Surfaces {
     return geometry;
   }
 
-  private materialOf(entry: MeshEntry, kind: Kind, slots: number[]): THREE.RawShaderMaterial {
+  private materialOf(entry: MeshEntry, kind: Kind, slots: number[], levels: LampLevel[]): THREE.RawShaderMaterial {
     const material = this.scene.materialOf(entry);
     if (kind === "mirror") {
       return surfaceMaterial(shaders.MIRROR_FRAGMENT, { SHADED: 1, SLOTS: 0 }, {
@@ -146,54 +157,52 @@ export class Surfaces {
       });
     }
     if (kind !== "glossy" || slots.length === 0) return surfaceMaterial(shaders.DIFFUSE_FRAGMENT, { SLOTS: 0 }, {});
-    return this.glossyMaterial(entry.material, slots);
+    return this.glossyMaterial(entry.material, slots, levels);
   }
 
-  private glossyMaterial(index: number, slots: number[]): THREE.RawShaderMaterial {
+  private glossyMaterial(index: number, slots: number[], levels: LampLevel[]): THREE.RawShaderMaterial {
     const model = this.models.get(index) ?? modelOf(this.scene.header.materials[index]!);
     this.models.set(index, model);
+    const points = levels.flatMap((level) => this.lamps.pointsOf(level));
     const uniforms: Record<string, THREE.IUniform> = {
       uEye: { value: new THREE.Vector3() },
-      uLamps: { value: this.lampTexture },
-      uPoints: { value: new Int32Array(2 * slots.length) },
+      uLamps: { value: new Float32Array(points.flatMap(({ position, weight }) => [...position, weight])) },
+      uFronts: { value: new Float32Array(points.flatMap(({ normal }) => normal)) },
       uColours: { value: new Float32Array(3 * slots.length) },
       uMiddles: { value: new Float32Array(slots.flatMap((light) => this.lamps.lamps[light]!.middle)) },
     };
     for (const [name, value] of Object.entries(model.parameters)) uniforms[name] = { value };
-    if (model.table) uniforms.uTable = { value: tableTexture(model.table.values) };
-    return surfaceMaterial(shaders.glossyFragment(model), { SHADED: 1, SLOTS: slots.length }, uniforms);
+    if (model.table) uniforms.uTable = { value: this.tableOf(index, model.table.values) };
+    const fragment = glossyFragment(model, levels.map(({ count }) => count));
+    return surfaceMaterial(fragment, { SHADED: 1, SLOTS: slots.length }, uniforms);
   }
 
-  private setEmission({ entry, mesh }: Surface) {
-    const emission = mesh.material.uniforms.uEmission;
-    if (!emission || entry.light < 0) return;
+  private tableOf(index: number, values: Float32Array): THREE.DataTexture {
+    const texture = this.tables.get(index) ?? tableTexture(values);
+    this.tables.set(index, texture);
+    return texture;
+  }
+
+  private setEmission({ entry, fine, moving }: Surface) {
+    if (entry.light < 0) return;
     const factor = this.lighting.factorOf(entry.light);
-    emission.value = (entry.luminance_cd_m2 ?? [0, 0, 0]).map((value, b) => value * factor[b]!) as Rgb;
+    const emission = (entry.luminance_cd_m2 ?? [0, 0, 0]).map((value, b) => value * factor[b]!);
+    for (const { uniforms } of [fine, moving]) if (uniforms.uEmission) uniforms.uEmission.value = emission;
   }
 
-  private setColours({ mesh, slots }: Surface) {
-    const colours = mesh.material.uniforms.uColours?.value as Float32Array | undefined;
-    slots.forEach((light, i) => colours?.set(this.lighting.colourOf(light), 3 * i));
+  private setColours({ fine, moving, slots }: Surface) {
+    for (const { uniforms } of [fine, moving]) {
+      slots.forEach((light, i) => uniforms.uColours!.value.set(this.lighting.colourOf(light), 3 * i));
+    }
   }
 
-  /** So many points of each lamp that the gaps between them are not seen in the lobe. */
-  private choosePoints({ mesh, slots, lobe }: Surface, finest: boolean) {
-    const points = mesh.material.uniforms.uPoints?.value as Int32Array | undefined;
-    if (!points) return;
-    const sphere = mesh.geometry.boundingSphere!;
-    slots.forEach((light, i) => {
-      const { levels, middle, radius } = this.lamps.lamps[light]!;
-      const apart = Math.hypot(
-        middle[0]! - sphere.center.x, middle[1]! - sphere.center.y, middle[2]! - sphere.center.z);
-      const nearest = Math.max(apart - sphere.radius, 2 * radius, 1e-3);
-      const seen = radius / nearest;
-      const enough = levels.find(({ count }) => seen / Math.sqrt(count) < POINT_SPACING * lobe);
-      const coarsest = levels[Math.min(1, levels.length - 1)]!;
-      const chosen = enough ?? (finest ? levels[levels.length - 1]! : coarsest);
-      const moving = finest || chosen.count <= coarsest.count ? chosen : coarsest;
-      points[2 * i] = moving.first;
-      points[2 * i + 1] = moving.count;
-    });
+  /** So many points of a lamp that the gaps between them are not seen in the lobe of a mesh. */
+  private levelOf(light: number, box: THREE.Box3, lobe: number, most: number): LampLevel {
+    const { levels, middle, radius } = this.lamps.lamps[light]!;
+    const apart = box.distanceToPoint(new THREE.Vector3(...middle));
+    const seen = radius / Math.max(apart, 0.5 * radius, 1e-3);
+    const possible = levels.filter(({ count }) => count <= most);
+    return possible.find(({ count }) => seen / Math.sqrt(count) < POINT_SPACING * lobe) ?? possible.at(-1)!;
   }
 
   private rangeOfGlossyVertices(): [number, number] {
@@ -245,11 +254,9 @@ function boxOf(positions: Float32Array, index: Uint32Array): THREE.Box3 {
   return box;
 }
 
-function lampTexture(lamps: LampPoints): THREE.DataTexture {
-  const rows = Math.ceil(lamps.count / 256);
-  const texels = new Float32Array(4 * 512 * rows);
-  texels.set(lamps.texels());
-  return dataTexture(texels, 512, rows, THREE.RGBAFormat);
+/** Within the uniforms that every WebGL2 has. */
+function pointsPerLamp(slots: number): number {
+  return [64, 16, 4, 1].find((count) => count * slots <= MOST_POINTS) ?? 1;
 }
 
 function tableTexture(values: Float32Array): THREE.DataTexture {

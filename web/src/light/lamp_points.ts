@@ -34,17 +34,8 @@ export class LampPoints {
     });
   }
 
-  /** Two texels a point: position and weight; normal. */
-  texels(): Float32Array {
-    const result = new Float32Array(8 * Math.max(this.rows.length, 1));
-    this.rows.forEach(({ position, normal, weight }, i) => {
-      result.set([...position, weight, ...normal, 0], 8 * i);
-    });
-    return result;
-  }
-
-  get count(): number {
-    return Math.max(this.rows.length, 1);
+  pointsOf({ first, count }: LampLevel): LampPoint[] {
+    return this.rows.slice(first, first + count);
   }
 
   private add(points: LampPoint[]): Lamp {

@@ -1,7 +1,7 @@
 // The reflection models in GLSL, as in docs/materials.md, and their parameters.
 //
 // A model defines, for unit vectors in world coordinates (N normal, V to the eye, L to the light):
-//   prepareBrdf(N, V)   once a pixel
+//   prepareBrdf(V)      once a pixel
 //   lobe(L)             [1/sr], for every point of a light
 //   smoothPart(L)       [1/sr], for the middle of a light: varies slowly with direction
 
@@ -21,25 +21,26 @@ vec3 N, V;
 float cosV;
 `;
 
-/** exp(n log x) of the cosine loses digits for large n, so the lobe goes by 1 - cos, from a difference. */
+/** By 1 - cos, from a difference: the cosine itself loses digits that a large exponent needs. */
 const PHONG = /* glsl */ `${COMMON}
 uniform vec3 uDiffuse, uSpecular;
 uniform float uExponent;
 vec3 mirroredV;
-void prepareBrdf(vec3 normal, vec3 view) {
-  N = normal; V = view; cosV = dot(N, V);
+void prepareBrdf(vec3 view) {
+  V = view; cosV = dot(N, V);
   mirroredV = normalize(2.0 * cosV * N - V);
 }
-float sharpPower(float below) {
-  if (uExponent > 200.0) {
-    if (below * uExponent > 30.0) return 0.0;
-    return exp(-uExponent * below * (1.0 + below * (0.5 + below * (1.0 / 3.0 + 0.25 * below))));
-  }
-  return below < 1.0 ? exp2(uExponent * log2(1.0 - below)) : 0.0;
+float power(float below) {
+#ifdef SHARP
+  below = min(below, 0.3);
+  return exp(-uExponent * below * (1.0 + below * (0.5 + below * (1.0 / 3.0 + 0.25 * below))));
+#else
+  return exp2(uExponent * log2(max(1.0 - below, 1e-9)));
+#endif
 }
 vec3 lobe(vec3 L) {
   vec3 apart = L - mirroredV;
-  return uSpecular * ((uExponent + 2.0) / (2.0 * PI) * sharpPower(0.5 * dot(apart, apart)));
+  return uSpecular * ((uExponent + 2.0) / (2.0 * PI) * power(0.5 * dot(apart, apart)));
 }
 vec3 smoothPart(vec3 L) { return uDiffuse / PI; }
 `;
@@ -48,8 +49,8 @@ const WARD = /* glsl */ `${COMMON}
 uniform vec3 uDiffuse, uSpecular;
 uniform vec2 uRoughness, uTurn;
 vec3 U, W;
-void prepareBrdf(vec3 normal, vec3 view) {
-  N = normal; V = view; cosV = dot(N, V);
+void prepareBrdf(vec3 view) {
+  V = view; cosV = dot(N, V);
   float horizontal = length(N.xy);
   vec3 u = horizontal > 1e-5 ? vec3(-N.y, N.x, 0.0) / horizontal : normalize(vec3(1.0, 0.0, 0.0) - N.x * N);
   vec3 v = cross(N, u);
@@ -58,11 +59,9 @@ void prepareBrdf(vec3 normal, vec3 view) {
 }
 vec3 lobe(vec3 L) {
   vec3 h = L + V;
-  float z2 = dot(h, N) * dot(h, N);
-  if (z2 < 1e-12) return vec3(0.0);
+  float z2 = max(dot(h, N) * dot(h, N), 1e-9);
   float u = dot(h, U), v = dot(h, W);
   float power = (u * u + v * v) / z2;
-  if (power > 40.0) return vec3(0.0);
   return uSpecular * (exp(-power) * dot(h, h) / (z2 * z2) / (PI * uRoughness.x * uRoughness.y));
 }
 vec3 smoothPart(vec3 L) { return uDiffuse / PI; }
@@ -79,8 +78,8 @@ float tableAt(float cosine) {
   float low = texelFetch(uTable, ivec2(cell, 0), 0).r, high = texelFetch(uTable, ivec2(cell + 1, 0), 0).r;
   return mix(low, high, position - float(cell));
 }
-void prepareBrdf(vec3 normal, vec3 view) {
-  N = normal; V = view; cosV = dot(N, V);
+void prepareBrdf(vec3 view) {
+  V = view; cosV = dot(N, V);
   stretchedV = stretched(cosV);
   throughV = tableAt(cosV);
 }
@@ -88,6 +87,7 @@ float facets(float cosL, vec3 h, float cosH) {
   vec3 aside = h - cosH * N;
   float spread = dot(aside, aside) / (uAlpha * uAlpha) + cosH * cosH;
   float density = 1.0 / (PI * uAlpha * uAlpha * spread * spread);
+  cosL = max(cosL, 0.0);
   return density / (2.0 * (cosV * stretched(cosL) + cosL * stretchedV));
 }
 `;
@@ -120,8 +120,15 @@ vec3 lobe(vec3 L) {
 vec3 smoothPart(vec3 L) { return uBase * (tableAt(dot(N, L)) * throughV / (PI * uAverage)); }
 `;
 
+/** From here on, the power goes by a series, which ends at 1 - cos = 0.3: less than 1e-30 is left there. */
+const SHARP_EXPONENT = 200;
+
 const MODELS: Record<string, (material: MaterialEntry) => Omit<Model, "name">> = {
-  phong: (material) => ({ glsl: PHONG, parameters: { ...shares(material), uExponent: material.exponent ?? 1 }, table: null }),
+  phong: (material) => {
+    const { exponent = 1 } = material;
+    const glsl = exponent > SHARP_EXPONENT ? `#define SHARP\n${PHONG}` : PHONG;
+    return { glsl, parameters: { ...shares(material), uExponent: exponent }, table: null };
+  },
   ward: (material) => {
     const angle = ((material.rotation ?? 0) * Math.PI) / 180;
     const uTurn = [Math.cos(angle), Math.sin(angle)];

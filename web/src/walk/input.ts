@@ -58,7 +58,8 @@ export class Input {
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", (event) => this.up(event, true));
     canvas.addEventListener("pointercancel", (event) => this.up(event, false));
-    canvas.addEventListener("pointerleave", () => events.leave());
+    // A finger that is lifted leaves, too, and what it tapped stays of interest.
+    canvas.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && events.leave());
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
   }
