@@ -11,7 +11,7 @@ PREFIX ?= /usr/local
 configure = test -f build/$(1)/build.ninja || cmake --preset $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-lint build demo test install verify-long bench format format-check lint odr sanitize fuzz clean
+.PHONY: help setup setup-lint build demo test web install verify-long bench format format-check lint odr sanitize fuzz clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' Makefile
@@ -49,6 +49,11 @@ verify-long: build ## all exact solutions at 0.2 %, closed meshes with 1e8 rays 
 	$(RELEASE)/verify_harmonics
 	$(RELEASE)/verify_coverage
 	tests/long/verify_limits.py
+
+web: setup ## check and build the page of `stilb view` alone: build/release/page/dist
+	@$(call configure,release)
+	@cmake --build --preset release --target stilb_page
+	@ctest --preset release -R page:types
 
 bench: setup ## the benchmarks
 	@$(call configure,release)

@@ -102,6 +102,7 @@ class CommandLine {
 void add_measure(CommandLine& line);
 void add_solve(CommandLine& line);
 void add_render(CommandLine& line);
+void add_view(CommandLine& line);
 void add_fit(CommandLine& line);
 void add_info(CommandLine& line);
 void add_falsecolor(CommandLine& line);

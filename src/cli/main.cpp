@@ -18,6 +18,7 @@ int run_commands(int argument_count, const char* const* arguments) {
     cli::add_measure(line);
     cli::add_solve(line);
     cli::add_render(line);
+    cli::add_view(line);
     cli::add_fit(line);
     cli::add_info(line);
     cli::add_falsecolor(line);

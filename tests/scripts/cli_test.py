@@ -188,7 +188,7 @@ class ReproduceTest(CommandLineTest):
 
 class HelpTest(CommandLineTest):
     def test_examples_come_first(self):
-        for command in ("measure", "solve", "render", "fit", "info", "falsecolor", "reproduce"):
+        for command in ("measure", "solve", "render", "view", "fit", "info", "falsecolor", "reproduce"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             examples, rest = result.stdout.split("\n\n", 1)

@@ -16,6 +16,7 @@ enum class FileKind {
     png_picture,
     svg_drawing,
     solution,
+    walk,     ///< a page to walk through a scene
     series,   ///< a surface by spherical harmonics
     results,  ///< of measurements
     json,     ///< of no kind above
@@ -29,6 +30,8 @@ enum class FileKind {
 
 /// The first bytes of a solution.
 inline constexpr std::string_view kSolutionBeginning = "STILBSOL";
+/// How the head of a page to walk through a scene names its origin.
+inline constexpr std::string_view kWalkMark = R"(<meta name="generator" content="stilb view">)";
 /// The value of "format" in a file with a surface by spherical harmonics.
 inline constexpr std::string_view kSeriesFormat = "stilb-harmonics";
 

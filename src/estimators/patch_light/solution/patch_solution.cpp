@@ -39,6 +39,23 @@ bool are_shares(std::span<const Half> values) {
         values, [](Half value) { return std::isfinite(to_float(value)) && to_float(value) >= 0; });
 }
 
+/// Rays start at the vertices, along the normals: what is far from the scene, or no direction, ends Embree.
+void require_near(const patches::Patches& patches, const Scene& scene) {
+    const Bounds bounds = scene::bounds_of(scene);
+    // Curved surfaces have vertices a little outside of their bounds.
+    const Vec3 margin = 0.1 * length(bounds.max - bounds.min) * Vec3{1, 1, 1};
+    const Vec3 least = bounds.min - margin, most = bounds.max + margin;
+    for (const patches::Float3& vertex : patches.vertices) {
+        const Vec3 position = patches.center + Vec3(vertex);
+        require(position.x >= least.x && position.y >= least.y && position.z >= least.z &&
+                    position.x <= most.x && position.y <= most.y && position.z <= most.z,
+                "a vertex lies outside of the scene");
+    }
+    constexpr double tolerance = 1e-3;
+    for (const patches::Float3& normal : patches.normals)
+        require(std::abs(length(Vec3(normal)) - 1) < tolerance, "a normal is no unit vector");
+}
+
 void require_patches(const patches::Patches& patches, const Scene& scene) {
     const std::size_t count = patches.count();
     require(count > 0 && count <= patches::kMostPatches, "the number of patches");
@@ -57,6 +74,7 @@ void require_patches(const patches::Patches& patches, const Scene& scene) {
                 std::ranges::all_of(patches.normals, finite) &&
                 std::ranges::all_of(patches.areas_m2, [](float area) { return area > 0; }),
             "positions and areas must be finite numbers");
+    require_near(patches, scene);
 }
 
 /// The number of terms of all lit vertices.

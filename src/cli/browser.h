@@ -1,0 +1,12 @@
+// The user's browser.
+#pragma once
+
+#include <string>
+
+namespace stilb::cli {
+
+/// Opens the address by xdg-open, in a process of its own, without a shell and without waiting. Does nothing
+/// where there is no display or no such program.
+void open_browser(const std::string& address);
+
+}  // namespace stilb::cli

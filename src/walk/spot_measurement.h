@@ -1,0 +1,58 @@
+// "Measure here": one reading by method auto, which has no patches, while somebody waits for it.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "run/options.h"
+#include "scene/light_groups.h"
+#include "scene/scene.h"
+#include "sensors/measurand.h"
+
+namespace stilb::walk {
+
+struct SpotRequest {
+    Measurand measurand;
+    std::vector<LightFactor> factors;  ///< of groups of lights
+};
+
+/// {"kind": "illuminance", "position", "normal", "factors"} or {"kind": "luminance", "position", "direction",
+/// "factors"}. Throws InputError with a sentence that the page can show.
+SpotRequest read_spot_request(std::string_view json);
+
+struct SpotReading {
+    double value = 0;
+    double half_width = 0;  ///< of the 95 % interval; of its wider side
+    std::string_view unit;
+    double time_s = 0;
+};
+
+std::string to_json(const SpotReading& reading);
+
+/// The scene with its groups of lights dimmed and coloured. Throws InputError where a group has another name.
+Scene with_factors(const Scene& scene, std::span<const LightFactor> factors);
+
+/// Measures in one scene, one reading at a time.
+class SpotMeter {
+  public:
+    /// The scene must outlive this. Of the options, seed and threads count.
+    SpotMeter(const Scene& scene, const RunOptions& options);
+
+    /// To 1 %, or for two seconds (more where the scene takes time to set up). Callable from several threads.
+    /// Throws InputError where the scene cannot be measured so, Cancelled where there is no result in this
+    /// time, where others are measuring, or after cancel().
+    SpotReading measure(const SpotRequest& request);
+    /// Ends what is being measured, and all that comes.
+    void cancel() { is_cancelled_ = true; }
+
+  private:
+    const Scene& scene_;
+    RunOptions options_;
+    std::timed_mutex mutex_;
+    std::atomic<bool> is_cancelled_ = false;
+};
+
+}  // namespace stilb::walk

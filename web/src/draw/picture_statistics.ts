@@ -1,0 +1,53 @@
+// Luminances of a grid of pixels: what exposure and scales are chosen from.
+
+import * as THREE from "three";
+
+import { copyPass } from "./tone";
+
+const SIDE = 96;
+const MIDDLE_GREY = 0.18;
+const WHITE = 8;
+/** Two stops: how much is given to bright parts. */
+const MOST_PROTECTION = 4;
+
+export class PictureStatistics {
+  private readonly pass = copyPass();
+  private readonly target = new THREE.WebGLRenderTarget(SIDE, SIDE, {
+    type: THREE.FloatType,
+    depthBuffer: false,
+    minFilter: THREE.NearestFilter,
+    magFilter: THREE.NearestFilter,
+  });
+  private readonly texels = new Float32Array(4 * SIDE * SIDE);
+
+  /** Luminances above 0, in ascending order. */
+  luminances(renderer: THREE.WebGLRenderer, picture: THREE.Texture): Float32Array {
+    this.pass.material.uniforms.uPicture!.value = picture;
+    this.pass.material.uniforms.uPixel!.value.set(1 / SIDE, 1 / SIDE);
+    this.pass.draw(renderer, this.target);
+    renderer.readRenderTargetPixels(this.target, 0, 0, SIDE, SIDE, this.texels);
+    const values: number[] = [];
+    for (let i = 0; i < this.texels.length; i += 4) {
+      const value = 0.2126 * this.texels[i]! + 0.7152 * this.texels[i + 1]! + 0.0722 * this.texels[i + 2]!;
+      if (value > 0 && Number.isFinite(value)) values.push(value);
+    }
+    return Float32Array.from(values).sort();
+  }
+}
+
+/** The program's own rule: the geometric mean becomes middle grey, less where much would be white. */
+export function automaticExposure(luminances: Float32Array): number {
+  if (luminances.length === 0) return 1;
+  let logarithms = 0;
+  for (const value of luminances) logarithms += Math.log(value);
+  const exposure = MIDDLE_GREY / Math.exp(logarithms / luminances.length);
+  const bright = luminances[Math.floor(0.99 * (luminances.length - 1))]!;
+  return Math.min(Math.max(WHITE / bright, exposure / MOST_PROTECTION), exposure);
+}
+
+/** The range of luminances without the lamps' tail. */
+export function typicalRange(luminances: Float32Array): [number, number] {
+  if (luminances.length === 0) return [0, 1];
+  const at = (share: number) => luminances[Math.floor(share * (luminances.length - 1))]!;
+  return [at(0.005), at(0.985)];
+}

@@ -1,0 +1,211 @@
+// From luminances to the screen: exposure and a tone curve, or false colours with isolines.
+
+import * as THREE from "three";
+
+import { COLOUR_MAP } from "./colour_map";
+import { fractionOf, type Scale, ticksOf } from "./scale";
+
+export const CURVES = ["reinhard", "aces", "linear"] as const;
+export type Curve = (typeof CURVES)[number];
+
+/** Labels beside the bar, and so isolines; as in the pictures of `stilb falsecolor`. */
+export const BAR_TICKS = 9;
+const MOST_LEVELS = 16;
+
+export interface Display {
+  curve: Curve;
+  exposure: number;
+  falseColour: boolean;
+  isolines: boolean;
+  scale: Scale;
+}
+
+const VERTEX = /* glsl */ `
+in vec3 position;
+void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`;
+
+const FRAGMENT = /* glsl */ `
+precision highp float;
+precision highp int;
+uniform highp sampler2D uPicture, uColours;
+uniform vec2 uPixel;
+uniform float uExposure;
+uniform int uCurve, uLevelCount;
+uniform bool uIsSharp, uIsolines, uLogarithmic;
+uniform vec2 uEnds;
+uniform float uLevels[${MOST_LEVELS}];
+layout(location = 0) out vec4 colour;
+
+float luminanceOf(vec3 rgb) { return dot(rgb, vec3(0.2126, 0.7152, 0.0722)); }
+
+// sRGB's curve by roots, within 0.012 steps of 8 bits: in software, powers take longer than all else here.
+vec3 encoded(vec3 linear) {
+  vec3 x = clamp(linear, 0.0, 1.0);
+  vec3 root = sqrt(x), fourth = sqrt(root), eighth = sqrt(fourth);
+  vec3 curve = 0.64236788 * root + 0.71210786 * fourth - 0.33686885 * eighth - 0.01756386 * x;
+  return mix(curve, 12.92 * x, vec3(lessThanEqual(x, vec3(0.0031308))));
+}
+
+// Mixes with grey of the same luminance until the screen can show the colour.
+vec3 withinScreen(vec3 rgb, float level) {
+  float least = min(rgb.r, min(rgb.g, rgb.b)), most = max(rgb.r, max(rgb.g, rgb.b));
+  float share = 1.0;
+  if (most > 1.0) share = min(share, (1.0 - level) / (most - level));
+  if (least < 0.0) share = min(share, level / (level - least));
+  return level + share * (rgb - level);
+}
+
+// Reinhard's global operator [Reinhard et al. 2002, eq. 4], white at 8, as in the program's PNG pictures.
+vec3 reinhard(vec3 rgb) {
+  float luminance = luminanceOf(rgb);
+  if (luminance <= 0.0) return vec3(0.0);
+  float level = luminance >= 8.0 ? 1.0 : luminance * (1.0 + luminance / 64.0) / (1.0 + luminance);
+  return withinScreen(rgb * (level / luminance), level);
+}
+
+// [Narkowicz 2015, ACES filmic tone mapping curve]
+vec3 aces(vec3 x) { return (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14); }
+
+vec3 toned(vec3 rgb) {
+  if (uCurve == 0) return reinhard(rgb);
+  if (uCurve == 1) return aces(rgb);
+  return rgb;
+}
+
+float fractionAt(vec2 place) {
+  float value = luminanceOf(texture(uPicture, place).rgb);
+  if (!uLogarithmic) return (value - uEnds.x) / (uEnds.y - uEnds.x);
+  return value > 0.0 ? log(value / uEnds.x) / log(uEnds.y / uEnds.x) : -1.0;
+}
+
+int levelBelow(float fraction) {
+  int count = 0;
+  for (int i = 0; i < uLevelCount; ++i) count += fraction >= uLevels[i] ? 1 : 0;
+  return count;
+}
+
+// Where the level changes by one; larger steps are outlines of things.
+bool isLine(vec2 place, int here, float reach) {
+  for (int i = 0; i < 4; ++i) {
+    vec2 aside = i < 2 ? vec2(i == 0 ? reach : -reach, 0.0) : vec2(0.0, i == 2 ? reach : -reach);
+    if (levelBelow(fractionAt(place + aside * uPixel)) - here == 1) return true;
+  }
+  return false;
+}
+
+vec3 falseColour(vec2 place) {
+  float fraction = fractionAt(place);
+  vec3 shown = texture(uColours, vec2((clamp(fraction, 0.0, 1.0) * 256.0 + 0.5) / 257.0, 0.5)).rgb;
+  if (!uIsolines) return shown;
+  int here = levelBelow(fraction);
+  if (isLine(place, here, 1.0)) return vec3(1.0);
+  return isLine(place, here, 2.0) ? 0.45 * shown : shown;
+}
+
+// Breaks the bands of 8 bits [Jimenez 2014, Next generation post processing in Call of Duty].
+float noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) - 0.5; }
+
+void main() {
+  vec2 place = gl_FragCoord.xy * uPixel;
+#ifdef FALSE_COLOUR
+  colour = vec4(falseColour(place), 1.0);
+#else
+  // Between the pixels of a picture of lower resolution; else without the cost of it.
+  vec3 rgb = uIsSharp ? texelFetch(uPicture, ivec2(gl_FragCoord.xy), 0).rgb : texture(uPicture, place).rgb;
+  colour = vec4(encoded(toned(rgb * uExposure)) + noise(gl_FragCoord.xy) / 255.0, 1.0);
+#endif
+}`;
+
+const COPY_FRAGMENT = /* glsl */ `
+precision highp float;
+uniform highp sampler2D uPicture;
+uniform vec2 uPixel;
+layout(location = 0) out vec4 colour;
+void main() { colour = texture(uPicture, gl_FragCoord.xy * uPixel); }`;
+
+/** A triangle over the whole target. */
+export class FullScreen {
+  readonly material: THREE.RawShaderMaterial;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.Camera();
+
+  constructor(fragmentShader: string, uniforms: Record<string, THREE.IUniform>, defines: Record<string, number> = {}) {
+    this.material = new THREE.RawShaderMaterial({
+      glslVersion: THREE.GLSL3,
+      vertexShader: VERTEX,
+      fragmentShader,
+      uniforms,
+      defines,
+      depthTest: false,
+      depthWrite: false,
+    });
+    const geometry = new THREE.BufferGeometry();
+    const corners = new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]);
+    geometry.setAttribute("position", new THREE.BufferAttribute(corners, 3));
+    const mesh = new THREE.Mesh(geometry, this.material);
+    mesh.frustumCulled = false;
+    this.scene.add(mesh);
+  }
+
+  draw(renderer: THREE.WebGLRenderer, target: THREE.WebGLRenderTarget | null) {
+    renderer.setRenderTarget(target);
+    renderer.render(this.scene, this.camera);
+  }
+}
+
+export function copyPass(): FullScreen {
+  return new FullScreen(COPY_FRAGMENT, { uPicture: { value: null }, uPixel: { value: new THREE.Vector2() } });
+}
+
+export class ToneMapping {
+  private readonly uniforms: Record<string, THREE.IUniform> = {
+    uPicture: { value: null },
+    uColours: { value: colourTexture() },
+    uPixel: { value: new THREE.Vector2() },
+    uExposure: { value: 1 },
+    uCurve: { value: 0 },
+    uLevelCount: { value: 0 },
+    uIsSharp: { value: true },
+    uIsolines: { value: false },
+    uLogarithmic: { value: false },
+    uEnds: { value: new THREE.Vector2() },
+    uLevels: { value: new Float32Array(MOST_LEVELS) },
+  };
+  private readonly colours = new FullScreen(FRAGMENT, this.uniforms);
+  private readonly falseColours = new FullScreen(FRAGMENT, this.uniforms, { FALSE_COLOUR: 1 });
+
+  draw(
+    renderer: THREE.WebGLRenderer, picture: THREE.WebGLRenderTarget, display: Display, width: number, height: number,
+  ) {
+    const { uniforms } = this;
+    uniforms.uPicture!.value = picture.texture;
+    uniforms.uIsSharp!.value = picture.width === width && picture.height === height;
+    uniforms.uPixel!.value.set(1 / width, 1 / height);
+    uniforms.uExposure!.value = display.exposure;
+    uniforms.uCurve!.value = CURVES.indexOf(display.curve);
+    if (display.falseColour) this.prepareScale(display);
+    (display.falseColour ? this.falseColours : this.colours).draw(renderer, null);
+  }
+
+  private prepareScale({ isolines, scale }: Display) {
+    const { uniforms } = this;
+    uniforms.uIsolines!.value = isolines;
+    uniforms.uLogarithmic!.value = scale.logarithmic;
+    uniforms.uEnds!.value.set(scale.low, scale.high);
+    const levels = ticksOf(scale, BAR_TICKS)
+      .map(({ value }) => fractionOf(scale, value))
+      .filter((fraction) => fraction > 1e-6 && fraction < 1 - 1e-6)
+      .slice(0, MOST_LEVELS);
+    uniforms.uLevels!.value.set(levels);
+    uniforms.uLevelCount!.value = levels.length;
+  }
+}
+
+function colourTexture(): THREE.DataTexture {
+  const bytes = Uint8Array.from(COLOUR_MAP.flatMap(([r, g, b]) => [r, g, b, 255]));
+  const texture = new THREE.DataTexture(bytes, COLOUR_MAP.length, 1, THREE.RGBAFormat);
+  texture.magFilter = THREE.LinearFilter;
+  texture.minFilter = THREE.LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
