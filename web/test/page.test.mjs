@@ -140,7 +140,7 @@ test("follows a program, measures and saves sensors", { skip: missing }, async (
   const first = await luminance(page, 300, 600);
   answers.light = scene.lightData(2, 1.5);
   Object.assign(state, { light: 2, done: true, error: 0.025 });
-  await page.getByText("light within 2.5 %, done").waitFor();
+  await page.getByText("light within 2.5 % after 2.0 s").waitFor();
   assert.ok((await luminance(page, 300, 600)) > 1.05 * first);
   await page.getByRole("tab", { name: "Measure" }).click();
   await page.getByRole("button", { name: "Measure by clicks" }).click();

@@ -98,6 +98,15 @@ export class SyntheticScene {
     }
   }
 
+  /** A box whose six sides are one mesh, which no plane contains. */
+  body(object, material, low, high) {
+    const first = this.triangles.length;
+    const meshes = this.header.meshes.length;
+    this.box(object, material, low, high, 2);
+    this.header.meshes.length = meshes;
+    this.header.meshes.push({ object, material, first, count: this.triangles.length - first, light: -1 });
+  }
+
   illuminance(light, position, normal) {
     const { points: [first, count], intensity } = this.header.lights[light];
     return this.lightPoints.slice(first, first + count).reduce((sum, point) => {

@@ -79,6 +79,7 @@ export class Mirrors {
   /** Multiplies and adds what panes and glass do to the opaque picture in the current target. */
   drawOver(camera: THREE.PerspectiveCamera) {
     if (this.transmitted.children.length === 0) return;
+    for (const { uniforms } of this.members) for (const set of uniforms) set.uEye!.value.copy(camera.position);
     this.renderer.render(this.transmitted, camera);
     this.renderer.render(this.reflected, camera);
   }

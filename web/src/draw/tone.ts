@@ -33,6 +33,7 @@ uniform float uExposure;
 uniform int uCurve, uLevelCount;
 uniform bool uIsSharp, uIsolines, uLogarithmic;
 uniform vec2 uEnds;
+uniform float uSpacing;
 uniform float uLevels[${MOST_LEVELS}];
 layout(location = 0) out vec4 colour;
 
@@ -84,11 +85,13 @@ int levelBelow(float fraction) {
   return count;
 }
 
-// Where the level changes by one; larger steps are outlines of things.
-bool isLine(vec2 place, int here, float reach) {
+// Where the level changes gradually: a jump by half of the distance of levels is an outline of something.
+bool isLine(vec2 place, float here, float reach) {
+  int level = levelBelow(here);
   for (int i = 0; i < 4; ++i) {
     vec2 aside = i < 2 ? vec2(i == 0 ? reach : -reach, 0.0) : vec2(0.0, i == 2 ? reach : -reach);
-    if (levelBelow(fractionAt(place + aside * uPixel)) - here == 1) return true;
+    float there = fractionAt(place + aside * uPixel);
+    if (there > here && there - here < 0.5 * uSpacing && levelBelow(there) > level) return true;
   }
   return false;
 }
@@ -97,9 +100,8 @@ vec3 falseColour(vec2 place) {
   float fraction = fractionAt(place);
   vec3 shown = texture(uColours, vec2((clamp(fraction, 0.0, 1.0) * 256.0 + 0.5) / 257.0, 0.5)).rgb;
   if (!uIsolines) return shown;
-  int here = levelBelow(fraction);
-  if (isLine(place, here, 1.0)) return vec3(1.0);
-  return isLine(place, here, 2.0) ? 0.45 * shown : shown;
+  if (isLine(place, fraction, 1.0)) return vec3(1.0);
+  return isLine(place, fraction, 2.0) ? 0.45 * shown : shown;
 }
 
 // Breaks the bands of 8 bits [Jimenez 2014, Next generation post processing in Call of Duty].
@@ -168,6 +170,7 @@ export class ToneMapping {
     uIsSharp: { value: true },
     uIsolines: { value: false },
     uLogarithmic: { value: false },
+    uSpacing: { value: 1 },
     uEnds: { value: new THREE.Vector2() },
     uLevels: { value: new Float32Array(MOST_LEVELS) },
   };
@@ -198,6 +201,7 @@ export class ToneMapping {
       .slice(0, MOST_LEVELS);
     uniforms.uLevels!.value.set(levels);
     uniforms.uLevelCount!.value = levels.length;
+    uniforms.uSpacing!.value = Math.min(...levels.map((level, i) => level - (levels[i - 1] ?? 0)).slice(1), 1);
   }
 }
 

@@ -119,21 +119,37 @@ export class ReflectedLight {
     store(result, at, r, g, b);
   }
 
+  /** The table has the factors of a basis that is turned to the azimuth: so are the terms. */
   private anisotropic(
     table: Float32Array, row: Row, phis: number, x: number, y: number,
     terms: Float32Array, first: number, result: Float32Array, at: number,
   ) {
+    this.prepareAngles(x, y);
     const turn = Math.atan2(y, x) / (2 * Math.PI);
     const column = (turn - Math.floor(turn)) * phis;
     const p = Math.min(Math.floor(column), phis - 1);
     const sum = [0, 0, 0];
     for (const [theta, weight] of [[row.theta, 1 - row.fraction], [row.theta + 1, row.fraction]] as const) {
       for (const [phi, share] of [[p, 1 - (column - p)], [(p + 1) % phis, column - p]] as const) {
-        const entry = (theta * phis + phi) * this.terms * 3;
-        for (let k = 0; k < 3 * this.terms; ++k) sum[k % 3]! += weight * share * terms[first + k]! * table[entry + k]!;
+        this.addTurned(table, (theta * phis + phi) * this.terms * 3, weight * share, terms, first, sum);
       }
     }
     store(result, at, sum[0]!, sum[1]!, sum[2]!);
+  }
+
+  private addTurned(
+    table: Float32Array, entry: number, weight: number, terms: Float32Array, first: number, sum: number[],
+  ) {
+    for (const { m, cosine, sine } of this.pairs) {
+      const cos = this.cosines[m]!;
+      const sin = m > 0 ? this.sines[m]! : 0;
+      for (let band = 0; band < 3; ++band) {
+        const even = terms[first + 3 * cosine + band]!;
+        const odd = m > 0 ? terms[first + 3 * sine + band]! : 0;
+        sum[band]! += weight * (even * cos + odd * sin) * table[entry + 3 * cosine + band]!;
+        if (m > 0) sum[band]! += weight * (odd * cos - even * sin) * table[entry + 3 * sine + band]!;
+      }
+    }
   }
 
   /** cos(m phi) and sin(m phi) of the azimuth of (x, y), by the angle's sum. */

@@ -15,7 +15,7 @@ function statusText(walk: Walkthrough | null, state: State | null): string {
   if (!light) return state ? stageText(state) : "";
   const error = `light within ${percent(light.error)}`;
   if (state && !state.done) return `${error}, ${stageText(state)}`;
-  return `${error}, done in ${light.elapsed_s.toFixed(1)} s`;
+  return light.elapsed_s > 0 ? `${error} after ${light.elapsed_s.toFixed(1)} s` : error;
 }
 
 function stageText({ stage, share, message }: State): string {
