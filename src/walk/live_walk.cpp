@@ -67,6 +67,10 @@ SolveResult LiveWalk::finish() {
     return std::move(*result_);
 }
 
+double LiveWalk::elapsed_s() const {
+    return std::chrono::duration<double>(Pace::Clock::now() - begin_).count();
+}
+
 void LiveWalk::work() {
     try {
         is_solved_ ? show_solved() : solve();
@@ -95,7 +99,7 @@ void LiveWalk::show_solved() {
 
 void LiveWalk::make_scene(const rays::RayCaster& caster, const estimators::PatchSolution& solution) {
     const Monitor monitor(&is_interrupted_, std::nullopt, [this](std::string_view stage, double share) {
-        report_set_up({stage, share, std::chrono::duration<double>(Pace::Clock::now() - begin_).count()});
+        report_set_up({stage, share, elapsed_s()});
     });
     const std::string name = file_.sources.empty() ? "" : file_.sources.front().filename().string();
     auto bytes = std::make_shared<const std::string>(
@@ -135,7 +139,9 @@ bool LiveWalk::wants_solution() {
 }
 
 void LiveWalk::show(const estimators::PatchSolution& solution, const RunSummary& so_far) {
-    make_light(solution, so_far, false);
+    RunSummary summary = so_far;
+    summary.elapsed_s = elapsed_s();
+    make_light(solution, summary, false);
     // The time since the light was asked for counts, too: the run made a solution for it.
     pace_.add(wanted_, Pace::Clock::now());
 }

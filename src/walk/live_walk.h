@@ -65,6 +65,7 @@ class LiveWalk final : private SolutionSink, private ProgressSink {
         bool is_done = false;
     };
 
+    double elapsed_s() const;
     void work();
     void solve();
     void show_solved();

@@ -87,6 +87,7 @@ TEST(LiveWalk, LightIsRefined) {
     while (!contains(walk.state(), R"("light":3)") && std::chrono::steady_clock::now() < deadline)
         std::this_thread::sleep_for(milliseconds(5));
     EXPECT_TRUE(contains(walk.state(), R"("stage":"refining")")) << walk.state();
+    EXPECT_FALSE(contains(walk.state(), R"("elapsed_s":0.0,)")) << walk.state();
     // Data that somebody still sends stays as it is.
     const Bytes third = walk.light();
     const std::string copy = *third;
