@@ -69,9 +69,7 @@ TEST(SolutionFile, SidesWithoutLightCostNothing) {
     const estimators::PatchSolution solution = sample_solution().solution;
     const std::uint32_t first_of_floor = solution.patches.corners[solution.patches.first_of_object[1]][0];
     for (const std::uint32_t side : solution.lit_vertices) {
-        EXPECT_FALSE(side >= solution.patches.vertices.size() &&
-                     side < solution.patches.vertices.size() + first_of_floor)
-            << "an outer side of the room";
+        EXPECT_GE(side, first_of_floor) << "an outer side of the room";
     }
 }
 
