@@ -24,11 +24,11 @@ stilb::Scene lamp_in_box() {
 
 }  // namespace
 
-/// The input is the contents after the header, which states their hash.
+/// The input is the contents before compression.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const stilb::Scene scene = lamp_in_box();
     const std::string_view body(reinterpret_cast<const char*>(data), size);
-    const std::string bytes = stilb::io::solution_header(body) + std::string(body);
+    const std::string bytes = stilb::io::solution_file_of(body);
     stilb::io::StoredSolution stored;
     try {
         stored = stilb::io::read_solution(bytes, "fuzzed");

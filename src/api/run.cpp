@@ -156,8 +156,8 @@ Picture Solution::render(const std::string& camera, const Control& control) cons
     const io::SceneFile& file = data_->scene.data().file;
     const Sensor& sensor = sensors::choose_camera(file.sensors, camera);
     ControlSink sink(control);
-    return to_picture(run::render_solution(file.scene, sensor, data_->result.solution, {}, data_->threads, &sink,
-                                           control.interrupt),
+    return to_picture(run::render_solution(file.scene, sensor, data_->result.solution, {}, data_->threads,
+                                           &sink, control.interrupt),
                       data_->scene, sensor);
 }
 

@@ -90,6 +90,7 @@ void add_solve(CommandLine& line) {
     command.find("--error").description(
         "Stop when 95 % of the light falls on places with a 95 % interval within this share of their "
         "illuminance: 1% or 0.01");
+    command.find("--patch").description("Longest edge of a patch [m] (default: about 3,000 patches)");
     command.find("--paths").description(
         "Stop after this many steps of ray-bundle iteration, rounded up to a multiple of 8");
     command.find("--first-shot")

@@ -276,6 +276,7 @@ void add_view(CommandLine& line) {
     command.find("--error").description(
         "Stop refining when 95 % of the light is exact within this share of its illuminance: 1% or 0.01");
     command.find("--time").description("Stop refining after this many seconds (default: 60)");
+    command.find("--patch").description("Longest edge of a patch [m] (default: about 3,000 patches)");
     command.find("--paths").description(
         "Stop refining after this many steps of ray-bundle iteration, rounded up to a multiple of 8");
     command.find("--first-shot")

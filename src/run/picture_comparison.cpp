@@ -58,8 +58,9 @@ PictureComparison::PictureComparison(const estimators::Problem& problem, const s
 PictureComparison::Bias PictureComparison::bias_of(const std::function<Shown(std::size_t)>& shown) const {
     if (pixels_.empty()) return {};
     std::vector<double> values, differences = traced_cd_m2_;
-    // All replicates are compared with the same picture, so that its own noise looks like a bias.
-    double noise = 0;  // squared
+    // All replicates are compared with the same picture, so that its own noise looks like a bias: its square,
+    // known from the standard errors of many pixels, is taken away.
+    double noise = 0;
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         const auto [value, error] = shown(pixels_[i]);
         values.push_back(value);
@@ -67,8 +68,8 @@ PictureComparison::Bias PictureComparison::bias_of(const std::function<Shown(std
         for (std::size_t r = 0; r < kReplicates; ++r) differences[r * pixels_.size() + i] -= value;
     }
     const statistics::BiasBounds bounds = statistics::bias_bounds({differences, pixels_.size()}, values);
-    const double least = bounds.relative_at_least;
-    return {std::sqrt(std::max(0.0, least * least - noise)), bounds.relative};
+    const auto without_noise = [&](double bias) { return std::sqrt(std::max(0.0, bias * bias - noise)); };
+    return {without_noise(bounds.relative_at_least), without_noise(bounds.relative)};
 }
 
 }  // namespace stilb::run

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "estimators/limits.h"
 #include "estimators/patch_light/incoming_light.h"
 #include "estimators/patch_light/solution/light_gather.h"
+#include "estimators/patch_light/solution/light_vertices.h"
 #include "run/schedule.h"
 #include "scene/light_groups.h"
 #include "statistics/interval.h"
@@ -174,10 +176,12 @@ class Walks final : public Work {
         RunSummary so_far;
         so_far.samples = samples_in_all();
         so_far.attained_error = attained_error();
-        sink_->show(gather_->solution(), so_far);
+        sink_->show(solution(), so_far);
     }
 
-    estimators::PatchSolution solution() const { return gather_->solution(); }
+    estimators::PatchSolution solution() const {
+        return rounded_to_errors(gather_->solution(), transport_.scene);
+    }
 
   private:
     struct Walk {
@@ -271,6 +275,29 @@ std::vector<float> relative_errors(const estimators::PatchSolution& solution) {
         errors.push_back(static_cast<float>(noise) + to_float(solution.bias[i]));
     }
     return errors;
+}
+
+estimators::PatchSolution rounded_to_errors(estimators::PatchSolution solution, const Scene& scene) {
+    constexpr double share_of_error = 0.25;
+    const estimators::LightVertices vertices(scene, solution.patches, solution.degree, solution.lit_vertices);
+    const std::vector<float> errors = relative_errors(solution);
+    // The roundings of the groups are independent of each other.
+    const double share = share_of_error / std::sqrt(static_cast<double>(solution.groups.size()));
+    for (std::uint32_t i = 0; i < errors.size(); ++i) {
+        Rgb whole;
+        for (const auto& group : solution.terms) whole += to_rgb(group[vertices.first_term(i)]);
+        for (std::size_t b = 0; b < kBands; ++b) {
+            const double size = share * double{errors[i]} * whole[b];
+            if (!(size > 0) || !std::isfinite(size)) continue;
+            // A power of two, so that the last bits of numbers are 0.
+            const auto step = static_cast<float>(std::exp2(std::floor(std::log2(size))));
+            for (auto& group : solution.terms) {
+                for (std::uint32_t t = vertices.first_term(i); t < vertices.first_term(i + 1); ++t)
+                    group[t][b] = to_half(step * std::nearbyint(to_float(group[t][b]) / step));
+            }
+        }
+    }
+    return solution;
 }
 
 SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degree, ProgressSink* progress,

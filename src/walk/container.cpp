@@ -1,7 +1,5 @@
 #include "walk/container.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -89,32 +87,6 @@ std::string container_bytes(nlohmann::ordered_json header, const std::vector<Con
         bytes.resize(aligned(bytes.size()));
     }
     return bytes;
-}
-
-std::string gzip(std::string_view bytes) {
-    constexpr int kGzip = 16 + MAX_WBITS, kMemory = 8;
-    z_stream stream{};
-    if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
-        throw std::runtime_error("zlib: no memory");
-    std::string compressed;
-    std::vector<char> buffer(1 << 16);
-    int status = Z_OK;
-    while (status == Z_OK) {
-        if (stream.avail_in == 0) {
-            const std::size_t part = std::min<std::size_t>(bytes.size(), std::numeric_limits<int>::max());
-            // zlib reads only, but its interface is older than const.
-            stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-            stream.avail_in = static_cast<uInt>(part);
-            bytes.remove_prefix(part);
-        }
-        stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
-        stream.avail_out = static_cast<uInt>(buffer.size());
-        status = deflate(&stream, bytes.empty() ? Z_FINISH : Z_NO_FLUSH);
-        compressed.append(buffer.data(), buffer.size() - stream.avail_out);
-    }
-    deflateEnd(&stream);
-    if (status != Z_STREAM_END) throw std::runtime_error("zlib: the data could not be compressed");
-    return compressed;
 }
 
 }  // namespace stilb::walk

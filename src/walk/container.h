@@ -41,7 +41,4 @@ ContainerArray make_half_array(std::string name, std::size_t components,
 /// The bytes of a container. `header`: an object, to which the list of arrays is added.
 std::string container_bytes(nlohmann::ordered_json header, const std::vector<ContainerArray>& arrays);
 
-/// In the format of gzip; the same bytes for the same input. Throws std::runtime_error where zlib fails.
-std::string gzip(std::string_view bytes);
-
 }  // namespace stilb::walk

@@ -116,7 +116,7 @@ void LiveWalk::make_light(const estimators::PatchSolution& solution, const RunSu
                            .error = summary.attained_error,
                            .elapsed_s = summary.elapsed_s,
                            .done = is_done};
-    auto bytes = std::make_shared<const std::string>(light_data(file_.scene, solution, state));
+    auto bytes = std::make_shared<const std::string>(light_data(solution, state));
     const std::lock_guard lock(mutex_);
     light_ = std::move(bytes);
     state_.light = state.version;

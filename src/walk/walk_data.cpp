@@ -13,6 +13,7 @@
 #include "estimators/patch_light/first_shot/shadow_rays.h"
 #include "estimators/patch_light/solution/light_vertices.h"
 #include "estimators/patch_light/solution/reflection_table.h"
+#include "io/text/compression.h"
 #include "run/solve.h"
 #include "scene/light_groups.h"
 #include "walk/container.h"
@@ -240,22 +241,6 @@ class SceneContainer {
     std::vector<ContainerArray> arrays_;
 };
 
-/// Rounds the terms of a vertex to steps of a part of their error: the rest is noise, which takes space.
-void add_rounded(std::span<const HalfRgb> terms, float relative_error, Rows<Half>& rows) {
-    constexpr float kStep = 0.25F;
-    std::array<float, kBands> step{};
-    for (std::size_t b = 0; b < kBands; ++b) {
-        const float size = kStep * relative_error * std::abs(to_float(terms[0][b]));
-        // A power of two, so that the last bits of numbers are 0.
-        step[b] = std::isfinite(size) && size > 0 ? std::exp2(std::floor(std::log2(size))) : 0;
-    }
-    const auto rounded = [](Half half, float to) {
-        return to > 0 ? to_half(to * std::nearbyint(to_float(half) / to)) : half;
-    };
-    for (const auto& [red, green, blue] : terms)
-        rows.add({rounded(red, step[0]), rounded(green, step[1]), rounded(blue, step[2])});
-}
-
 // The page.
 
 std::string base64(std::string_view bytes) {
@@ -298,19 +283,15 @@ std::string scene_data(const Scene& scene, const rays::RayCaster& caster, const 
     SceneContainer container(scene, solution, walk);
     const DisplayMesh mesh = make_display_mesh(
         scene, caster, solution.patches, sides_with_light(solution.patches, container.light()), {}, monitor);
-    return gzip(container.bytes(mesh));
+    return io::gzip(container.bytes(mesh));
 }
 
-std::string light_data(const Scene& scene, const PatchSolution& solution, const LightState& state) {
-    const LightVertices light(scene, solution.patches, solution.degree, solution.lit_vertices);
+std::string light_data(const PatchSolution& solution, const LightState& state) {
     const std::vector<float> relative = run::relative_errors(solution);
-    Rows<Half> terms(solution.terms.size() * light.terms(), 3);
+    Rows<Half> terms(0, 3);
     std::vector<ContainerArray> arrays;
     for (const auto& group : solution.terms) {
-        for (std::uint32_t number = 0; number < light.count(); ++number) {
-            const auto of_vertex = std::span(group).subspan(light.first_term(number), light.terms_of(number));
-            add_rounded(of_vertex, relative[number], terms);
-        }
+        for (const auto& [red, green, blue] : group) terms.add({red, green, blue});
     }
     std::vector<std::uint16_t> errors(relative.size());
     std::ranges::transform(relative, errors.begin(), to_half);
@@ -321,7 +302,7 @@ std::string light_data(const Scene& scene, const PatchSolution& solution, const 
                     {"error", state.error},
                     {"elapsed_s", state.elapsed_s},
                     {"done", state.done}};
-    return gzip(container_bytes(std::move(header), arrays));
+    return io::gzip(container_bytes(std::move(header), arrays));
 }
 
 std::string self_contained_page(std::string_view scene, std::string_view light, const PageFiles& files) {

@@ -38,9 +38,8 @@ std::string scene_data(const Scene& scene, const rays::RayCaster& caster,
                        const estimators::PatchSolution& solution, const WalkScene& walk,
                        const Monitor& monitor = Monitor::none());
 
-/// The container "light", compressed by gzip. Terms are rounded to a quarter of their error, at most.
-std::string light_data(const Scene& scene, const estimators::PatchSolution& solution,
-                       const LightState& state);
+/// The container "light", compressed by gzip.
+std::string light_data(const estimators::PatchSolution& solution, const LightState& state);
 
 /// A page that needs no server and no network: script, style and both containers are part of the HTML.
 std::string self_contained_page(std::string_view scene, std::string_view light, const PageFiles& files);

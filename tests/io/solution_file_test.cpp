@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "io/text/compression.h"
 #include "io/text/text.h"
 #include "run/solve.h"
 #include "stilb/error.h"
@@ -41,10 +42,18 @@ std::string message_of(const std::string& bytes) {
     return "accepted";
 }
 
-/// With a header that fits.
-std::string message_of_body(const std::string& body) { return message_of(solution_header(body) + body); }
+/// Compressed, and with a header that fits.
+std::string message_of_contents(const std::string& contents) {
+    return message_of(solution_file_of(contents));
+}
 
-constexpr std::size_t kHeaderSize = 28;
+/// Before compression.
+std::string sample_contents() {
+    const std::string& bytes = sample_bytes();
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data() + 28, sizeof size);
+    return gunzip(std::string_view(bytes).substr(36), size).value();
+}
 
 TEST(SolutionFile, KeepsEveryBit) {
     const StoredSolution written = sample_solution();
@@ -83,8 +92,11 @@ TEST(SolutionFile, BeginsAsDocumented) {
     EXPECT_EQ(bytes.substr(0, 8), "STILBSOL");
     EXPECT_EQ(number_at(8, std::uint32_t{}), 2u);
     EXPECT_EQ(number_at(12, std::uint64_t{}), bytes.size());
-    EXPECT_EQ(number_at(28, std::uint64_t{}), 5u);
-    EXPECT_EQ(bytes.substr(36, 5), "0.1.0");
+    const std::string contents = sample_contents();
+    EXPECT_EQ(number_at(28, std::uint64_t{}), contents.size());
+    EXPECT_EQ(contents.substr(0, 13), std::string("\5\0\0\0\0\0\0\0"
+                                                  "0.1.0",
+                                                  13));
 }
 
 TEST(SolutionFile, NamesWhatIsWrong) {
@@ -93,7 +105,8 @@ TEST(SolutionFile, NamesWhatIsWrong) {
     EXPECT_EQ(message_of(""), "a.solution: not a solution: the file does not begin with STILBSOL.");
     EXPECT_EQ(message_of("[scene]\nname = \"a room\"\n"), message_of(""));
     EXPECT_EQ(message_of("STILBSOL\1"),
-              "a.solution: damaged at byte 8: the file ends before the version. Solve the scene again.");
+              "a.solution: damaged at byte 8 of its contents: the file ends before the version. Solve the "
+              "scene again.");
     std::string other = good;
     other[8] = 9;
     EXPECT_EQ(message_of(other), "a.solution: the solution is of version 9, but Stilb " STILB_VERSION
@@ -113,17 +126,36 @@ TEST(SolutionFile, NamesWhatIsWrong) {
 
 /// With a hash that fits: no memory is taken for what is not there.
 TEST(SolutionFile, CountsAreHeldAgainstTheFile) {
-    const std::string body = sample_bytes().substr(kHeaderSize);
+    const std::string body = sample_contents();
     std::string huge = body;
     huge[6] = 0x7f;
-    EXPECT_EQ(
-        message_of_body(huge),
-        "a.solution: damaged at byte 36: Stilb's version: 35747322042253317 entries are expected, but only " +
-            std::to_string(body.size() - 8) + " bytes are left. Solve the scene again.");
+    EXPECT_EQ(message_of_contents(huge),
+              "a.solution: damaged at byte 8 of its contents: Stilb's version: 35747322042253317 entries are "
+              "expected, but only " +
+                  std::to_string(body.size() - 8) + " bytes are left. Solve the scene again.");
     for (std::size_t length = 0; length < body.size(); length += 7)
-        EXPECT_NE(message_of_body(body.substr(0, length)).find("damaged at byte"), std::string::npos)
+        EXPECT_NE(message_of_contents(body.substr(0, length)).find("damaged at byte"), std::string::npos)
             << length;
-    EXPECT_NE(message_of_body(body + "abc").find("3 surplus bytes"), std::string::npos);
+    EXPECT_NE(message_of_contents(body + "abc").find("3 surplus bytes"), std::string::npos);
+}
+
+/// A file that pretends to be larger than it is takes no memory for that.
+TEST(SolutionFile, SizesOfContentsAreChecked) {
+    const std::string contents = sample_contents();
+    const auto with_size = [&](std::uint64_t size) {
+        std::string body(sizeof size, '\0');
+        std::memcpy(body.data(), &size, sizeof size);
+        body += gzip(contents);
+        std::string file = solution_file_of(contents).substr(0, 12);
+        const std::uint64_t whole = 28 + body.size(), hash = hash_of(body);
+        file.append(reinterpret_cast<const char*>(&whole), sizeof whole);
+        file.append(reinterpret_cast<const char*>(&hash), sizeof hash);
+        return message_of(file + body);
+    };
+    EXPECT_EQ(with_size(contents.size()), "accepted");
+    for (const std::uint64_t size : {contents.size() - 1, contents.size() + 1})
+        EXPECT_NE(with_size(size).find("cannot be decompressed"), std::string::npos);
+    EXPECT_NE(with_size(std::uint64_t{1} << 60).find("are too large"), std::string::npos);
 }
 
 TEST(SolutionFile, IsWrittenAndRead) {

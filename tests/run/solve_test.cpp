@@ -78,8 +78,7 @@ TEST(Solve, AFurnaceIsExact) {
     options.patches.first_shot.variant = estimators::FirstShotVariant::none;
     const estimators::PatchSolution solution = solve(scene, options).solution;
     EXPECT_EQ(solution.lit_vertices.size(), solution.patches.vertices.size()) << "backs receive nothing";
-    const double expected =
-        std::sqrt(std::numbers::pi) * emitted_cd_m2 * reflectance / (1 - reflectance);
+    const double expected = std::sqrt(std::numbers::pi) * emitted_cd_m2 * reflectance / (1 - reflectance);
     double mean = 0;
     for (const HalfRgb& term : solution.terms[0]) mean += to_rgb(term)[0];
     mean /= static_cast<double>(solution.terms[0].size());
@@ -155,8 +154,9 @@ TEST(Solve, DimmedLampsAreThoseOfADimmedScene) {
     const Scene dimmed = scene::relit(scene, groups, scene::factors_of_groups(factors, groups.names));
     std::array<std::vector<double>, 2> means;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-        means[0].push_back(render_solution(scene, camera(), solve(scene, options_of(64, seed)).solution, factors)
-                               .mean_luminance_cd_m2);
+        means[0].push_back(
+            render_solution(scene, camera(), solve(scene, options_of(64, seed)).solution, factors)
+                .mean_luminance_cd_m2);
         means[1].push_back(picture_of_solution(dimmed, 64, seed + 100).mean_luminance_cd_m2);
     }
     expect_equal(statistics::estimate_from_replicates(means[0]),
@@ -185,6 +185,23 @@ TEST(Solve, ErrorsOfVerticesAreHonest) {
         }
     }
     EXPECT_GT(inside / all, 0.93);
+}
+
+/// What is rounded away stays small against the error, and leaves numbers with many zero bits.
+TEST(Solve, RoundingIsSmallAgainstTheError) {
+    const Scene scene = glossy_room();
+    estimators::PatchSolution solution = solve(scene, options_of(64)).solution;
+    std::ranges::fill(solution.bias, to_half(0.5F));
+    const std::vector<float> errors = relative_errors(solution);
+    const estimators::PatchSolution rounded = rounded_to_errors(solution, scene);
+    const std::vector<double> before = illuminances_lx(scene, solution),
+                              after = illuminances_lx(scene, rounded);
+    double changed = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_LE(std::abs(after[i] - before[i]), 0.25 * double{errors[i]} * before[i] + 1e-6);
+        changed += after[i] != before[i];
+    }
+    EXPECT_GT(changed, 0.5 * static_cast<double>(before.size()));
 }
 
 /// The differences of independent solutions are what their errors say.

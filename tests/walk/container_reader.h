@@ -1,8 +1,6 @@
 // Reads containers as the page does: independent of the writer.
 #pragma once
 
-#include <zlib.h>
-
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -13,26 +11,15 @@
 #include <vector>
 
 #include "base/half.h"
+#include "io/text/compression.h"
 
 namespace stilb::walk {
 
 inline std::string gunzipped(std::string_view bytes) {
-    z_stream stream{};
-    inflateInit2(&stream, 16 + MAX_WBITS);
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    std::string result;
-    std::vector<char> buffer(1 << 16);
-    int status = Z_OK;
-    while (status == Z_OK) {
-        stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
-        stream.avail_out = static_cast<uInt>(buffer.size());
-        status = inflate(&stream, Z_NO_FLUSH);
-        result.append(buffer.data(), buffer.size() - stream.avail_out);
-    }
-    inflateEnd(&stream);
-    if (status != Z_STREAM_END) throw std::runtime_error("not gzip");
-    return result;
+    // The last four bytes of gzip's format are the size.
+    std::uint32_t size = 0;
+    std::memcpy(&size, bytes.data() + bytes.size() - sizeof size, sizeof size);
+    return io::gunzip(bytes, size).value();
 }
 
 class ContainerReader {

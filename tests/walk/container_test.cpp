@@ -1,11 +1,10 @@
-// Containers hold what was put in, plane by plane, and gzip gives the bytes back.
+// Containers hold what was put in, plane by plane.
 #include "walk/container.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "math/random.h"
 #include "walk/container_reader.h"
 
 namespace stilb::walk {
@@ -62,17 +61,6 @@ TEST(Container, TakesEmptyArraysAndNamesThatAreNoText) {
     const ContainerReader read(container_bytes(Json{{"name", "\xff"}}, {make_half_array("none", 3, {})}));
     EXPECT_TRUE(read.numbers("none").empty());
     EXPECT_EQ(read.header.at("name"), "\xef\xbf\xbd");
-}
-
-TEST(Gzip, GivesBackTheBytes) {
-    for (const std::size_t size : {0, 1, 65536, 1'000'003}) {
-        std::string bytes;
-        for (std::uint64_t i = 0; bytes.size() < size; ++i)
-            bytes += static_cast<char>(i % 3 == 0 ? math::random_block({}, i, 0)[0] & 255 : 'a');
-        const std::string compressed = gzip(bytes);
-        EXPECT_EQ(gunzipped(compressed), bytes) << size;
-        EXPECT_EQ(compressed, gzip(bytes));
-    }
 }
 
 }  // namespace

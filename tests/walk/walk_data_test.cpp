@@ -215,8 +215,8 @@ estimators::PatchSolution with_light(estimators::PatchSolution solution, const S
     return solution;
 }
 
-ContainerReader light_of(const Scene& scene, const estimators::PatchSolution& solution) {
-    return ContainerReader(gunzipped(light_data(scene, solution, {3, 512, 0.021, 2.4, true})));
+ContainerReader light_of(const estimators::PatchSolution& solution) {
+    return ContainerReader(gunzipped(light_data(solution, {3, 512, 0.021, 2.4, true})));
 }
 
 std::vector<double> numbers_of(const estimators::PatchSolution& solution) {
@@ -232,36 +232,12 @@ std::vector<double> numbers_of(const estimators::PatchSolution& solution) {
 TEST(LightData, HoldsTheTermsOfAllGroups) {
     const Scene scene = small_scene();
     const estimators::PatchSolution solution = with_light(prepared(scene), scene, 0);
-    const ContainerReader read = light_of(scene, solution);
+    const ContainerReader read = light_of(solution);
     EXPECT_EQ(read.numbers("terms"), numbers_of(solution));
     EXPECT_EQ(read.numbers("terms_error"), std::vector<double>(solution.bias.size()));
     EXPECT_EQ(read.header.at("version"), 3);
     EXPECT_EQ(read.header.at("steps"), 512);
     EXPECT_EQ(read.header.at("done"), true);
-}
-
-/// Rounding stays small against the error and makes the data shorter.
-TEST(LightData, RoundsTermsByTheirError) {
-    const Scene scene = small_scene();
-    const estimators::PatchSolution exact = with_light(prepared(scene), scene, 0),
-                                    rough = with_light(prepared(scene), scene, 0.0625F);
-    const ContainerReader read = light_of(scene, rough);
-    const std::vector<double> rounded = read.numbers("terms"), terms = numbers_of(rough);
-    const estimators::LightVertices light(scene, rough.patches, rough.degree, rough.lit_vertices);
-    std::size_t at = 0, changed = 0;
-    for (std::size_t g = 0; g < rough.groups.size(); ++g) {
-        for (std::uint32_t n = 0; n < light.count(); ++n) {
-            const std::size_t first = at;
-            for (std::size_t i = 0; i < 3 * light.terms_of(n); ++i, ++at) {
-                const double allowed = 0.0625 / 4 / 2 * std::abs(terms[first + i % 3]);
-                ASSERT_LE(std::abs(rounded[at] - terms[at]), allowed * 1.001);
-                changed += rounded[at] != terms[at] ? 1 : 0;
-            }
-        }
-    }
-    EXPECT_GT(changed, terms.size() / 2);
-    EXPECT_LT(light_data(scene, rough, {}).size(), light_data(scene, exact, {}).size());
-    for (const double error : read.numbers("terms_error")) EXPECT_EQ(error, 0.0625);
 }
 
 constexpr PageFiles kPage{

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/text/compression.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
@@ -23,6 +24,8 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 constexpr std::uint32_t kVersion = 2;
 /// Magic, version, size and hash.
 constexpr std::size_t kHeaderSize = kSolutionBeginning.size() + 4 + 8 + 8;
+/// No solution is as large; a damaged or hostile file may say that it is.
+constexpr std::uint64_t kLargestContents = std::uint64_t{1} << 31;
 
 /// Numbers, or structs of numbers of one size, which have no gaps.
 template <typename T>
@@ -82,8 +85,9 @@ class ByteReader {
         if (!rest_.empty()) fail(fmt::format("{} surplus bytes", rest_.size()));
     }
     [[noreturn]] void fail(const std::string& message) const {
-        throw InputError(fmt::format("damaged at byte {}: {}. Solve the scene again.", position_, message),
-                         {name_});
+        throw InputError(
+            fmt::format("damaged at byte {} of its contents: {}. Solve the scene again.", position_, message),
+            {name_});
     }
 
   private:
@@ -119,7 +123,7 @@ patches::Patches read_patches(ByteReader& bytes) {
     return patches;
 }
 
-std::string body_of(const StoredSolution& stored) {
+std::string contents_of(const StoredSolution& stored) {
     const estimators::PatchSolution& solution = stored.solution;
     ByteWriter bytes;
     bytes.add_list(stored.version);
@@ -140,7 +144,7 @@ std::string body_of(const StoredSolution& stored) {
     return bytes.take();
 }
 
-StoredSolution read_body(ByteReader& bytes) {
+StoredSolution read_contents(ByteReader& bytes) {
     StoredSolution stored;
     stored.version = bytes.take_list<std::string>("Stilb's version");
     stored.scene = bytes.take_list<std::string>("the scene's file");
@@ -168,9 +172,7 @@ StoredSolution read_body(ByteReader& bytes) {
     return stored;
 }
 
-}  // namespace
-
-std::string solution_header(std::string_view body) {
+std::string header_of(std::string_view body) {
     ByteWriter bytes;
     bytes.add(kVersion);
     bytes.add(static_cast<std::uint64_t>(kHeaderSize + body.size()));
@@ -178,10 +180,26 @@ std::string solution_header(std::string_view body) {
     return std::string(kSolutionBeginning) + bytes.take();
 }
 
-std::string to_bytes(const StoredSolution& stored) {
-    const std::string body = body_of(stored);
-    return solution_header(body) + body;
+/// The contents of a body, whose hash was right.
+std::string uncompressed(std::string_view body, const std::string& name) {
+    ByteReader bytes(body, kHeaderSize, name);
+    const auto size = bytes.take<std::uint64_t>("the size of the contents");
+    if (size > kLargestContents) bytes.fail(fmt::format("contents of {} bytes are too large", size));
+    auto contents = gunzip(body.substr(sizeof size), static_cast<std::size_t>(size));
+    if (!contents) bytes.fail("the contents cannot be decompressed");
+    return *std::move(contents);
 }
+
+}  // namespace
+
+std::string solution_file_of(std::string_view contents) {
+    ByteWriter bytes;
+    bytes.add(static_cast<std::uint64_t>(contents.size()));
+    const std::string body = bytes.take() + gzip(contents);
+    return header_of(body) + body;
+}
+
+std::string to_bytes(const StoredSolution& stored) { return solution_file_of(contents_of(stored)); }
 
 StoredSolution read_solution(std::string_view bytes, const std::string& name) {
     const auto fail = [&](const std::string& message) { throw InputError(message, {name}); };
@@ -210,8 +228,9 @@ StoredSolution read_solution(std::string_view bytes, const std::string& name) {
             "damaged: the contents do not match the stored hash. Copy the file again, or solve the scene "
             "again.");
     }
-    ByteReader reader(body, kHeaderSize, name);
-    return read_body(reader);
+    const std::string contents = uncompressed(body, name);
+    ByteReader reader(contents, 0, name);
+    return read_contents(reader);
 }
 
 StoredSolution read_solution_file(const std::filesystem::path& path) {

@@ -41,7 +41,7 @@ StoredSolution read_solution(std::string_view bytes, const std::string& name);
 StoredSolution read_solution_file(const std::filesystem::path& path);
 std::size_t write_solution_file(const StoredSolution& stored, const std::filesystem::path& path);
 
-/// The header of a file with these contents: for the fuzz target, whose contents are arbitrary.
-std::string solution_header(std::string_view body);
+/// A file with these contents, before compression: for the fuzz target, whose contents are arbitrary.
+std::string solution_file_of(std::string_view contents);
 
 }  // namespace stilb::io

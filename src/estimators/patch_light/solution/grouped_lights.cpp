@@ -1,20 +1,28 @@
 #include "estimators/patch_light/solution/grouped_lights.h"
 
-#include <algorithm>
+#include <optional>
 
 #include "materials/shaded_surface.h"
 
 namespace stilb::estimators {
+namespace {
+
+/// Of a group with more lights, so many are chosen.
+constexpr std::size_t kSamplesOfManyLights = 16;
+
+}  // namespace
 
 GroupedLights::GroupedLights(const Scene& scene, const rays::RayCaster& caster, const LightGroups& groups,
                              const std::function<bool(std::size_t)>& counts)
-    : scene_(scene), caster_(caster), samplers_(groups.count()) {
-    for (std::size_t g = 0; g < groups.count(); ++g) {
-        std::vector<bool> is_other(scene.lights.size());
-        for (std::size_t light = 0; light < is_other.size(); ++light)
-            is_other[light] = groups.of_light[light] != g || !counts(light);
-        if (std::ranges::find(is_other, false) == is_other.end()) continue;
-        samplers_[g] = std::make_unique<transport::LightSampler>(scene, caster, std::move(is_other));
+    : scene_(scene), caster_(caster), lights_(scene, caster), groups_(groups.count()) {
+    for (std::size_t light = 0; light < scene.lights.size(); ++light) {
+        if (counts(light)) groups_[groups.of_light[light]].lights.push_back(light);
+    }
+    for (Group& group : groups_) {
+        if (group.lights.size() <= kSamplesOfManyLights) continue;
+        std::vector<bool> is_other(scene.lights.size(), true);
+        for (const std::size_t light : group.lights) is_other[light] = false;
+        group.sampler = std::make_unique<transport::LightSampler>(scene, caster, std::move(is_other));
     }
 }
 
@@ -23,14 +31,25 @@ void GroupedLights::add_reflected(const rays::Hit& surface, const Vec3& out, mat
     const materials::ShadedSurface shaded(scene_.material(surface.material), surface.normal,
                                           surface.shading_normal);
     const Vec3 local_out = shaded.frame().to_local(out);
-    for (std::size_t g = 0; g < samplers_.size(); ++g) {
-        if (!samplers_[g]) continue;
-        const auto light = samplers_[g]->sample_one_light(surface.position, surface.normal, stream);
-        if (!light || dot(light->direction, surface.normal) <= 0) continue;
+    const auto reflected = [&](const std::optional<transport::IncidentLight>& light) -> Rgb {
+        if (!light || dot(light->direction, surface.normal) <= 0) return {};
         const Vec3 in = shaded.frame().to_local(light->direction);
-        const Rgb reflected = shaded.brdf_per_sr(in, local_out) * in.z * light->normal_illuminance_lx;
-        if (!(reflected.max() > 0)) continue;
-        of_groups[g] += reflected * caster_.transmittance({surface.lifted, light->source_point});
+        const Rgb unshadowed = shaded.brdf_per_sr(in, local_out) * in.z * light->normal_illuminance_lx;
+        if (!(unshadowed.max() > 0)) return {};
+        return unshadowed * caster_.transmittance({surface.lifted, light->source_point});
+    };
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        const Group& group = groups_[g];
+        if (!group.sampler) {
+            for (const std::size_t light : group.lights)
+                of_groups[g] += reflected(
+                    lights_.sample_incident(light, {surface.position, surface.normal}, stream.next_two()));
+            continue;
+        }
+        for (std::size_t i = 0; i < kSamplesOfManyLights; ++i)
+            of_groups[g] +=
+                reflected(group.sampler->sample_one_light(surface.position, surface.normal, stream)) *
+                (1. / kSamplesOfManyLights);
     }
 }
 

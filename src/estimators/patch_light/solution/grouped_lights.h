@@ -20,16 +20,22 @@ class GroupedLights {
     GroupedLights(const Scene& scene, const rays::RayCaster& caster, const LightGroups& groups,
                   const std::function<bool(std::size_t)>& counts);
 
-    /// Adds to each group the direct light that a surface reflects towards the unit `out` [cd/m2]: of one
-    /// light of each group, chosen and sampled, shadows included.
+    /// Adds to each group the direct light that a surface reflects towards the unit `out` [cd/m2], shadows
+    /// included: one sample of each of its lights, or of some where they are many.
     void add_reflected(const rays::Hit& surface, const Vec3& out, math::SampleStream& stream,
                        std::span<Rgb> of_groups) const;
 
   private:
+    struct Group {
+        std::vector<std::size_t> lights;
+        /// Chooses among them where they are many.
+        std::unique_ptr<transport::LightSampler> sampler;
+    };
+
     const Scene& scene_;
     const rays::RayCaster& caster_;
-    /// Per group; null where it has no light that counts.
-    std::vector<std::unique_ptr<transport::LightSampler>> samplers_;
+    transport::LightSampler lights_;
+    std::vector<Group> groups_;
 };
 
 }  // namespace stilb::estimators

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "math/sampling.h"
+#include "stilb/error.h"
 #include "transport/receiver.h"
 
 namespace stilb::estimators {
@@ -43,6 +44,14 @@ std::vector<ReflectionTable> tables_of(const Scene& scene, int degree) {
 
 Rgb reflected_cd_m2(std::span<const FloatRgb> terms, std::span<const FloatRgb> factors, double scale) {
     return estimators::reflected_cd_m2(terms, factors) * scale;
+}
+
+HalfRgb stored(const Rgb& term) {
+    constexpr double largest = 65504;
+    if (std::max(term.max(), -term.min()) <= largest) return to_half_rgb(term);
+    throw InputError(
+        "after a reflection there is light of more than 116,000 lx, which a solution cannot store. Needed: "
+        "lamps with less flux (the result is in proportion to it).");
 }
 
 /// The sides of vertices of patches that reflect light.
@@ -391,7 +400,7 @@ PatchSolution LightGather::solution() const {
         for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
             const double scale = 1 / static_cast<double>((rays_[i] - 1) * walks_.size());
             for (std::uint32_t t = vertices_.first_term(i); t < vertices_.first_term(i + 1); ++t)
-                solution.terms[g].push_back(to_half_rgb(to_rgb(twice_[index(g, t)]) * scale));
+                solution.terms[g].push_back(stored(to_rgb(twice_[index(g, t)]) * scale));
         }
     }
     solution.replicates.resize(walks_.size());

@@ -1,10 +1,10 @@
 // The light that reaches the vertices of a solution after one reflection or more, by rays from the vertices.
 //
-// Where a ray meets a surface, the direct light there is sampled, and the light that it reflects after further
-// reflections is known in two ways: from the patches of the walks (gathered once), or from the vertices
-// around, as the rays have found it so far (gathered twice, and more often as the run goes on). The result is
-// gathered twice. What the two differ by, along the same rays, is the error of the patches in the light of one
-// more reflection: a bound for the error of the result.
+// Where a ray meets a surface, the direct light there is sampled, and the light that it reflects after
+// further reflections is known in two ways: from the patches of the walks (gathered once), or from the
+// vertices around, as the rays have found it so far (gathered twice, and more often as the run goes on). The
+// result is gathered twice. What the two differ by, along the same rays, is the error of the patches in the
+// light of one more reflection: a bound for the error of the result.
 #pragma once
 
 #include <cstdint>

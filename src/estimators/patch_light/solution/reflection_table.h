@@ -1,10 +1,11 @@
 // The reflection of a material, by the terms of the arriving light.
 //
-// L_out(w) = sum over k of a_k F_k(w), with F_k(w) = integral of f(w_in, w) Z_k(w_in) cos(theta) dw_in for the
-// basis Z of math/zernike.h. Tables hold G, the factors for a basis that is turned to the azimuth phi of w,
-// which change little with phi, and for isotropic materials not at all:
+// L_out(w) = sum over k of a_k F_k(w), with F_k(w) = integral of f(w_in, w) Z_k(w_in) cos(theta) dw_in for
+// the basis Z of math/zernike.h. Tables hold G, the factors for a basis that is turned to the azimuth phi of
+// w, which change little with phi, and for isotropic materials not at all:
 //
-//     F_(n,m) = G_(n,m) cos(m phi) - G_(n,-m) sin(m phi),    F_(n,-m) = G_(n,m) sin(m phi) + G_(n,-m) cos(m phi)
+//     F_(n,m) = G_(n,m) cos(m phi) - G_(n,-m) sin(m phi),    F_(n,-m) = G_(n,m) sin(m phi) + G_(n,-m) cos(m
+//     phi)
 //
 // for m > 0, and F_(n,0) = G_(n,0).
 #pragma once
@@ -19,8 +20,8 @@
 namespace stilb::estimators {
 
 /// Rows of directions from the normal (row 0) to 0.1 degrees above the surface, equal in angle; in each row
-/// `phis` azimuths from the frame's u on, equal in angle; for each direction the turned factors G of all terms
-/// [1/sqrt(sr)]. Diffuse materials have one direction and one term.
+/// `phis` azimuths from the frame's u on, equal in angle; for each direction the turned factors G of all
+/// terms [1/sqrt(sr)]. Diffuse materials have one direction and one term.
 struct ReflectionTable {
     int thetas = 1, phis = 1;
     std::vector<FloatRgb> factors;
