@@ -127,8 +127,8 @@ const CASES = [
     camera: { position: [1.8, 0.2, 1.5], target: [2, 3, 0.7], fov: 75 },
   },
   {
-    what: "a body by harmonics", file: join(SCENES, "head/head.toml"), steps: 256, paths: 131072,
-    camera: { position: [0.98, 1.55, 1.5], target: [1.5, 2.46, 1.33], fov: 19 },
+    what: "a body by harmonics", file: join(OWN_SCENES, "harmonic.toml"), steps: 256, paths: 131072,
+    camera: { position: [1.2, 0.2, 1.4], target: [1.5, 1.8, 0.7], fov: 70 },
   },
 ];
 
