@@ -164,7 +164,7 @@ for (const { what, file, camera, steps, paths } of CASES) {
       + ` median error ${percent(median(seen.map(({ value, standard_error }) => (STANDARD_ERRORS * standard_error) / value)))}`
       + ` and ${percent(median(exact.map(({ value, standard_error }) => (STANDARD_ERRORS * standard_error) / value)))})`);
     if (process.env.STILB_ACCURACY) {
-      writeFileSync(join(process.env.STILB_ACCURACY, `${what.split(" ").at(-1)}.json`), JSON.stringify(pixels.map(([x, y], i) => ({
+      writeFileSync(join(process.env.STILB_ACCURACY, `${what.replaceAll(" ", "_")}.json`), JSON.stringify(pixels.map(([x, y], i) => ({
         x, y, one: compared.includes(i), page: seen[i], auto: exact[i], render: rendered[y * SIZE.width + x]}))));
     }
     assert.ok(asRendered >= ENOUGH, `as render --from: ${percent(asRendered)}`);

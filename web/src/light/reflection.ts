@@ -68,9 +68,11 @@ export class ReflectedLight {
   }
 
   /**
-   * What a light vertex would show [cd/m2] if all its terms were as large as the first one and added up in quadrature:
-   * the error of its luminance, where the errors of the terms are independent and equal. The terms belong to an
-   * orthonormal basis, so that noise does not prefer any; a narrow lobe gathers more of it than the illuminance has.
+   * What a light vertex would show [cd/m2] if each term were as large as its noise in proportion to that of the first
+   * one, and all added up in quadrature. Times the relative error of the first term, it is the error of the luminance:
+   * a lobe gathers more noise than the illuminance has. The noise grows with the degree j, since directions in frames
+   * are even for the illuminance, but not for finer terms: measured over solutions of several seeds, 1.2 times at
+   * degree 1, 1.8 at 3, 2.4 at 6, and sqrt(j + 1) is a little more.
    */
   inQuadrature(vertex: number, eye: readonly number[], terms: Float32Array): number {
     const { lightMaterials, lightTerms, reflections, header } = this.scene;
@@ -84,9 +86,10 @@ export class ReflectedLight {
     const entry = (theta + Math.round(fraction)) * phis + (Math.floor((turn - Math.floor(turn)) * phis) % phis);
     const first = terms.subarray(3 * lightTerms[vertex]!, 3 * lightTerms[vertex]! + 3);
     let sum = 0;
-    for (let k = 0; k < this.terms; ++k) {
+    for (let k = 0, degree = 0; k < this.terms; ++k) {
+      if (k === termCount(degree)) ++degree;
       const at = 3 * (entry * this.terms + k);
-      sum += luminance([0, 1, 2].map((band) => first[band]! * table[at + band]!)) ** 2;
+      sum += (degree + 1) * luminance([0, 1, 2].map((band) => first[band]! * table[at + band]!)) ** 2;
     }
     return Math.sqrt(sum);
   }
