@@ -48,7 +48,7 @@ function(stilb_page_tests)
     add_test(NAME page:${test} COMMAND ${STILB_NODE} --test ${page}/test/${name} WORKING_DIRECTORY ${page})
     # Drawing in software takes all cores.
     set_tests_properties(page:${test} PROPERTIES
-                         ENVIRONMENT "STILB_PAGE=${page}/dist;STILB_CHROMIUM=${STILB_CHROMIUM}"
+                         ENVIRONMENT "STILB_PAGE=${page}/dist;STILB_CHROMIUM=${STILB_CHROMIUM};STILB=$<TARGET_FILE:stilb>;STILB_SCENES=${PROJECT_SOURCE_DIR}/scenes"
                          SKIP_REGULAR_EXPRESSION "page test skipped" PROCESSORS 2 TIMEOUT 300)
   endforeach()
 endfunction()

@@ -5,10 +5,19 @@ import { floatFromHalf } from "../data/half";
 import { type LightHeader, NO_LIGHT_VERTEX, type Rgb, type Scene } from "../data/scene";
 import { flatReflectance, kindOf } from "../materials/surface";
 import type { Highlights } from "./highlights";
+import { luminance } from "./luminance";
 import { ReflectedLight } from "./reflection";
 
 const INV_PI = 1 / Math.PI;
 const SQRT_PI = Math.sqrt(Math.PI);
+
+/** Light that was reflected before: values, and half-widths of their 95 % intervals. */
+export interface StoredLight {
+  illuminance: number;
+  error: number;
+  luminance: number;
+  luminanceError: number;
+}
 
 export class Lighting {
   /** By group. */
@@ -29,6 +38,7 @@ export class Lighting {
   private readonly rest: Float32Array;
   private readonly reflection: ReflectedLight;
   private readonly glossyVertices: number[] = [];
+  private eye: readonly number[] = [0, 0, 0];
 
   constructor(
     readonly scene: Scene,
@@ -90,6 +100,7 @@ export class Lighting {
 
   /** Updates `glow` of glossy vertices for another eye. */
   lookFrom(eye: readonly number[]) {
+    this.eye = [...eye];
     this.reflection.towards(eye, this.terms, this.reflected);
     for (const vertex of this.glossyVertices) {
       for (let b = 0; b < 3; ++b) this.glow[3 * vertex + b] = this.rest[3 * vertex + b]!;
@@ -98,19 +109,26 @@ export class Lighting {
   }
 
   /** Interpolated stored light at a vertex: illuminance, luminance towards the last eye, and errors. */
-  storedAt(vertex: number): { illuminance: number; error: number; luminance: number } {
+  storedAt(vertex: number): StoredLight {
     const { lightOf, lightWeights, lightTerms } = this.scene;
-    const sum = { illuminance: 0, error: 0, luminance: 0 };
+    const sum = { illuminance: 0, error: 0, luminance: 0, luminanceError: 0 };
     for (let k = 3 * vertex; k < 3 * vertex + 3; ++k) {
       const lightVertex = lightOf[k]!;
       if (lightVertex === NO_LIGHT_VERTEX) continue;
       const weight = lightWeights[k]!;
       const illuminance = SQRT_PI * luminanceAt(this.terms, lightTerms[lightVertex]!);
       sum.illuminance += weight * illuminance;
-      sum.error += weight * illuminance * this.relativeError[lightVertex]!;
+      const relativeError = this.relativeError[lightVertex]!;
+      sum.error += weight * illuminance * relativeError;
       sum.luminance += weight * luminanceAt(this.reflected, lightVertex);
+      sum.luminanceError += weight * relativeError * this.inQuadrature(lightVertex);
     }
     return sum;
+  }
+
+  private inQuadrature(lightVertex: number): number {
+    const isGlossy = this.scene.reflections[this.scene.lightMaterials[lightVertex]!];
+    return isGlossy ? this.reflection.inQuadrature(lightVertex, this.eye, this.terms) : luminanceAt(this.reflected, lightVertex);
   }
 
   /** Direct illuminance of a vertex with all lights at their full flux [lx]. */
@@ -214,10 +232,6 @@ export class Lighting {
       for (let b = 0; b < 3; ++b) this.glow[3 * vertex + b]! += weight * this.reflected[3 * lightVertex + b]!;
     }
   }
-}
-
-export function luminance(rgb: ArrayLike<number>, at = 0): number {
-  return 0.2126 * rgb[at]! + 0.7152 * rgb[at + 1]! + 0.0722 * rgb[at + 2]!;
 }
 
 function luminanceAt(rgb: Float32Array, index: number): number {

@@ -4,7 +4,8 @@ import type { Vec3 } from "../data/scene";
 import type { Hit, Space } from "../walk/space";
 import * as THREE from "three";
 import { kindOf } from "../materials/surface";
-import { luminance, type Lighting } from "./lighting";
+import type { Lighting, StoredLight } from "./lighting";
+import { luminance } from "./luminance";
 
 export interface Value {
   value: number;
@@ -54,7 +55,7 @@ export class Readings {
     return null;
   }
 
-  /** The error of a luminance in proportion to those of the direct and of the stored light in it. */
+  /** Half-width of a luminance: that of the direct light in it, in proportion, and that of the stored light. */
   luminanceError(reading: Reading, measured: number): number {
     const { hit } = reading;
     const { scene, direct } = this.lighting;
@@ -63,10 +64,11 @@ export class Readings {
     const stored = this.storedAt(hit);
     const lux = interpolate(hit, (vertex) => luminance(direct, 3 * vertex));
     const directError = lux > 0 ? this.directErrorAt(hit, lux) / lux : 0;
-    const storedError = stored.illuminance > 0 ? stored.error / stored.illuminance : 0;
     const fromStored = Math.min(stored.luminance, measured);
     const fromDirect = Math.max(measured - fromStored - emission, 0);
-    return Math.hypot(fromDirect * directError, fromStored * storedError);
+    // What mirrors and panes take away is taken from the error, too.
+    const share = stored.luminance > measured ? measured / stored.luminance : 1;
+    return Math.hypot(fromDirect * directError, share * stored.luminanceError);
   }
 
   private illuminanceAt(hit: Hit): Value {
@@ -88,11 +90,14 @@ export class Readings {
     return luminance(rgb.map((value, b) => value * factor[b]!));
   }
 
-  private storedAt(hit: Hit): { illuminance: number; error: number; luminance: number } {
+  private storedAt(hit: Hit): StoredLight {
     const at = hit.vertices.map((vertex) => this.lighting.storedAt(vertex));
-    const mean = (of: "illuminance" | "error" | "luminance") =>
+    const mean = (of: keyof StoredLight) =>
       at.reduce((sum, stored, k) => sum + hit.weights[k]! * stored[of], 0);
-    return { illuminance: mean("illuminance"), error: mean("error"), luminance: mean("luminance") };
+    return {
+      illuminance: mean("illuminance"), error: mean("error"),
+      luminance: mean("luminance"), luminanceError: mean("luminanceError"),
+    };
   }
 }
 

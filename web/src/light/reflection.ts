@@ -1,6 +1,7 @@
 // Luminance of glossy light vertices towards an eye, from the stored light and the materials' tables.
 
 import type { Scene } from "../data/scene";
+import { luminance } from "./luminance";
 
 /** Zernike's terms (j, m) and (j, -m) of one order. */
 interface TermPair {
@@ -66,8 +67,49 @@ export class ReflectedLight {
     for (const vertex of this.glossy) this.evaluate(vertex, eye, terms, result);
   }
 
+  /**
+   * What a light vertex would show [cd/m2] if each term were as large as its noise in proportion to that of the first
+   * one, and all added up in quadrature. Times the relative error of the first term, it is the error of the luminance:
+   * a lobe gathers more noise than the illuminance has. The noise grows with the degree j, since directions in frames
+   * are even for the illuminance, but not for finer terms: measured over solutions of several seeds, 1.2 times at
+   * degree 1, 1.8 at 3, 2.4 at 6, and sqrt(j + 1) is a little more.
+   */
+  inQuadrature(vertex: number, eye: readonly number[], terms: Float32Array): number {
+    const { lightMaterials, lightTerms, reflections, header } = this.scene;
+    const direction = this.towardsEye(vertex, eye);
+    const material = lightMaterials[vertex]!;
+    const { thetas = 33, phis = 1 } = header.materials[material]!;
+    const table = reflections[material];
+    if (!direction || !table) return 0;
+    const { theta, fraction } = rowAt(direction.cosine, thetas);
+    const turn = Math.atan2(direction.y, direction.x) / (2 * Math.PI);
+    const entry = (theta + Math.round(fraction)) * phis + (Math.floor((turn - Math.floor(turn)) * phis) % phis);
+    const first = terms.subarray(3 * lightTerms[vertex]!, 3 * lightTerms[vertex]! + 3);
+    let sum = 0;
+    for (let k = 0, degree = 0; k < this.terms; ++k) {
+      if (k === termCount(degree)) ++degree;
+      const at = 3 * (entry * this.terms + k);
+      sum += (degree + 1) * luminance([0, 1, 2].map((band) => first[band]! * table[at + band]!)) ** 2;
+    }
+    return Math.sqrt(sum);
+  }
+
   private evaluate(vertex: number, eye: readonly number[], terms: Float32Array, result: Float32Array) {
-    const { lightPositions, lightNormals, lightAxes, lightMaterials, lightTerms, reflections, header } = this.scene;
+    const { lightMaterials, lightTerms, reflections, header } = this.scene;
+    const direction = this.towardsEye(vertex, eye);
+    if (!direction) return;
+    const { x, y } = direction;
+    const material = lightMaterials[vertex]!;
+    const { thetas = 33, phis = 1 } = header.materials[material]!;
+    const row = rowAt(direction.cosine, thetas);
+    const first = 3 * lightTerms[vertex]!;
+    if (phis === 1) this.isotropic(reflections[material]!, row, x, y, terms, first, result, 3 * vertex);
+    else this.anisotropic(reflections[material]!, row, phis, x, y, terms, first, result, 3 * vertex);
+  }
+
+  /** The direction to the eye in the frame of the surface; null where the eye is far behind it. */
+  private towardsEye(vertex: number, eye: readonly number[]): { cosine: number; x: number; y: number } | null {
+    const { lightPositions, lightNormals, lightAxes } = this.scene;
     const at = 3 * vertex;
     const dx = eye[0]! - lightPositions[at]!;
     const dy = eye[1]! - lightPositions[at + 1]!;
@@ -77,18 +119,13 @@ export class ReflectedLight {
     const ny = lightNormals[at + 1]! / 32767;
     const nz = lightNormals[at + 2]! / 32767;
     const cosine = (dx * nx + dy * ny + dz * nz) * scale * 32767;
-    if (cosine < HIDDEN_COSINE) return;
+    if (cosine < HIDDEN_COSINE) return null;
     const ax = lightAxes[at]!;
     const ay = lightAxes[at + 1]!;
     const az = lightAxes[at + 2]!;
     const x = (dx * ax + dy * ay + dz * az) * scale;
     const y = (dx * (ny * az - nz * ay) + dy * (nz * ax - nx * az) + dz * (nx * ay - ny * ax)) * scale;
-    const material = lightMaterials[vertex]!;
-    const { thetas = 33, phis = 1 } = header.materials[material]!;
-    const row = rowAt(cosine, thetas);
-    const first = 3 * lightTerms[vertex]!;
-    if (phis === 1) this.isotropic(reflections[material]!, row, x, y, terms, first, result, at);
-    else this.anisotropic(reflections[material]!, row, phis, x, y, terms, first, result, at);
+    return { cosine, x, y };
   }
 
   private isotropic(
