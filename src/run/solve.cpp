@@ -17,6 +17,7 @@
 #include "estimators/patch_light/solution/light_vertices.h"
 #include "run/schedule.h"
 #include "scene/light_groups.h"
+#include "scene/sealed_sides.h"
 #include "statistics/interval.h"
 #include "stilb/error.h"
 #include "transport/receiver.h"
@@ -118,14 +119,17 @@ class Walks final : public Work {
         estimators::TermSums sums;
     };
 
-    /// Per side of the patches: whether any light has reached it.
+    /// Per side of the patches: whether any light reaches it.
     std::vector<bool> lit_sides() const {
         const patches::Patches& patches = transport_.patches;
         std::vector<bool> is_lit(2 * patches.count());
         for (std::uint32_t patch = 0; patch < patches.count(); ++patch)
             is_lit[patch] = estimators::to_rgb(transport_.emission[patch]).max() > 0;
         const estimators::IncomingFirstShot* const first_shot = transport_.first_shot.incoming();
+        const std::vector<bool> is_sealed = sealed_sides(transport_.scene);
         for (const std::uint32_t side : layout_.sides()) {
+            const ObjectId object = patches.object_of(patches.patch_of(side));
+            if (is_sealed[object_side(object, patches.is_front(side))]) continue;
             is_lit[side] =
                 is_lit[side] || (first_shot && first_shot->illuminance_lx(side).max() > 0) ||
                 std::ranges::any_of(walks_, [&](const auto& walk) { return has_lit(*walk, side); });

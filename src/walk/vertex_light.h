@@ -12,8 +12,8 @@
 #include "patches/patches.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
+#include "scene/sealed_sides.h"
 #include "walk/direct_light.h"
-#include "walk/sealed_sides.h"
 
 namespace stilb::walk {
 

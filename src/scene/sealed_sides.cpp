@@ -1,11 +1,11 @@
-#include "walk/sealed_sides.h"
+#include "scene/sealed_sides.h"
 
 #include <algorithm>
 #include <optional>
 
 #include "geometry/mesh_topology.h"
 
-namespace stilb::walk {
+namespace stilb::scene {
 namespace {
 
 bool overlap(const Bounds& a, const Bounds& b) {
@@ -65,4 +65,4 @@ std::vector<bool> sealed_sides(const Scene& scene) {
     return is_sealed;
 }
 
-}  // namespace stilb::walk
+}  // namespace stilb::scene

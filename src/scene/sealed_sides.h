@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-namespace stilb::walk {
+namespace stilb::scene {
 
 /// Sides of whole objects: the front of object i is 2 i, its back 2 i + 1.
 inline std::size_t object_side(ObjectId object, bool is_front) {
@@ -13,7 +13,12 @@ inline std::size_t object_side(ObjectId object, bool is_front) {
 }
 
 /// Per object_side(): whether it is the inside of a closed, opaque body without a light inside of its bounds.
-/// Solutions cannot tell: where a body stands on a surface, a little light seeps in by rounding.
+/// Walks over patches cannot tell: where a body stands on a patch, its inside gets light of the covered part.
 std::vector<bool> sealed_sides(const Scene& scene);
 
-}  // namespace stilb::walk
+}  // namespace stilb::scene
+
+namespace stilb {
+using scene::object_side;
+using scene::sealed_sides;
+}  // namespace stilb
