@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "estimators/estimator_list.h"
+#include "math/zernike.h"
 #include "run/options.h"
+#include "run/solve.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
@@ -35,10 +37,29 @@ void RunFlags::add_to(Command& command) {
     command.add("--bounces", bounces, "Limit the number of reflections (default: no limit, no bias)")
         .from_to(0, kMostBounces)
         .value_name("N");
-    add_those_of_one_method(command);
+    add_those_of_all(command);
 }
 
-void RunFlags::add_those_of_one_method(Command& command) {
+void RunFlags::add_those_of_solutions(Command& command, std::optional<int>& degree) {
+    command
+        .add("--degree", degree,
+             fmt::format("Degree of the directional basis that stores the light on glossy surfaces (default: "
+                         "{}): a higher one is sharper and takes more memory",
+                         run::kDefaultDegree))
+        .from_to(0, math::ZernikeBasis::kMostDegree)
+        .value_name("N");
+    add_those_of_all(command);
+    command.find("--error").description(
+        "Stop when 95 % of the light falls on places with a 95 % interval within this share of their "
+        "illuminance: 1% or 0.01");
+    command.find("--patch").description("Longest edge of a patch [m] (default: about 3,000 patches)");
+    command.find("--paths").description(
+        "Stop after this many steps of ray-bundle iteration, rounded up to a multiple of 8");
+    command.find("--first-shot")
+        .description("First shot that replaces small lights: incoming (default) or none");
+}
+
+void RunFlags::add_those_of_all(Command& command) {
     command
         .add("--error", error,
              "Stop when 95 % of the readings of each sensor have a 95 % interval within this share of their "

@@ -31,6 +31,8 @@ struct PatchFlags {
     std::vector<std::string_view> given() const;
 
   private:
+    void add_those_of_all(Command& command);
+
     void require_known_to(const estimators::EstimatorEntry& method) const;
 };
 
@@ -46,13 +48,17 @@ struct RunFlags {
     OffTerminal off_terminal() const { return progress ? OffTerminal::plain_lines : OffTerminal::nothing; }
 
     void add_to(Command& command);
-    /// Adds all flags except --method and --bounces.
-    void add_those_of_one_method(Command& command);
+    /// Adds those of solutions: all flags except --method and --bounces, and --degree.
+    void add_those_of_solutions(Command& command, std::optional<int>& degree);
     /// The names of the typed flags, except --threads and --quiet.
     std::vector<std::string_view> given() const;
     /// The options with the typed flags applied. --paths alone drops the file's error and time: exactly so
     /// many paths are done.
     RunOptions over(RunOptions options) const;
+
+  private:
+    /// All flags except --method and --bounces.
+    void add_those_of_all(Command& command);
 };
 
 /// Keeps `time_s` seconds of a time limit, but half of it at most, for statistics and files.

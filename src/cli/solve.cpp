@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "cli/command_line.h"
@@ -14,7 +15,6 @@
 #include "cli/scene_argument.h"
 #include "io/results/solution_file.h"
 #include "io/text/file_kind.h"
-#include "math/zernike.h"
 
 namespace stilb::cli {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 struct SolveRequest {
     std::string scene, output;
     std::vector<std::string> overrides;
-    int degree = run::kDefaultDegree;
+    std::optional<int> degree;
     RunFlags flags;
 };
 
@@ -50,8 +50,8 @@ int run_solve(const SolveRequest& request) {
     SolveResult result;
     {
         TerminalProgress progress("steps", request.flags.off_terminal());
-        result = solve(file.scene, options, request.degree, request.flags.quiet ? nullptr : &progress,
-                       &watch_for_interrupt());
+        result = solve(file.scene, options, request.degree.value_or(run::kDefaultDegree),
+                       request.flags.quiet ? nullptr : &progress, &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
     const io::StoredSolution solution =
@@ -77,24 +77,8 @@ void add_solve(CommandLine& line) {
     command.add("-o,--output", request->output, "Solution to write (- is stdout)")
         .required()
         .value_name("FILE");
-    command
-        .add("--degree", request->degree,
-             fmt::format(
-                 "Degree of the directional basis that stores the light on glossy surfaces (default: {}): "
-                 "a higher one is sharper and takes more memory",
-                 run::kDefaultDegree))
-        .from_to(0, math::ZernikeBasis::kMostDegree)
-        .value_name("N");
     add_overrides(command, request->overrides);
-    request->flags.add_those_of_one_method(command);
-    command.find("--error").description(
-        "Stop when 95 % of the light falls on places with a 95 % interval within this share of their "
-        "illuminance: 1% or 0.01");
-    command.find("--patch").description("Longest edge of a patch [m] (default: about 3,000 patches)");
-    command.find("--paths").description(
-        "Stop after this many steps of ray-bundle iteration, rounded up to a multiple of 8");
-    command.find("--first-shot")
-        .description("First shot that replaces small lights: incoming (default) or none");
+    request->flags.add_those_of_solutions(command, request->degree);
     command.run([request] { return run_solve(*request); });
 }
 

@@ -21,7 +21,6 @@
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
-#include "math/zernike.h"
 #include "run/solve.h"
 #include "stilb/error.h"
 #include "walk/live_walk.h"
@@ -264,23 +263,8 @@ void add_view(CommandLine& line) {
         .from_to(0, 65535)
         .value_name("N");
     command.add("--no-browser", request->no_browser, "Print the address only, and open no browser");
-    command
-        .add("--degree", request->degree,
-             fmt::format("Degree of the directional basis that stores the light on glossy surfaces (default: "
-                         "{}): a higher one is sharper and takes more memory",
-                         run::kDefaultDegree))
-        .from_to(0, math::ZernikeBasis::kMostDegree)
-        .value_name("N");
     add_overrides(command, request->overrides);
-    request->flags.add_those_of_one_method(command);
-    command.find("--error").description(
-        "Stop refining when 95 % of the light is exact within this share of its illuminance: 1% or 0.01");
-    command.find("--time").description("Stop refining after this many seconds (default: 60)");
-    command.find("--patch").description("Longest edge of a patch [m] (default: about 3,000 patches)");
-    command.find("--paths").description(
-        "Stop refining after this many steps of ray-bundle iteration, rounded up to a multiple of 8");
-    command.find("--first-shot")
-        .description("First shot that replaces small lights: incoming (default) or none");
+    request->flags.add_those_of_solutions(command, request->degree);
     command.run([request] { return run_view(*request); });
 }
 

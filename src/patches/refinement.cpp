@@ -23,7 +23,8 @@ class Middles {
     }
 
     std::uint32_t between(std::uint32_t a, std::uint32_t b) {
-        const auto [found, is_new] = of_edge_.try_emplace(edge_key(a, b), static_cast<std::uint32_t>(vertices_.size()));
+        const auto [found, is_new] =
+            of_edge_.try_emplace(edge_key(a, b), static_cast<std::uint32_t>(vertices_.size()));
         if (is_new) vertices_.push_back(middle_of_(vertices_[a], vertices_[b]));
         return found->second;
     }

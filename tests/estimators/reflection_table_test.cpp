@@ -12,8 +12,8 @@ void expect_the_factors(const Material& material, double tolerance) {
     const math::ZernikeBasis basis(kDegree);
     const ReflectionTable table = make_reflection_table(material, kDegree);
     std::vector<FloatRgb> tabulated(basis.count()), summed(basis.count());
-    for (const Vec3& direction : {Vec3{0, 0, 1}, Vec3{0.3, -0.2, 0.9}, Vec3{-0.7, 0.1, 0.7}, Vec3{0.5, 0.8, 0.3},
-                                  Vec3{-0.2, -0.9, 0.15}}) {
+    for (const Vec3& direction : {Vec3{0, 0, 1}, Vec3{0.3, -0.2, 0.9}, Vec3{-0.7, 0.1, 0.7},
+                                  Vec3{0.5, 0.8, 0.3}, Vec3{-0.2, -0.9, 0.15}}) {
         const Vec3 out = normalized(direction);
         interpolate_factors(table, out, tabulated);
         integrate_factors(material, basis, out, 1 << 14, summed);

@@ -56,8 +56,8 @@ TEST(LightGroups, UnknownNamesAreRefused) {
 /// Each kind of light can be dimmed, to darkness too.
 TEST(LightGroups, AllKindsOfLightAreScaled) {
     EnvironmentLight sky;
-    sky.panorama = std::make_shared<const Panorama>(
-        Panorama::Image{2, 1, {{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}}});
+    sky.panorama =
+        std::make_shared<const Panorama>(Panorama::Image{2, 1, {{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}}});
     const auto half = std::get<EnvironmentLight>(lights::scaled(sky, Rgb::grey(0.5)));
     EXPECT_EQ(half.panorama->luminance_cd_m2({1, 0, 0}), sky.panorama->luminance_cd_m2({1, 0, 0}) * 0.5);
     const auto dark = std::get<EnvironmentLight>(lights::scaled(sky, Rgb{}));

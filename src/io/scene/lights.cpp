@@ -95,7 +95,8 @@ MaterialId black_of_lights(Scene& scene) {
 }
 
 AreaLight read_sphere(TomlTable& table, const Context& context) {
-    expect_light_keys(table, {"type", "center", "radius", "flux", "luminance", "cct", "color"}, "type \"sphere\"");
+    expect_light_keys(table, {"type", "center", "radius", "flux", "luminance", "cct", "color"},
+                      "type \"sphere\"");
     Scene& scene = context.file.scene;
     const Sphere sphere{table.at("center").vector(), table.at("radius").number(kRadius)};
     for (const Object& object : scene.objects) {
