@@ -40,6 +40,8 @@ function(stilb_page_tests)
   if(NOT STILB_CHROMIUM)
     message(STATUS "Page tests are skipped: Chromium is missing")
   endif()
+  set(environment "STILB_PAGE=${page}/dist;STILB_CHROMIUM=${STILB_CHROMIUM}"
+      "STILB=$<TARGET_FILE:stilb>;STILB_SCENES=${PROJECT_SOURCE_DIR}/scenes")
   add_test(NAME page:types COMMAND ${STILB_NODE} node_modules/typescript/bin/tsc WORKING_DIRECTORY ${page})
   file(GLOB tests CONFIGURE_DEPENDS ${web}/test/*.test.mjs)
   foreach(file ${tests})
@@ -48,7 +50,7 @@ function(stilb_page_tests)
     add_test(NAME page:${test} COMMAND ${STILB_NODE} --test ${page}/test/${name} WORKING_DIRECTORY ${page})
     # Drawing in software takes all cores.
     set_tests_properties(page:${test} PROPERTIES
-                         ENVIRONMENT "STILB_PAGE=${page}/dist;STILB_CHROMIUM=${STILB_CHROMIUM};STILB=$<TARGET_FILE:stilb>;STILB_SCENES=${PROJECT_SOURCE_DIR}/scenes"
+                         ENVIRONMENT "${environment}"
                          SKIP_REGULAR_EXPRESSION "page test skipped" PROCESSORS 2 TIMEOUT 300)
   endforeach()
 endfunction()

@@ -115,6 +115,8 @@ async function byPage(html, camera, pixels) {
 }
 
 const median = (values) => values.toSorted((a, b) => a - b)[values.length >> 1];
+/** Median half-width in proportion to the value. */
+const medianError = (readings) => median(readings.map((r) => (STANDARD_ERRORS * r.standard_error) / r.value));
 const percent = (share) => `${(100 * share).toFixed(1)} %`;
 
 const CASES = [
@@ -140,7 +142,8 @@ for (const { what, file, camera, steps, paths } of CASES) {
     const html = join(folder, "walk.html");
     await stilb("view", solution, "-o", html);
     const picture = join(folder, "view.hdr");
-    await stilb("render", "--from", solution, "-o", picture, "--set", `sensors.view.resolution=[${SIZE.width}, ${SIZE.height}]`);
+    const resolution = `sensors.view.resolution=[${SIZE.width}, ${SIZE.height}]`;
+    await stilb("render", "--from", solution, "-o", picture, "--set", resolution);
     const rendered = readRadiancePicture(readFileSync(picture)).luminances;
     const exact = await measured(file, camera, pixels, "--paths", String(paths));
     const showsOne = await showOneSurface(file, camera, pixels);
@@ -161,12 +164,7 @@ for (const { what, file, camera, steps, paths } of CASES) {
     console.log(`${what}: ${percent(asRendered)} of ${compared.length} pixels within ${percent(TOLERANCE)} of render --from`
       + ` (${pixels.length - compared.length} on outlines left out; median difference ${percent(median(fromRender))});`
       + ` ${percent(within)} of ${pixels.length} within the stated error of auto (median difference ${percent(median(fromAuto))},`
-      + ` median error ${percent(median(seen.map(({ value, standard_error }) => (STANDARD_ERRORS * standard_error) / value)))}`
-      + ` and ${percent(median(exact.map(({ value, standard_error }) => (STANDARD_ERRORS * standard_error) / value)))})`);
-    if (process.env.STILB_ACCURACY) {
-      writeFileSync(join(process.env.STILB_ACCURACY, `${what.replaceAll(" ", "_")}.json`), JSON.stringify(pixels.map(([x, y], i) => ({
-        x, y, one: compared.includes(i), page: seen[i], auto: exact[i], render: rendered[y * SIZE.width + x]}))));
-    }
+      + ` median half-widths ${percent(medianError(seen))} and ${percent(medianError(exact))})`);
     assert.ok(asRendered >= ENOUGH, `as render --from: ${percent(asRendered)}`);
     assert.ok(within >= ENOUGH, `within the stated error of auto: ${percent(within)}`);
   });
