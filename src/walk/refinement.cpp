@@ -104,7 +104,10 @@ class Refinement {
           surface_(surface),
           lights_(lights),
           floor_lx_(kFloor * typical_lx),
-          squared_shortest_m2_(extent_m * options.shortest_edge * extent_m * options.shortest_edge) {}
+          squared_shortest_m2_(extent_m * options.shortest_edge * extent_m * options.shortest_edge) {
+        for (const Object& object : scene.scene.objects)
+            half_extents_m_.push_back(bounds_of(object.shape).half_extent());
+    }
 
     void run(const Monitor& monitor) {
         if (surface_.triangles.size() > options_.most_triangles) return;
@@ -255,8 +258,8 @@ class Refinement {
         const Vec3 straight = 0.5 * (a.position + b.position);
         const Vec3 offset = surface_.vertices[edge.middle].position - straight;
         if (squared_length(offset) == 0) return 0;
-        const Shape& shape = scene_.shape_of(surface_.triangles[edge.triangle].side);
-        return length(offset) / bounds_of(shape).half_extent();
+        const ObjectId object = scene_.object_of(surface_.triangles[edge.triangle].side);
+        return length(offset) / half_extents_m_[index_of(object)];
     }
 
     // Halving.
@@ -371,6 +374,7 @@ class Refinement {
     DisplaySurface& surface_;
     VertexLights& lights_;
     double floor_lx_, squared_shortest_m2_;
+    std::vector<double> half_extents_m_;   ///< of the objects
     PairNumbers middles_;                  ///< vertices, by two vertices
     PairNumbers middle_places_;            ///< by two places
     std::vector<std::uint8_t> is_marked_;  ///< per line: its edges are to be halved

@@ -33,9 +33,8 @@ struct RefinementScene {
     const patches::Patches& patches;
     const VertexLight& light;
 
-    const Shape& shape_of(std::uint32_t side) const {
-        return scene.object(patches.object_of(patches.patch_of(side))).shape;
-    }
+    ObjectId object_of(std::uint32_t side) const { return patches.object_of(patches.patch_of(side)); }
+    const Shape& shape_of(std::uint32_t side) const { return scene.object(object_of(side)).shape; }
     bool is_specular(std::uint32_t side) const {
         return materials::is_specular(scene.material(patches.materials[patches.patch_of(side)]));
     }
