@@ -63,9 +63,12 @@ void require_patches(const patches::Patches& patches, const Scene& scene) {
                 patches.materials.size() == count,
             "the lengths of the patches' lists differ");
     require(is_row_table(patches.first_of_object, scene.objects.size(), count), "the objects");
+    std::vector<bool> is_corner(patches.vertices.size());
     for (const Triangle& corners : patches.corners) {
         require(all_below(corners, patches.vertices.size()), "a corner is none of the vertices");
+        for (const std::uint32_t corner : corners) is_corner[corner] = true;
     }
+    require(std::ranges::find(is_corner, false) == is_corner.end(), "a vertex belongs to no patch");
     for (const MaterialId material : patches.materials) {
         require(index_of(material) < scene.materials.size(), "a material is none of the scene's");
     }
@@ -80,14 +83,13 @@ void require_patches(const patches::Patches& patches, const Scene& scene) {
 /// The number of terms of all lit vertices.
 std::size_t terms_of(const PatchSolution& solution, const Scene& scene) {
     const patches::Patches& patches = solution.patches;
-    std::vector<MaterialId> materials(patches.vertices.size(), MaterialId{~0u});
+    std::vector<MaterialId> materials(patches.vertices.size());
     for (std::size_t p = 0; p < patches.count(); ++p) {
         for (const std::uint32_t corner : patches.corners[p]) materials[corner] = patches.materials[p];
     }
     std::size_t terms = 0;
     for (const std::uint32_t side : solution.lit_vertices) {
         const MaterialId material = materials[side % materials.size()];
-        require(index_of(material) < scene.materials.size(), "a vertex with light belongs to no patch");
         terms += reflects_alike(scene.material(material)) ? 1 : math::ZernikeBasis(solution.degree).count();
     }
     return terms;
