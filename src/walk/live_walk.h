@@ -33,7 +33,7 @@ class Pace {
 /// The light of a scene from its beginning, or that of a solution, as data for the page.
 class LiveWalk final : private SolutionSink, private ProgressSink {
   public:
-    /// Solves the scene. `progress` is told all that a run reports; may be null. File and sink must outlive
+    /// Solves the scene. `progress` receives the run's reports and may be null. File and sink must outlive
     /// this.
     LiveWalk(const io::SceneFile& file, const RunOptions& options, int degree, ProgressSink* progress);
     /// Shows what was solved before.
@@ -73,7 +73,7 @@ class LiveWalk final : private SolutionSink, private ProgressSink {
     void make_light(const estimators::PatchSolution& solution, const RunSummary& summary, bool is_done);
     void change(const std::function<void(State&)>& change);
 
-    // Of the run, called from its threads.
+    // The run calls these from its threads.
     void prepare(const rays::RayCaster& caster, const estimators::PatchSolution& dark) override;
     bool wants_solution() override;
     void show(const estimators::PatchSolution& solution, const RunSummary& so_far) override;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "patches/refinement.h"
 
 namespace stilb::walk {
 namespace {
@@ -20,10 +21,6 @@ constexpr double kSmallBulge = 0.005;
 constexpr double kInside = 4. / 3;
 /// Triangles that halving an edge adds, with those that have to follow it.
 constexpr std::size_t kTrianglesPerEdge = 4;
-
-std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) {
-    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
 
 /// Numbers of pairs, by open addressing: several times faster than std::unordered_map.
 class PairNumbers {
@@ -145,7 +142,7 @@ class Refinement {
             const double area_m2 = surface_.area_m2(surface_.triangles[t]);
             auto& own = all.of_triangle.emplace_back();
             for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint64_t pair = pair_of(corners[i], corners[(i + 1) % 3]);
+                const std::uint64_t pair = patches::edge_key(corners[i], corners[(i + 1) % 3]);
                 const auto next = static_cast<std::uint32_t>(all.edges.size());
                 const auto [number, is_new] = numbers.add(pair, next);
                 if (is_new) {
@@ -175,7 +172,7 @@ class Refinement {
         return squared_length(surface_.vertices[a].position - surface_.vertices[b].position);
     }
     std::uint64_t places_of(std::uint32_t a, std::uint32_t b) const {
-        return pair_of(surface_.vertices[a].place, surface_.vertices[b].place);
+        return patches::edge_key(surface_.vertices[a].place, surface_.vertices[b].place);
     }
 
     // Middles.
@@ -196,11 +193,11 @@ class Refinement {
         const SurfaceVertex &a = surface_.vertices[edge.a], &b = surface_.vertices[edge.b];
         const Shape& shape = scene_.shape_of(surface_.triangles[edge.triangle].side);
         SurfaceVertex vertex = middle_between(shape, a, b);
-        const auto [place, is_new] = middle_places_.add(pair_of(a.place, b.place), surface_.places);
+        const auto [place, is_new] = middle_places_.add(patches::edge_key(a.place, b.place), surface_.places);
         if (is_new) ++surface_.places;
         vertex.place = place;
         surface_.vertices.push_back(vertex);
-        middles_.add(pair_of(edge.a, edge.b), middle);
+        middles_.add(patches::edge_key(edge.a, edge.b), middle);
         return middle;
     }
 
@@ -252,7 +249,7 @@ class Refinement {
         return std::max(of_light, bulge(edge) / kSmallBulge);
     }
 
-    /// Of the true surface beyond the edge, over its radius.
+    /// How far the true surface lies beyond the edge, over the surface's radius.
     double bulge(const SurfaceEdge& edge) const {
         const auto &a = surface_.vertices[edge.a], &b = surface_.vertices[edge.b];
         const Vec3 straight = 0.5 * (a.position + b.position);

@@ -27,7 +27,7 @@ struct VertexLights {
     double sum_lx(std::uint32_t vertex) const;
 };
 
-/// What refinement looks at; all of it must outlive the call.
+/// The scene that is refined. Refinement keeps references to all three.
 struct RefinementScene {
     const Scene& scene;
     const patches::Patches& patches;

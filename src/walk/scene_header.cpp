@@ -11,7 +11,7 @@ Json value_json(double value) { return value; }
 Json value_json(const Rgb& value) { return json_of(value); }
 Json value_json(const std::array<double, 2>& value) { return value; }
 
-/// Of a colour of luminance 1; white where the light is dark.
+/// The light's colour with luminance 1; white where the light is dark.
 Rgb colour_of(const Rgb& flux_lm) {
     const double luminous = flux_lm.luminance();
     return luminous > 0 ? flux_lm * (1 / luminous) : Rgb::grey(1);

@@ -27,12 +27,6 @@ PatchTransport::PatchTransport(const Scene& all, const rays::RayCaster& rays, co
     describe_patches();
 }
 
-PatchTransport::PatchTransport(const Scene& all, const rays::RayCaster& rays, patches::Patches made,
-                               std::optional<FirstShotFactors> factors)
-    : FirstShotPatches(all, rays, std::move(made), std::move(factors)) {
-    describe_patches();
-}
-
 void PatchTransport::describe_patches() {
     const std::size_t count = patches.count();
     glossy_number.assign(count, kConstant);

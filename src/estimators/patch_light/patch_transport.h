@@ -34,11 +34,9 @@ inline void add_to(std::vector<FloatRgb>& sums, const std::vector<FloatRgb>& oth
 
 /// Keeps references to scene and caster. Immutable after construction.
 struct PatchTransport : FirstShotPatches {
-    /// Both as in FirstShotPatches.
+    /// As FirstShotPatches.
     PatchTransport(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
                    const Monitor& monitor = Monitor::none());
-    PatchTransport(const Scene& scene, const rays::RayCaster& caster, patches::Patches patches,
-                   std::optional<FirstShotFactors> factors);
 
     const Material& material_of(std::uint32_t patch) const {
         return scene.material(patches.materials[patch]);

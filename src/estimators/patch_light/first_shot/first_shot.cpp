@@ -86,22 +86,6 @@ FirstShotOptions first_shot_options(const PatchOptions& asked) {
     return options;
 }
 
-FirstShot first_shot_of(const FirstShotPatches& all, std::optional<FirstShotFactors> factors) {
-    if (factors) return {all.scene, all.caster, all.patches, std::move(*factors)};
-    return {all.scene, all.caster, all.lights, all.patch_caster, {FirstShotVariant::none, {}}};
-}
-
-double longest_edge_m(const patches::Patches& patches) {
-    double longest = 0;
-    for (const Triangle& corners : patches.corners) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3 from(patches.vertices[corners[i]]), to(patches.vertices[corners[(i + 1) % 3]]);
-            longest = std::max(longest, squared_length(to - from));
-        }
-    }
-    return std::sqrt(longest);
-}
-
 }  // namespace
 
 FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, const PatchOptions& asked,
@@ -114,16 +98,6 @@ FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays
       patches(patches::make_patches(scene, size_m, monitor)),
       patch_caster(patches),
       first_shot(scene, caster, lights, patch_caster, first_shot_options(options), monitor) {}
-
-FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, patches::Patches made,
-                                   std::optional<FirstShotFactors> factors)
-    : scene(all),
-      caster(rays),
-      lights(scene, caster),
-      size_m(longest_edge_m(made)),
-      patches(std::move(made)),
-      patch_caster(patches),
-      first_shot(first_shot_of(*this, std::move(factors))) {}
 
 void FirstShotPatches::add_to(std::span<transport::Path* const> paths, rays::Coherence coherence) const {
     std::vector<ViewedHit> points;

@@ -112,10 +112,6 @@ class FirstShot {
 struct FirstShotPatches : transport::StoredReflection {
     FirstShotPatches(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
                      const Monitor& monitor = Monitor::none());
-    /// From patches and factors of incoming first shot that were made for the same scene; without factors
-    /// there is no first shot.
-    FirstShotPatches(const Scene& scene, const rays::RayCaster& caster, patches::Patches patches,
-                     std::optional<FirstShotFactors> factors);
 
     /// Surfaces reflect as the patches do that represent them.
     void add_to(std::span<transport::Path* const> paths, rays::Coherence coherence) const override;

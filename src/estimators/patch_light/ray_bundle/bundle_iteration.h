@@ -62,18 +62,18 @@ class BundleIteration final : public PatchLight {
     void radiate_constant();
     void radiate_glossy(const Vec3& axis);
     void transfer(std::size_t axis, const patches::Bundle& bundle);
-    /// What a group sends into a line at its crossing number i.
+    /// The luminance that a side sends along a line at the line's crossing number i, of one group.
     FloatRgb sent(std::size_t group, std::uint32_t side, const patches::CrossedLine& line, std::size_t i,
                   const Vec3& out, const Vec3& along) const;
     void receive(std::size_t group, std::uint32_t side, std::size_t axis, const FloatRgb& luminance,
                  double ray_area_m2);
-    /// Of the glossy `side` towards `out`, by the light received in the last step.
+    /// The luminance that a glossy side sends towards `out`, by the light received in the last step.
     Rgb reflected_of(std::size_t group, std::uint32_t side, std::uint32_t glossy, const Vec3& out) const;
     static const Vec3& axis_of(const Frame& frame, std::size_t axis) {
         return axis == 0 ? frame.w : axis == 1 ? frame.u : frame.v;
     }
     std::size_t index(std::uint32_t side, std::size_t group) const { return side * sources_.size() + group; }
-    /// Of the first group.
+    /// The index of the first group's value.
     std::size_t glossy_index(std::uint32_t side, std::uint32_t number, std::size_t axis) const;
 
     const PatchTransport& transport_;

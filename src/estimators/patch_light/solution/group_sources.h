@@ -1,4 +1,4 @@
-// What each group of lights brings to the walks over patches.
+// The light of each group of lights at the beginning of the walks over patches: emission and first shot.
 #pragma once
 
 #include <memory>

@@ -7,7 +7,7 @@
 namespace stilb::estimators {
 namespace {
 
-/// Of a group with more lights, so many are chosen.
+/// A group with more lights than this has as many lights chosen at random at each point.
 constexpr std::size_t kSamplesOfManyLights = 16;
 
 }  // namespace
