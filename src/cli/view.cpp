@@ -110,8 +110,8 @@ void require_output(const ViewRequest& request, const Input& input) {
 /// The computation, with its progress on the terminal.
 class Viewing {
   public:
-    Viewing(const ViewRequest& request, Input& input) {
-        progress_.emplace("steps", request.flags.off_terminal());
+    Viewing(const ViewRequest& request, Input& input)
+        : progress_(std::in_place, "steps", request.flags.off_terminal()) {
         if (!input.stored) {
             walk_.emplace(input.file, request.flags.over(input.file.run),
                           request.degree.value_or(run::kDefaultDegree),
