@@ -16,6 +16,7 @@
 #include "estimators/patch_light/solution/light_gather.h"
 #include "estimators/patch_light/solution/light_vertices.h"
 #include "run/schedule.h"
+#include "run/solution_errors.h"
 #include "scene/light_groups.h"
 #include "scene/sealed_sides.h"
 #include "statistics/interval.h"
@@ -93,10 +94,12 @@ class Walks final : public Work {
         }
     }
 
-    /// The errors of the illuminances, direct light included, weighted by flux: places with hardly any
-    /// light, in cracks and where things touch, must not decide.
-    double attained_error() const override { return error_of(gather_->illuminances(), 1); }
-    bool is_beyond_reach(double error) const override { return error_of(gather_->illuminances(), 0) > error; }
+    double attained_error() const override {
+        return attained_errors(fine_.patches, gather_->illuminances()).all;
+    }
+    bool is_beyond_reach(double error) const override {
+        return attained_errors(fine_.patches, gather_->illuminances()).bias > error;
+    }
 
     void show() override {
         if (!sink_ || !has_result() || !sink_->wants_solution()) return;
@@ -144,22 +147,6 @@ class Walks final : public Work {
         return false;
     }
 
-    static double error_of(estimators::LightGather::Illuminances illuminances, double share_of_noise) {
-        const std::size_t vertices = illuminances.area_m2.size();
-        if (vertices == 0) return 0;
-        std::vector<statistics::Estimate> estimates = statistics::estimate_readings(
-            {illuminances.replicate_means, vertices}, statistics::kStoppedConfidence);
-        std::vector<double> flux_lm;
-        for (std::size_t i = 0; i < vertices; ++i) {
-            statistics::Estimate& estimate = estimates[i];
-            const double bias_lx = illuminances.bias_lx[i];
-            estimate.lower = estimate.value - share_of_noise * (estimate.value - estimate.lower) - bias_lx;
-            estimate.upper = estimate.value + share_of_noise * (estimate.upper - estimate.value) + bias_lx;
-            flux_lm.push_back(estimate.value * illuminances.area_m2[i]);
-        }
-        return stilb::statistics::attained_error(estimates, flux_lm);
-    }
-
     const estimators::PatchTransport& transport_;
     const estimators::TermLayout& layout_;
     const LightGroups& groups_;
@@ -195,40 +182,6 @@ void require_storable(const Scene& scene, const RunOptions& options, int degree)
 }
 
 }  // namespace
-
-std::vector<float> relative_errors(const estimators::PatchSolution& solution) {
-    std::vector<float> errors;
-    std::vector<double> shares(solution.replicates.size());
-    for (std::size_t i = 0; i < solution.bias.size(); ++i) {
-        for (std::size_t r = 0; r < shares.size(); ++r) shares[r] = to_float(solution.replicates[r][i]);
-        const double noise = statistics::relative_half_width(statistics::estimate_from_replicates(shares));
-        errors.push_back(static_cast<float>(noise) + to_float(solution.bias[i]));
-    }
-    return errors;
-}
-
-estimators::PatchSolution rounded_to_errors(estimators::PatchSolution solution, const Scene& scene) {
-    constexpr double share_of_error = 0.25;
-    const estimators::LightVertices vertices(scene, solution.patches, solution.degree, solution.lit_vertices);
-    const std::vector<float> errors = relative_errors(solution);
-    // The roundings of the groups are independent of each other.
-    const double share = share_of_error / std::sqrt(static_cast<double>(solution.groups.size()));
-    for (std::uint32_t i = 0; i < errors.size(); ++i) {
-        Rgb whole;
-        for (const auto& group : solution.terms) whole += to_rgb(group[vertices.first_term(i)]);
-        for (std::size_t b = 0; b < kBands; ++b) {
-            const double size = share * double{errors[i]} * whole[b];
-            if (!(size > 0) || !std::isfinite(size)) continue;
-            // A power of two, so that the last bits of numbers are 0.
-            const auto step = static_cast<float>(std::exp2(std::floor(std::log2(size))));
-            for (auto& group : solution.terms) {
-                for (std::uint32_t t = vertices.first_term(i); t < vertices.first_term(i + 1); ++t)
-                    group[t][b] = to_half(step * std::nearbyint(to_float(group[t][b]) / step));
-            }
-        }
-    }
-    return solution;
-}
 
 SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degree, ProgressSink* progress,
                   const std::atomic<bool>* interrupt, SolutionSink* sink) {

@@ -39,14 +39,6 @@ inline constexpr double kSolutionPatches = 3000;
 /// At most so many finer patches.
 inline constexpr std::size_t kMostFinePatches = 60'000;
 
-/// Per lit vertex: the relative half-width of the 95 % interval of its illuminance without direct light: the
-/// noise of the replicates, and beside it the bias of the patches.
-std::vector<float> relative_errors(const estimators::PatchSolution& solution);
-
-/// The terms rounded to steps of at most a quarter of the stated error, for all groups together: the rest is
-/// noise, which takes space in files.
-estimators::PatchSolution rounded_to_errors(estimators::PatchSolution solution, const Scene& scene);
-
 /// Solves by method ray-bundle and by gathering at vertices, regardless of the options' method; their `paths`
 /// are steps of all walks together. Without any limit, for a minute. The result depends on scene, patches,
 /// degree and seed, and on the steps done: not on threads. `interrupt` ends the run early, with a result.

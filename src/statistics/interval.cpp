@@ -121,11 +121,12 @@ double attained_error_of(std::vector<double> half_widths, double share) {
     return *last;
 }
 
-double attained_error(std::span<const Estimate> readings, std::span<const double> weights, double share) {
+double attained_error_of(std::span<const double> relative_half_widths, std::span<const double> weights,
+                         double share) {
     std::vector<std::pair<double, double>> half_widths;  // with their weights
     double needed = 0;
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-        half_widths.emplace_back(relative_half_width(readings[i]), weights[i]);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        half_widths.emplace_back(relative_half_widths[i], weights[i]);
         needed += share * weights[i];
     }
     std::sort(half_widths.begin(), half_widths.end());

@@ -107,8 +107,8 @@ double attained_error(std::span<const Estimate> readings, double share = kReadin
 double attained_error_of(std::vector<double> relative_half_widths, double share = kReadingShare);
 /// The half-width that readings with this share of all weight meet; weights are not negative, one for each
 /// reading.
-double attained_error(std::span<const Estimate> readings, std::span<const double> weights,
-                      double share = kReadingShare);
+double attained_error_of(std::span<const double> relative_half_widths, std::span<const double> weights,
+                         double share = kReadingShare);
 
 /// The number of samples at the next error estimate, after `done`: `first`, then 1.5, 2, 3, 4, 6 ...
 /// times as many, where Sobol' points are at their best and the overshoot is at most a half.

@@ -14,6 +14,7 @@
 #include "estimators/patch_light/solution/light_vertices.h"
 #include "estimators/patch_light/solution/reflection_table.h"
 #include "io/text/compression.h"
+#include "run/solution_errors.h"
 #include "run/solve.h"
 #include "scene/light_groups.h"
 #include "walk/container.h"

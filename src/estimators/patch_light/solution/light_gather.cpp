@@ -83,6 +83,8 @@ struct LightGather::GatheredRay {
     transport::Path path;
     bool stands = false;  ///< on a surface that scatters
     GroupLight once{}, twice{};
+    /// What the light by the ray's own replicate differs by from the light by all, luminance-weighted.
+    double own_cd_m2 = 0;
 };
 
 LightGather::LightGather(const PatchTransport& coarse, const TermLayout& layout,
@@ -202,6 +204,20 @@ void LightGather::renew_source() {
             }
         }
     }
+    renew_source_shares();
+}
+
+/// Rays of all replicates see the light that all have found so far, whose noise their spread would not show.
+void LightGather::renew_source_shares() {
+    source_shares_.assign(replicate_lx_.size(), 1);
+    if (steps_ < kFirstSteps) return;
+    const std::size_t replicates = walks_.size();
+    for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
+        const double mean_lx = illuminance_lx(i), rays = static_cast<double>(rays_[i] - 1);
+        if (!(mean_lx > 0)) continue;
+        for (std::size_t r = i * replicates; r < (i + 1) * replicates; ++r)
+            source_shares_[r] = static_cast<float>(replicate_lx_[r] / rays / mean_lx);
+    }
 }
 
 void LightGather::step() {
@@ -320,13 +336,13 @@ void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side,
         of_groups[g] += reflected_cd_m2(walk.sums_of(g, coarse_side), used, scale);
 }
 
-void LightGather::add_of_vertices(const GatheredRay& ray, const PatchLocation& location,
+void LightGather::add_of_vertices(GatheredRay& ray, const PatchLocation& location,
                                   std::span<Rgb> of_groups) const {
     const std::uint32_t patch = fine_.patches.patch_of(location.side);
     const auto& [b0, b1, b2] = location.barycentric;
     const std::array weights{b0, b1, b2};
     GroupLight sums{};
-    double weight = 0;
+    double weight = 0, own_cd_m2 = 0;
     std::array<FloatRgb, math::ZernikeBasis::kMostCount> factors;
     for (std::size_t c = 0; c < 3; ++c) {
         const std::uint32_t number =
@@ -336,14 +352,21 @@ void LightGather::add_of_vertices(const GatheredRay& ray, const PatchLocation& l
         const Vec3 out = vertices_.frame(number).to_local(ray.path.outgoing);
         interpolate_factors(tables_[index_of(vertices_.material(number))], {out.x, out.y, std::abs(out.z)},
                             used);
+        Rgb whole;
         for (std::size_t g = 0; g < of_groups.size(); ++g) {
             const auto terms =
                 std::span(source_).subspan(index(g, vertices_.first_term(number)), used.size());
-            sums[g] += reflected_cd_m2(terms, used, weights[c]);
+            const Rgb reflected = reflected_cd_m2(terms, used, weights[c]);
+            sums[g] += reflected;
+            whole += reflected;
         }
+        const float share = source_shares_[number * walks_.size() + ray.replicate];
+        own_cd_m2 += (share - 1) * (ray.path.throughput * whole).luminance();
         weight += weights[c];
     }
-    for (std::size_t g = 0; weight > 0 && g < of_groups.size(); ++g) of_groups[g] += sums[g] * (1 / weight);
+    if (!(weight > 0)) return;
+    for (std::size_t g = 0; g < of_groups.size(); ++g) of_groups[g] += sums[g] * (1 / weight);
+    ray.own_cd_m2 = own_cd_m2 / weight;
 }
 
 void LightGather::add(const GatheredRay& ray) {
@@ -351,6 +374,8 @@ void LightGather::add(const GatheredRay& ray) {
     const std::uint32_t first = vertices_.first_term(ray.vertex), count = vertices_.terms_of(ray.vertex);
     if (count > 1) basis_.evaluate(ray.local_direction, values);
     const bool has_second = !source_.empty();
+    const std::size_t own = ray.vertex * walks_.size() + ray.replicate;
+    replicate_lx_[own] += kPi * ray.own_cd_m2;
     for (std::size_t g = 0; g < groups_.count(); ++g) {
         const Rgb once_lx = ray.once[g] * kPi, twice_lx = ray.twice[g] * kPi;
         if (!once_lx.is_finite() || !twice_lx.is_finite()) continue;
@@ -359,7 +384,7 @@ void LightGather::add(const GatheredRay& ray) {
             if (has_second) add_to(twice_[index(g, first + k)], twice_lx * values[k]);
         }
         if (!has_second) continue;
-        replicate_lx_[ray.vertex * walks_.size() + ray.replicate] += twice_lx.luminance();
+        replicate_lx_[own] += twice_lx.luminance();
         difference_lx_[ray.vertex] += twice_lx.luminance() - once_lx.luminance();
     }
 }
@@ -378,6 +403,7 @@ double LightGather::bias_lx(std::uint32_t vertex) const {
 auto LightGather::illuminances() const -> Illuminances {
     Illuminances result;
     result.area_m2 = area_m2_;
+    result.lit_sides = vertices_.sides();
     for (std::size_t r = 0; r < walks_.size(); ++r) {
         for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
             result.replicate_means.push_back(direct_lx_[i] + replicate_lx_[i * walks_.size() + r] /

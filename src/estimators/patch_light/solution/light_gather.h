@@ -52,8 +52,9 @@ class LightGather {
     struct Illuminances {
         /// Replicates x vertices: the mean of each, direct light included [lx].
         std::vector<double> replicate_means;
-        std::vector<double> bias_lx;  ///< per vertex: what the patches add or lack at most
-        std::vector<double> area_m2;  ///< per vertex: of the surface around
+        std::vector<double> bias_lx;               ///< per vertex: what the patches add or lack at most
+        std::vector<double> area_m2;               ///< per vertex: of the surface around
+        std::span<const std::uint32_t> lit_sides;  ///< of the vertices, see LightVertices
     };
     Illuminances illuminances() const;
 
@@ -68,14 +69,14 @@ class LightGather {
     bool is_covered(const Origin& origin, const std::vector<bool>& is_lit) const;
     void add_direct_light();
     void renew_source();
+    void renew_source_shares();
     /// All replicates' next rays of some vertices.
     void gather(std::uint32_t first, std::uint32_t last);
     std::optional<GatheredRay> start(std::uint32_t vertex, std::uint32_t replicate) const;
     void follow(std::span<GatheredRay> rays) const;
     void reflect(GatheredRay& ray, const std::optional<PatchLocation>& location) const;
     void add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side, std::span<Rgb> of_groups) const;
-    void add_of_vertices(const GatheredRay& ray, const PatchLocation& location,
-                         std::span<Rgb> of_groups) const;
+    void add_of_vertices(GatheredRay& ray, const PatchLocation& location, std::span<Rgb> of_groups) const;
     void add(const GatheredRay& ray);
     std::size_t group_of(const transport::Path& ended) const;
     /// The number of a term in arrays of all groups.
@@ -107,8 +108,10 @@ class LightGather {
     std::vector<std::uint64_t> rays_;  ///< of each replicate, per vertex
     // Sums over the rays of all replicates, group by group:
     std::vector<FloatRgb> once_, twice_;
-    std::vector<FloatRgb> source_;       ///< the mean at the vertices, renewed from time to time
-    std::vector<double> replicate_lx_;   ///< vertices x replicates: sums gathered twice, luminance-weighted
+    std::vector<FloatRgb> source_;      ///< the mean at the vertices, renewed from time to time
+    std::vector<float> source_shares_;  ///< vertices x replicates: what each found, as a share of the mean
+    /// Vertices x replicates: sums gathered twice, luminance-weighted, by each replicate's own light.
+    std::vector<double> replicate_lx_;
     std::vector<double> difference_lx_;  ///< per vertex: sum of what the two ways differ by
 };
 
