@@ -32,6 +32,8 @@ constexpr std::size_t kSolutionReplicates = 8;
 /// Steps of each walk before the first error estimate.
 constexpr std::uint64_t kFirstCheck = 16;
 constexpr std::uint64_t kStepsAtOnce = 4;
+/// The walks make one step for so many of the gathering, as soon as only the bias depends on them.
+constexpr std::uint64_t kStepsForOneOfWalks = 4;
 
 enum SolvePurpose : std::uint64_t { kWalks, kGather };
 /// Counted steps of the walks before it is known which sides of patches light reaches at all.
@@ -85,11 +87,10 @@ class Walks final : public Work {
 
     void advance(std::uint64_t steps) override {
         for (std::uint64_t i = 0; i < steps; ++i) {
-            parallel_for(kSolutionReplicates, [&](std::size_t w) {
-                monitor_.require_more();
-                walks_[w]->iteration.step();
-                walks_[w]->sums.add(walks_[w]->iteration);
-            });
+            const std::uint64_t gathered = gather_->steps();
+            if (gathered < estimators::LightGather::kStepsToTrustSecond ||
+                gathered % kStepsForOneOfWalks == 0)
+                step_walks();
             gather_->step();
         }
     }
@@ -121,6 +122,14 @@ class Walks final : public Work {
         estimators::BundleIteration iteration;
         estimators::TermSums sums;
     };
+
+    void step_walks() {
+        parallel_for(kSolutionReplicates, [&](std::size_t w) {
+            monitor_.require_more();
+            walks_[w]->iteration.step();
+            walks_[w]->sums.add(walks_[w]->iteration);
+        });
+    }
 
     /// Per side of the patches: whether any light reaches it.
     std::vector<bool> lit_sides() const {

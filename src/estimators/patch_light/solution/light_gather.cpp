@@ -22,9 +22,6 @@ constexpr std::uint32_t kTogether = 32;
 /// Rays start so far from the vertex towards the middle of a patch around it, because a vertex may lie where
 /// two objects touch.
 constexpr double kShareToMiddle = 0.2;
-/// From then on the light gathered twice is gathered again: by and by all reflections are seen from vertices,
-/// and what patches lack (light by mirrors) fades out of the result.
-constexpr std::uint64_t kStepsToTrustSecond = 8;
 /// Rays that tell whether a place is covered by another object.
 constexpr std::uint32_t kRaysToCover = 8;
 
@@ -40,10 +37,6 @@ std::vector<ReflectionTable> tables_of(const Scene& scene, int degree) {
         if (!reflects_nothing(material)) tables[i] = make_reflection_table(material, degree);
     });
     return tables;
-}
-
-Rgb reflected_cd_m2(std::span<const FloatRgb> terms, std::span<const FloatRgb> factors, double scale) {
-    return estimators::reflected_cd_m2(terms, factors) * scale;
 }
 
 HalfRgb stored(const Rgb& term) {
@@ -85,6 +78,21 @@ struct LightGather::GatheredRay {
     GroupLight once{}, twice{};
     /// What the light by the ray's own replicate differs by from the light by all, luminance-weighted.
     double own_cd_m2 = 0;
+};
+
+/// Corners of a patch that carry light.
+struct LightGather::LitCorners {
+    std::size_t count = 0;
+    std::array<std::uint32_t, 3> numbers{};
+    std::array<double, 3> sums{};  ///< of the barycentric coordinates so far
+    /// What a replicate found there, as a share of what all did.
+    double source_share = 0;
+
+    std::uint32_t chosen(double u) const {
+        std::size_t c = 0;
+        while (c + 1 < count && sums[c] <= u * sums[count - 1]) ++c;
+        return numbers[c];
+    }
 };
 
 LightGather::LightGather(const PatchTransport& coarse, const TermLayout& layout,
@@ -333,40 +341,46 @@ void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side,
     interpolate_factors(tables_[index_of(ray.path.hit.material)], {out.x, out.y, std::abs(out.z)}, used);
     const double scale = 1 / static_cast<double>(walk.steps());
     for (std::size_t g = 0; g < of_groups.size(); ++g)
-        of_groups[g] += reflected_cd_m2(walk.sums_of(g, coarse_side), used, scale);
+        of_groups[g] += reflected_cd_m2(walk.sums_of(g, coarse_side), used) * scale;
 }
 
+/// From one corner of the patch, chosen at random by the barycentric coordinates: a third of the work of all
+/// three, for hardly more noise.
 void LightGather::add_of_vertices(GatheredRay& ray, const PatchLocation& location,
                                   std::span<Rgb> of_groups) const {
-    const std::uint32_t patch = fine_.patches.patch_of(location.side);
+    const LitCorners corners = lit_corners(location, ray.replicate);
+    if (corners.count == 0) return;
+    const std::uint32_t number = corners.chosen(ray.path.stream.next());
+    std::array<FloatRgb, math::ZernikeBasis::kMostCount> factors;
+    const std::span<FloatRgb> used(factors.data(), vertices_.terms_of(number));
+    const Vec3 out = vertices_.frame(number).to_local(ray.path.outgoing);
+    interpolate_factors(tables_[index_of(vertices_.material(number))], {out.x, out.y, std::abs(out.z)}, used);
+    Rgb whole;
+    for (std::size_t g = 0; g < of_groups.size(); ++g) {
+        const auto terms = std::span(source_).subspan(index(g, vertices_.first_term(number)), used.size());
+        const Rgb reflected = reflected_cd_m2(terms, used);
+        of_groups[g] += reflected;
+        whole += reflected;
+    }
+    ray.own_cd_m2 = (corners.source_share - 1) * (ray.path.throughput * whole).luminance();
+}
+
+auto LightGather::lit_corners(const PatchLocation& location, std::uint32_t replicate) const -> LitCorners {
+    const Triangle& corners = fine_.patches.corners[fine_.patches.patch_of(location.side)];
     const auto& [b0, b1, b2] = location.barycentric;
     const std::array weights{b0, b1, b2};
-    GroupLight sums{};
-    double weight = 0, own_cd_m2 = 0;
-    std::array<FloatRgb, math::ZernikeBasis::kMostCount> factors;
+    LitCorners lit;
+    double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::uint32_t number =
-            vertices_.number_of(fine_.patches.corners[patch][c], fine_.patches.is_front(location.side));
-        if (number == LightVertices::kDark) continue;
-        const std::span<FloatRgb> used(factors.data(), vertices_.terms_of(number));
-        const Vec3 out = vertices_.frame(number).to_local(ray.path.outgoing);
-        interpolate_factors(tables_[index_of(vertices_.material(number))], {out.x, out.y, std::abs(out.z)},
-                            used);
-        Rgb whole;
-        for (std::size_t g = 0; g < of_groups.size(); ++g) {
-            const auto terms =
-                std::span(source_).subspan(index(g, vertices_.first_term(number)), used.size());
-            const Rgb reflected = reflected_cd_m2(terms, used, weights[c]);
-            sums[g] += reflected;
-            whole += reflected;
-        }
-        const float share = source_shares_[number * walks_.size() + ray.replicate];
-        own_cd_m2 += (share - 1) * (ray.path.throughput * whole).luminance();
-        weight += weights[c];
+        const std::uint32_t number = vertices_.number_of(corners[c], fine_.patches.is_front(location.side));
+        if (number == LightVertices::kDark || !(weights[c] > 0)) continue;
+        lit.source_share += weights[c] * double{source_shares_[number * walks_.size() + replicate]};
+        sum += weights[c];
+        lit.numbers[lit.count] = number;
+        lit.sums[lit.count++] = sum;
     }
-    if (!(weight > 0)) return;
-    for (std::size_t g = 0; g < of_groups.size(); ++g) of_groups[g] += sums[g] * (1 / weight);
-    ray.own_cd_m2 = own_cd_m2 / weight;
+    if (lit.count > 0) lit.source_share /= sum;
+    return lit;
 }
 
 void LightGather::add(const GatheredRay& ray) {

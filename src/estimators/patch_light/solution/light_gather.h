@@ -44,6 +44,9 @@ class LightGather {
     std::uint64_t steps() const { return steps_; }
     /// Steps before there is light that was gathered twice, in all replicates.
     static constexpr std::uint64_t kFirstSteps = 2;
+    /// From then on the light gathered twice is gathered again: by and by all reflections are seen from
+    /// vertices, and what patches lack (light by mirrors) fades out of the result.
+    static constexpr std::uint64_t kStepsToTrustSecond = 8;
 
     /// The layout and the light; without light before kFirstSteps.
     PatchSolution solution() const;
@@ -64,6 +67,7 @@ class LightGather {
         Vec3 lifted, normal;
     };
     struct GatheredRay;
+    struct LitCorners;
 
     void find_origins(const std::vector<bool>& is_lit);
     bool is_covered(const Origin& origin, const std::vector<bool>& is_lit) const;
@@ -77,6 +81,7 @@ class LightGather {
     void reflect(GatheredRay& ray, const std::optional<PatchLocation>& location) const;
     void add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side, std::span<Rgb> of_groups) const;
     void add_of_vertices(GatheredRay& ray, const PatchLocation& location, std::span<Rgb> of_groups) const;
+    LitCorners lit_corners(const PatchLocation& location, std::uint32_t replicate) const;
     void add(const GatheredRay& ray);
     std::size_t group_of(const transport::Path& ended) const;
     /// The number of a term in arrays of all groups.
