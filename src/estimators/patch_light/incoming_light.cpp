@@ -36,25 +36,17 @@ std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport) {
 void TermSums::add(const BundleIteration& iteration) {
     std::array<double, math::ZernikeBasis::kMostCount> values{1 / kSqrtPi};
     for (const std::uint32_t side : layout_.sides()) {
-        const std::size_t first = layout_.first_of(side), count = layout_.count_of(side);
+        const std::size_t count = layout_.count_of(side);
         const Frame frame = Frame::of_surface(transport_.patches.normal_of(side));
         iteration.for_each_arrival(side, [&](const Vec3& in, std::span<const Rgb> illuminances_lx) {
             if (count > 1) layout_.basis().evaluate(frame.to_local(in), values);
             for (std::size_t g = 0; g < illuminances_lx.size(); ++g) {
-                FloatRgb* const sums = &sums_[g * layout_.count() + first];
+                FloatRgb* const sums = &sums_[first_of(g, side)];
                 for (std::size_t k = 0; k < count; ++k) add_to(sums[k], illuminances_lx[g] * values[k]);
             }
         });
     }
     ++steps_;
-}
-
-std::vector<FloatRgb> TermSums::mean() const {
-    std::vector<FloatRgb> means;
-    means.reserve(sums_.size());
-    for (const FloatRgb& sum : sums_)
-        means.push_back(to_float_rgb(to_rgb(sum) * (1 / static_cast<double>(steps_))));
-    return means;
 }
 
 std::vector<FloatRgb> reflection_factors(const PatchTransport& transport, const TermLayout& layout,

@@ -51,22 +51,25 @@ std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport);
 class TermSums {
   public:
     TermSums(const PatchTransport& transport, const TermLayout& layout, std::size_t groups = 1)
-        : transport_(transport), layout_(layout), sums_(groups * layout.count()) {}
+        : transport_(transport), layout_(layout), groups_(groups), sums_(groups * layout.count()) {}
 
     /// Adds the light received in the last step.
     void add(const BundleIteration& iteration);
     std::uint64_t steps() const { return steps_; }
-    /// Group by group [lx / sqrt(sr)].
-    std::vector<FloatRgb> mean() const;
-    /// The sum over the steps, of a side's terms.
+    /// The sum over the steps, of a side's terms [lx / sqrt(sr)].
     std::span<const FloatRgb> sums_of(std::size_t group, std::uint32_t side) const {
-        return std::span(sums_).subspan(group * layout_.count() + layout_.first_of(side),
-                                        layout_.count_of(side));
+        return std::span(sums_).subspan(first_of(group, side), layout_.count_of(side));
     }
 
   private:
     const PatchTransport& transport_;
     const TermLayout& layout_;
+    /// A side's groups lie beside each other in memory, because they are read together.
+    std::size_t first_of(std::size_t group, std::uint32_t side) const {
+        return groups_ * layout_.first_of(side) + group * layout_.count_of(side);
+    }
+
+    std::size_t groups_;
     std::uint64_t steps_ = 0;
     std::vector<FloatRgb> sums_;
 };

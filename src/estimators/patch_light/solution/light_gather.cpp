@@ -15,8 +15,6 @@
 namespace stilb::estimators {
 namespace {
 
-using GroupLight = std::array<Rgb, scene::kMostLightGroups>;
-
 /// Vertices whose rays are followed together.
 constexpr std::uint32_t kTogether = 32;
 /// Rays start so far from the vertex towards the middle of a patch around it, because a vertex may lie where
@@ -74,8 +72,8 @@ struct LightGather::GatheredRay {
     Vec3 local_direction;
     rays::Ray ray;
     transport::Path path;
-    bool stands = false;  ///< on a surface that scatters
-    GroupLight once{}, twice{};
+    bool stands = false;         ///< on a surface that scatters
+    std::span<Rgb> once{}, twice{};  ///< of groups [cd/m2]
     /// What the light by the ray's own replicate differs by from the light by all, luminance-weighted.
     double own_cd_m2 = 0;
 };
@@ -203,13 +201,12 @@ void LightGather::add_direct_light() {
 void LightGather::renew_source() {
     const bool by_second = steps_ >= kStepsToTrustSecond;
     source_ = by_second ? twice_ : once_;
+    if (by_second) once_ = {};  // never read again
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
         const std::uint64_t rays = (by_second ? rays_[i] - 1 : rays_[i]) * walks_.size();
         const auto scale = static_cast<float>(1. / static_cast<double>(rays));
-        for (std::size_t g = 0; g < groups_.count(); ++g) {
-            for (std::uint32_t t = vertices_.first_term(i); t < vertices_.first_term(i + 1); ++t) {
-                for (float& band : source_[index(g, t)]) band *= scale;
-            }
+        for (std::size_t t = first_of(0, i); t < first_of(groups_.count(), i); ++t) {
+            for (float& band : source_[t]) band *= scale;
         }
     }
     renew_source_shares();
@@ -247,6 +244,12 @@ void LightGather::gather(std::uint32_t first, std::uint32_t last) {
         }
         ++rays_[vertex];
     }
+    const std::size_t groups = groups_.count();
+    std::vector<Rgb> light(2 * groups * rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        rays[i].once = std::span(light).subspan(2 * i * groups, groups);
+        rays[i].twice = std::span(light).subspan((2 * i + 1) * groups, groups);
+    }
     follow(rays);
     std::vector<ViewedHit> points;
     std::vector<GatheredRay*> standing;
@@ -257,7 +260,10 @@ void LightGather::gather(std::uint32_t first, std::uint32_t last) {
     }
     const auto locations = find_patch_locations(fine_caster_, points, rays::Coherence::scattered);
     for (std::size_t i = 0; i < standing.size(); ++i) reflect(*standing[i], locations[i]);
-    for (const GatheredRay& ray : rays) add(ray);
+    for (const GatheredRay& ray : rays) {
+        add_of_lamps(ray);
+        add(ray);
+    }
 }
 
 /// Nothing where the ray would leave the surface to the other side of a patch.
@@ -273,8 +279,7 @@ auto LightGather::start(std::uint32_t vertex, std::uint32_t replicate) const -> 
     return GatheredRay{vertex, replicate, local, {origin.lifted, direction}, {{}, -direction, stream}};
 }
 
-/// To the first surface that scatters. Light that mirrors and glass bring from a lamp is light that was
-/// reflected; direct light, also through panes, is left out.
+/// To the first surface that scatters.
 void LightGather::follow(std::span<GatheredRay> rays) const {
     std::vector<rays::Ray> started;
     for (const GatheredRay& ray : rays) started.push_back(ray.ray);
@@ -287,11 +292,16 @@ void LightGather::follow(std::span<GatheredRay> rays) const {
         ray.path.reflections_left = transport::kUnlimited;
         ray.path.previous_vertex = transport::kDirectIsKnown;
         ray.stands = tracer_.follow_to_scattering(ray.path);
-        if (!(ray.path.luminance_cd_m2.max() > 0)) continue;
-        const std::size_t group = group_of(ray.path);
-        ray.once[group] += ray.path.luminance_cd_m2;
-        ray.twice[group] += ray.path.luminance_cd_m2;
     }
+}
+
+/// Light that mirrors and glass bring from a lamp is light that was reflected; direct light, also through
+/// panes, is left out.
+void LightGather::add_of_lamps(const GatheredRay& ray) const {
+    if (!(ray.path.luminance_cd_m2.max() > 0)) return;
+    const std::size_t group = group_of(ray.path);
+    ray.once[group] += ray.path.luminance_cd_m2;
+    ray.twice[group] += ray.path.luminance_cd_m2;
 }
 
 /// The group of the lamp that a path ends on, or of the light from outside.
@@ -309,28 +319,23 @@ std::size_t LightGather::group_of(const transport::Path& ended) const {
 void LightGather::reflect(GatheredRay& ray, const std::optional<PatchLocation>& location) const {
     transport::Path& path = ray.path;
     if (reflects_nothing(coarse_.scene.material(path.hit.material))) return;
-    GroupLight once{}, twice{};
-    const std::span<Rgb> of_once(once.data(), groups_.count()), of_twice(twice.data(), groups_.count());
-    lights_.add_reflected(path.hit, path.outgoing, path.stream, of_twice);
+    lights_.add_reflected(path.hit, path.outgoing, path.stream, ray.twice);
     if (replaced_lights_) {
-        replaced_lights_->add_reflected(path.hit, path.outgoing, path.stream, of_once);
+        replaced_lights_->add_reflected(path.hit, path.outgoing, path.stream, ray.once);
     } else {
-        once = twice;
+        std::ranges::copy(ray.twice, ray.once.begin());
     }
     if (location) {
         const std::uint32_t parent = fine_.parents[fine_.patches.patch_of(location->side)];
         const bool is_front = fine_.patches.is_front(location->side);
-        add_of_walk(ray, is_front ? parent : coarse_.patches.other_side(parent), of_once);
-        if (!source_.empty()) add_of_vertices(ray, *location, of_twice);
+        add_of_walk(ray, is_front ? parent : coarse_.patches.other_side(parent));
+        if (!source_.empty()) add_of_vertices(ray, *location);
     }
-    for (std::size_t g = 0; g < groups_.count(); ++g) {
-        ray.once[g] += path.throughput * once[g];
-        ray.twice[g] += path.throughput * twice[g];
-    }
+    for (Rgb& light : ray.once) light *= path.throughput;
+    for (Rgb& light : ray.twice) light *= path.throughput;
 }
 
-void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side,
-                              std::span<Rgb> of_groups) const {
+void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side) const {
     const TermSums& walk = *walks_[ray.replicate];
     const std::size_t count = layout_.count_of(coarse_side);
     if (count == 0) return;
@@ -340,14 +345,13 @@ void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side,
     const Vec3 out = frame.to_local(ray.path.outgoing);
     interpolate_factors(tables_[index_of(ray.path.hit.material)], {out.x, out.y, std::abs(out.z)}, used);
     const double scale = 1 / static_cast<double>(walk.steps());
-    for (std::size_t g = 0; g < of_groups.size(); ++g)
-        of_groups[g] += reflected_cd_m2(walk.sums_of(g, coarse_side), used) * scale;
+    for (std::size_t g = 0; g < ray.once.size(); ++g)
+        ray.once[g] += reflected_cd_m2(walk.sums_of(g, coarse_side), used) * scale;
 }
 
 /// From one corner of the patch, chosen at random by the barycentric coordinates: a third of the work of all
 /// three, for hardly more noise.
-void LightGather::add_of_vertices(GatheredRay& ray, const PatchLocation& location,
-                                  std::span<Rgb> of_groups) const {
+void LightGather::add_of_vertices(GatheredRay& ray, const PatchLocation& location) const {
     const LitCorners corners = lit_corners(location, ray.replicate);
     if (corners.count == 0) return;
     const std::uint32_t number = corners.chosen(ray.path.stream.next());
@@ -356,10 +360,10 @@ void LightGather::add_of_vertices(GatheredRay& ray, const PatchLocation& locatio
     const Vec3 out = vertices_.frame(number).to_local(ray.path.outgoing);
     interpolate_factors(tables_[index_of(vertices_.material(number))], {out.x, out.y, std::abs(out.z)}, used);
     Rgb whole;
-    for (std::size_t g = 0; g < of_groups.size(); ++g) {
-        const auto terms = std::span(source_).subspan(index(g, vertices_.first_term(number)), used.size());
+    for (std::size_t g = 0; g < ray.twice.size(); ++g) {
+        const auto terms = std::span(source_).subspan(first_of(g, number), used.size());
         const Rgb reflected = reflected_cd_m2(terms, used);
-        of_groups[g] += reflected;
+        ray.twice[g] += reflected;
         whole += reflected;
     }
     ray.own_cd_m2 = (corners.source_share - 1) * (ray.path.throughput * whole).luminance();
@@ -385,17 +389,18 @@ auto LightGather::lit_corners(const PatchLocation& location, std::uint32_t repli
 
 void LightGather::add(const GatheredRay& ray) {
     std::array<double, math::ZernikeBasis::kMostCount> values{1 / std::sqrt(kPi)};
-    const std::uint32_t first = vertices_.first_term(ray.vertex), count = vertices_.terms_of(ray.vertex);
+    const std::uint32_t count = vertices_.terms_of(ray.vertex);
     if (count > 1) basis_.evaluate(ray.local_direction, values);
-    const bool has_second = !source_.empty();
+    const bool has_second = !source_.empty(), needs_once = !once_.empty();
     const std::size_t own = ray.vertex * walks_.size() + ray.replicate;
     replicate_lx_[own] += kPi * ray.own_cd_m2;
     for (std::size_t g = 0; g < groups_.count(); ++g) {
         const Rgb once_lx = ray.once[g] * kPi, twice_lx = ray.twice[g] * kPi;
         if (!once_lx.is_finite() || !twice_lx.is_finite()) continue;
+        const std::size_t first = first_of(g, ray.vertex);
         for (std::uint32_t k = 0; k < count; ++k) {
-            add_to(once_[index(g, first + k)], once_lx * values[k]);
-            if (has_second) add_to(twice_[index(g, first + k)], twice_lx * values[k]);
+            if (needs_once) add_to(once_[first + k], once_lx * values[k]);
+            if (has_second) add_to(twice_[first + k], twice_lx * values[k]);
         }
         if (!has_second) continue;
         replicate_lx_[own] += twice_lx.luminance();
@@ -439,8 +444,8 @@ PatchSolution LightGather::solution() const {
     for (std::size_t g = 0; g < groups_.count(); ++g) {
         for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
             const double scale = 1 / static_cast<double>((rays_[i] - 1) * walks_.size());
-            for (std::uint32_t t = vertices_.first_term(i); t < vertices_.first_term(i + 1); ++t)
-                solution.terms[g].push_back(stored(to_rgb(twice_[index(g, t)]) * scale));
+            for (std::uint32_t k = 0; k < vertices_.terms_of(i); ++k)
+                solution.terms[g].push_back(stored(to_rgb(twice_[first_of(g, i) + k]) * scale));
         }
     }
     solution.replicates.resize(walks_.size());

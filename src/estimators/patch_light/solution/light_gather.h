@@ -79,13 +79,17 @@ class LightGather {
     std::optional<GatheredRay> start(std::uint32_t vertex, std::uint32_t replicate) const;
     void follow(std::span<GatheredRay> rays) const;
     void reflect(GatheredRay& ray, const std::optional<PatchLocation>& location) const;
-    void add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side, std::span<Rgb> of_groups) const;
-    void add_of_vertices(GatheredRay& ray, const PatchLocation& location, std::span<Rgb> of_groups) const;
+    void add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side) const;
+    void add_of_vertices(GatheredRay& ray, const PatchLocation& location) const;
+    void add_of_lamps(const GatheredRay& ray) const;
     LitCorners lit_corners(const PatchLocation& location, std::uint32_t replicate) const;
     void add(const GatheredRay& ray);
     std::size_t group_of(const transport::Path& ended) const;
-    /// The number of a term in arrays of all groups.
-    std::size_t index(std::size_t group, std::size_t term) const { return group * vertices_.terms() + term; }
+    /// The number of a vertex's first term of a group. Its groups lie beside each other in memory, because
+    /// they are read together.
+    std::size_t first_of(std::size_t group, std::uint32_t vertex) const {
+        return groups_.count() * vertices_.first_term(vertex) + group * vertices_.terms_of(vertex);
+    }
     double illuminance_lx(std::uint32_t vertex) const;
     double bias_lx(std::uint32_t vertex) const;
 
@@ -111,7 +115,7 @@ class LightGather {
 
     std::uint64_t steps_ = 0;
     std::vector<std::uint64_t> rays_;  ///< of each replicate, per vertex
-    // Sums over the rays of all replicates, group by group:
+    // Sums over the rays of all replicates:
     std::vector<FloatRgb> once_, twice_;
     std::vector<FloatRgb> source_;      ///< the mean at the vertices, renewed from time to time
     std::vector<float> source_shares_;  ///< vertices x replicates: what each found, as a share of the mean
