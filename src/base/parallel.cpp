@@ -13,10 +13,10 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); });
 }
 
-void parallel_for_parts(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
-    constexpr std::size_t part = 4096;
-    parallel_for((count + part - 1) / part,
-                 [&](std::size_t p) { body(p * part, std::min(count, (p + 1) * part)); });
+void parallel_for_parts(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body,
+                        std::size_t size) {
+    parallel_for((count + size - 1) / size,
+                 [&](std::size_t part) { body(part * size, std::min(count, (part + 1) * size)); });
 }
 
 struct ThreadPool::Arena {

@@ -12,8 +12,9 @@ namespace stilb {
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// Calls `body(first, last)` for consecutive parts of 0 <= i < count, as above: for loops with little work
-/// for each i. The parts do not depend on threads.
-void parallel_for_parts(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
+/// for each i. A part has `size` of them, whatever the number of threads.
+void parallel_for_parts(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body,
+                        std::size_t size = 4096);
 
 /// Threads for parallel loops.
 class ThreadPool {

@@ -18,6 +18,7 @@
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
 #include "io/results/solution_file.h"
+#include "io/text/compression.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
@@ -143,11 +144,17 @@ class Viewing {
     std::optional<walk::LiveWalk> walk_;
 };
 
+/// For the way to a browser on this machine: what takes long to compress is no faster there.
+walk::Bytes compressed(const walk::Bytes& container) {
+    if (!container) return nullptr;
+    return std::make_shared<const std::string>(io::gzip(*container, io::Compression::fast));
+}
+
 walk::Handlers handlers_of(const io::SceneFile& file, const walk::LiveWalk& walk, walk::SpotMeter& meter) {
     return {
         .page = walk::page_files(),
-        .scene = [&walk] { return walk.scene(); },
-        .light = [&walk] { return walk.light(); },
+        .scene = [&walk] { return compressed(walk.scene()); },
+        .light = [&walk] { return compressed(walk.light()); },
         .state = [&walk] { return walk.state(); },
         .measure =
             [&meter](std::string_view json) { return to_json(meter.measure(walk::read_spot_request(json))); },

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -216,19 +218,37 @@ struct RefinedObject {
     RefinedMesh patches;                   ///< the triangles of the patches, and some without area
     std::vector<std::uint32_t> number_of;  ///< per triangle of `patches`: the patch before or at it
     RefinedMesh fine;                      ///< its parents are triangles of `patches`
+    std::map<Triangle, double> limits{};   ///< of the triangles of `fine` before the last halving
 };
 
-/// For each edge, the shortest of the limits of the triangles that share it.
-EdgeLimits limits_of(const RefinedObject& object, const LongestEdge& longest_edge_m) {
+/// The limits of all triangles; those that were halved last are new.
+std::vector<double> limits_of_triangles(RefinedObject& object, const LongestEdge& longest_edge_m) {
+    constexpr std::size_t at_once = 64;
     const Mesh& mesh = object.fine.mesh;
-    std::vector<double> limits(mesh.triangles.size());
-    parallel_for_parts(limits.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
+    std::vector<double> limits;
+    std::vector<std::size_t> unknown;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto known = object.limits.find(mesh.triangles[i]);
+        limits.push_back(known == object.limits.end() ? 0 : known->second);
+        if (known == object.limits.end()) unknown.push_back(i);
+    }
+    const auto look = [&](std::size_t first, std::size_t last) {
+        for (const std::size_t i : std::span(unknown).subspan(first, last - first)) {
             const auto [a, b, c] = mesh.triangles[i];
             limits[i] = longest_edge_m(object.number_of[object.fine.parents[i]],
                                        {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
         }
-    });
+    };
+    parallel_for_parts(unknown.size(), look, at_once);
+    object.limits.clear();
+    for (std::size_t i = 0; i < limits.size(); ++i) object.limits.emplace(mesh.triangles[i], limits[i]);
+    return limits;
+}
+
+/// For each edge, the shortest of the limits of the triangles that share it.
+EdgeLimits limits_of(RefinedObject& object, const LongestEdge& longest_edge_m) {
+    const Mesh& mesh = object.fine.mesh;
+    const std::vector<double> limits = limits_of_triangles(object, longest_edge_m);
     EdgeLimits of_edges;
     for (std::size_t i = 0; i < limits.size(); ++i) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -14,7 +14,7 @@ namespace {
 /// As often as a walker notices.
 constexpr std::chrono::milliseconds kLeastPause{400};
 /// The pause after light was shown, as a multiple of the time that showing it took.
-constexpr int kPauses = 4;
+constexpr int kPauses = 9;
 
 /// The share that is done of a run with a limit.
 double share_done(const ProgressSink::Progress& progress) {

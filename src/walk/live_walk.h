@@ -17,7 +17,7 @@
 
 namespace stilb::walk {
 
-/// Decides when unfinished light is shown: so that this takes a fifth of the time at most.
+/// Decides when unfinished light is shown: so that this takes a tenth of the time at most.
 class Pace {
   public:
     using Clock = std::chrono::steady_clock;
@@ -52,6 +52,7 @@ class LiveWalk final : private SolutionSink, private ProgressSink {
 
     // From any thread, at any time.
 
+    /// The containers, as walk_data.h makes them; null: not there yet.
     Bytes scene() const;
     Bytes light() const;
     /// The answer to "GET state", as docs/walk.md describes it.

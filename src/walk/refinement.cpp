@@ -107,13 +107,14 @@ class Refinement {
     }
 
     void run(const Monitor& monitor) {
+        edges_ = find_edges();
         if (surface_.triangles.size() > options_.most_triangles) return;
-        while (run_round(monitor)) continue;
+        while (run_round(monitor)) edges_ = find_edges();
     }
 
     std::vector<float> interpolation_errors_lx() const {
         std::vector<float> errors(surface_.vertices.size());
-        for (const SurfaceEdge& edge : edges().edges) {
+        for (const SurfaceEdge& edge : edges_.edges) {
             const auto error = static_cast<float>(error_lx(edge));
             for (const std::uint32_t end : {edge.a, edge.b}) errors[end] = std::max(errors[end], error);
         }
@@ -123,18 +124,17 @@ class Refinement {
   private:
     /// Returns false where nothing is left to do.
     bool run_round(const Monitor& monitor) {
-        SurfaceEdges edges = this->edges();
-        look_at_middles(edges.edges, monitor);
+        look_at_middles(edges_.edges, monitor);
         const std::size_t count = surface_.triangles.size();
         if (count >= options_.most_triangles) return false;
         const std::size_t affordable = (options_.most_triangles - count) / kTrianglesPerEdge;
-        if (!mark_most_urgent(edges, affordable)) return false;
-        mark_longest_edges(edges);
-        divide(edges);
+        if (!mark_most_urgent(edges_, affordable)) return false;
+        mark_longest_edges(edges_);
+        divide(edges_);
         return true;
     }
 
-    SurfaceEdges edges() const {
+    SurfaceEdges find_edges() const {
         SurfaceEdges all;
         PairNumbers numbers(2 * surface_.triangles.size()), lines(2 * surface_.triangles.size());
         for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
@@ -372,6 +372,7 @@ class Refinement {
     VertexLights& lights_;
     double floor_lx_, squared_shortest_m2_;
     std::vector<double> half_extents_m_;   ///< of the objects
+    SurfaceEdges edges_;                   ///< of the surface as it is
     PairNumbers middles_;                  ///< vertices, by two vertices
     PairNumbers middle_places_;            ///< by two places
     std::vector<std::uint8_t> is_marked_;  ///< per line: its edges are to be halved

@@ -19,7 +19,7 @@ using Bytes = std::shared_ptr<const std::string>;
 /// The answers to requests. All functions are called from several threads at the same time.
 struct Handlers {
     PageFiles page;
-    std::function<Bytes()> scene, light;  ///< null: not there yet
+    std::function<Bytes()> scene, light;  ///< compressed by gzip; null: not there yet
     std::function<std::string()> state;   ///< a JSON document
     /// JSON to JSON. Where the request is wrong they throw InputError, where it cannot be met now Cancelled.
     std::function<std::string(std::string_view)> measure, sensors;

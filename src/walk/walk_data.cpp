@@ -272,9 +272,9 @@ void substitute(std::string& page, std::string_view part, const std::string& tex
     page.replace(at, part.size(), text);
 }
 
-std::string data_tag(std::string_view id, std::string_view bytes) {
+std::string data_tag(std::string_view id, std::string_view container) {
     return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", id,
-                       base64(bytes));
+                       base64(io::gzip(container)));
 }
 
 }  // namespace
@@ -284,7 +284,7 @@ std::string scene_data(const Scene& scene, const rays::RayCaster& caster, const 
     SceneContainer container(scene, solution, walk);
     const DisplayMesh mesh = make_display_mesh(
         scene, caster, solution.patches, sides_with_light(solution.patches, container.light()), {}, monitor);
-    return io::gzip(container.bytes(mesh));
+    return container.bytes(mesh);
 }
 
 std::string light_data(const PatchSolution& solution, const LightState& state) {
@@ -303,7 +303,7 @@ std::string light_data(const PatchSolution& solution, const LightState& state) {
                     {"error", state.error},
                     {"elapsed_s", state.elapsed_s},
                     {"done", state.done}};
-    return io::gzip(container_bytes(std::move(header), arrays));
+    return container_bytes(std::move(header), arrays);
 }
 
 std::string self_contained_page(std::string_view scene, std::string_view light, const PageFiles& files) {

@@ -32,16 +32,17 @@ struct LightState {
     bool done = false;
 };
 
-/// The container "scene", compressed by gzip. The solution needs no light yet. Throws InputError where there
+/// The container "scene". The solution needs no light yet. Throws InputError where there
 /// are too many patches, Cancelled as the monitor says.
 std::string scene_data(const Scene& scene, const rays::RayCaster& caster,
                        const estimators::PatchSolution& solution, const WalkScene& walk,
                        const Monitor& monitor = Monitor::none());
 
-/// The container "light", compressed by gzip.
+/// The container "light".
 std::string light_data(const estimators::PatchSolution& solution, const LightState& state);
 
-/// A page that needs no server and no network: script, style and both containers are part of the HTML.
+/// A page that needs no server and no network: script, style and both containers, compressed, are part of the
+/// HTML.
 std::string self_contained_page(std::string_view scene, std::string_view light, const PageFiles& files);
 
 }  // namespace stilb::walk

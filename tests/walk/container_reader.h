@@ -11,16 +11,8 @@
 #include <vector>
 
 #include "base/half.h"
-#include "io/text/compression.h"
 
 namespace stilb::walk {
-
-inline std::string gunzipped(std::string_view bytes) {
-    // The last four bytes of gzip's format are the size.
-    std::uint32_t size = 0;
-    std::memcpy(&size, bytes.data() + bytes.size() - sizeof size, sizeof size);
-    return io::gunzip(bytes, size).value();
-}
 
 class ContainerReader {
   public:

@@ -39,13 +39,13 @@ RunOptions steps(std::uint64_t count) {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
-TEST(Pace, ShowingTakesAFifthOfTheTimeAtMost) {
+TEST(Pace, ShowingTakesATenthOfTheTimeAtMost) {
     const Pace::Clock::time_point start{};
     Pace pace;
     EXPECT_TRUE(pace.is_due(start));
     pace.add(start, start + milliseconds(500));
-    EXPECT_FALSE(pace.is_due(start + milliseconds(2499)));
-    EXPECT_TRUE(pace.is_due(start + milliseconds(2500)));
+    EXPECT_FALSE(pace.is_due(start + milliseconds(4999)));
+    EXPECT_TRUE(pace.is_due(start + milliseconds(5000)));
     pace.add(start, start + milliseconds(1));
     EXPECT_FALSE(pace.is_due(start + milliseconds(300)));
     EXPECT_TRUE(pace.is_due(start + milliseconds(500)));
@@ -63,8 +63,8 @@ TEST(LiveWalk, HasSceneAndLightAtTheEnd) {
     EXPECT_GT(result.samples, 0u);
     ASSERT_NE(walk.scene(), nullptr);
     ASSERT_NE(walk.light(), nullptr);
-    EXPECT_TRUE(walk.scene()->starts_with("\x1f\x8b"));  // gzip
-    EXPECT_TRUE(walk.light()->starts_with("\x1f\x8b"));
+    EXPECT_TRUE(walk.scene()->starts_with("STILBWLK"));
+    EXPECT_TRUE(walk.light()->starts_with("STILBWLK"));
     EXPECT_TRUE(contains(walk.state(), R"("stage":"done","share":1.0,"scene":true)")) << walk.state();
     EXPECT_TRUE(contains(walk.state(), R"("done":true,"message":"All steps are done.")")) << walk.state();
 }

@@ -77,8 +77,7 @@ TEST(Page, ShowsTheLightOfTheRoomWithinItsError) {
     options.method = "ray-bundle";
     options.paths = 512;
     const SolveResult solved = run::solve(scene, options, 4, nullptr, nullptr, &prepared);
-    const Page page{ContainerReader(gunzipped(prepared.bytes)),
-                    ContainerReader(gunzipped(light_data(solved.solution, {})))};
+    const Page page{ContainerReader(prepared.bytes), ContainerReader(light_data(solved.solution, {}))};
     std::vector<MeasuringPoint> points;
     std::vector<double> shown_lx, error_lx;
     std::vector<double> areas;

@@ -23,10 +23,11 @@ void feed(z_stream& stream, std::string_view& bytes) {
 
 }  // namespace
 
-std::string gzip(std::string_view bytes) {
+std::string gzip(std::string_view bytes, Compression compression) {
     constexpr int kMemory = 8;
+    const int level = compression == Compression::fast ? Z_BEST_SPEED : Z_DEFAULT_COMPRESSION;
     z_stream stream{};
-    if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
+    if (deflateInit2(&stream, level, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
         throw std::runtime_error("zlib: no memory");
     std::string compressed;
     std::vector<char> buffer(1 << 16);

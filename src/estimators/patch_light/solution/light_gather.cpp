@@ -16,7 +16,7 @@ namespace stilb::estimators {
 namespace {
 
 /// Vertices whose rays are followed together.
-constexpr std::uint32_t kTogether = 32;
+constexpr std::size_t kTogether = 32;
 /// Rays start so far from the vertex towards the middle of a patch around it, because a vertex may lie where
 /// two objects touch.
 constexpr double kShareToMiddle = 0.2;
@@ -30,10 +30,10 @@ Vec3 drawn_direction(std::uint32_t i, std::uint32_t count) {
 
 std::vector<ReflectionTable> tables_of(const Scene& scene, int degree) {
     std::vector<ReflectionTable> tables(scene.materials.size());
-    parallel_for(tables.size(), [&](std::size_t i) {
+    for (std::size_t i = 0; i < tables.size(); ++i) {
         const Material& material = scene.materials[i].material;
         if (!reflects_nothing(material)) tables[i] = make_reflection_table(material, degree);
-    });
+    }
     return tables;
 }
 
@@ -72,7 +72,7 @@ struct LightGather::GatheredRay {
     Vec3 local_direction;
     rays::Ray ray;
     transport::Path path;
-    bool stands = false;         ///< on a surface that scatters
+    bool stands = false;             ///< on a surface that scatters
     std::span<Rgb> once{}, twice{};  ///< of groups [cd/m2]
     /// What the light by the ray's own replicate differs by from the light by all, luminance-weighted.
     double own_cd_m2 = 0;
@@ -141,11 +141,12 @@ void LightGather::find_origins(const std::vector<bool>& is_lit) {
             }
         }
     }
-    parallel_for_parts(of_vertices.size(), [&](std::size_t first, std::size_t last) {
+    const auto drop_covered = [&](std::size_t first, std::size_t last) {
         monitor_.require_more();
         for (std::size_t i = first; i < last; ++i)
             std::erase_if(of_vertices[i], [&](const Origin& origin) { return is_covered(origin, is_lit); });
-    });
+    };
+    parallel_for_parts(of_vertices.size(), drop_covered, kTogether);
     std::vector<std::uint32_t> lit;
     first_origin_ = {0};
     for (std::uint32_t i = 0; i < of_vertices.size(); ++i) {
@@ -227,12 +228,11 @@ void LightGather::renew_source_shares() {
 
 void LightGather::step() {
     if (std::has_single_bit(steps_)) renew_source();
-    const auto count = static_cast<std::uint32_t>(vertices_.count());
-    parallel_for((count + kTogether - 1) / kTogether, [&](std::size_t part) {
+    const auto gather_part = [&](std::size_t first, std::size_t last) {
         monitor_.require_more();
-        const auto first = static_cast<std::uint32_t>(part) * kTogether;
-        gather(first, std::min(first + kTogether, count));
-    });
+        gather(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
+    };
+    parallel_for_parts(vertices_.count(), gather_part, kTogether);
     ++steps_;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "math/random.h"
 #include "math/sampling.h"
 
@@ -105,14 +106,14 @@ ReflectionTable make_reflection_table(const Material& material, int degree) {
     ReflectionTable table{kThetas, is_isotropic(material) ? 1 : kPhis, {}};
     const std::size_t directions = static_cast<std::size_t>(table.thetas * table.phis);
     table.factors.resize(directions * basis.count());
-    for (std::size_t i = 0; i < directions; ++i) {
+    parallel_for(directions, [&](std::size_t i) {
         const double theta = static_cast<double>(i / table.phis) / (table.thetas - 1) * kMostTheta;
         const double phi = static_cast<double>(i % table.phis) / table.phis * 2 * kPi;
         const Vec3 out{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
         const auto factors = std::span(table.factors).subspan(i * basis.count(), basis.count());
         integrate_factors(material, basis, out, kNodesOfTables, factors);
         turn(std::cos(phi), -std::sin(phi), factors);
-    }
+    });
     return table;
 }
 
