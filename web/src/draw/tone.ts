@@ -31,7 +31,7 @@ uniform highp sampler2D uPicture, uColours;
 uniform vec2 uPixel;
 uniform float uExposure;
 uniform int uCurve, uLevelCount;
-uniform bool uIsSharp, uIsolines, uLogarithmic;
+uniform bool uIsolines, uLogarithmic;
 uniform vec2 uEnds;
 uniform float uSpacing;
 uniform float uLevels[${MOST_LEVELS}];
@@ -112,8 +112,7 @@ void main() {
 #ifdef FALSE_COLOUR
   colour = vec4(falseColour(place), 1.0);
 #else
-  // Between the pixels of a picture of lower resolution; else without the cost of it.
-  vec3 rgb = uIsSharp ? texelFetch(uPicture, ivec2(gl_FragCoord.xy), 0).rgb : texture(uPicture, place).rgb;
+  vec3 rgb = texelFetch(uPicture, ivec2(gl_FragCoord.xy), 0).rgb;
   colour = vec4(encoded(toned(rgb * uExposure)) + noise(gl_FragCoord.xy) / 255.0, 1.0);
 #endif
 }`;
@@ -167,7 +166,6 @@ export class ToneMapping {
     uExposure: { value: 1 },
     uCurve: { value: 0 },
     uLevelCount: { value: 0 },
-    uIsSharp: { value: true },
     uIsolines: { value: false },
     uLogarithmic: { value: false },
     uSpacing: { value: 1 },
@@ -176,18 +174,36 @@ export class ToneMapping {
   };
   private readonly colours = new FullScreen(FRAGMENT, this.uniforms);
   private readonly falseColours = new FullScreen(FRAGMENT, this.uniforms, { FALSE_COLOUR: 1 });
+  private readonly small = new THREE.WebGLRenderTarget(1, 1, { depthBuffer: false, generateMipmaps: false });
+  private readonly enlarged = copyPass();
 
+  constructor() {
+    this.enlarged.material.uniforms.uPicture!.value = this.small.texture;
+  }
+
+  /** A picture of lower resolution than the screen becomes colours first, and is enlarged then: that is faster. */
   draw(
     renderer: THREE.WebGLRenderer, picture: THREE.WebGLRenderTarget, display: Display, width: number, height: number,
   ) {
+    const isSharp = picture.width === width && picture.height === height;
+    if (!isSharp) this.small.setSize(picture.width, picture.height);
+    this.drawColours(renderer, picture, display, isSharp ? null : this.small);
+    if (isSharp) return;
+    this.enlarged.material.uniforms.uPixel!.value.set(1 / width, 1 / height);
+    this.enlarged.draw(renderer, null);
+  }
+
+  private drawColours(
+    renderer: THREE.WebGLRenderer, picture: THREE.WebGLRenderTarget, display: Display,
+    target: THREE.WebGLRenderTarget | null,
+  ) {
     const { uniforms } = this;
     uniforms.uPicture!.value = picture.texture;
-    uniforms.uIsSharp!.value = picture.width === width && picture.height === height;
-    uniforms.uPixel!.value.set(1 / width, 1 / height);
+    uniforms.uPixel!.value.set(1 / picture.width, 1 / picture.height);
     uniforms.uExposure!.value = display.exposure;
     uniforms.uCurve!.value = CURVES.indexOf(display.curve);
     if (display.falseColour) this.prepareScale(display);
-    (display.falseColour ? this.falseColours : this.colours).draw(renderer, null);
+    (display.falseColour ? this.falseColours : this.colours).draw(renderer, target);
   }
 
   private prepareScale({ isolines, scale }: Display) {
