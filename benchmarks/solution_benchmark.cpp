@@ -65,22 +65,22 @@ Reflected reflected_in(const estimators::PatchTransport& transport, math::Random
     Reflected result;
     result.exact.resize(seen.size());
     estimators::BundleIteration iteration(transport, key);
+    const std::array<const estimators::BundleIteration*, 1> walks{&iteration};
     for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
     for (int step = 0; step < kSteps; ++step) {
         iteration.step();
-        sums.add(iteration);
+        sums.add(walks);
         for (std::size_t i = 0; i < seen.size(); ++i)
             result.exact[i] += iteration.reflected(seen[i].first, seen[i].second).luminance() / kSteps;
     }
-    const std::vector<estimators::FloatRgb> terms = sums.mean();
     for (std::size_t i = 0; i < seen.size(); ++i) {
         const auto& [side, out] = seen[i];
         const std::vector<estimators::FloatRgb> factors = reflection_factors(transport, layout, side, out);
-        const std::span own = std::span(terms).subspan(layout.first_of(side), factors.size());
+        const std::span own = sums.sums_of(0, side);
         for (std::size_t d = 0; d < kDegrees.size(); ++d) {
             const std::size_t count = math::ZernikeBasis(kDegrees[d]).count();  // lower degrees come first
             const Rgb kept = estimators::reflected_cd_m2(own.first(count), std::span(factors).first(count));
-            result.kept_too_much[d].push_back(kept.luminance() - result.exact[i]);
+            result.kept_too_much[d].push_back(kept.luminance() / kSteps - result.exact[i]);
         }
     }
     return result;

@@ -50,6 +50,7 @@ struct Noise {
 /// vertices around is alike: relative variances are means over these.
 Noise noise_of(const patches::Patches& patches, std::span<const std::uint32_t> lit_sides,
                const statistics::ReplicateTable& illuminances, double confidence) {
+    if (lit_sides.empty()) return {};
     // A third of the weight on the vertex itself, and the rest on two others at least.
     constexpr int least_vertices = 3;
     const auto moments = statistics::compute_replicate_moments(illuminances);
@@ -83,7 +84,6 @@ std::vector<float> relative_errors(const estimators::PatchSolution& solution) {
 AttainedErrors attained_errors(const patches::Patches& patches,
                                const estimators::LightGather::Illuminances& illuminances) {
     const std::size_t count = illuminances.area_m2.size();
-    if (count == 0) return {};
     const Noise noise = noise_of(patches, illuminances.lit_sides, {illuminances.replicate_means, count},
                                  statistics::kStoppedConfidence);
     std::vector<double> all, bias, flux_lm;

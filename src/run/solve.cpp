@@ -27,19 +27,20 @@ namespace stilb::run {
 namespace {
 
 constexpr const char* kMethod = "ray-bundle";
-/// The number of replicates; each has its own light in the file.
+/// The number of replicates of the gathering; the file has the light of each.
 constexpr std::size_t kSolutionReplicates = 8;
-/// Steps of each walk before the first error estimate.
+constexpr std::size_t kWalks = 4;
+/// Steps of the gathering before the first error estimate.
 constexpr std::uint64_t kFirstCheck = 16;
 constexpr std::uint64_t kStepsAtOnce = 4;
 /// The walks make one step for so many of the gathering, as soon as only the bias depends on them.
-constexpr std::uint64_t kStepsForOneOfWalks = 4;
+constexpr std::uint64_t kStepsForOneOfWalks = 2;
 
-enum SolvePurpose : std::uint64_t { kWalks, kGather };
+enum SolvePurpose : std::uint64_t { kWalking, kGathering };
 /// Counted steps of the walks before it is known which sides of patches light reaches at all.
-constexpr std::uint64_t kStepsToFindLight = 4;
+constexpr std::uint64_t kStepsToFindLight = 8;
 
-/// Independent walks, each with its own sums, and the gathering of their light at the vertices.
+/// Walks, and the gathering of their light at the vertices.
 class Walks final : public Work {
   public:
     Walks(const estimators::PatchTransport& transport, const estimators::TermLayout& layout,
@@ -48,30 +49,27 @@ class Walks final : public Work {
           layout_(layout),
           groups_(groups),
           sources_(transport, groups),
+          sums_(transport, layout, groups.count()),
           monitor_(monitor),
           sink_(sink) {
         const math::RandomKey key{seed};
         const std::uint64_t dark = first_steps(transport);
-        Stage stage(monitor, "first steps", kSolutionReplicates * (dark + kStepsToFindLight));
-        for (std::size_t w = 0; w < kSolutionReplicates; ++w)
-            walks_.push_back(std::make_unique<Walk>(*this, key.derived(kWalks).derived(w)));
-        parallel_for(kSolutionReplicates, [&](std::size_t w) {
-            for (std::uint64_t i = 0; i < dark + kStepsToFindLight; ++i) {
-                walks_[w]->iteration.step();
-                if (i >= dark) walks_[w]->sums.add(walks_[w]->iteration);
-                stage.advance();
-            }
-        });
+        Stage stage(monitor, "first steps", dark + kStepsToFindLight);
+        for (std::size_t w = 0; w < kWalks; ++w)
+            walks_.emplace_back(transport, sources_.sources(), key.derived(kWalking).derived(w));
+        for (std::uint64_t i = 0; i < dark + kStepsToFindLight; ++i) {
+            step_walks();
+            if (i >= dark) add_walks();
+            stage.advance();
+        }
         const std::vector<bool> is_lit = lit_sides();
         fine_ = patches_near_contacts(transport, is_lit, kMostFinePatches, monitor);
-        std::vector<const estimators::TermSums*> sums;
-        for (const auto& walk : walks_) sums.push_back(&walk->sums);
-        gather_.emplace(transport, layout, std::move(sums), is_lit, fine_, groups, key.derived(kGather),
-                        monitor);
+        gather_.emplace(transport, layout, sums_, kSolutionReplicates, is_lit, fine_, groups,
+                        key.derived(kGathering), monitor);
         if (sink_) sink_->prepare(transport.caster, gather_->solution());
     }
 
-    /// Steps of each walk.
+    /// Steps of each replicate.
     std::uint64_t samples() const override { return gather_->steps(); }
     std::uint64_t samples_in_all() const override { return samples() * kSolutionReplicates; }
     std::uint64_t samples_for(std::uint64_t paths) const override {
@@ -90,7 +88,7 @@ class Walks final : public Work {
             const std::uint64_t gathered = gather_->steps();
             if (gathered < estimators::LightGather::kStepsToTrustSecond ||
                 gathered % kStepsForOneOfWalks == 0)
-                step_walks();
+                step_walks(), add_walks();
             gather_->step();
         }
     }
@@ -115,20 +113,17 @@ class Walks final : public Work {
     }
 
   private:
-    struct Walk {
-        Walk(const Walks& walks, math::RandomKey key)
-            : iteration(walks.transport_, walks.sources_.sources(), key),
-              sums(walks.transport_, walks.layout_, walks.groups_.count()) {}
-        estimators::BundleIteration iteration;
-        estimators::TermSums sums;
-    };
-
     void step_walks() {
-        parallel_for(kSolutionReplicates, [&](std::size_t w) {
+        parallel_for(walks_.size(), [&](std::size_t w) {
             monitor_.require_more();
-            walks_[w]->iteration.step();
-            walks_[w]->sums.add(walks_[w]->iteration);
+            walks_[w].step();
         });
+    }
+
+    void add_walks() {
+        std::vector<const estimators::BundleIteration*> walks;
+        for (const estimators::BundleIteration& walk : walks_) walks.push_back(&walk);
+        sums_.add(walks);
     }
 
     /// Per side of the patches: whether any light reaches it.
@@ -142,16 +137,15 @@ class Walks final : public Work {
         for (const std::uint32_t side : layout_.sides()) {
             const ObjectId object = patches.object_of(patches.patch_of(side));
             if (is_sealed[object_side(object, patches.is_front(side))]) continue;
-            is_lit[side] =
-                is_lit[side] || (first_shot && first_shot->illuminance_lx(side).max() > 0) ||
-                std::ranges::any_of(walks_, [&](const auto& walk) { return has_lit(*walk, side); });
+            is_lit[side] = is_lit[side] || (first_shot && first_shot->illuminance_lx(side).max() > 0) ||
+                           is_lit_by_walks(side);
         }
         return is_lit;
     }
 
-    bool has_lit(const Walk& walk, std::uint32_t side) const {
+    bool is_lit_by_walks(std::uint32_t side) const {
         for (std::size_t g = 0; g < groups_.count(); ++g) {
-            if (estimators::to_rgb(walk.sums.sums_of(g, side)[0]).max() > 0) return true;
+            if (estimators::to_rgb(sums_.sums_of(g, side)[0]).max() > 0) return true;
         }
         return false;
     }
@@ -160,9 +154,10 @@ class Walks final : public Work {
     const estimators::TermLayout& layout_;
     const LightGroups& groups_;
     estimators::GroupSources sources_;
+    estimators::TermSums sums_;
     const Monitor& monitor_;
     SolutionSink* sink_;
-    std::vector<std::unique_ptr<Walk>> walks_;
+    std::vector<estimators::BundleIteration> walks_;
     patches::FinePatches fine_;
     std::optional<estimators::LightGather> gather_;
 };

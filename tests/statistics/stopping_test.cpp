@@ -80,14 +80,13 @@ class StoppedRun {
 
 /// The dim tenth has wide intervals: it decides by its number, but not by its weight.
 TEST(Stopping, WeightsSayWhoDecides) {
-    std::vector<Estimate> readings(9, {100, 1, 98, 102});
-    readings.push_back({1, 1, 0, 2});
-    std::vector<double> weights;
-    for (const Estimate& reading : readings) weights.push_back(reading.value);
-    EXPECT_DOUBLE_EQ(attained_error(readings), 1);
-    EXPECT_DOUBLE_EQ(attained_error(readings, weights), 0.02);
-    EXPECT_DOUBLE_EQ(attained_error(readings, std::vector<double>(10, 1.0)), 1);
-    EXPECT_EQ(attained_error({}, {}, 0.95), 0);
+    std::vector<double> half_widths(9, 0.02), weights(9, 100);
+    half_widths.push_back(1);
+    weights.push_back(1);
+    EXPECT_DOUBLE_EQ(attained_error_of(half_widths), 1);
+    EXPECT_DOUBLE_EQ(attained_error_of(half_widths, weights), 0.02);
+    EXPECT_DOUBLE_EQ(attained_error_of(half_widths, std::vector<double>(10, 1.0)), 1);
+    EXPECT_EQ(attained_error_of({}, {}, 0.95), 0);
 }
 
 TEST(Stopping, LooksAtPowersOfTwoAndBetween) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/parallel.h"
 #include "estimators/patch_light/solution/reflection_table.h"
 
 namespace stilb::estimators {
@@ -33,12 +34,21 @@ std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport) {
     return sides;
 }
 
-void TermSums::add(const BundleIteration& iteration) {
+void TermSums::add(std::span<const BundleIteration* const> walks) {
+    constexpr std::size_t sides_at_once = 256;
+    const auto add_part = [&](std::size_t first, std::size_t last) {
+        for (const std::uint32_t side : layout_.sides().subspan(first, last - first)) add(walks, side);
+    };
+    parallel_for_parts(layout_.sides().size(), add_part, sides_at_once);
+    steps_ += walks.size();
+}
+
+void TermSums::add(std::span<const BundleIteration* const> walks, std::uint32_t side) {
     std::array<double, math::ZernikeBasis::kMostCount> values{1 / kSqrtPi};
-    for (const std::uint32_t side : layout_.sides()) {
-        const std::size_t count = layout_.count_of(side);
-        const Frame frame = Frame::of_surface(transport_.patches.normal_of(side));
-        iteration.for_each_arrival(side, [&](const Vec3& in, std::span<const Rgb> illuminances_lx) {
+    const std::size_t count = layout_.count_of(side);
+    const Frame frame = Frame::of_surface(transport_.patches.normal_of(side));
+    for (const BundleIteration* const walk : walks) {
+        walk->for_each_arrival(side, [&](const Vec3& in, std::span<const Rgb> illuminances_lx) {
             if (count > 1) layout_.basis().evaluate(frame.to_local(in), values);
             for (std::size_t g = 0; g < illuminances_lx.size(); ++g) {
                 FloatRgb* const sums = &sums_[first_of(g, side)];
@@ -46,7 +56,6 @@ void TermSums::add(const BundleIteration& iteration) {
             }
         });
     }
-    ++steps_;
 }
 
 std::vector<FloatRgb> reflection_factors(const PatchTransport& transport, const TermLayout& layout,

@@ -46,15 +46,16 @@ class TermLayout {
 /// Sides that reflect light.
 std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport);
 
-/// Terms of the mean of a walk's steps, for each of its groups of lights. Keeps references to transport and
-/// layout.
+/// Terms of the mean of the steps of walks, for each of their groups of lights. Keeps references to transport
+/// and layout.
 class TermSums {
   public:
     TermSums(const PatchTransport& transport, const TermLayout& layout, std::size_t groups = 1)
         : transport_(transport), layout_(layout), groups_(groups), sums_(groups * layout.count()) {}
 
-    /// Adds the light received in the last step.
-    void add(const BundleIteration& iteration);
+    /// Adds the light received in the last step of each walk.
+    void add(std::span<const BundleIteration* const> walks);
+    /// Of all walks together.
     std::uint64_t steps() const { return steps_; }
     /// The sum over the steps, of a side's terms [lx / sqrt(sr)].
     std::span<const FloatRgb> sums_of(std::size_t group, std::uint32_t side) const {
@@ -62,6 +63,8 @@ class TermSums {
     }
 
   private:
+    void add(std::span<const BundleIteration* const> walks, std::uint32_t side);
+
     const PatchTransport& transport_;
     const TermLayout& layout_;
     /// A side's groups lie beside each other in memory, because they are read together.

@@ -93,13 +93,14 @@ struct LightGather::LitCorners {
     }
 };
 
-LightGather::LightGather(const PatchTransport& coarse, const TermLayout& layout,
-                         std::vector<const TermSums*> walks, const std::vector<bool>& is_lit,
+LightGather::LightGather(const PatchTransport& coarse, const TermLayout& layout, const TermSums& walks,
+                         std::size_t replicates, const std::vector<bool>& is_lit,
                          const patches::FinePatches& fine, const LightGroups& groups, math::RandomKey key,
                          const Monitor& monitor)
     : coarse_(coarse),
       layout_(layout),
-      walks_(std::move(walks)),
+      walks_(walks),
+      replicates_(replicates),
       fine_(fine),
       groups_(groups),
       key_(key),
@@ -119,7 +120,7 @@ LightGather::LightGather(const PatchTransport& coarse, const TermLayout& layout,
     rays_.resize(vertices_.count());
     once_.resize(groups.count() * vertices_.terms());
     twice_.resize(once_.size());
-    replicate_lx_.resize(vertices_.count() * walks_.size());
+    replicate_lx_.resize(vertices_.count() * replicates_);
     difference_lx_.resize(vertices_.count());
 }
 
@@ -204,7 +205,7 @@ void LightGather::renew_source() {
     source_ = by_second ? twice_ : once_;
     if (by_second) once_ = {};  // never read again
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-        const std::uint64_t rays = (by_second ? rays_[i] - 1 : rays_[i]) * walks_.size();
+        const std::uint64_t rays = (by_second ? rays_[i] - 1 : rays_[i]) * replicates_;
         const auto scale = static_cast<float>(1. / static_cast<double>(rays));
         for (std::size_t t = first_of(0, i); t < first_of(groups_.count(), i); ++t) {
             for (float& band : source_[t]) band *= scale;
@@ -217,11 +218,10 @@ void LightGather::renew_source() {
 void LightGather::renew_source_shares() {
     source_shares_.assign(replicate_lx_.size(), 1);
     if (steps_ < kFirstSteps) return;
-    const std::size_t replicates = walks_.size();
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
         const double mean_lx = illuminance_lx(i), rays = static_cast<double>(rays_[i] - 1);
         if (!(mean_lx > 0)) continue;
-        for (std::size_t r = i * replicates; r < (i + 1) * replicates; ++r)
+        for (std::size_t r = i * replicates_; r < (i + 1) * replicates_; ++r)
             source_shares_[r] = static_cast<float>(replicate_lx_[r] / rays / mean_lx);
     }
 }
@@ -239,7 +239,7 @@ void LightGather::step() {
 void LightGather::gather(std::uint32_t first, std::uint32_t last) {
     std::vector<GatheredRay> rays;
     for (std::uint32_t vertex = first; vertex < last; ++vertex) {
-        for (std::uint32_t r = 0; r < walks_.size(); ++r) {
+        for (std::uint32_t r = 0; r < replicates_; ++r) {
             if (auto ray = start(vertex, r)) rays.push_back(std::move(*ray));
         }
         ++rays_[vertex];
@@ -336,7 +336,6 @@ void LightGather::reflect(GatheredRay& ray, const std::optional<PatchLocation>& 
 }
 
 void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side) const {
-    const TermSums& walk = *walks_[ray.replicate];
     const std::size_t count = layout_.count_of(coarse_side);
     if (count == 0) return;
     std::array<FloatRgb, math::ZernikeBasis::kMostCount> factors;
@@ -344,9 +343,9 @@ void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side)
     const Frame frame = frame_of(coarse_.patches, coarse_side);
     const Vec3 out = frame.to_local(ray.path.outgoing);
     interpolate_factors(tables_[index_of(ray.path.hit.material)], {out.x, out.y, std::abs(out.z)}, used);
-    const double scale = 1 / static_cast<double>(walk.steps());
+    const double scale = 1 / static_cast<double>(walks_.steps());
     for (std::size_t g = 0; g < ray.once.size(); ++g)
-        ray.once[g] += reflected_cd_m2(walk.sums_of(g, coarse_side), used) * scale;
+        ray.once[g] += reflected_cd_m2(walks_.sums_of(g, coarse_side), used) * scale;
 }
 
 /// From one corner of the patch, chosen at random by the barycentric coordinates: a third of the work of all
@@ -378,7 +377,7 @@ auto LightGather::lit_corners(const PatchLocation& location, std::uint32_t repli
     for (std::size_t c = 0; c < 3; ++c) {
         const std::uint32_t number = vertices_.number_of(corners[c], fine_.patches.is_front(location.side));
         if (number == LightVertices::kDark || !(weights[c] > 0)) continue;
-        lit.source_share += weights[c] * double{source_shares_[number * walks_.size() + replicate]};
+        lit.source_share += weights[c] * double{source_shares_[number * replicates_ + replicate]};
         sum += weights[c];
         lit.numbers[lit.count] = number;
         lit.sums[lit.count++] = sum;
@@ -392,7 +391,7 @@ void LightGather::add(const GatheredRay& ray) {
     const std::uint32_t count = vertices_.terms_of(ray.vertex);
     if (count > 1) basis_.evaluate(ray.local_direction, values);
     const bool has_second = !source_.empty(), needs_once = !once_.empty();
-    const std::size_t own = ray.vertex * walks_.size() + ray.replicate;
+    const std::size_t own = ray.vertex * replicates_ + ray.replicate;
     replicate_lx_[own] += kPi * ray.own_cd_m2;
     for (std::size_t g = 0; g < groups_.count(); ++g) {
         const Rgb once_lx = ray.once[g] * kPi, twice_lx = ray.twice[g] * kPi;
@@ -409,23 +408,23 @@ void LightGather::add(const GatheredRay& ray) {
 }
 
 double LightGather::illuminance_lx(std::uint32_t vertex) const {
-    const auto first = replicate_lx_.begin() + static_cast<std::ptrdiff_t>(vertex * walks_.size());
+    const auto first = replicate_lx_.begin() + static_cast<std::ptrdiff_t>(vertex * replicates_);
     double sum = 0;
-    for (std::size_t r = 0; r < walks_.size(); ++r) sum += first[static_cast<std::ptrdiff_t>(r)];
-    return sum / static_cast<double>((rays_[vertex] - 1) * walks_.size());
+    for (std::size_t r = 0; r < replicates_; ++r) sum += first[static_cast<std::ptrdiff_t>(r)];
+    return sum / static_cast<double>((rays_[vertex] - 1) * replicates_);
 }
 
 double LightGather::bias_lx(std::uint32_t vertex) const {
-    return std::abs(difference_lx_[vertex]) / static_cast<double>((rays_[vertex] - 1) * walks_.size());
+    return std::abs(difference_lx_[vertex]) / static_cast<double>((rays_[vertex] - 1) * replicates_);
 }
 
 auto LightGather::illuminances() const -> Illuminances {
     Illuminances result;
     result.area_m2 = area_m2_;
     result.lit_sides = vertices_.sides();
-    for (std::size_t r = 0; r < walks_.size(); ++r) {
+    for (std::size_t r = 0; r < replicates_; ++r) {
         for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-            result.replicate_means.push_back(direct_lx_[i] + replicate_lx_[i * walks_.size() + r] /
+            result.replicate_means.push_back(direct_lx_[i] + replicate_lx_[i * replicates_ + r] /
                                                                  static_cast<double>(rays_[i] - 1));
         }
     }
@@ -443,16 +442,16 @@ PatchSolution LightGather::solution() const {
     solution.terms.resize(groups_.count());
     for (std::size_t g = 0; g < groups_.count(); ++g) {
         for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-            const double scale = 1 / static_cast<double>((rays_[i] - 1) * walks_.size());
+            const double scale = 1 / static_cast<double>((rays_[i] - 1) * replicates_);
             for (std::uint32_t k = 0; k < vertices_.terms_of(i); ++k)
                 solution.terms[g].push_back(stored(to_rgb(twice_[first_of(g, i) + k]) * scale));
         }
     }
-    solution.replicates.resize(walks_.size());
+    solution.replicates.resize(replicates_);
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
         const double mean_lx = illuminance_lx(i), rays = static_cast<double>(rays_[i] - 1);
-        for (std::size_t r = 0; r < walks_.size(); ++r) {
-            const double share = mean_lx > 0 ? replicate_lx_[i * walks_.size() + r] / rays / mean_lx : 1;
+        for (std::size_t r = 0; r < replicates_; ++r) {
+            const double share = mean_lx > 0 ? replicate_lx_[i * replicates_ + r] / rays / mean_lx : 1;
             solution.replicates[r].push_back(to_half(static_cast<float>(share)));
         }
         solution.bias.push_back(to_half(static_cast<float>(mean_lx > 0 ? bias_lx(i) / mean_lx : 0)));

@@ -32,10 +32,10 @@ patches::FinePatches patches_near_contacts(const PatchTransport& coarse, const s
 /// Keeps references to all arguments but the key.
 class LightGather {
   public:
-    /// `walks`: their light, one for each replicate. `is_lit`: per side of the walks' patches.
-    LightGather(const PatchTransport& coarse, const TermLayout& layout, std::vector<const TermSums*> walks,
-                const std::vector<bool>& is_lit, const patches::FinePatches& fine, const LightGroups& groups,
-                math::RandomKey key, const Monitor& monitor);
+    /// `walks`: their light. `is_lit`: per side of the walks' patches.
+    LightGather(const PatchTransport& coarse, const TermLayout& layout, const TermSums& walks,
+                std::size_t replicates, const std::vector<bool>& is_lit, const patches::FinePatches& fine,
+                const LightGroups& groups, math::RandomKey key, const Monitor& monitor);
 
     /// One ray from every vertex for each replicate. Throws Cancelled as the monitor says: some vertices have
     /// one step more then.
@@ -95,7 +95,8 @@ class LightGather {
 
     const PatchTransport& coarse_;
     const TermLayout& layout_;
-    std::vector<const TermSums*> walks_;
+    const TermSums& walks_;
+    std::size_t replicates_;
     const patches::FinePatches& fine_;
     const LightGroups& groups_;
     math::RandomKey key_;
