@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "base/parallel.h"
@@ -14,7 +13,6 @@
 #include "estimators/patch_light/incoming_light.h"
 #include "estimators/patch_light/solution/group_sources.h"
 #include "estimators/patch_light/solution/light_gather.h"
-#include "estimators/patch_light/solution/light_vertices.h"
 #include "run/schedule.h"
 #include "run/solution_errors.h"
 #include "scene/light_groups.h"
@@ -54,13 +52,12 @@ class Walks final : public Work {
           sink_(sink) {
         const math::RandomKey key{seed};
         const std::uint64_t dark = first_steps(transport);
-        Stage stage(monitor, "first steps", dark + kStepsToFindLight);
+        Stage stage(monitor, "first steps", kWalks * (dark + kStepsToFindLight));
         for (std::size_t w = 0; w < kWalks; ++w)
             walks_.emplace_back(transport, sources_.sources(), key.derived(kWalking).derived(w));
         for (std::uint64_t i = 0; i < dark + kStepsToFindLight; ++i) {
-            step_walks();
+            step_walks([&] { stage.advance(); });
             if (i >= dark) add_walks();
-            stage.advance();
         }
         const std::vector<bool> is_lit = lit_sides();
         fine_ = patches_near_contacts(transport, is_lit, kMostFinePatches, monitor);
@@ -86,9 +83,11 @@ class Walks final : public Work {
     void advance(std::uint64_t steps) override {
         for (std::uint64_t i = 0; i < steps; ++i) {
             const std::uint64_t gathered = gather_->steps();
-            if (gathered < estimators::LightGather::kStepsToTrustSecond ||
-                gathered % kStepsForOneOfWalks == 0)
-                step_walks(), add_walks();
+            const bool needs_walks = gathered < estimators::LightGather::kStepsToTrustSecond;
+            if (needs_walks || gathered % kStepsForOneOfWalks == 0) {
+                step_walks([&] { monitor_.require_more(); });
+                add_walks();
+            }
             gather_->step();
         }
     }
@@ -113,9 +112,10 @@ class Walks final : public Work {
     }
 
   private:
-    void step_walks() {
+    /// `stop_or_go_on`: called before each step; throws where the run is to end.
+    void step_walks(const std::function<void()>& stop_or_go_on) {
         parallel_for(walks_.size(), [&](std::size_t w) {
-            monitor_.require_more();
+            stop_or_go_on();
             walks_[w].step();
         });
     }
