@@ -85,7 +85,8 @@ Json json_of_other_sensors(const std::vector<Sensor>& sensors) {
     return list;
 }
 
-Json json_of_meshes(const Scene& scene, const std::vector<DisplayPart>& parts) {
+Json json_of_meshes(const Scene& scene, const std::vector<DisplayPart>& parts,
+                    const CoarseTriangles& coarse) {
     std::vector<int> light_of_object(scene.objects.size(), -1);
     std::vector<Rgb> luminance_cd_m2(scene.objects.size());
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -95,7 +96,8 @@ Json json_of_meshes(const Scene& scene, const std::vector<DisplayPart>& parts) {
         luminance_cd_m2[index_of(surface->object)] = surface->luminance_cd_m2;
     }
     Json list = Json::array();
-    for (const DisplayPart& part : parts) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const DisplayPart& part = parts[i];
         const std::uint32_t object = index_of(part.object);
         const int light = part.is_front ? light_of_object[object] : -1;
         list.push_back({{"object", object},
@@ -103,6 +105,7 @@ Json json_of_meshes(const Scene& scene, const std::vector<DisplayPart>& parts) {
                         {"first", part.first},
                         {"count", part.count},
                         {"light", light}});
+        if (!coarse.parts.empty()) list.back()["coarse"] = {coarse.parts[i].first, coarse.parts[i].count};
         if (light >= 0) list.back()["luminance_cd_m2"] = json_of(luminance_cd_m2[object]);
     }
     return list;

@@ -7,6 +7,7 @@
 
 #include "scene/scene.h"
 #include "sensors/sensor.h"
+#include "walk/coarse_triangles.h"
 #include "walk/display_mesh.h"
 #include "walk/highlight_points.h"
 
@@ -24,6 +25,7 @@ nlohmann::ordered_json json_of(const Scene& scene, const Light& light, std::size
 nlohmann::ordered_json json_of_cameras(const std::vector<Sensor>& sensors);
 /// All but cameras; of several points the middle one.
 nlohmann::ordered_json json_of_other_sensors(const std::vector<Sensor>& sensors);
-nlohmann::ordered_json json_of_meshes(const Scene& scene, const std::vector<DisplayPart>& parts);
+nlohmann::ordered_json json_of_meshes(const Scene& scene, const std::vector<DisplayPart>& parts,
+                                      const CoarseTriangles& coarse);
 
 }  // namespace stilb::walk

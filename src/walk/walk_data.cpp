@@ -15,8 +15,8 @@
 #include "estimators/patch_light/solution/reflection_table.h"
 #include "io/text/compression.h"
 #include "run/solution_errors.h"
-#include "run/solve.h"
 #include "scene/light_groups.h"
+#include "walk/coarse_triangles.h"
 #include "walk/container.h"
 #include "walk/display_mesh.h"
 #include "walk/highlight_points.h"
@@ -31,6 +31,8 @@ using WalkJson = nlohmann::ordered_json;
 
 /// The largest number in half precision.
 constexpr float kMostHalf = 65504;
+/// Of pictures that move; the budget of a scene without large meshes is below it.
+constexpr std::size_t kMostCoarseTriangles = 100'000;
 
 Half half_of(double value) { return to_half(static_cast<float>(value)); }
 
@@ -115,7 +117,9 @@ class SceneContainer {
     const LightVertices& light() const { return light_; }
 
     std::string bytes(const DisplayMesh& mesh) {
+        const CoarseTriangles coarse = coarse_triangles(mesh, kMostCoarseTriangles);
         add_vertices(mesh);
+        if (!coarse.triangles.empty()) add_triangles("coarse_triangles", coarse.triangles);
         add_light_vertices();
         WalkJson header{{"name", walk_.name},
                         {"stilb", STILB_VERSION},
@@ -128,7 +132,7 @@ class SceneContainer {
         header["lights"] = lights_json();
         header["cameras"] = json_of_cameras(walk_.sensors);
         header["sensors"] = json_of_other_sensors(walk_.sensors);
-        header["meshes"] = json_of_meshes(scene_, mesh.parts);
+        header["meshes"] = json_of_meshes(scene_, mesh.parts, coarse);
         return container_bytes(std::move(header), arrays_);
     }
 
@@ -137,7 +141,7 @@ class SceneContainer {
         const std::size_t count = mesh.vertices.size();
         Rows<float> positions(count, 3);
         Rows<std::int16_t> normals(count, 3);
-        Rows<std::uint32_t> triangles(mesh.triangles.size(), 3), light_of(count, 3);
+        Rows<std::uint32_t> light_of(count, 3);
         Rows<std::uint16_t> weights(count, 3);
         for (const DisplayVertex& vertex : mesh.vertices) {
             add_position(positions, vertex.position);
@@ -146,14 +150,19 @@ class SceneContainer {
             light_of.add({shares.vertices[0], shares.vertices[1], shares.vertices[2]});
             weights.add({half_of(shares.weights[0]), half_of(shares.weights[1]), half_of(shares.weights[2])});
         }
-        for (const auto& [a, b, c] : mesh.triangles) triangles.add({a, b, c});
         arrays_.push_back(make_array("positions", 3, positions));
         arrays_.push_back(make_array("normals", 3, normals));
-        arrays_.push_back(make_array("triangles", 3, triangles));
+        add_triangles("triangles", mesh.triangles);
         arrays_.push_back(illuminance_array("direct", mesh.direct_lx));
         arrays_.push_back(illuminance_array("direct_error", mesh.direct_error_lx));
         arrays_.push_back(make_array("light_of", 3, light_of));
         arrays_.push_back(make_half_array("light_weights", 3, weights));
+    }
+
+    void add_triangles(const std::string& name, const std::vector<Triangle>& triangles) {
+        Rows<std::uint32_t> rows(triangles.size(), 3);
+        for (const auto& [a, b, c] : triangles) rows.add({a, b, c});
+        arrays_.push_back(make_array(name, 3, rows));
     }
 
     void add_light_vertices() {

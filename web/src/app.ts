@@ -45,7 +45,7 @@ export class Walkthrough extends EventTarget {
     scale: { logarithmic: false, low: 0, high: 100 },
   };
   readonly adaptation = new Adaptation();
-  readonly times = new FrameTimes();
+  readonly times: FrameTimes;
   mode: Mode = "walk";
   private readonly renderer: Renderer;
   private readonly readings: Readings;
@@ -60,6 +60,7 @@ export class Walkthrough extends EventTarget {
   constructor(container: Container<SceneHeader>, readonly canvas: HTMLCanvasElement) {
     super();
     this.scene = new Scene(container);
+    this.times = new FrameTimes(this.scene.coarseTriangles !== null);
     const highlights = new Highlights(this.scene);
     this.lighting = new Lighting(this.scene, highlights);
     this.space = new Space(this.scene);
@@ -294,7 +295,7 @@ export class Walkthrough extends EventTarget {
     const draws = moves || this.renderer.canImprove;
     if (!draws && !this.displayIsNew && !this.adaptation.isUnderWay) return;
     const begin = this.times.begin();
-    if (moves) this.renderer.drawMoving(this.times.scale);
+    if (moves) this.renderer.drawMoving(this.times.scale, this.times.isCoarse);
     else if (draws) this.renderer.drawStill();
     this.display.exposure = this.adaptation.exposure(() => this.renderer.luminances(), draws);
     this.renderer.show(this.display);

@@ -192,6 +192,39 @@ test("every control has a name and is reached by the keyboard", { skip: missing 
   await page.close();
 });
 
+test("a picture that moves too slowly takes fewer triangles, and one that stands still all", { skip: missing }, async () => {
+  const scene = furnishedRoom();
+  scene.thin(10);
+  const { page, problems } = await openFile(browser, scene, { width: 800, height: 800 });
+  const { moving, still, time } = await page.evaluate(async () => {
+    const { prototype } = WebGL2RenderingContext;
+    const { drawElements } = prototype;
+    let indices = 0;
+    prototype.drawElements = function (mode, count, type, offset) {
+      indices += count;
+      return drawElements.call(this, mode, count, type, offset);
+    };
+    const indicesOf = async (draw) => {
+      indices = 0;
+      await draw();
+      return indices;
+    };
+    const moving = [];
+    for (let i = 0; i < 30; ++i) {
+      moving.push(await indicesOf(async () => {
+        window.stilb.camera([0.5 + i * 0.005, 0.5, 1.6], [5, 4, 0.8], 75);
+        await new Promise((done) => requestAnimationFrame(() => setTimeout(done, 0)));
+      }));
+    }
+    const time = window.stilb.frameTime();
+    return { moving, time, still: await indicesOf(() => window.stilb.luminance(400, 400)) };
+  });
+  assert.ok(moving.at(-1) < 0.2 * moving[0] || time < 1000 / 15, `${moving} indices, ${time} ms`);
+  assert.ok(still >= moving[0], `${still} indices`);
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
 test("a scene of 60 000 triangles moves", { skip: missing }, async () => {
   const { page, problems } = await openFile(browser, furnishedRoom(), { width: 800, height: 800 });
   const time = await page.evaluate(async () => {

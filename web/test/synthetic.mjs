@@ -35,6 +35,7 @@ export class SyntheticScene {
   positions = [];
   normals = [];
   triangles = [];
+  coarseTriangles = null;
   lightPoints = [];
   vertexMaterials = [];
   /** Indirect light of all surfaces: illuminance [lx], and the terms (1, 1) and (1, -1). */
@@ -107,6 +108,16 @@ export class SyntheticScene {
     this.header.meshes.push({ object, material, first, count: this.triangles.length - first, light: -1 });
   }
 
+  /** For pictures that move, every n-th triangle of each mesh: full of holes, but few. */
+  thin(n) {
+    this.coarseTriangles = [];
+    for (const mesh of this.header.meshes) {
+      const own = this.triangles.slice(mesh.first, mesh.first + mesh.count).filter((_, i) => i % n === 0);
+      mesh.coarse = [this.coarseTriangles.length, own.length];
+      this.coarseTriangles.push(...own);
+    }
+  }
+
   illuminance(light, position, normal) {
     const { points: [first, count], intensity } = this.header.lights[light];
     return this.lightPoints.slice(first, first + count).reduce((sum, point) => {
@@ -144,6 +155,9 @@ export class SyntheticScene {
       light_terms: { type: "u32", values: stored.firstTerms },
       light_points: { type: "f32", components: 8, values: flat(this.lightPoints.map((p) => [...p.position, ...p.normal, p.weight, 0])) },
     };
+    if (this.coarseTriangles) {
+      arrays.coarse_triangles = { type: "u32", components: 3, values: flat(this.coarseTriangles), planes: true };
+    }
     header.materials.forEach((material, i) => {
       if (!GLOSSY.includes(material.type)) return;
       material.reflection = `reflection_${i}`;

@@ -53,6 +53,8 @@ export interface MeshEntry {
   first: number;
   count: number;
   light: number;
+  /** First and number of its coarse triangles, in scenes with many triangles. */
+  coarse?: [number, number];
   luminance_cd_m2?: Rgb;
 }
 
@@ -87,6 +89,8 @@ export class Scene {
   readonly positions: Float32Array;
   readonly normals: Int16Array;
   readonly triangles: Uint32Array;
+  /** For pictures that move; null where `triangles` are few. */
+  readonly coarseTriangles: Uint32Array | null;
   /** Illuminance by each light at each vertex, as halves, light by light. */
   readonly direct: Uint16Array;
   readonly directError: Float32Array;
@@ -107,6 +111,9 @@ export class Scene {
     this.positions = container.floats("positions");
     this.normals = container.signed16("normals");
     this.triangles = container.unsigned("triangles") as Uint32Array;
+    this.coarseTriangles = container.has("coarse_triangles")
+      ? (container.unsigned("coarse_triangles") as Uint32Array)
+      : null;
     this.direct = container.halves("direct");
     this.directError = container.floats("direct_error");
     this.lightOf = container.unsigned("light_of") as Uint32Array;

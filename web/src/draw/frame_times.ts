@@ -12,8 +12,12 @@ const PATIENCE = 3;
 export class FrameTimes {
   private readonly times: number[] = [];
   private level = 0;
+  /** Whether pictures that move take fewer triangles, where there are such: once they must, they do. */
+  isCoarse = false;
   private sinceChange = 0;
   private lastBegin: number | null = null;
+
+  constructor(private readonly canBeCoarse: boolean) {}
 
   /** Of the full resolution, for the next moving frame. */
   get scale(): number {
@@ -48,7 +52,10 @@ export class FrameTimes {
 
   private adapt(time: number) {
     if (++this.sinceChange < PATIENCE) return;
-    if (time > SLOWEST && this.level < SCALES.length - 1) this.change(1);
+    if (time > SLOWEST && this.canBeCoarse && !this.isCoarse) {
+      this.isCoarse = true;
+      this.sinceChange = 0;
+    } else if (time > SLOWEST && this.level < SCALES.length - 1) this.change(1);
     else if (time < ROOM * SLOWEST && this.level > 0) this.change(-1);
   }
 

@@ -91,8 +91,9 @@ export class Renderer {
     return !this.isStale;
   }
 
-  /** One picture of a view that moves, at a share of the resolution. */
-  drawMoving(scale: number) {
+  /** One picture of a view that moves, at a share of the resolution, and with fewer triangles. */
+  drawMoving(scale: number, isCoarse: boolean) {
+    this.surfaces.showCoarse(isCoarse);
     if (this.mirrors.exist) this.mirrors.refreshProbes(false);
     this.drawFrame(scale, [0, 0], false);
     this.mustRestart = true;
@@ -100,6 +101,7 @@ export class Renderer {
 
   /** One more sample of a view that stands still; the first one is exact at the pixels' middles. */
   drawStill() {
+    this.surfaces.showCoarse(false);
     this.mirrors.refreshProbes(true);
     if (this.mustRestart || this.frameScale < 1) {
       this.samples = 0;

@@ -27,6 +27,9 @@ export interface Surface {
   fine: THREE.RawShaderMaterial;
   moving: THREE.RawShaderMaterial;
   slots: number[];
+  /** All triangles, and fewer of them with the same shape; the same where there are few. */
+  whole: THREE.BufferGeometry;
+  coarse: THREE.BufferGeometry;
 }
 
 export class Surfaces {
@@ -85,6 +88,11 @@ export class Surfaces {
     for (const { mesh } of this.specular) mesh.material.uniforms.uEye?.value.copy(eye);
   }
 
+  showCoarse(isCoarse: boolean) {
+    if (!this.scene.coarseTriangles) return;
+    for (const { mesh, whole, coarse } of this.all) mesh.geometry = isCoarse ? coarse : whole;
+  }
+
   /** A mesh of its own for further passes over the same triangles. */
   overlay(surface: Surface, material: THREE.RawShaderMaterial): Surface["mesh"] {
     return new THREE.Mesh(surface.mesh.geometry, material);
@@ -115,7 +123,7 @@ export class Surfaces {
   private add(entries: MeshEntry[], kind: Kind) {
     const entry = entries[0]!;
     const slots = kind === "glossy" ? this.highlights.slots[this.scene.header.meshes.indexOf(entry)]! : [];
-    const geometry = this.geometryOf(entries);
+    const geometry = this.geometryOf(this.scene.triangles, entries.map(({ first, count }) => [first, count]));
     const lobe = lobeWidth(this.scene.materialOf(entry));
     const materialWith = (most: number) => {
       const levels = slots.map((light) => this.levelOf(light, geometry.boundingBox!, lobe, most));
@@ -123,7 +131,8 @@ export class Surfaces {
     };
     const fine = materialWith(pointsPerLamp(slots.length));
     const moving = slots.length > 0 ? materialWith(MOST_MOVING_POINTS) : fine;
-    const surface = { entry, kind, mesh: new THREE.Mesh(geometry, fine), fine, moving, slots };
+    const mesh = new THREE.Mesh(geometry, fine);
+    const surface = { entry, kind, mesh, fine, moving, slots, whole: geometry, coarse: this.coarseOf(entries) ?? geometry };
     this.all.push(surface);
     if (kind === "glossy") this.glossy.push(surface);
     if (kind === "mirror" || kind === "pane" || kind === "glass") this.specular.push(surface);
@@ -132,14 +141,20 @@ export class Surfaces {
     this.setColours(surface);
   }
 
-  private geometryOf(entries: MeshEntry[]): THREE.BufferGeometry {
+  private coarseOf(entries: MeshEntry[]): THREE.BufferGeometry | null {
+    const { coarseTriangles } = this.scene;
+    return coarseTriangles && this.geometryOf(coarseTriangles, entries.map(({ coarse }) => coarse!));
+  }
+
+  /** `parts`: first and number of triangles. */
+  private geometryOf(triangles: Uint32Array, parts: [number, number][]): THREE.BufferGeometry {
     const geometry = new THREE.BufferGeometry();
     for (const [name, attribute] of Object.entries(this.attributes)) geometry.setAttribute(name, attribute);
-    const total = entries.reduce((sum, { count }) => sum + count, 0);
+    const total = parts.reduce((sum, [, count]) => sum + count, 0);
     const index = new Uint32Array(3 * total);
     let at = 0;
-    for (const { first, count } of entries) {
-      index.set(this.scene.triangles.subarray(3 * first, 3 * (first + count)), at);
+    for (const [first, count] of parts) {
+      index.set(triangles.subarray(3 * first, 3 * (first + count)), at);
       at += 3 * count;
     }
     geometry.setIndex(new THREE.BufferAttribute(index, 1));
