@@ -31,8 +31,6 @@ struct PatchFlags {
     std::vector<std::string_view> given() const;
 
   private:
-    void add_those_of_all(Command& command);
-
     void require_known_to(const estimators::EstimatorEntry& method) const;
 };
 

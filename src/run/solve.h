@@ -40,9 +40,10 @@ inline constexpr double kSolutionPatches = 3000;
 inline constexpr std::size_t kMostFinePatches = 60'000;
 
 /// Solves by method ray-bundle and by gathering at vertices, regardless of the options' method; their `paths`
-/// are steps of all walks together. Without any limit, for a minute. The result depends on scene, patches,
-/// degree and seed, and on the steps done: not on threads. `interrupt` ends the run early, with a result.
-/// Throws as measure(), and InputError for first shots that cannot be stored: all but incoming and none.
+/// are steps of all replicates together. Without any limit, for a minute. The result depends on scene,
+/// patches, degree and seed, and on the steps done: not on threads. `interrupt` ends the run early, with a
+/// result. Throws as measure(), and InputError for first shots that cannot be stored: all but incoming and
+/// none.
 SolveResult solve(const Scene& scene, const RunOptions& options, int degree = kDefaultDegree,
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr,
                   SolutionSink* sink = nullptr);

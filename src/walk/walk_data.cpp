@@ -31,7 +31,7 @@ using WalkJson = nlohmann::ordered_json;
 
 /// The largest number in half precision.
 constexpr float kMostHalf = 65504;
-/// Of pictures that move; the budget of a scene without large meshes is below it.
+/// Pictures that move have about so many triangles. Only scenes with large meshes have more (DisplayOptions).
 constexpr std::size_t kMostCoarseTriangles = 100'000;
 
 Half half_of(double value) { return to_half(static_cast<float>(value)); }

@@ -55,7 +55,7 @@ class TermSums {
 
     /// Adds the light received in the last step of each walk.
     void add(std::span<const BundleIteration* const> walks);
-    /// Of all walks together.
+    /// The number of steps that were added, of all walks together.
     std::uint64_t steps() const { return steps_; }
     /// The sum over the steps, of a side's terms [lx / sqrt(sr)].
     std::span<const FloatRgb> sums_of(std::size_t group, std::uint32_t side) const {
@@ -64,14 +64,13 @@ class TermSums {
 
   private:
     void add(std::span<const BundleIteration* const> walks, std::uint32_t side);
-
-    const PatchTransport& transport_;
-    const TermLayout& layout_;
     /// A side's groups lie beside each other in memory, because they are read together.
     std::size_t first_of(std::size_t group, std::uint32_t side) const {
         return groups_ * layout_.first_of(side) + group * layout_.count_of(side);
     }
 
+    const PatchTransport& transport_;
+    const TermLayout& layout_;
     std::size_t groups_;
     std::uint64_t steps_ = 0;
     std::vector<FloatRgb> sums_;

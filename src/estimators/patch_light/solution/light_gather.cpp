@@ -74,7 +74,7 @@ struct LightGather::GatheredRay {
     transport::Path path;
     bool stands = false;             ///< on a surface that scatters
     std::span<Rgb> once{}, twice{};  ///< of groups [cd/m2]
-    /// What the light by the ray's own replicate differs by from the light by all, luminance-weighted.
+    /// The vertices' light has another luminance if only the ray's replicate counts: so much is added then.
     double own_cd_m2 = 0;
 };
 
@@ -83,7 +83,7 @@ struct LightGather::LitCorners {
     std::size_t count = 0;
     std::array<std::uint32_t, 3> numbers{};
     std::array<double, 3> sums{};  ///< of the barycentric coordinates so far
-    /// What a replicate found there, as a share of what all did.
+    /// The illuminance that one replicate found there, divided by the mean of all replicates.
     double source_share = 0;
 
     std::uint32_t chosen(double u) const {
@@ -214,7 +214,8 @@ void LightGather::renew_source() {
     renew_source_shares();
 }
 
-/// Rays of all replicates see the light that all have found so far, whose noise their spread would not show.
+/// All replicates see the same light, so that its noise would not show in how they differ: the shares tell
+/// what each would see if it were alone.
 void LightGather::renew_source_shares() {
     source_shares_.assign(replicate_lx_.size(), 1);
     if (steps_ < kFirstSteps) return;
@@ -392,7 +393,7 @@ void LightGather::add(const GatheredRay& ray) {
     if (count > 1) basis_.evaluate(ray.local_direction, values);
     const bool has_second = !source_.empty(), needs_once = !once_.empty();
     const std::size_t own = ray.vertex * replicates_ + ray.replicate;
-    replicate_lx_[own] += kPi * ray.own_cd_m2;
+    if (std::isfinite(ray.own_cd_m2)) replicate_lx_[own] += kPi * ray.own_cd_m2;
     for (std::size_t g = 0; g < groups_.count(); ++g) {
         const Rgb once_lx = ray.once[g] * kPi, twice_lx = ray.twice[g] * kPi;
         if (!once_lx.is_finite() || !twice_lx.is_finite()) continue;

@@ -118,8 +118,9 @@ class LightGather {
     std::vector<std::uint64_t> rays_;  ///< of each replicate, per vertex
     // Sums over the rays of all replicates:
     std::vector<FloatRgb> once_, twice_;
-    std::vector<FloatRgb> source_;      ///< the mean at the vertices, renewed from time to time
-    std::vector<float> source_shares_;  ///< vertices x replicates: what each found, as a share of the mean
+    std::vector<FloatRgb> source_;  ///< the mean at the vertices, renewed from time to time
+    /// Vertices x replicates: the illuminance that each replicate found, divided by their mean.
+    std::vector<float> source_shares_;
     /// Vertices x replicates: sums gathered twice, luminance-weighted, by each replicate's own light.
     std::vector<double> replicate_lx_;
     std::vector<double> difference_lx_;  ///< per vertex: sum of what the two ways differ by
