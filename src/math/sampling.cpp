@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "math/random.h"
+
 namespace stilb::math {
 
 namespace {
@@ -31,6 +33,13 @@ DirectionSample sample_cosine_hemisphere(double u1, double u2) {
     const DiskPoint foot = sample_unit_disk(u1, u2);
     const double cos_theta = std::sqrt(std::max(0.0, 1 - foot.x * foot.x - foot.y * foot.y));
     return {{foot.x, foot.y, cos_theta}, cosine_hemisphere_pdf_per_sr(cos_theta)};
+}
+
+Vec3 cosine_direction(std::uint32_t i, std::uint32_t count) {
+    const double middle = 0.5 / count;
+    return sample_cosine_hemisphere(static_cast<double>(i) / count + middle,
+                                    unit_interval(sobol(i, 0)) + middle)
+        .direction;
 }
 
 DirectionSample sample_sphere(double u1, double u2) {

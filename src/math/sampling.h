@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -29,6 +30,9 @@ DirectionSample sample_cosine_hemisphere(double u1, double u2);
 constexpr double cosine_hemisphere_pdf_per_sr(double cos_theta) {
     return cos_theta > 0 ? cos_theta / std::numbers::pi : 0;
 }
+/// About +z: number `i` of `count` directions that are spread evenly, by density cos(theta)/pi; none lies in
+/// the plane. `count`: a power of two.
+Vec3 cosine_direction(std::uint32_t i, std::uint32_t count);
 
 /// Uniform over the sphere.
 DirectionSample sample_sphere(double u1, double u2);

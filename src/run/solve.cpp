@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "base/parallel.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/incoming_light.h"
+#include "estimators/patch_light/solution/contact_refinement.h"
 #include "estimators/patch_light/solution/group_sources.h"
 #include "estimators/patch_light/solution/light_gather.h"
 #include "run/schedule.h"
@@ -59,9 +61,9 @@ class Walks final : public Work {
             step_walks([&] { stage.advance(); });
             if (i >= dark) add_walks();
         }
-        const std::vector<bool> is_lit = lit_sides();
-        fine_ = patches_near_contacts(transport, is_lit, kMostFinePatches, monitor);
-        gather_.emplace(transport, layout, sums_, kSolutionReplicates, is_lit, fine_, groups,
+        const estimators::SideLight light = light_of_sides();
+        fine_ = patches_near_contacts(transport, light, kMostFinePatches, monitor);
+        gather_.emplace(transport, layout, sums_, kSolutionReplicates, light.is_lit, fine_, groups,
                         key.derived(kGathering), monitor);
         if (sink_) sink_->prepare(transport.caster, gather_->solution());
     }
@@ -126,28 +128,29 @@ class Walks final : public Work {
         sums_.add(walks);
     }
 
-    /// Per side of the patches: whether any light reaches it.
-    std::vector<bool> lit_sides() const {
+    estimators::SideLight light_of_sides() const {
         const patches::Patches& patches = transport_.patches;
-        std::vector<bool> is_lit(2 * patches.count());
+        estimators::SideLight light{std::vector<bool>(2 * patches.count()),
+                                    std::vector<double>(2 * patches.count())};
         for (std::uint32_t patch = 0; patch < patches.count(); ++patch)
-            is_lit[patch] = estimators::to_rgb(transport_.emission[patch]).max() > 0;
-        const estimators::IncomingFirstShot* const first_shot = transport_.first_shot.incoming();
+            light.is_lit[patch] = estimators::to_rgb(transport_.emission[patch]).max() > 0;
         const std::vector<bool> is_sealed = sealed_sides(transport_.scene);
         for (const std::uint32_t side : layout_.sides()) {
             const ObjectId object = patches.object_of(patches.patch_of(side));
             if (is_sealed[object_side(object, patches.is_front(side))]) continue;
-            is_lit[side] = is_lit[side] || (first_shot && first_shot->illuminance_lx(side).max() > 0) ||
-                           is_lit_by_walks(side);
+            light.lx[side] = illuminance_lx(side).luminance();
+            light.is_lit[side] = light.is_lit[side] || illuminance_lx(side).max() > 0;
         }
-        return is_lit;
+        return light;
     }
 
-    bool is_lit_by_walks(std::uint32_t side) const {
-        for (std::size_t g = 0; g < groups_.count(); ++g) {
-            if (estimators::to_rgb(sums_.sums_of(g, side)[0]).max() > 0) return true;
-        }
-        return false;
+    Rgb illuminance_lx(std::uint32_t side) const {
+        Rgb by_walks;
+        for (std::size_t g = 0; g < groups_.count(); ++g)
+            by_walks += estimators::to_rgb(sums_.sums_of(g, side)[0]);
+        const double scale = std::sqrt(kPi) / static_cast<double>(sums_.steps());
+        const estimators::IncomingFirstShot* const first_shot = transport_.first_shot.incoming();
+        return by_walks * scale + (first_shot ? first_shot->illuminance_lx(side) : Rgb());
     }
 
     const estimators::PatchTransport& transport_;

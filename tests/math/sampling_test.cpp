@@ -69,6 +69,20 @@ TEST(CosineHemisphere, FollowsItsDensity) {
     EXPECT_EQ(cosine_hemisphere_pdf_per_sr(-0.5), 0);
 }
 
+TEST(CosineHemisphere, HasDirectionsSpreadEvenly) {
+    for (const std::uint32_t count : {8u, 16u, 64u}) {
+        double sum_of_cosines = 0, least = 1;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Vec3 direction = cosine_direction(i, count);
+            EXPECT_NEAR(length(direction), 1, 1e-12);
+            sum_of_cosines += direction.z;
+            least = std::min(least, direction.z);
+        }
+        EXPECT_NEAR(sum_of_cosines / count, 2. / 3, 1. / count);
+        EXPECT_GT(least, 0.1 / std::sqrt(count));  // none lies in the plane
+    }
+}
+
 TEST(UniformSphere, FollowsItsDensity) {
     EXPECT_GT(check_directions(DirectionGrid(-1, {1, 0, 0}, 1), sample_sphere,
                                [](const Vec3&) { return 1 / (4 * kPi); }),

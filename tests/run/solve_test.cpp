@@ -131,6 +131,31 @@ TEST(Solve, ThingsOnTheFloorTakeNoLight) {
     expect_the_light_of_paths(scene, 96, 512);
 }
 
+/// The areas of fine patches below a box that stands a millimetre above the floor [m2].
+struct AreasInGap {
+    double at_rim_m2 = 1, in_middle_m2 = 1;  ///< the smallest
+};
+AreasInGap areas_in_gap(const patches::Patches& patches) {
+    AreasInGap areas;
+    for (std::uint32_t p = 0; p < patches.count(); ++p) {
+        const Vec3 middle = patches.middle(p);
+        if (std::abs(middle.z - 0.001) > 1e-6) continue;
+        const double to_rim_m = std::min({middle.x - 1, 3 - middle.x, middle.y - 0.5, 2.5 - middle.y});
+        double& least_m2 = to_rim_m > 0.6 ? areas.in_middle_m2 : areas.at_rim_m2;
+        least_m2 = std::min(least_m2, double{patches.areas_m2[p]});
+    }
+    return areas;
+}
+
+/// Half of the vertices of a furnished room would lie where nobody looks.
+TEST(Solve, NarrowGapsAreDividedAtTheirRimsOnly) {
+    Scene scene = diffuse_room();
+    add_object(scene, Box{{1, 0.5, 0.001}, {3, 2.5, 0.2}}, Diffuse{Rgb::grey(0.6)});
+    const AreasInGap areas = areas_in_gap(solve(scene, options_of(16)).solution.patches);
+    EXPECT_LT(areas.at_rim_m2, 0.02);
+    EXPECT_GT(areas.in_middle_m2, 0.05);
+}
+
 /// Walks over patches have no light by mirrors; gathering adds it, one reflection after the other. The bias
 /// that a solution states is that of the walks.
 TEST(Solve, MirrorsCastLight) {

@@ -23,11 +23,6 @@ constexpr double kShareToMiddle = 0.2;
 /// Rays that tell whether a place is covered by another object.
 constexpr std::uint32_t kRaysToCover = 8;
 
-Vec3 drawn_direction(std::uint32_t i, std::uint32_t count) {
-    return math::sample_cosine_hemisphere((i + 0.5) / count, math::unit_interval(math::sobol(i, 0)))
-        .direction;
-}
-
 std::vector<ReflectionTable> tables_of(const Scene& scene, int degree) {
     std::vector<ReflectionTable> tables(scene.materials.size());
     for (std::size_t i = 0; i < tables.size(); ++i) {
@@ -165,7 +160,8 @@ bool LightGather::is_covered(const Origin& origin, const std::vector<bool>& is_l
     RayPacket packet;
     LaneMask lanes{};
     for (std::uint32_t i = 0; i < kRaysToCover; ++i) {
-        packet.set(i, origin.lifted - fine_.patches.center, frame.to_world(drawn_direction(i, kRaysToCover)),
+        packet.set(i, origin.lifted - fine_.patches.center,
+                   frame.to_world(math::cosine_direction(i, kRaysToCover)),
                    std::numeric_limits<float>::infinity());
         lanes[i] = -1;
     }
@@ -458,39 +454,6 @@ PatchSolution LightGather::solution() const {
         solution.bias.push_back(to_half(static_cast<float>(mean_lx > 0 ? bias_lx(i) / mean_lx : 0)));
     }
     return solution;
-}
-
-patches::FinePatches patches_near_contacts(const PatchTransport& coarse, const std::vector<bool>& is_lit,
-                                           std::size_t most, const Monitor& monitor) {
-    // Light that surfaces send varies over about the distance to them [Ward, Rubinstein, Clear 1988, A ray
-    // tracing solution for diffuse interreflection: the harmonic mean of the distances].
-    constexpr double share_of_distance = 1;
-    constexpr double least_share_of_size = 1. / 5;
-    const auto inverse_distance = [&](std::uint32_t side, const Vec3& position) {
-        const Vec3 lifted = lifted_off(coarse.scene, coarse.patches, coarse.caster, side, position);
-        const Frame frame = Frame::around(coarse.patches.normal_of(side));
-        RayPacket packet;
-        LaneMask lanes{};
-        for (std::uint32_t i = 0; i < kPacketWidth; ++i) {
-            packet.set(i, lifted - coarse.patches.center, frame.to_world(drawn_direction(i, kPacketWidth)),
-                       std::numeric_limits<float>::infinity());
-            lanes[i] = -1;
-        }
-        coarse.patch_caster.closest(packet, lanes);
-        double sum = 0;
-        for (const float distance_m : packet.end) sum += 1 / double{distance_m};
-        return sum / kPacketWidth;
-    };
-    const auto longest_edge_m = [&](std::uint32_t patch, const std::array<Vec3, 3>& corners) {
-        const Vec3 middle = (1. / 3) * (corners[0] + corners[1] + corners[2]);
-        double limit_m = coarse.size_m;
-        if (reflects_nothing(coarse.material_of(patch))) return limit_m;
-        for (const std::uint32_t side : {patch, coarse.patches.other_side(patch)}) {
-            if (is_lit[side]) limit_m = std::min(limit_m, share_of_distance / inverse_distance(side, middle));
-        }
-        return std::max(limit_m, least_share_of_size * coarse.size_m);
-    };
-    return patches::make_fine_patches(coarse.scene, coarse.size_m, longest_edge_m, most, monitor);
 }
 
 }  // namespace stilb::estimators

@@ -24,11 +24,6 @@
 
 namespace stilb::estimators {
 
-/// Finer patches than those of a walk: at most `most`, divided where other surfaces are near. `is_lit`: per
-/// side of the walk's patches.
-patches::FinePatches patches_near_contacts(const PatchTransport& coarse, const std::vector<bool>& is_lit,
-                                           std::size_t most, const Monitor& monitor);
-
 /// Keeps references to all arguments but the key.
 class LightGather {
   public:
