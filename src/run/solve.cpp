@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -29,27 +28,24 @@ namespace {
 constexpr const char* kMethod = "ray-bundle";
 /// The number of replicates of the gathering; the file has the light of each.
 constexpr std::size_t kSolutionReplicates = 8;
-constexpr std::size_t kWalks = 4;
+/// Each has all groups of lights in memory.
+constexpr std::size_t kWalks = 2;
 /// Steps of the gathering before the first error estimate.
 constexpr std::uint64_t kFirstCheck = 16;
 constexpr std::uint64_t kStepsAtOnce = 4;
-/// The walks make one step for so many of the gathering, as soon as only the bias depends on them.
-constexpr std::uint64_t kStepsForOneOfWalks = 2;
 
 enum SolvePurpose : std::uint64_t { kWalking, kGathering };
 /// Counted steps of the walks before it is known which sides of patches light reaches at all.
-constexpr std::uint64_t kStepsToFindLight = 8;
+constexpr std::uint64_t kStepsToFindLight = 16;
 
 /// Walks, and the gathering of their light at the vertices.
 class Walks final : public Work {
   public:
-    Walks(const estimators::PatchTransport& transport, const estimators::TermLayout& layout,
-          const LightGroups& groups, std::uint64_t seed, const Monitor& monitor, SolutionSink* sink)
+    Walks(const estimators::PatchTransport& transport, int degree, const LightGroups& groups,
+          std::uint64_t seed, const Monitor& monitor, SolutionSink* sink)
         : transport_(transport),
-          layout_(layout),
           groups_(groups),
           sources_(transport, groups),
-          sums_(transport, layout, groups.count()),
           monitor_(monitor),
           sink_(sink) {
         const math::RandomKey key{seed};
@@ -57,13 +53,19 @@ class Walks final : public Work {
         Stage stage(monitor, "first steps", kWalks * (dark + kStepsToFindLight));
         for (std::size_t w = 0; w < kWalks; ++w)
             walks_.emplace_back(transport, sources_.sources(), key.derived(kWalking).derived(w));
+        sums_.emplace(transport, estimators::TermLayout(transport, degree, reflecting_sides(transport)),
+                      groups.count());
         for (std::uint64_t i = 0; i < dark + kStepsToFindLight; ++i) {
-            step_walks([&] { stage.advance(); });
+            parallel_for(walks_.size(), [&](std::size_t w) {
+                walks_[w].step();
+                stage.advance();
+            });
             if (i >= dark) add_walks();
         }
         const estimators::SideLight light = light_of_sides();
+        sums_.emplace(sums_->of_sides(sides_with(light)));
         fine_ = patches_near_contacts(transport, light, kMostFinePatches, monitor);
-        gather_.emplace(transport, layout, sums_, kSolutionReplicates, light.is_lit, fine_, groups,
+        gather_.emplace(transport, *sums_, kSolutionReplicates, light.is_lit, fine_, groups,
                         key.derived(kGathering), monitor);
         if (sink_) sink_->prepare(transport.caster, gather_->solution());
     }
@@ -82,15 +84,14 @@ class Walks final : public Work {
     std::uint64_t most_at_once() const override { return kStepsAtOnce; }
     bool has_result() const override { return samples() >= estimators::LightGather::kFirstSteps; }
 
+    /// Walks and gathering step at the same time; what is gathered has the walks' light of the step before.
     void advance(std::uint64_t steps) override {
         for (std::uint64_t i = 0; i < steps; ++i) {
-            const std::uint64_t gathered = gather_->steps();
-            const bool needs_walks = gathered < estimators::LightGather::kStepsToTrustSecond;
-            if (needs_walks || gathered % kStepsForOneOfWalks == 0) {
-                step_walks([&] { monitor_.require_more(); });
-                add_walks();
-            }
-            gather_->step();
+            parallel_for(walks_.size() + 1, [&](std::size_t task) {
+                monitor_.require_more();
+                task < walks_.size() ? walks_[task].step() : gather_->step();
+            });
+            add_walks();
         }
     }
 
@@ -109,23 +110,22 @@ class Walks final : public Work {
         sink_->show(solution(), so_far);
     }
 
-    estimators::PatchSolution solution() const {
-        return rounded_to_errors(gather_->solution(), transport_.scene);
+    /// At the end: the memory of the walks is free for it.
+    estimators::PatchSolution last_solution() {
+        walks_.clear();
+        sums_.reset();
+        return solution();
     }
 
   private:
-    /// `stop_or_go_on`: called before each step; throws where the run is to end.
-    void step_walks(const std::function<void()>& stop_or_go_on) {
-        parallel_for(walks_.size(), [&](std::size_t w) {
-            stop_or_go_on();
-            walks_[w].step();
-        });
+    estimators::PatchSolution solution() const {
+        return rounded_to_errors(gather_->solution(), transport_.scene);
     }
 
     void add_walks() {
         std::vector<const estimators::BundleIteration*> walks;
         for (const estimators::BundleIteration& walk : walks_) walks.push_back(&walk);
-        sums_.add(walks);
+        sums_->add(walks);
     }
 
     estimators::SideLight light_of_sides() const {
@@ -135,7 +135,7 @@ class Walks final : public Work {
         for (std::uint32_t patch = 0; patch < patches.count(); ++patch)
             light.is_lit[patch] = estimators::to_rgb(transport_.emission[patch]).max() > 0;
         const std::vector<bool> is_sealed = sealed_sides(transport_.scene);
-        for (const std::uint32_t side : layout_.sides()) {
+        for (const std::uint32_t side : sums_->layout().sides()) {
             const ObjectId object = patches.object_of(patches.patch_of(side));
             if (is_sealed[object_side(object, patches.is_front(side))]) continue;
             light.lx[side] = illuminance_lx(side).luminance();
@@ -144,20 +144,27 @@ class Walks final : public Work {
         return light;
     }
 
+    /// The sides with terms that light reaches.
+    std::vector<std::uint32_t> sides_with(const estimators::SideLight& light) const {
+        std::vector<std::uint32_t> sides;
+        std::ranges::copy_if(sums_->layout().sides(), std::back_inserter(sides),
+                             [&](std::uint32_t side) { return light.is_lit[side]; });
+        return sides;
+    }
+
     Rgb illuminance_lx(std::uint32_t side) const {
         Rgb by_walks;
         for (std::size_t g = 0; g < groups_.count(); ++g)
-            by_walks += estimators::to_rgb(sums_.sums_of(g, side)[0]);
-        const double scale = std::sqrt(kPi) / static_cast<double>(sums_.steps());
+            by_walks += estimators::to_rgb(sums_->sums_of(g, side)[0]);
+        const double scale = std::sqrt(kPi) / static_cast<double>(sums_->steps());
         const estimators::IncomingFirstShot* const first_shot = transport_.first_shot.incoming();
         return by_walks * scale + (first_shot ? first_shot->illuminance_lx(side) : Rgb());
     }
 
     const estimators::PatchTransport& transport_;
-    const estimators::TermLayout& layout_;
     const LightGroups& groups_;
     estimators::GroupSources sources_;
-    estimators::TermSums sums_;
+    std::optional<estimators::TermSums> sums_;
     const Monitor& monitor_;
     SolutionSink* sink_;
     std::vector<estimators::BundleIteration> walks_;
@@ -203,12 +210,11 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
     session.on_threads([&] {
         const Monitor& monitor = session.monitor();
         const estimators::PatchTransport transport(scene, session.caster(), options.patches, monitor);
-        const estimators::TermLayout layout(transport, degree, reflecting_sides(transport));
         const LightGroups groups = scene::light_groups(scene);
-        Walks walks(transport, layout, groups, options.seed, monitor, sink);
+        Walks walks(transport, degree, groups, options.seed, monitor, sink);
         session.run(walks, result);
         result.patches = transport.report();
-        result.solution = walks.solution();
+        result.solution = walks.last_solution();
     });
     result.replicates = static_cast<int>(kSolutionReplicates);
     result.warnings = estimators::patch_warnings(scene, kMethod);

@@ -34,6 +34,16 @@ std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport) {
     return sides;
 }
 
+TermSums TermSums::of_sides(std::vector<std::uint32_t> sides) const {
+    TermSums chosen(transport_, TermLayout(transport_, layout_.basis().degree(), std::move(sides)), groups_);
+    chosen.steps_ = steps_;
+    for (const std::uint32_t side : chosen.layout_.sides()) {
+        for (std::size_t g = 0; g < groups_; ++g)
+            std::ranges::copy(sums_of(g, side), &chosen.sums_[chosen.first_of(g, side)]);
+    }
+    return chosen;
+}
+
 void TermSums::add(std::span<const BundleIteration* const> walks) {
     constexpr std::size_t sides_at_once = 256;
     const auto add_part = [&](std::size_t first, std::size_t last) {

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "estimators/patch_light/patch_transport.h"
@@ -46,12 +47,19 @@ class TermLayout {
 /// Sides that reflect light.
 std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport);
 
-/// Terms of the mean of the steps of walks, for each of their groups of lights. Keeps references to transport
-/// and layout.
+/// Terms of the mean of the steps of walks, for each of their groups of lights. Keeps a reference to the
+/// transport.
 class TermSums {
   public:
-    TermSums(const PatchTransport& transport, const TermLayout& layout, std::size_t groups = 1)
-        : transport_(transport), layout_(layout), groups_(groups), sums_(groups * layout.count()) {}
+    TermSums(const PatchTransport& transport, TermLayout layout, std::size_t groups = 1)
+        : transport_(transport),
+          layout_(std::move(layout)),
+          groups_(groups),
+          sums_(groups * layout_.count()) {}
+    /// Those of some of the sides; the others get none from now on.
+    TermSums of_sides(std::vector<std::uint32_t> sides) const;
+
+    const TermLayout& layout() const { return layout_; }
 
     /// Adds the light received in the last step of each walk.
     void add(std::span<const BundleIteration* const> walks);
@@ -70,7 +78,7 @@ class TermSums {
     }
 
     const PatchTransport& transport_;
-    const TermLayout& layout_;
+    TermLayout layout_;
     std::size_t groups_;
     std::uint64_t steps_ = 0;
     std::vector<FloatRgb> sums_;

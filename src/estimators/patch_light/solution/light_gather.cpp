@@ -88,12 +88,10 @@ struct LightGather::LitCorners {
     }
 };
 
-LightGather::LightGather(const PatchTransport& coarse, const TermLayout& layout, const TermSums& walks,
-                         std::size_t replicates, const std::vector<bool>& is_lit,
-                         const patches::FinePatches& fine, const LightGroups& groups, math::RandomKey key,
-                         const Monitor& monitor)
+LightGather::LightGather(const PatchTransport& coarse, const TermSums& walks, std::size_t replicates,
+                         const std::vector<bool>& is_lit, const patches::FinePatches& fine,
+                         const LightGroups& groups, math::RandomKey key, const Monitor& monitor)
     : coarse_(coarse),
-      layout_(layout),
       walks_(walks),
       replicates_(replicates),
       fine_(fine),
@@ -101,7 +99,7 @@ LightGather::LightGather(const PatchTransport& coarse, const TermLayout& layout,
       key_(key),
       monitor_(monitor),
       fine_caster_(fine.patches),
-      basis_(layout.basis().degree()),
+      basis_(walks.layout().basis().degree()),
       tables_(tables_of(coarse.scene, basis_.degree())),
       lights_(coarse.scene, coarse.caster, groups, [](std::size_t) { return true; }),
       tracer_(coarse.scene, coarse.caster, coarse.lights),
@@ -113,8 +111,7 @@ LightGather::LightGather(const PatchTransport& coarse, const TermLayout& layout,
     find_origins(is_lit);
     add_direct_light();
     rays_.resize(vertices_.count());
-    once_.resize(groups.count() * vertices_.terms());
-    twice_.resize(once_.size());
+    sums_.resize(groups.count() * vertices_.terms());
     replicate_lx_.resize(vertices_.count() * replicates_);
     difference_lx_.resize(vertices_.count());
 }
@@ -197,12 +194,9 @@ void LightGather::add_direct_light() {
 
 /// The light that the rays have found so far, as light that reaches the vertices.
 void LightGather::renew_source() {
-    const bool by_second = steps_ >= kStepsToTrustSecond;
-    source_ = by_second ? twice_ : once_;
-    if (by_second) once_ = {};  // never read again
+    source_ = sums_;
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-        const std::uint64_t rays = (by_second ? rays_[i] - 1 : rays_[i]) * replicates_;
-        const auto scale = static_cast<float>(1. / static_cast<double>(rays));
+        const auto scale = static_cast<float>(1. / rays_that_count(i) / static_cast<double>(replicates_));
         for (std::size_t t = first_of(0, i); t < first_of(groups_.count(), i); ++t) {
             for (float& band : source_[t]) band *= scale;
         }
@@ -214,17 +208,27 @@ void LightGather::renew_source() {
 /// what each would see if it were alone.
 void LightGather::renew_source_shares() {
     source_shares_.assign(replicate_lx_.size(), 1);
-    if (steps_ < kFirstSteps) return;
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-        const double mean_lx = illuminance_lx(i), rays = static_cast<double>(rays_[i] - 1);
+        const double mean_lx = illuminance_lx(i);
         if (!(mean_lx > 0)) continue;
         for (std::size_t r = i * replicates_; r < (i + 1) * replicates_; ++r)
-            source_shares_[r] = static_cast<float>(replicate_lx_[r] / rays / mean_lx);
+            source_shares_[r] = static_cast<float>(replicate_lx_[r] / rays_that_count(i) / mean_lx);
     }
 }
 
+/// The light gathered once has served: it is not part of the result.
+void LightGather::forget_first_step() {
+    std::ranges::fill(sums_, FloatRgb{});
+    std::ranges::fill(replicate_lx_, 0.);
+}
+
+double LightGather::rays_that_count(std::uint32_t vertex) const {
+    return static_cast<double>(rays_[vertex] > 1 ? rays_[vertex] - 1 : rays_[vertex]);
+}
+
 void LightGather::step() {
-    if (std::has_single_bit(steps_)) renew_source();
+    if (steps_ == 1 || (steps_ >= kStepsToTrustSecond && std::has_single_bit(steps_))) renew_source();
+    if (steps_ == 1) forget_first_step();
     const auto gather_part = [&](std::size_t first, std::size_t last) {
         monitor_.require_more();
         gather(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
@@ -333,7 +337,7 @@ void LightGather::reflect(GatheredRay& ray, const std::optional<PatchLocation>& 
 }
 
 void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side) const {
-    const std::size_t count = layout_.count_of(coarse_side);
+    const std::size_t count = walks_.layout().count_of(coarse_side);
     if (count == 0) return;
     std::array<FloatRgb, math::ZernikeBasis::kMostCount> factors;
     const std::span<FloatRgb> used(factors.data(), count);
@@ -387,20 +391,17 @@ void LightGather::add(const GatheredRay& ray) {
     std::array<double, math::ZernikeBasis::kMostCount> values{1 / std::sqrt(kPi)};
     const std::uint32_t count = vertices_.terms_of(ray.vertex);
     if (count > 1) basis_.evaluate(ray.local_direction, values);
-    const bool has_second = !source_.empty(), needs_once = !once_.empty();
+    const bool is_first = source_.empty();
     const std::size_t own = ray.vertex * replicates_ + ray.replicate;
     if (std::isfinite(ray.own_cd_m2)) replicate_lx_[own] += kPi * ray.own_cd_m2;
     for (std::size_t g = 0; g < groups_.count(); ++g) {
         const Rgb once_lx = ray.once[g] * kPi, twice_lx = ray.twice[g] * kPi;
         if (!once_lx.is_finite() || !twice_lx.is_finite()) continue;
+        const Rgb& gathered_lx = is_first ? once_lx : twice_lx;
         const std::size_t first = first_of(g, ray.vertex);
-        for (std::uint32_t k = 0; k < count; ++k) {
-            if (needs_once) add_to(once_[first + k], once_lx * values[k]);
-            if (has_second) add_to(twice_[first + k], twice_lx * values[k]);
-        }
-        if (!has_second) continue;
-        replicate_lx_[own] += twice_lx.luminance();
-        difference_lx_[ray.vertex] += twice_lx.luminance() - once_lx.luminance();
+        for (std::uint32_t k = 0; k < count; ++k) add_to(sums_[first + k], gathered_lx * values[k]);
+        replicate_lx_[own] += gathered_lx.luminance();
+        if (!is_first) difference_lx_[ray.vertex] += twice_lx.luminance() - once_lx.luminance();
     }
 }
 
@@ -408,11 +409,11 @@ double LightGather::illuminance_lx(std::uint32_t vertex) const {
     const auto first = replicate_lx_.begin() + static_cast<std::ptrdiff_t>(vertex * replicates_);
     double sum = 0;
     for (std::size_t r = 0; r < replicates_; ++r) sum += first[static_cast<std::ptrdiff_t>(r)];
-    return sum / static_cast<double>((rays_[vertex] - 1) * replicates_);
+    return sum / rays_that_count(vertex) / static_cast<double>(replicates_);
 }
 
 double LightGather::bias_lx(std::uint32_t vertex) const {
-    return std::abs(difference_lx_[vertex]) / static_cast<double>((rays_[vertex] - 1) * replicates_);
+    return std::abs(difference_lx_[vertex]) / rays_that_count(vertex) / static_cast<double>(replicates_);
 }
 
 auto LightGather::illuminances() const -> Illuminances {
@@ -421,8 +422,8 @@ auto LightGather::illuminances() const -> Illuminances {
     result.lit_sides = vertices_.sides();
     for (std::size_t r = 0; r < replicates_; ++r) {
         for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-            result.replicate_means.push_back(direct_lx_[i] + replicate_lx_[i * replicates_ + r] /
-                                                                 static_cast<double>(rays_[i] - 1));
+            result.replicate_means.push_back(direct_lx_[i] +
+                                             replicate_lx_[i * replicates_ + r] / rays_that_count(i));
         }
     }
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) result.bias_lx.push_back(bias_lx(i));
@@ -438,15 +439,16 @@ PatchSolution LightGather::solution() const {
     if (steps_ < kFirstSteps) return solution;
     solution.terms.resize(groups_.count());
     for (std::size_t g = 0; g < groups_.count(); ++g) {
+        solution.terms[g].reserve(vertices_.terms());
         for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-            const double scale = 1 / static_cast<double>((rays_[i] - 1) * replicates_);
+            const double scale = 1 / rays_that_count(i) / static_cast<double>(replicates_);
             for (std::uint32_t k = 0; k < vertices_.terms_of(i); ++k)
-                solution.terms[g].push_back(stored(to_rgb(twice_[first_of(g, i) + k]) * scale));
+                solution.terms[g].push_back(stored(to_rgb(sums_[first_of(g, i) + k]) * scale));
         }
     }
     solution.replicates.resize(replicates_);
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-        const double mean_lx = illuminance_lx(i), rays = static_cast<double>(rays_[i] - 1);
+        const double mean_lx = illuminance_lx(i), rays = rays_that_count(i);
         for (std::size_t r = 0; r < replicates_; ++r) {
             const double share = mean_lx > 0 ? replicate_lx_[i * replicates_ + r] / rays / mean_lx : 1;
             solution.replicates[r].push_back(to_half(static_cast<float>(share)));

@@ -28,9 +28,9 @@ namespace stilb::estimators {
 class LightGather {
   public:
     /// `walks`: their light. `is_lit`: per side of the walks' patches.
-    LightGather(const PatchTransport& coarse, const TermLayout& layout, const TermSums& walks,
-                std::size_t replicates, const std::vector<bool>& is_lit, const patches::FinePatches& fine,
-                const LightGroups& groups, math::RandomKey key, const Monitor& monitor);
+    LightGather(const PatchTransport& coarse, const TermSums& walks, std::size_t replicates,
+                const std::vector<bool>& is_lit, const patches::FinePatches& fine, const LightGroups& groups,
+                math::RandomKey key, const Monitor& monitor);
 
     /// One ray from every vertex for each replicate. Throws Cancelled as the monitor says: some vertices have
     /// one step more then.
@@ -41,7 +41,7 @@ class LightGather {
     static constexpr std::uint64_t kFirstSteps = 2;
     /// From then on the light gathered twice is gathered again: by and by all reflections are seen from
     /// vertices, and what patches lack (light by mirrors) fades out of the result.
-    static constexpr std::uint64_t kStepsToTrustSecond = 8;
+    static constexpr std::uint64_t kStepsToTrustSecond = 4;
 
     /// The layout and the light; without light before kFirstSteps.
     PatchSolution solution() const;
@@ -69,6 +69,9 @@ class LightGather {
     void add_direct_light();
     void renew_source();
     void renew_source_shares();
+    void forget_first_step();
+    /// Rays of each replicate: without the first one, as soon as there are others.
+    double rays_that_count(std::uint32_t vertex) const;
     /// All replicates' next rays of some vertices.
     void gather(std::uint32_t first, std::uint32_t last);
     std::optional<GatheredRay> start(std::uint32_t vertex, std::uint32_t replicate) const;
@@ -89,7 +92,6 @@ class LightGather {
     double bias_lx(std::uint32_t vertex) const;
 
     const PatchTransport& coarse_;
-    const TermLayout& layout_;
     const TermSums& walks_;
     std::size_t replicates_;
     const patches::FinePatches& fine_;
@@ -111,12 +113,12 @@ class LightGather {
 
     std::uint64_t steps_ = 0;
     std::vector<std::uint64_t> rays_;  ///< of each replicate, per vertex
-    // Sums over the rays of all replicates:
-    std::vector<FloatRgb> once_, twice_;
-    std::vector<FloatRgb> source_;  ///< the mean at the vertices, renewed from time to time
+    /// Of the vertices' terms, over the rays of all replicates: gathered once in the first step, twice later.
+    std::vector<FloatRgb> sums_;
+    std::vector<FloatRgb> source_;  ///< their mean, renewed from time to time
     /// Vertices x replicates: the illuminance that each replicate found, divided by their mean.
     std::vector<float> source_shares_;
-    /// Vertices x replicates: sums gathered twice, luminance-weighted, by each replicate's own light.
+    /// Vertices x replicates: sums of illuminances, luminance-weighted, by each replicate's own light.
     std::vector<double> replicate_lx_;
     std::vector<double> difference_lx_;  ///< per vertex: sum of what the two ways differ by
 };
