@@ -1,5 +1,5 @@
-// The reader of solutions: any contents give an InputError, or a solution that is written as the same bytes
-// and that fits a scene or does not.
+// The reader of solutions: any contents give an InputError, or a solution that stays the same when it is
+// written and read again, and that fits a scene or does not.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -36,7 +36,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (!std::string_view(error.what()).starts_with("fuzzed:")) std::abort();
         return 0;
     }
-    if (stilb::io::to_bytes(stored) != bytes) std::abort();
+    // The first writing may choose other steps for the light than the contents had.
+    const std::string written =
+        stilb::io::to_bytes(stilb::io::read_solution(stilb::io::to_bytes(stored), ""));
+    if (stilb::io::to_bytes(stilb::io::read_solution(written, "")) != written) std::abort();
     try {
         stilb::estimators::require_consistency(stored.solution, scene);
     } catch (const stilb::InputError&) {

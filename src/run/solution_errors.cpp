@@ -66,6 +66,15 @@ Noise noise_of(const patches::Patches& patches, std::span<const std::uint32_t> l
     return {moments.means, std::move(half_widths)};
 }
 
+/// To whole steps. What red and blue differ by from green has twice the step: most of the luminance is green.
+HalfRgb rounded(const Rgb& rgb, double step) {
+    // Plus 0, so that no zero is negative.
+    const auto to_steps = [](double value, double size) { return size * std::nearbyint(value / size) + 0.; };
+    const double green = to_steps(rgb[1], step);
+    return to_half_rgb(
+        {{green + to_steps(rgb[0] - green, 2 * step), green, green + to_steps(rgb[2] - green, 2 * step)}});
+}
+
 }  // namespace
 
 std::vector<float> relative_errors(const estimators::PatchSolution& solution) {
@@ -96,7 +105,7 @@ AttainedErrors attained_errors(const patches::Patches& patches,
 }
 
 estimators::PatchSolution rounded_to_errors(estimators::PatchSolution solution, const Scene& scene) {
-    constexpr double share_of_error = 0.25;
+    constexpr double share_of_error = 0.3;
     const estimators::LightVertices vertices(scene, solution.patches, solution.degree, solution.lit_vertices);
     const std::vector<float> errors = relative_errors(solution);
     // The roundings of the groups are independent of each other.
@@ -104,15 +113,13 @@ estimators::PatchSolution rounded_to_errors(estimators::PatchSolution solution, 
     for (std::uint32_t i = 0; i < errors.size(); ++i) {
         Rgb whole;
         for (const auto& group : solution.terms) whole += to_rgb(group[vertices.first_term(i)]);
-        for (std::size_t b = 0; b < kBands; ++b) {
-            const double size = share * double{errors[i]} * whole[b];
-            if (!(size > 0) || !std::isfinite(size)) continue;
-            // A power of two, so that the last bits of numbers are 0.
-            const auto step = static_cast<float>(std::exp2(std::floor(std::log2(size))));
-            for (auto& group : solution.terms) {
-                for (std::uint32_t t = vertices.first_term(i); t < vertices.first_term(i + 1); ++t)
-                    group[t][b] = to_half(step * std::nearbyint(to_float(group[t][b]) / step));
-            }
+        const double size = share * double{errors[i]} * whole.luminance();
+        if (!(size > 0) || !std::isfinite(size)) continue;
+        // A power of two, so that the last bits of numbers are 0.
+        const double step = std::exp2(std::floor(std::log2(size)));
+        for (auto& group : solution.terms) {
+            for (std::uint32_t t = vertices.first_term(i); t < vertices.first_term(i + 1); ++t)
+                group[t] = rounded(to_rgb(group[t]), step);
         }
     }
     return solution;

@@ -22,8 +22,9 @@ struct AttainedErrors {
 AttainedErrors attained_errors(const patches::Patches& patches,
                                const estimators::LightGather::Illuminances& illuminances);
 
-/// The terms rounded to steps of at most a quarter of the stated error, for all groups together: the rest is
-/// noise, which takes space in files.
+/// The terms rounded to steps of at most 0.3 of the stated error, for all groups together: the rest is noise,
+/// which takes space in files. An illuminance changes by a quarter of that error at most, by 0.1 of it in the
+/// root mean square.
 estimators::PatchSolution rounded_to_errors(estimators::PatchSolution solution, const Scene& scene);
 
 }  // namespace stilb::run

@@ -90,7 +90,7 @@ TEST(SolutionFile, BeginsAsDocumented) {
         return number;
     };
     EXPECT_EQ(bytes.substr(0, 8), "STILBSOL");
-    EXPECT_EQ(number_at(8, std::uint32_t{}), 2u);
+    EXPECT_EQ(number_at(8, std::uint32_t{}), 3u);
     EXPECT_EQ(number_at(12, std::uint64_t{}), bytes.size());
     const std::string contents = sample_contents();
     EXPECT_EQ(number_at(28, std::uint64_t{}), contents.size());
@@ -110,7 +110,7 @@ TEST(SolutionFile, NamesWhatIsWrong) {
     std::string other = good;
     other[8] = 9;
     EXPECT_EQ(message_of(other), "a.solution: the solution is of version 9, but Stilb " STILB_VERSION
-                                 " reads version 2. Solve the scene again.");
+                                 " reads version 3. Solve the scene again.");
     EXPECT_EQ(message_of(good.substr(0, good.size() - 1)),
               "a.solution: the file has " + std::to_string(good.size() - 1) + " bytes instead of " +
                   std::to_string(good.size()) +

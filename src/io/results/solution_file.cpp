@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/results/packed_light.h"
 #include "io/text/compression.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
@@ -21,7 +22,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 /// Magic, version, size and hash.
 constexpr std::size_t kHeaderSize = kSolutionBeginning.size() + 4 + 8 + 8;
 /// No solution is as large; a damaged or hostile file may say that it is.
@@ -137,7 +138,9 @@ std::string contents_of(const StoredSolution& stored) {
     for (const std::string& group : solution.groups) bytes.add_list(group);
     bytes.add(static_cast<std::uint32_t>(solution.degree));
     bytes.add_list(solution.lit_vertices);
-    for (const std::vector<HalfRgb>& terms : solution.terms) bytes.add_list(terms);
+    const PackedLight light = pack(solution.terms);
+    bytes.add_list(light.exponents);
+    bytes.add_list(light.bytes);
     bytes.add(static_cast<std::uint32_t>(solution.replicates.size()));
     for (const std::vector<Half>& shares : solution.replicates) bytes.add_list(shares);
     bytes.add_list(solution.bias);
@@ -162,8 +165,12 @@ StoredSolution read_contents(ByteReader& bytes) {
         solution.groups.push_back(bytes.take_list<std::string>("a group of lights"));
     solution.degree = static_cast<int>(bytes.take<std::uint32_t>("the degree"));
     solution.lit_vertices = bytes.take_list<std::vector<std::uint32_t>>("the vertices with light");
-    for (std::uint32_t g = 0; g < groups; ++g)
-        solution.terms.push_back(bytes.take_list<std::vector<HalfRgb>>("the light"));
+    PackedLight packed;
+    packed.exponents = bytes.take_list<std::vector<std::int16_t>>("the steps of the light");
+    packed.bytes = bytes.take_list<std::string>("the light");
+    auto light = unpack(packed, groups);
+    if (!light) bytes.fail("the light and its steps do not fit each other");
+    solution.terms = *std::move(light);
     const auto replicates = bytes.take<std::uint32_t>("the number of replicates");
     for (std::uint32_t r = 0; r < replicates; ++r)
         solution.replicates.push_back(bytes.take_list<std::vector<Half>>("the replicates"));
