@@ -25,9 +25,9 @@
 #include "run/solve.h"
 #include "stilb/error.h"
 #include "walk/live_walk.h"
-#include "walk/placed_sensors.h"
-#include "walk/server.h"
-#include "walk/spot_measurement.h"
+#include "walk/service/placed_sensors.h"
+#include "walk/service/server.h"
+#include "walk/service/spot_measurement.h"
 
 namespace stilb::cli {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "io/scene/scene_file.h"
 #include "run/solve.h"
-#include "walk/server.h"
-#include "walk/walk_data.h"
+#include "walk/data/walk_data.h"
+#include "walk/service/server.h"
 
 namespace stilb::walk {
 

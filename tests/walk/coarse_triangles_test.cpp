@@ -1,4 +1,4 @@
-#include "walk/coarse_triangles.h"
+#include "walk/display/coarse_triangles.h"
 
 #include <gtest/gtest.h>
 

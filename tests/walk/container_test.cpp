@@ -1,5 +1,5 @@
 // Containers hold what was put in, plane by plane.
-#include "walk/container.h"
+#include "walk/data/container.h"
 
 #include <gtest/gtest.h>
 

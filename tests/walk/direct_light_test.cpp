@@ -1,5 +1,5 @@
 // Direct light at points against closed forms and against each other.
-#include "walk/direct_light.h"
+#include "walk/display/direct_light.h"
 
 #include <gtest/gtest.h>
 

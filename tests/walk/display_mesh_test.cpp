@@ -1,5 +1,5 @@
 // The display mesh: it fits together, is refined at shadows, and its direct light is that of run::measure.
-#include "walk/display_mesh.h"
+#include "walk/display/display_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "walk/placed_sensors.h"
+#include "walk/service/placed_sensors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "walk/server.h"
+#include "walk/service/server.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "walk/spot_measurement.h"
+#include "walk/service/spot_measurement.h"
 
 #include <gtest/gtest.h>
 

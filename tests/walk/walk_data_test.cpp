@@ -1,5 +1,5 @@
 // The data of a walk, read as the page reads it.
-#include "walk/walk_data.h"
+#include "walk/data/walk_data.h"
 
 #include <gtest/gtest.h>
 

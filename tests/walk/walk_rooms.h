@@ -3,8 +3,8 @@
 
 #include "rays/ray_caster.h"
 #include "support/scene_builder.h"
-#include "walk/display_mesh.h"
-#include "walk/walk_data.h"
+#include "walk/data/walk_data.h"
+#include "walk/display/display_mesh.h"
 
 namespace stilb::walk {
 

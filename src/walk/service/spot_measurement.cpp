@@ -1,4 +1,4 @@
-#include "walk/spot_measurement.h"
+#include "walk/service/spot_measurement.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "run/run.h"
 #include "sensors/sensor.h"
 #include "stilb/error.h"
-#include "walk/requests.h"
+#include "walk/service/requests.h"
 
 namespace stilb::walk {
 namespace {

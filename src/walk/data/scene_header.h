@@ -7,9 +7,9 @@
 
 #include "scene/scene.h"
 #include "sensors/sensor.h"
-#include "walk/coarse_triangles.h"
-#include "walk/display_mesh.h"
-#include "walk/highlight_points.h"
+#include "walk/data/highlight_points.h"
+#include "walk/display/coarse_triangles.h"
+#include "walk/display/display_mesh.h"
 
 namespace stilb::walk {
 

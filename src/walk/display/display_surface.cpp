@@ -1,4 +1,4 @@
-#include "walk/display_surface.h"
+#include "walk/display/display_surface.h"
 
 #include <bit>
 #include <cmath>

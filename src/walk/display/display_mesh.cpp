@@ -1,4 +1,4 @@
-#include "walk/display_mesh.h"
+#include "walk/display/display_mesh.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "stilb/error.h"
-#include "walk/refinement.h"
+#include "walk/display/refinement.h"
 
 namespace stilb::walk {
 namespace {

@@ -1,4 +1,4 @@
-#include "walk/walk_data.h"
+#include "walk/data/walk_data.h"
 
 #include <fmt/format.h>
 
@@ -16,11 +16,11 @@
 #include "io/text/compression.h"
 #include "run/solution_errors.h"
 #include "scene/light_groups.h"
-#include "walk/coarse_triangles.h"
-#include "walk/container.h"
-#include "walk/display_mesh.h"
-#include "walk/highlight_points.h"
-#include "walk/scene_header.h"
+#include "walk/data/container.h"
+#include "walk/data/highlight_points.h"
+#include "walk/data/scene_header.h"
+#include "walk/display/coarse_triangles.h"
+#include "walk/display/display_mesh.h"
 
 namespace stilb::walk {
 namespace {

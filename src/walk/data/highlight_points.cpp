@@ -1,4 +1,4 @@
-#include "walk/highlight_points.h"
+#include "walk/data/highlight_points.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "walk/placed_sensors.h"
+#include "walk/service/placed_sensors.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 #include "io/text/table.h"
 #include "stilb/error.h"
-#include "walk/requests.h"
+#include "walk/service/requests.h"
 
 namespace stilb::walk {
 namespace {

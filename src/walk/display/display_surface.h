@@ -9,7 +9,7 @@
 #include "patches/patches.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
-#include "walk/vertex_light.h"
+#include "walk/display/vertex_light.h"
 
 namespace stilb::walk {
 

@@ -1,4 +1,4 @@
-#include "walk/direct_light.h"
+#include "walk/display/direct_light.h"
 
 #include <algorithm>
 #include <cmath>

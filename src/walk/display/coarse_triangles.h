@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "walk/display_mesh.h"
+#include "walk/display/display_mesh.h"
 
 namespace stilb::walk {
 

@@ -1,4 +1,4 @@
-#include "walk/refinement.h"
+#include "walk/display/refinement.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "walk/requests.h"
+#include "walk/service/requests.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

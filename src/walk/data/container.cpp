@@ -1,4 +1,4 @@
-#include "walk/container.h"
+#include "walk/data/container.h"
 
 #include <algorithm>
 #include <array>

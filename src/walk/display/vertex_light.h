@@ -13,7 +13,7 @@
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
 #include "scene/sealed_sides.h"
-#include "walk/direct_light.h"
+#include "walk/display/direct_light.h"
 
 namespace stilb::walk {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/monitor.h"
-#include "walk/display_mesh.h"
-#include "walk/display_surface.h"
-#include "walk/vertex_light.h"
+#include "walk/display/display_mesh.h"
+#include "walk/display/display_surface.h"
+#include "walk/display/vertex_light.h"
 
 namespace stilb::walk {
 

@@ -1,4 +1,4 @@
-#include "walk/vertex_light.h"
+#include "walk/display/vertex_light.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "walk/scene_header.h"
+#include "walk/data/scene_header.h"
 
 #include <nlohmann/json.hpp>
 

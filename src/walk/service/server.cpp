@@ -1,4 +1,4 @@
-#include "walk/server.h"
+#include "walk/service/server.h"
 
 #include <fmt/format.h>
 #include <httplib.h>
