@@ -57,12 +57,11 @@ export class Renderer {
   resize(width: number, height: number, ratio: number) {
     this.width = Math.max(1, Math.round(width * ratio));
     this.height = Math.max(1, Math.round(height * ratio));
-    this.gl.setSize(this.width, this.height, false);
     this.sum.setSize(this.width, this.height);
     this.viewChanged();
   }
 
-  /** The canvas in pixels. */
+  /** The screen's pixels that the canvas covers. */
   get size(): [number, number] {
     return [this.width, this.height];
   }
@@ -112,9 +111,12 @@ export class Renderer {
     this.accumulate();
   }
 
+  /** The canvas gets the picture's resolution: the browser enlarges it, which is faster than doing so here. */
   show(display: Display) {
     const picture = this.isAveraged ? this.sum : this.frame;
-    this.tone.draw(this.gl, picture, display, this.width, this.height);
+    const { width, height } = picture;
+    if (this.canvas.width !== width || this.canvas.height !== height) this.gl.setSize(width, height, false);
+    this.tone.draw(this.gl, picture, display);
   }
 
   /** Waits until the graphics card has drawn everything. */
@@ -190,7 +192,7 @@ export class Renderer {
 }
 
 function newRenderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer {
-  const renderer = new THREE.WebGLRenderer({ canvas, antialias: false, alpha: false });
+  const renderer = new THREE.WebGLRenderer({ canvas, antialias: false, alpha: false, depth: false });
   renderer.autoClear = false;
   renderer.sortObjects = true;
   renderer.setClearColor(0, 0);

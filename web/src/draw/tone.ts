@@ -174,36 +174,16 @@ export class ToneMapping {
   };
   private readonly colours = new FullScreen(FRAGMENT, this.uniforms);
   private readonly falseColours = new FullScreen(FRAGMENT, this.uniforms, { FALSE_COLOUR: 1 });
-  private readonly small = new THREE.WebGLRenderTarget(1, 1, { depthBuffer: false, generateMipmaps: false });
-  private readonly enlarged = copyPass();
 
-  constructor() {
-    this.enlarged.material.uniforms.uPicture!.value = this.small.texture;
-  }
-
-  /** A picture of lower resolution than the screen becomes colours first, and is enlarged then: that is faster. */
-  draw(
-    renderer: THREE.WebGLRenderer, picture: THREE.WebGLRenderTarget, display: Display, width: number, height: number,
-  ) {
-    const isSharp = picture.width === width && picture.height === height;
-    if (!isSharp) this.small.setSize(picture.width, picture.height);
-    this.drawColours(renderer, picture, display, isSharp ? null : this.small);
-    if (isSharp) return;
-    this.enlarged.material.uniforms.uPixel!.value.set(1 / width, 1 / height);
-    this.enlarged.draw(renderer, null);
-  }
-
-  private drawColours(
-    renderer: THREE.WebGLRenderer, picture: THREE.WebGLRenderTarget, display: Display,
-    target: THREE.WebGLRenderTarget | null,
-  ) {
+  /** To the screen, pixel by pixel. */
+  draw(renderer: THREE.WebGLRenderer, picture: THREE.WebGLRenderTarget, display: Display) {
     const { uniforms } = this;
     uniforms.uPicture!.value = picture.texture;
     uniforms.uPixel!.value.set(1 / picture.width, 1 / picture.height);
     uniforms.uExposure!.value = display.exposure;
     uniforms.uCurve!.value = CURVES.indexOf(display.curve);
     if (display.falseColour) this.prepareScale(display);
-    (display.falseColour ? this.falseColours : this.colours).draw(renderer, target);
+    (display.falseColour ? this.falseColours : this.colours).draw(renderer, null);
   }
 
   private prepareScale({ isolines, scale }: Display) {
