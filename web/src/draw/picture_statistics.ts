@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 
-import { copyPass } from "./tone";
+import { scaledPass } from "./tone";
 
 const SIDE = 96;
 const MIDDLE_GREY = 0.18;
@@ -11,7 +11,7 @@ const WHITE = 8;
 const MOST_PROTECTION = 4;
 
 export class PictureStatistics {
-  private readonly pass = copyPass();
+  private readonly pass = scaledPass();
   private readonly target = new THREE.WebGLRenderTarget(SIDE, SIDE, {
     type: THREE.FloatType,
     depthBuffer: false,

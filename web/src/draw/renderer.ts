@@ -185,7 +185,6 @@ export class Renderer {
     const share = this.fading > 0 ? FADING_SHARE : 1 / this.samples;
     const { material } = this.average;
     material.uniforms.uPicture!.value = this.frame.texture;
-    material.uniforms.uPixel!.value.set(1 / this.width, 1 / this.height);
     material.blendAlpha = share;
     this.average.draw(this.gl, this.sum);
   }

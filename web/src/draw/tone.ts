@@ -24,11 +24,26 @@ const VERTEX = /* glsl */ `
 in vec3 position;
 void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 
-const FRAGMENT = /* glsl */ `
+// Where surfaces meet that are divided differently, rounding leaves single pixels that none of them covers.
+const PICTURE = /* glsl */ `
 precision highp float;
 precision highp int;
-uniform highp sampler2D uPicture, uColours;
-uniform vec2 uPixel;
+uniform highp sampler2D uPicture;
+vec4 pictureAt(ivec2 pixel) {
+  vec4 here = texelFetch(uPicture, pixel, 0);
+  if (here.a > 0.0) return here;
+  ivec2 last = textureSize(uPicture, 0) - 1;
+  vec4 around = vec4(0.0);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 aside = i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5);
+    around += texelFetch(uPicture, clamp(pixel + aside, ivec2(0), last), 0);
+  }
+  return around.a > 2.5 ? around / around.a : here;
+}`;
+
+const FRAGMENT = /* glsl */ `
+${PICTURE}
+uniform highp sampler2D uColours;
 uniform float uExposure;
 uniform int uCurve, uLevelCount;
 uniform bool uIsolines, uLogarithmic;
@@ -73,8 +88,8 @@ vec3 toned(vec3 rgb) {
   return rgb;
 }
 
-float fractionAt(vec2 place) {
-  float value = luminanceOf(texture(uPicture, place).rgb);
+float fractionAt(ivec2 pixel) {
+  float value = luminanceOf(pictureAt(clamp(pixel, ivec2(0), textureSize(uPicture, 0) - 1)).rgb);
   if (!uLogarithmic) return (value - uEnds.x) / (uEnds.y - uEnds.x);
   return value > 0.0 ? log(value / uEnds.x) / log(uEnds.y / uEnds.x) : -1.0;
 }
@@ -86,38 +101,43 @@ int levelBelow(float fraction) {
 }
 
 // Where the level changes gradually: a jump by half of the distance of levels is an outline of something.
-bool isLine(vec2 place, float here, float reach) {
+bool isLine(ivec2 pixel, float here, int reach) {
   int level = levelBelow(here);
   for (int i = 0; i < 4; ++i) {
-    vec2 aside = i < 2 ? vec2(i == 0 ? reach : -reach, 0.0) : vec2(0.0, i == 2 ? reach : -reach);
-    float there = fractionAt(place + aside * uPixel);
+    ivec2 aside = i < 2 ? ivec2(i == 0 ? reach : -reach, 0) : ivec2(0, i == 2 ? reach : -reach);
+    float there = fractionAt(pixel + aside);
     if (there > here && there - here < 0.5 * uSpacing && levelBelow(there) > level) return true;
   }
   return false;
 }
 
-vec3 falseColour(vec2 place) {
-  float fraction = fractionAt(place);
+vec3 falseColour(ivec2 pixel) {
+  float fraction = fractionAt(pixel);
   vec3 shown = texture(uColours, vec2((clamp(fraction, 0.0, 1.0) * 256.0 + 0.5) / 257.0, 0.5)).rgb;
   if (!uIsolines) return shown;
-  if (isLine(place, fraction, 1.0)) return vec3(1.0);
-  return isLine(place, fraction, 2.0) ? 0.45 * shown : shown;
+  if (isLine(pixel, fraction, 1)) return vec3(1.0);
+  return isLine(pixel, fraction, 2) ? 0.45 * shown : shown;
 }
 
 // Breaks the bands of 8 bits [Jimenez 2014, Next generation post processing in Call of Duty].
 float noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) - 0.5; }
 
 void main() {
-  vec2 place = gl_FragCoord.xy * uPixel;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
 #ifdef FALSE_COLOUR
-  colour = vec4(falseColour(place), 1.0);
+  colour = vec4(falseColour(pixel), 1.0);
 #else
-  vec3 rgb = texelFetch(uPicture, ivec2(gl_FragCoord.xy), 0).rgb;
+  vec3 rgb = pictureAt(pixel).rgb;
   colour = vec4(encoded(toned(rgb * uExposure)) + noise(gl_FragCoord.xy) / 255.0, 1.0);
 #endif
 }`;
 
 const COPY_FRAGMENT = /* glsl */ `
+${PICTURE}
+layout(location = 0) out vec4 colour;
+void main() { colour = pictureAt(ivec2(gl_FragCoord.xy)); }`;
+
+const SCALED_FRAGMENT = /* glsl */ `
 precision highp float;
 uniform highp sampler2D uPicture;
 uniform vec2 uPixel;
@@ -154,15 +174,20 @@ export class FullScreen {
   }
 }
 
+/** Pixel by pixel. */
 export function copyPass(): FullScreen {
-  return new FullScreen(COPY_FRAGMENT, { uPicture: { value: null }, uPixel: { value: new THREE.Vector2() } });
+  return new FullScreen(COPY_FRAGMENT, { uPicture: { value: null } });
+}
+
+/** To a target of another size. */
+export function scaledPass(): FullScreen {
+  return new FullScreen(SCALED_FRAGMENT, { uPicture: { value: null }, uPixel: { value: new THREE.Vector2() } });
 }
 
 export class ToneMapping {
   private readonly uniforms: Record<string, THREE.IUniform> = {
     uPicture: { value: null },
     uColours: { value: colourTexture() },
-    uPixel: { value: new THREE.Vector2() },
     uExposure: { value: 1 },
     uCurve: { value: 0 },
     uLevelCount: { value: 0 },
@@ -179,7 +204,6 @@ export class ToneMapping {
   draw(renderer: THREE.WebGLRenderer, picture: THREE.WebGLRenderTarget, display: Display) {
     const { uniforms } = this;
     uniforms.uPicture!.value = picture.texture;
-    uniforms.uPixel!.value.set(1 / picture.width, 1 / picture.height);
     uniforms.uExposure!.value = display.exposure;
     uniforms.uCurve!.value = CURVES.indexOf(display.curve);
     if (display.falseColour) this.prepareScale(display);
