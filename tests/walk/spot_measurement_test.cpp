@@ -134,7 +134,8 @@ TEST_F(SpotTest, FactorsOfAPanorama) {
     scene.lights = {
         {"sky", lights::EnvironmentLight{{}, std::make_shared<lights::Panorama>(std::move(image))}}};
     const std::array factors{LightFactor{"sky", {{0.5, 0.25, 2.0}}}};
-    const auto& sky = std::get<lights::EnvironmentLight>(with_factors(scene, factors).lights[0].source);
+    const Scene dimmed = with_factors(scene, factors);
+    const auto& sky = std::get<lights::EnvironmentLight>(dimmed.lights[0].source);
     EXPECT_EQ(sky.panorama->luminance_cd_m2({0, 0, 1}), (Rgb{{0.5, 0.5, 8.0}}));
 }
 

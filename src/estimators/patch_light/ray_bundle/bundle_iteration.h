@@ -107,11 +107,11 @@ void BundleIteration::for_each_arrival(std::uint32_t side, const Visit& visit) c
         return is_lit;
     };
     if (glossy == PatchTransport::kConstant) {
-        read(&received_[index(side, 0)]);
+        read(received_.data() + index(side, 0));
         return visit(normal, of_groups);
     }
     for (std::size_t axis = 0; axis < axes_; ++axis) {
-        if (!read(&glossy_received_[glossy_index(side, glossy, axis)])) continue;
+        if (!read(glossy_received_.data() + glossy_index(side, glossy, axis))) continue;
         const Vec3& along = axis_of(received_along_, axis);
         visit(dot(along, normal) < 0 ? -along : along, of_groups);
     }
