@@ -138,8 +138,9 @@ class Walks final : public Work {
         for (const std::uint32_t side : sums_->layout().sides()) {
             const ObjectId object = patches.object_of(patches.patch_of(side));
             if (is_sealed[object_side(object, patches.is_front(side))]) continue;
-            light.lx[side] = illuminance_lx(side).luminance();
-            light.is_lit[side] = light.is_lit[side] || illuminance_lx(side).max() > 0;
+            const Rgb received_lx = illuminance_lx(side);
+            light.lx[side] = received_lx.luminance();
+            light.is_lit[side] = light.is_lit[side] || received_lx.max() > 0;
         }
         return light;
     }

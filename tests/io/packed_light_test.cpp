@@ -18,7 +18,7 @@ class Uniform {
     std::mt19937 engine_;
 };
 
-/// Of two groups, with numbers of all sizes and signs that fit into 28 bits of the smallest one.
+/// Two groups of lights. The numbers have both signs and sizes between two powers of two.
 LightOfGroups sample_light(std::size_t terms, int least_exponent, int most_exponent) {
     LightOfGroups light(2, std::vector<HalfRgb>(terms));
     Uniform uniform;

@@ -46,8 +46,9 @@ double distance_around_m(const PatchTransport& coarse, std::uint32_t side, const
     return kPacketWidth / sum;
 }
 
-/// Of a part of a patch: in its middle, or near its corners where the middle lies in a narrow gap, because a
-/// part that reaches out of the gap has to show where that ends.
+/// The same for a part of a patch, in its middle. Where the middle lies in a narrow gap, places near the
+/// corners count, too: a part that reaches out of the gap must be divided, so that it shows where the gap
+/// ends.
 double distance_around_m(const PatchTransport& coarse, std::uint32_t side,
                          const std::array<Vec3, 3>& corners) {
     constexpr double share_to_middle = 0.1;
@@ -66,9 +67,8 @@ double distance_around_m(const PatchTransport& coarse, std::uint32_t side,
 patches::FinePatches patches_near_contacts(const PatchTransport& coarse, const SideLight& light,
                                            std::size_t most, const Monitor& monitor) {
     // Light that surfaces send varies over about the distance to them [Ward, Rubinstein, Clear 1988, A ray
-    // tracing solution for diffuse interreflection: the harmonic mean of the distances], by about itself.
-    // Sides with much less light than others, as behind a cupboard, need no edges as short for the same error
-    // [lx].
+    // tracing solution for diffuse interreflection: the harmonic mean of the distances]. The error [lx] is in
+    // proportion to the light: where there is little, as behind a cupboard, edges may be longer.
     constexpr double dark_share = 1. / 10;
     const double dark_lx = dark_share * mean_lx(coarse, light);
     const auto longest_edge_m = [&](std::uint32_t patch, const std::array<Vec3, 3>& corners) {

@@ -23,6 +23,10 @@ constexpr double kShareToMiddle = 0.2;
 /// Rays that tell whether a place is covered by another object.
 constexpr std::uint32_t kRaysToCover = 8;
 
+/// From then on the light gathered twice is gathered again: by and by all reflections are seen from vertices,
+/// and the error of the patches, which lack light by mirrors, leaves the result.
+constexpr std::uint64_t kStepsToTrustSecond = 4;
+
 std::vector<ReflectionTable> tables_of(const Scene& scene, int degree) {
     std::vector<ReflectionTable> tables(scene.materials.size());
     for (std::size_t i = 0; i < tables.size(); ++i) {
@@ -69,7 +73,8 @@ struct LightGather::GatheredRay {
     transport::Path path;
     bool stands = false;             ///< on a surface that scatters
     std::span<Rgb> once{}, twice{};  ///< of groups [cd/m2]
-    /// The vertices' light has another luminance if only the ray's replicate counts: so much is added then.
+    /// What is to be added to the luminance of the vertices' light to make it that of the ray's own
+    /// replicate.
     double own_cd_m2 = 0;
 };
 

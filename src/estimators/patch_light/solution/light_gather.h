@@ -39,9 +39,6 @@ class LightGather {
     std::uint64_t steps() const { return steps_; }
     /// Steps before there is light that was gathered twice, in all replicates.
     static constexpr std::uint64_t kFirstSteps = 2;
-    /// From then on the light gathered twice is gathered again: by and by all reflections are seen from
-    /// vertices, and what patches lack (light by mirrors) fades out of the result.
-    static constexpr std::uint64_t kStepsToTrustSecond = 4;
 
     /// The layout and the light; without light before kFirstSteps.
     PatchSolution solution() const;
@@ -113,7 +110,8 @@ class LightGather {
 
     std::uint64_t steps_ = 0;
     std::vector<std::uint64_t> rays_;  ///< of each replicate, per vertex
-    /// Of the vertices' terms, over the rays of all replicates: gathered once in the first step, twice later.
+    /// Sums of the vertices' terms over the rays of all replicates. Rays of the first step bring light that
+    /// was gathered once, all others light that was gathered twice.
     std::vector<FloatRgb> sums_;
     std::vector<FloatRgb> source_;  ///< their mean, renewed from time to time
     /// Vertices x replicates: the illuminance that each replicate found, divided by their mean.
