@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -75,12 +76,16 @@ struct ReadingSums {
 
     /// Adds a contribution to a reading.
     void add(std::size_t reading, const Rgb& contribution) {
-        if (!contribution.is_finite()) {
+        add(reading, contribution, std::abs(contribution.luminance()));
+    }
+    /// Adds the sum of several, of which the largest is known.
+    void add(std::size_t reading, const Rgb& contributions, double largest_of_them) {
+        if (!contributions.is_finite()) {
             ++invalid;
             return;
         }
-        sum[reading] += contribution;
-        largest[reading] = std::max(largest[reading], contribution.luminance());
+        sum[reading] += contributions;
+        largest[reading] = std::max(largest[reading], largest_of_them);
     }
 };
 

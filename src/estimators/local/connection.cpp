@@ -21,12 +21,9 @@ using Floats = PointTile::Floats;
 /// Vertices whose contributions are summed in single precision before they are added to the sums in double.
 constexpr std::size_t kBlock = 64;
 
-/// A light vertex in the form of the inner loop.
-struct ConnectedVertex {
-    SegmentOrigin origin;
-    float split;  ///< 0: w = 1
-    std::array<float, kBands>
-        coefficient;  ///< flux times BRDF; flux alone where the BRDF depends on direction
+/// A light vertex in the form of the inner loop. Its coefficient is its flux alone where the BRDF depends on
+/// direction.
+struct ConnectedVertex : EmittingPoint {
     const transport::LightVertex* node;
     bool directional;  ///< the BRDF depends on direction
 };
@@ -37,12 +34,12 @@ struct alignas(64) TileSums {
 };
 
 /// (Without __restrict, which promises that nothing overlaps, the loop would stay scalar.)
-STILB_VECTORIZED void add_visible(const ConnectedVertex& __restrict node, const PointTile& __restrict tile,
+STILB_VECTORIZED void add_visible(const EmittingPoint& __restrict node, const PointTile& __restrict tile,
                                   const RayPacket& __restrict packet, const LaneMask& __restrict lanes,
                                   const Floats& __restrict g, TileSums& __restrict sums) {
-    const float luminance = static_cast<float>(kLuminanceWeights[0]) * node.coefficient[0] +
-                            static_cast<float>(kLuminanceWeights[1]) * node.coefficient[1] +
-                            static_cast<float>(kLuminanceWeights[2]) * node.coefficient[2];
+    const float luminance = std::abs(static_cast<float>(kLuminanceWeights[0]) * node.coefficient[0] +
+                                     static_cast<float>(kLuminanceWeights[1]) * node.coefficient[1] +
+                                     static_cast<float>(kLuminanceWeights[2]) * node.coefficient[2]);
     for (int i = 0; i < kPacketWidth; ++i) {
         // & rather than &&: without a branch the loop vectorises.
         const int lit = static_cast<int>(lanes[i] != 0) & static_cast<int>(packet.end[i] >= 0);
@@ -96,9 +93,9 @@ ConnectedVertex connected_vertex(const transport::LightVertex& node, const Vec3&
     const auto* diffuse = is_smooth ? nullptr : std::get_if<Diffuse>(node.material);
     const Rgb coefficient =
         diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
-    ConnectedVertex result{SegmentOrigin(node.position, node.lifted, node.normal, center),
-                           node.only_by_light || !diffuse ? 0.0f : 1.0f,
-                           {},
+    ConnectedVertex result{{SegmentOrigin(node.position, node.lifted, node.normal, center),
+                            node.only_by_light || !diffuse ? 0.0f : 1.0f,
+                            {}},
                            &node,
                            diffuse == nullptr};
     for (std::size_t b = 0; b < kBands; ++b) result.coefficient[b] = static_cast<float>(coefficient[b]);
@@ -135,6 +132,21 @@ void Connections::collect(std::span<const transport::LightVertex> nodes, Reading
     }
 }
 
+void connect_points(const rays::RayCaster& caster, const PointTile& tile,
+                    std::span<const EmittingPoint> points, ReadingSums& sums) {
+    RayPacket packet;
+    LaneMask lanes;
+    alignas(64) Floats g_per_m2;
+    TileSums tile_sums;
+    for (const EmittingPoint& point : points) {
+        if (!connect(point.origin, 1, tile, packet, lanes, g_per_m2)) continue;
+        sums.rays += static_cast<std::uint64_t>(-std::accumulate(lanes.begin(), lanes.end(), 0));
+        caster.occlude(packet, lanes);
+        add_visible(point, tile, packet, lanes, g_per_m2, tile_sums);
+    }
+    flush(tile, tile_sums, sums);
+}
+
 namespace {
 
 /// The index of the axis direction nearest to a normal, of six.
@@ -160,8 +172,10 @@ std::vector<std::size_t> order_over_surfaces(const std::vector<transport::LightV
     return order;
 }
 
+/// Residual light may be negative, in one band or in all.
 double reflected_flux_lm(const transport::LightVertex& node) {
-    return (node.flux_lm * reflectance_bound(*node.material)).luminance();
+    const Rgb reflected = node.flux_lm * reflectance_bound(*node.material);
+    return Rgb{{std::abs(reflected[0]), std::abs(reflected[1]), std::abs(reflected[2])}}.luminance();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 // Geometry is in single precision; sums over more than a short block of vertices are in double.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -33,6 +34,17 @@ class Connections {
     std::span<const PointTile> tiles_;
     const Monitor& monitor_;
 };
+
+/// A point that sends the same light in all directions, in single precision.
+struct EmittingPoint {
+    SegmentOrigin origin;
+    /// Divides the k of the receivers' tile; 0: w = 1.
+    float split = 1;
+    std::array<float, kBands> coefficient{};  ///< luminance over density: receivers get it times w G
+};
+/// Adds the light of few points to the receivers of a tile, whose responses must be constant. Counts rays.
+void connect_points(const rays::RayCaster& caster, const PointTile& tile,
+                    std::span<const EmittingPoint> points, ReadingSums& sums);
 
 // Selection of fewer vertices from more light paths: connections cost most, so they go to vertices that lie
 // evenly.

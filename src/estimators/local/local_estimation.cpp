@@ -33,6 +33,7 @@
 #include "estimators/limits.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/gather.h"
+#include "estimators/local/guided_light.h"
 #include "estimators/local/split_plan.h"
 #include "transport/receiver.h"
 
@@ -102,19 +103,29 @@ std::uint64_t most_selected_per_ray(std::size_t points) {
 /// Illuminance at points and luminance along lines of sight.
 class LocalReadings {
   public:
-    LocalReadings(const LocalTransport& transport, const Problem& problem)
+    /// `guide`: may be null.
+    LocalReadings(const LocalTransport& transport, const Problem& problem, const GuidedLight* guide)
         : transport_(transport),
           seen_(receive(problem.measurands)),
           paths_per_selected_(transport.split == Split::balanced ? paths_per_selected(seen_.receivers.size())
                                                                  : 1),
           selected_per_ray_(most_selected_per_ray(seen_.receivers.size())),
-          plans_(plans(problem)),
+          is_guided_(guide && GuidedReadings::suits(seen_.receivers)),
+          plans_(plans(problem, guide)),
           tiles_(tiles_of(seen_.receivers, constants_per_m2(plans_), transport_.caster,
                           transport_.max_reflections)),
           connections_(transport_.caster, tiles_, transport_.monitor),
-          gather_(transport_.caster, transport_.tracer, tiles_, plans_, transport_.monitor) {}
+          gather_(transport_.caster, transport_.tracer, tiles_, plans_, transport_.monitor) {
+        if (is_guided_) guided_.emplace(*guide, tiles_, transport_.monitor);
+    }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const {
+        if (guided_) {
+            guided_->collect(batch, sums);
+            if (transport_.lights.has_visible_lights()) add_direct_light(batch, sums);
+            add_faint_branches(batch, sums);
+            return;
+        }
         const std::uint64_t end = batch.first + batch.count;
         const std::uint64_t block = kPathBlock * paths_per_selected_;
         for (std::uint64_t first = batch.first; first < end; first += block) {
@@ -136,9 +147,14 @@ class LocalReadings {
         }
         return all;
     }
-    std::uint64_t batch_granularity() const { return selected_per_ray_ * paths_per_selected_; }
-    std::uint64_t first_check() const { return kSelectedBeforeCheck * paths_per_selected_; }
+    std::uint64_t batch_granularity() const {
+        return guided_ ? GuidedReadings::kGranularity : selected_per_ray_ * paths_per_selected_;
+    }
+    std::uint64_t first_check() const {
+        return guided_ ? GuidedReadings::kGranularity : kSelectedBeforeCheck * paths_per_selected_;
+    }
     double rays_per_sample() const {
+        if (guided_) return 12.0 * static_cast<double>(seen_.receivers.size());
         constexpr double path_cost = 50;
         return path_cost +
                2.0 * static_cast<double>(seen_.receivers.size()) / static_cast<double>(paths_per_selected_);
@@ -205,7 +221,7 @@ class LocalReadings {
 
     void add_direct_light(const Batch& batch, ReadingSums& sums) const {
         const math::RandomKey key = batch.key.derived(kDirect);
-        const std::uint64_t light_paths = kPathsPerDirectSample * paths_per_selected_;
+        const std::uint64_t light_paths = guided_ ? 1 : kPathsPerDirectSample * paths_per_selected_;
         const std::uint64_t end = (batch.first + batch.count) / light_paths;
         for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
             transport_.monitor.require_more();
@@ -239,8 +255,11 @@ class LocalReadings {
         }
     }
 
-    std::vector<SplitPlan> plans(const Problem& problem) const {
+    std::vector<SplitPlan> plans(const Problem& problem, const GuidedLight* guide) const {
         if (seen_.receivers.empty()) return {};
+        if (is_guided_)
+            return std::vector<SplitPlan>(seen_.receivers.size(),
+                                          {guide->k_per_m2(GuidedReadings::kPoints), 1});
         if (transport_.split == Split::none) {
             return std::vector<SplitPlan>(seen_.receivers.size(),
                                           {std::numeric_limits<double>::infinity(), kPathsPerSpecularRay});
@@ -294,10 +313,12 @@ class LocalReadings {
     const LocalTransport& transport_;
     Reception seen_;
     std::uint64_t paths_per_selected_, selected_per_ray_;
+    bool is_guided_ = false;
     std::vector<SplitPlan> plans_;
     std::vector<PointTile> tiles_;
     Connections connections_;
     Gather gather_;
+    std::optional<GuidedReadings> guided_;
 };
 
 /// Light paths of a pass, and the number of them for one selected path's vertices in a packet. The more paths
@@ -305,6 +326,12 @@ class LocalReadings {
 /// picture's pass.
 constexpr std::uint64_t kPathsPerPass = 4096;
 constexpr std::uint64_t kPathsPerSelected = 256;
+double fraction(double x) { return x - std::floor(x); }
+/// With a guess: points of it and vertices of the residual that are connected to a packet, and pixels for
+/// each path of the residual.
+constexpr std::size_t kPointsOfPass = 8;
+constexpr std::size_t kVerticesOfPass = 6;
+constexpr std::uint64_t kPixelsPerPath = 128;
 /// Planning rays from each sub-point.
 constexpr unsigned kPilotRays = 4;
 
@@ -314,10 +341,13 @@ static_assert(kPacketSide * kPacketSide == kPacketWidth);
 
 class LocalPicture {
   public:
-    LocalPicture(const LocalTransport& transport, const Problem& problem)
+    /// `guide`: may be null.
+    LocalPicture(const LocalTransport& transport, const Problem& problem, const GuidedLight* guide)
         : transport_(transport),
+          guide_(guide),
           tracing_(problem, transport.lights),
           cell_edge_(cell_edge_of(tracing_.camera.resolution)),
+          points_of_(guide ? cells().size() : 0),
           k_per_m2_(plan(problem)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const {
@@ -325,15 +355,23 @@ class LocalPicture {
     }
 
   private:
-    enum Purpose : std::uint64_t { kWalks = kPixels + 1, kPackets, kSelection, kGather, kPilot, kPlan };
+    enum Purpose : std::uint64_t {
+        kWalks = kPixels + 1,
+        kPackets,
+        kSelection,
+        kGather,
+        kPilot,
+        kPlan,
+        kShift
+    };
 
     class LocalPass final : public PicturePass {
       public:
         LocalPass(const LocalPicture& picture, const Pass& pass)
             : picture_(picture),
               pass_(pass),
-              pool_(picture.transport_.trace_light_paths(pass.key.derived(kWalks), pass.index * kPathsPerPass,
-                                                         (pass.index + 1) * kPathsPerPass)) {}
+              pool_(picture.trace_paths(pass)),
+              gather_point_(gather_point(pass)) {}
 
         std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
@@ -359,6 +397,7 @@ class LocalPicture {
             const std::vector<Pixel> pixels = pixels_of(packet);
             std::vector<transport::Receiver> receivers;
             std::vector<double> k_per_m2;
+            std::vector<std::array<double, 2>> shifts;
             receivers.reserve(kPacketWidth);
             CameraPaths started = picture_.tracing_.start_paths(pixels, pass_);
             for (const auto& [pixel, luminance_cd_m2] : started.outside)
@@ -368,18 +407,75 @@ class LocalPicture {
                 sums.add(readings[pixel],
                          picture_.add_sub_point(started.paths[i], readings[pixel], receivers));
                 k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(pixels[pixel])]);
+                shifts.resize(receivers.size(), shift_of(pixels[pixel], pass_));
             }
             if (receivers.empty()) return;
             // The packet's random numbers: those of its first pixel's position.
             const math::RandomKey key = pass_.key.derived(kPackets).derived(
                 static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
-            picture_.receive(receivers, k_per_m2, pool_, {key, pass_.index}, sums);
+            if (picture_.guide_) {
+                receive_guided(receivers, k_per_m2, {key, pass_.index}, shifts,
+                               picture_.cell_of(pixels[started.pixels[0]]), sums);
+            } else {
+                picture_.receive(receivers, k_per_m2, pool_, {key, pass_.index}, sums);
+            }
+        }
+
+        /// As LocalPicture::receive(), with the guess.
+        void receive_guided(std::span<const transport::Receiver> receivers, std::span<const double> k_per_m2,
+                            const Pass& own, std::span<const std::array<double, 2>> shifts, std::size_t cell,
+                            ReadingSums& sums) const {
+            const GuidedLight& guide = *picture_.guide_;
+            const std::vector<PointTile> tiles =
+                tiles_of(receivers, k_per_m2, guide.caster, transport::kUnlimited);
+            const double u = math::SampleStream(own.key.derived(kSelection), own.index).next();
+            Connections(guide.caster, tiles, picture_.transport_.monitor)
+                .collect(pool_.select(kVerticesOfPass, u), sums);
+            std::vector<EmittingPoint> points;
+            guide.points.select(
+                picture_.points_of_[cell], kPointsOfPass,
+                {fraction(gather_point_[0] + shifts[0][0]), fraction(gather_point_[1] + shifts[0][1])},
+                points);
+            connect_points(guide.caster, tiles[0], points, sums);
+            GuessGather::Sums gathered;
+            guide.gather.add_round(tiles[0], GatherLanes(tiles[0], shifts), gather_point_,
+                                   own.key.derived(kGather), own.index, gathered);
+            GuessGather::flush(tiles[0], gathered, sums);
+        }
+
+        static std::array<double, 3> gather_point(const Pass& pass) {
+            math::SampleStream stream(pass.key.derived(kGather), pass.index, 4);
+            const auto [u1, u2] = stream.next_two();
+            return {u1, u2, stream.next()};
         }
 
         const LocalPicture& picture_;
         Pass pass_;
         NodePool pool_;
+        std::array<double, 3> gather_point_;
     };
+
+    std::vector<transport::LightVertex> trace_paths(const Pass& pass) const {
+        if (!guide_)
+            return transport_.trace_light_paths(pass.key.derived(kWalks), pass.index * kPathsPerPass,
+                                                (pass.index + 1) * kPathsPerPass);
+        const auto& [width, height] = tracing_.camera.resolution;
+        const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+        const std::uint64_t paths = std::clamp<std::uint64_t>(pixels / kPixelsPerPath, 16, kPathsPerPass);
+        std::vector<transport::LightVertex> nodes =
+            guide_->residual.trace(pass.key.derived(kWalks), pass.index * paths, (pass.index + 1) * paths);
+        for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(paths);
+        return nodes;
+    }
+
+    /// Pixels of a 4 x 4 block take neighbouring directions in all passes of a replicate.
+    static std::array<double, 2> shift_of(const Pixel& pixel, const Pass& pass) {
+        const auto block = static_cast<std::uint64_t>(pixel.x / kPacketSide) << 32 |
+                           static_cast<std::uint64_t>(pixel.y / kPacketSide);
+        const auto random = math::SampleStream(pass.key.derived(kShift), block, 0).next_two();
+        return gather_shift(
+            random, static_cast<std::size_t>(pixel.y % kPacketSide * kPacketSide + pixel.x % kPacketSide));
+    }
 
     std::size_t cell_of(const Pixel& pixel) const {
         const int cells_per_row = (tracing_.camera.resolution[0] + cell_edge_ - 1) / cell_edge_;
@@ -427,9 +523,11 @@ class LocalPicture {
     }
 
     /// A k for each cell, from a packet of sub-points spread over it.
-    std::vector<double> plan(const Problem& problem) const {
-        const std::vector<PixelBlock> cells =
-            blocks_of(tracing_.camera.resolution, {cell_edge_, cell_edge_}, cell_edge_);
+    std::vector<PixelBlock> cells() const {
+        return blocks_of(tracing_.camera.resolution, {cell_edge_, cell_edge_}, cell_edge_);
+    }
+    std::vector<double> plan(const Problem& problem) {
+        const std::vector<PixelBlock> cells = this->cells();
         std::vector<double> k_per_m2(cells.size(), std::numeric_limits<double>::infinity());
         if (transport_.split == Split::none) return k_per_m2;
         const math::RandomKey key = problem.preparation_key;
@@ -457,6 +555,11 @@ class LocalPicture {
             for (transport::Path& path : tracing_.start_paths(pixels, pass).paths)
                 add_sub_point(path, 0, receivers);
             if (receivers.empty()) return;
+            if (guide_) {
+                points_of_[c] = guide_->points_for(receivers, kPointsOfPass);
+                k_per_m2[c] = guide_->k_per_m2(kPointsOfPass);
+                return;
+            }
             k_per_m2[c] = plan_constant(tracing_.caster, transport_.tracer, receivers, pilot,
                                         kPathsPerPass / kPathsPerSelected, kPilotRays, pass.key.derived(c));
         });
@@ -464,16 +567,20 @@ class LocalPicture {
     }
 
     const LocalTransport& transport_;
+    const GuidedLight* guide_;
     PictureTracing tracing_;
     int cell_edge_;
-    std::vector<double> k_per_m2_;  ///< of each cell
+    std::vector<GuessPoints::Sums> points_of_;  ///< of each cell
+    std::vector<double> k_per_m2_;              ///< of each cell
 };
 
 class LocalEstimation final : public Estimator {
   public:
     LocalEstimation(const Problem& problem, Split split)
-        : transport_(problem, split), readings_(transport_, problem) {
-        if (problem.camera) picture_.emplace(transport_, problem);
+        : transport_(problem, split),
+          guide_(make_guide(problem, split)),
+          readings_(transport_, problem, guide_.get()) {
+        if (problem.camera) picture_.emplace(transport_, problem, guide_.get());
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override { readings_.run_batch(batch, sums); }
@@ -489,7 +596,18 @@ class LocalEstimation final : public Estimator {
     std::vector<std::string> warnings() const override { return local_warnings(transport_.scene); }
 
   private:
+    enum Purpose : std::uint64_t { kGuess = 1u << 16 };
+
+    std::unique_ptr<GuidedLight> make_guide(const Problem& problem, Split split) const {
+        if (split != Split::balanced || !GuidedLight::suits(problem.scene, problem.max_reflections))
+            return nullptr;
+        return std::make_unique<GuidedLight>(problem.scene, problem.caster, transport_.lights,
+                                             transport_.tracer, problem.preparation_key.derived(kGuess),
+                                             problem.monitor);
+    }
+
     LocalTransport transport_;
+    std::unique_ptr<GuidedLight> guide_;
     LocalReadings readings_;
     std::optional<LocalPicture> picture_;
 };

@@ -1,0 +1,134 @@
+#include "estimators/local/guess_gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "estimators/local/guess_points.h"
+#include "math/sampling.h"
+
+namespace stilb::estimators {
+namespace {
+
+using Floats = PointTile::Floats;
+
+/// A direction about the normal, before the lanes' shifts: squared radius and azimuth on the unit disk.
+struct DiskDirection {
+    float square = 0, cos = 0, sin = 0;
+};
+
+STILB_VECTORIZED void set_directions(const GatherLanes& __restrict lanes, const DiskDirection& disk,
+                                     RayPacket& __restrict packet, Floats& __restrict cosine) {
+    for (int i = 0; i < kPacketWidth; ++i) {
+        const float shifted = disk.square + lanes.shift[i];
+        const float square = shifted >= 1 ? shifted - 1 : shifted;
+        const float radius = std::sqrt(square), z = std::sqrt(1 - square);
+        const float x = radius * (disk.cos * lanes.turn_cos[i] - disk.sin * lanes.turn_sin[i]);
+        const float y = radius * (disk.sin * lanes.turn_cos[i] + disk.cos * lanes.turn_sin[i]);
+        packet.direction_x[i] = x * lanes.u[0][i] + y * lanes.v[0][i] + z * lanes.w[0][i];
+        packet.direction_y[i] = x * lanes.u[1][i] + y * lanes.v[1][i] + z * lanes.w[1][i];
+        packet.direction_z[i] = x * lanes.u[2][i] + y * lanes.v[2][i] + z * lanes.w[2][i];
+        cosine[i] = z;
+    }
+}
+
+/// As packet_direction().
+void avoid_tiny_components(RayPacket& packet) {
+    for (auto* component : {&packet.direction_x, &packet.direction_y, &packet.direction_z}) {
+        for (float& value : *component) value = std::abs(value) < 1e-11f ? 0 : value;
+    }
+}
+
+double fraction(double x) { return x - std::floor(x); }
+
+}  // namespace
+
+std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::size_t lane) {
+    constexpr double spread = 1. / 8;
+    // Fractional parts of multiples of the plastic number's powers are even in two dimensions.
+    const auto i = static_cast<double>(lane);
+    return {fraction(random[0] + spread * fraction(0.7548776662466927 * i)),
+            fraction(random[1] + spread * fraction(0.5698402909980532 * i))};
+}
+
+GatherLanes::GatherLanes(const PointTile& tile, std::span<const std::array<double, 2>> shifts) {
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        const Frame frame = Frame::around(tile.receivers[i].normal());
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            u[axis][i] = static_cast<float>(frame.u[axis]);
+            v[axis][i] = static_cast<float>(frame.v[axis]);
+            w[axis][i] = static_cast<float>(frame.w[axis]);
+        }
+        shift[i] = static_cast<float>(shifts[i][0]);
+        turn_cos[i] = static_cast<float>(std::cos(2 * kPi * shifts[i][1]));
+        turn_sin[i] = static_cast<float>(std::sin(2 * kPi * shifts[i][1]));
+        roulette[i] = static_cast<float>(fraction(16 * (shifts[i][0] + shifts[i][1])));
+    }
+}
+
+void GuessGather::set_rays(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
+                           RayPacket& packet, Floats& cosine) const {
+    const Vec3 offset = caster_.center() - guess_.patches().center;
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+        packet.origin_x[i] = tile.lifted_x[i] + static_cast<float>(offset.x);
+        packet.origin_y[i] = tile.lifted_y[i] + static_cast<float>(offset.y);
+        packet.origin_z[i] = tile.lifted_z[i] + static_cast<float>(offset.z);
+        packet.end[i] = std::numeric_limits<float>::infinity();
+    }
+    const double azimuth = 2 * kPi * u[1];
+    const DiskDirection disk{static_cast<float>(u[0]), static_cast<float>(std::cos(azimuth)),
+                             static_cast<float>(std::sin(azimuth))};
+    set_directions(lanes, disk, packet, cosine);
+    avoid_tiny_components(packet);
+}
+
+void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
+                            math::RandomKey key, std::uint64_t round, Sums& sums) const {
+    RayPacket packet;
+    alignas(64) Floats cosine;
+    set_rays(tile, lanes, u, packet, cosine);
+    LaneMask used{};
+    std::fill_n(used.begin(), tile.receivers.size(), -1);
+    GuessedLight light;
+    guess_.look(packet, used, rays::Coherence::coherent, light);
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        const float g_over_k =
+            cosine[i] * light.cosine[i] / (packet.end[i] * packet.end[i]) * tile.inverse_k[i];
+        const float gathered = kResidualSplit * g_over_k / (1 + kResidualSplit * g_over_k);
+        for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += gathered * light.luminance[b][i];
+        const Rgb guessed{{light.luminance[0][i], light.luminance[1][i], light.luminance[2][i]}};
+        double largest = double{gathered} * guessed.luminance();
+        const bool is_bounded =
+            fraction(u[2] + double{lanes.roulette[i]}) * (1 + double{g_over_k}) < double{g_over_k};
+        if (is_bounded || (light.specular_lanes >> i & 1u) != 0) {
+            const Vec3 direction =
+                normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
+            const Rgb found =
+                missing(tile.receivers[i], direction, guessed, math::SampleStream(key.derived(i), round, 0));
+            sums.found[i] += found;
+            largest = std::max(largest, std::abs(found.luminance()));
+        }
+        sums.largest[i] = std::max(sums.largest[i], largest);
+    }
+}
+
+void GuessGather::flush(const PointTile& tile, const Sums& sums, ReadingSums& readings) {
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        const transport::Receiver& receiver = tile.receivers[i];
+        const Rgb weight = *receiver.constant_response() * kPi;
+        Rgb sum = sums.found[i];
+        for (std::size_t b = 0; b < kBands; ++b) sum[b] += double{sums.guessed[b][i]};
+        readings.add(receiver.reading(), weight * sum, weight.luminance() * sums.largest[i]);
+    }
+}
+
+/// What path tracing finds along a ray beyond the guess.
+Rgb GuessGather::missing(const transport::Receiver& receiver, const Vec3& direction, const Rgb& guessed,
+                         const math::SampleStream& stream) const {
+    const auto hit = caster_.closest(receiver.lifted(), direction);
+    const Rgb light =
+        hit ? tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream) : Rgb{};
+    return light + guessed * -1;
+}
+
+}  // namespace stilb::estimators

@@ -1,0 +1,63 @@
+// Gathering rays to a guess of the light. The light that receivers get from surfaces which reflect as guessed
+// is shared between connections to points of these surfaces (guess_points.h) and gathering rays, by the
+// weights w and 1 - w of bounded connections (theory T.1b). What the guess lacks comes from connections with
+// the vertices of its residual (residual_light.h), bounded by a larger k; some rays find the rest of that by
+// path tracing.
+#pragma once
+
+#include <span>
+
+#include "estimators/estimator.h"
+#include "estimators/local/light_guess.h"
+#include "estimators/local/point_tile.h"
+#include "transport/path_tracer.h"
+
+namespace stilb::estimators {
+
+/// The directions of a tile's rays: all lanes take the same point of the unit square, each with a shift of
+/// its own, in the frame of its receiver.
+struct alignas(64) GatherLanes {
+    using Floats = PointTile::Floats;
+    std::array<Floats, 3> u{}, v{}, w{};         ///< the frames
+    Floats shift{}, turn_cos{}, turn_sin{};      ///< of the two coordinates
+    std::array<float, kPacketWidth> roulette{};  ///< shift of the third random number
+
+    GatherLanes(const PointTile& tile, std::span<const std::array<double, 2>> shifts);
+};
+
+/// Lanes whose shifts differ by little: enough that neighbours do not have the same noise, little enough that
+/// the packet of rays stays together. `random`: in [0, 1), of the whole tile. `lane`: among neighbours.
+std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::size_t lane);
+
+/// Keeps references to its arguments. Immutable.
+class GuessGather {
+  public:
+    GuessGather(const rays::RayCaster& caster, const transport::PathTracer& tracer, const LightGuess& guess)
+        : caster_(caster), tracer_(tracer), guess_(guess) {}
+
+    /// Sums of luminances over rays, by lanes [cd/m2].
+    struct Sums {
+        std::array<PointTile::Floats, kBands> guessed{};
+        std::array<Rgb, kPacketWidth> found{};  ///< by path tracing beyond the guess
+        std::array<double, kPacketWidth> largest{};
+    };
+    /// Adds one ray from every receiver of a tile, whose responses must be constant and whose k is that of
+    /// the residual. `u`: the random point of the rays. `key`, `round`: for the paths of rays that path
+    /// tracing continues.
+    void add_round(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
+                   math::RandomKey key, std::uint64_t round, Sums& sums) const;
+    /// Adds the light of the rays to the readings.
+    static void flush(const PointTile& tile, const Sums& sums, ReadingSums& readings);
+
+  private:
+    void set_rays(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
+                  RayPacket& packet, PointTile::Floats& cosine) const;
+    Rgb missing(const transport::Receiver& receiver, const Vec3& direction, const Rgb& guessed,
+                const math::SampleStream& stream) const;
+
+    const rays::RayCaster& caster_;
+    const transport::PathTracer& tracer_;
+    const LightGuess& guess_;
+};
+
+}  // namespace stilb::estimators

@@ -1,0 +1,108 @@
+#include "estimators/local/guided_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimators/limits.h"
+
+namespace stilb::estimators {
+namespace {
+
+/// Connections to points of the guess share light with gathering rays by k = kKernels x points / area: about
+/// the density at which points lie as far from each other as from the receiver.
+constexpr double kKernels = 5;
+/// Paths of the residual for each sample of readings, and the number of their vertices that are connected.
+constexpr std::uint64_t kPathsPerSample = 32;
+constexpr std::uint64_t kVerticesPerSample = 8;
+/// With fewer readings, the guess costs more than it gains.
+constexpr std::size_t kLeastReadings = 64;
+/// Samples whose vertices are selected together.
+constexpr std::uint64_t kSamplesTogether = 64;
+
+}  // namespace
+
+bool GuidedLight::suits(const Scene& scene, int max_reflections) {
+    if (max_reflections != transport::kUnlimited || !LightGuess::suits(scene)) return false;
+    const bool has_points = std::ranges::any_of(
+        scene.lights, [](const Light& light) { return location_of(light) == LightLocation::point; });
+    return !(has_points && has_specular_surfaces(scene));
+}
+
+GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
+                         const transport::LightSampler& lights, const transport::PathTracer& tracer,
+                         math::RandomKey key, const Monitor& monitor)
+    : caster(all),
+      guess(scene, all, lights, tracer, key.derived(kGuess), monitor),
+      residual(scene, all, lights, tracer, guess, key.derived(kPilot), monitor),
+      points(guess, all),
+      gather(all, tracer, guess) {}
+
+double GuidedLight::k_per_m2(std::size_t points_at_once) const {
+    const patches::Patches& patches = guess.patches();
+    double area_m2 = 0;
+    for (const std::uint32_t side : guess.lit_sides())
+        area_m2 += double{patches.areas_m2[patches.patch_of(side)]};
+    return area_m2 > 0 ? kResidualSplit * kKernels * static_cast<double>(points_at_once) / area_m2 : 1;
+}
+
+bool GuidedReadings::suits(std::span<const transport::Receiver> receivers) {
+    return receivers.size() >= kLeastReadings &&
+           std::ranges::all_of(receivers, [](const transport::Receiver& receiver) {
+               return receiver.constant_response() && !receiver.is_body();
+           });
+}
+
+GuidedReadings::GuidedReadings(const GuidedLight& light, std::span<const PointTile> tiles,
+                               const Monitor& monitor)
+    : light_(light), tiles_(tiles), connections_(light.caster, tiles, monitor), monitor_(monitor) {
+    for (const PointTile& tile : tiles) points_of_.push_back(light.points_for(tile.receivers, kPoints));
+}
+
+void GuidedReadings::collect(const Batch& batch, ReadingSums& sums) const {
+    gather(batch, sums);
+    connect_residual(batch, sums);
+}
+
+void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
+    std::vector<std::array<double, 3>> points;
+    for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
+        math::SampleStream stream(batch.key.derived(kGather), i, 4);
+        const auto [u1, u2] = stream.next_two();
+        points.push_back({u1, u2, stream.next()});
+    }
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+        monitor_.require_more();
+        const PointTile& tile = tiles_[t];
+        const auto random = math::SampleStream(batch.key.derived(kShift), t, 0).next_two();
+        std::array<std::array<double, 2>, kPacketWidth> shifts;
+        for (std::size_t i = 0; i < kPacketWidth; ++i) shifts[i] = gather_shift(random, i);
+        const GatherLanes lanes(tile, shifts);
+        GuessGather::Sums tile_sums;
+        std::vector<EmittingPoint> connected;
+        for (std::uint64_t i = 0; i < batch.count; ++i) {
+            light_.gather.add_round(tile, lanes, points[i], batch.key.derived(kPaths).derived(t),
+                                    batch.first + i, tile_sums);
+            light_.points.select(
+                points_of_[t], kPoints,
+                {std::fmod(points[i][0] + random[0], 1), std::fmod(points[i][1] + random[1], 1)}, connected);
+            connect_points(light_.caster, tile, connected, sums);
+        }
+        GuessGather::flush(tile, tile_sums, sums);
+        sums.rays += batch.count * tile.receivers.size();
+    }
+}
+
+void GuidedReadings::connect_residual(const Batch& batch, ReadingSums& sums) const {
+    const std::uint64_t end = batch.first + batch.count;
+    for (std::uint64_t first = batch.first; first < end; first += kSamplesTogether) {
+        const std::uint64_t last = std::min(end, first + kSamplesTogether);
+        std::vector<transport::LightVertex> nodes = light_.residual.trace(
+            batch.key.derived(kResidual), first * kPathsPerSample, last * kPathsPerSample);
+        for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(kPathsPerSample);
+        const double u = math::SampleStream(batch.key.derived(kSelection).derived(first), 0).next();
+        const std::size_t count = kVerticesPerSample * (last - first);
+        connections_.collect(NodePool(nodes).select(count, u), sums);
+    }
+}
+
+}  // namespace stilb::estimators

@@ -1,0 +1,72 @@
+// Indirect light by a guess as control variate (theory T.8b):
+//
+//     light of the guess: connections to points of it (guess_points.h), and gathering rays (guess_gather.h)
+//     + connections with the vertices of the residual (residual_light.h)
+//
+// Direct light is added elsewhere. The receivers' k bounds the connections.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "estimators/local/connection.h"
+#include "estimators/local/guess_gather.h"
+#include "estimators/local/guess_points.h"
+#include "estimators/local/light_guess.h"
+#include "estimators/local/residual_light.h"
+
+namespace stilb::estimators {
+
+/// The common part of readings and pictures. Keeps references to its arguments. Immutable.
+struct GuidedLight {
+    /// Whether the guess fits the scene.
+    static bool suits(const Scene& scene, int max_reflections);
+
+    GuidedLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
+                const transport::PathTracer& tracer, math::RandomKey key, const Monitor& monitor);
+
+    /// Of connections to the residual, where so many points of the guess are connected at once.
+    double k_per_m2(std::size_t points_at_once) const;
+    /// The points that a group of receivers takes.
+    GuessPoints::Sums points_for(std::span<const transport::Receiver> receivers,
+                                 std::size_t points_at_once) const {
+        return points.sums_for(receivers, k_per_m2(points_at_once) / kResidualSplit);
+    }
+
+    enum Purpose : std::uint64_t { kGuess, kPilot };
+    const rays::RayCaster& caster;
+    LightGuess guess;
+    ResidualLight residual;
+    GuessPoints points;
+    GuessGather gather;
+};
+
+/// Light of readings. Keeps references to its arguments' targets. Immutable.
+class GuidedReadings {
+  public:
+    /// Samples of a batch are a multiple of this. A sample is one gathering ray from every receiver, with its
+    /// share of the residual.
+    static constexpr std::uint64_t kGranularity = 4;
+
+    static bool suits(std::span<const transport::Receiver> receivers);
+    /// Points of the guess that are connected to a tile for each gathering ray of its receivers.
+    static constexpr std::size_t kPoints = 4;
+
+    GuidedReadings(const GuidedLight& light, std::span<const PointTile> tiles, const Monitor& monitor);
+
+    void collect(const Batch& batch, ReadingSums& sums) const;
+
+  private:
+    enum Purpose : std::uint64_t { kResidual, kSelection, kGather, kShift, kPaths };
+
+    void gather(const Batch& batch, ReadingSums& sums) const;
+    void connect_residual(const Batch& batch, ReadingSums& sums) const;
+
+    const GuidedLight& light_;
+    std::span<const PointTile> tiles_;
+    std::vector<GuessPoints::Sums> points_of_;  ///< per tile
+    Connections connections_;
+    const Monitor& monitor_;
+};
+
+}  // namespace stilb::estimators

@@ -1,0 +1,277 @@
+#include "estimators/local/light_guess.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "base/parallel.h"
+#include "math/sampling.h"
+#include "patches/vertex_interpolation.h"
+#include "transport/receiver.h"
+
+namespace stilb::estimators {
+namespace {
+
+/// Patches of the guess. More of them make the residual smaller, and the guess dearer.
+constexpr double kPatches = 3000;
+/// Packets of rays from each lit side, each from another point of the side.
+constexpr std::uint64_t kSidePackets = 4;
+
+/// Samples of direct light at each of these points.
+constexpr int kSideDirect = 2;
+/// The equations are solved to this relative change, in so many sweeps at most.
+constexpr double kChange = 1e-3;
+constexpr int kMostSweeps = 200;
+/// Where there are more lights, so many are chosen.
+constexpr std::size_t kLightsEach = 4;
+
+bool is_flat(const Shape& shape) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->normals.empty();
+    return std::holds_alternative<Rectangle>(shape) || std::holds_alternative<Box>(shape);
+}
+
+}  // namespace
+
+SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
+                     double u1, double u2) {
+    const math::Barycentric at = math::sample_triangle(u1, u2);
+    const Vec3 position = patches.position(patches.patch_of(side), at);
+    const Vec3 normal = patches.normal_of(side);
+    return {at, position, position + caster.offset_m(position, caster.half_extent_m()) * normal, normal};
+}
+
+Rgb sample_direct_lx(const transport::LightSampler& lights, const rays::RayCaster& caster,
+                     const SidePoint& at, math::SampleStream& stream) {
+    Rgb sum;
+    const auto add = [&](const std::optional<lights::IncidentLight>& light, double weight) {
+        if (!light) return;
+        const double cosine = dot(light->direction, at.normal);
+        if (cosine <= 0) return;
+        sum += light->normal_illuminance_lx * caster.transmittance({at.lifted, light->source_point}) *
+               (weight * cosine);
+    };
+    if (lights.count() <= kLightsEach) {
+        for (std::size_t light = 0; light < lights.count(); ++light)
+            add(lights.sample_incident(light, {at.position, at.normal}, stream.next_two()), 1);
+        return sum;
+    }
+    for (std::size_t i = 0; i < kLightsEach; ++i)
+        add(lights.sample_one_light(at.position, at.normal, stream), 1. / kLightsEach);
+    return sum;
+}
+
+bool LightGuess::suits(const Scene& scene) {
+    const bool is_diffuse = std::ranges::all_of(scene.materials, [](const auto& named) {
+        return std::holds_alternative<Diffuse>(named.material) || is_specular(named.material) ||
+               !(reflectance_bound(named.material).max() > 0);
+    });
+    const bool flat =
+        std::ranges::all_of(scene.objects, [](const auto& object) { return is_flat(object.shape); });
+    return is_diffuse && flat;
+}
+
+/// The rays of all sides, and the solution of the equations.
+struct LightGuess::Solver {
+    const LightGuess& guess;
+    const rays::RayCaster& caster;
+    const transport::LightSampler& lights;
+    const transport::PathTracer& tracer;
+    math::RandomKey key;
+    const Monitor& monitor;
+
+    enum Purpose : std::uint64_t { kSurvey, kSolution };
+
+    /// What the rays of some sides have met.
+    struct Rows {
+        std::vector<std::uint32_t> sides;
+        std::size_t width = 0;
+        std::vector<std::uint32_t> seen;  ///< sides x width; kNoSide where there is none, or a mirror
+        std::vector<Rgb> source_lx;       ///< direct light, and light by mirrors and glass
+    };
+
+    Rows cast(std::vector<std::uint32_t> sides, std::uint64_t packets, Purpose purpose) const {
+        Rows rows{std::move(sides), packets * kPacketWidth, {}, {}};
+        rows.seen.resize(rows.sides.size() * rows.width, patches::kNoSide);
+        rows.source_lx.resize(rows.sides.size());
+        parallel_for_parts(
+            rows.sides.size(),
+            [&](std::size_t first, std::size_t last) {
+                monitor.require_more();
+                for (std::size_t row = first; row < last; ++row) {
+                    for (std::uint64_t i = 0; i < packets; ++i) cast_packet(rows, row, i, packets, purpose);
+                }
+            },
+            64);
+        return rows;
+    }
+
+    void cast_packet(Rows& rows, std::size_t row, std::uint64_t number, std::uint64_t packets,
+                     Purpose purpose) const {
+        const patches::Patches& patches = guess.patches_;
+        const std::uint32_t side = rows.sides[row];
+        math::SampleStream stream(key.derived(purpose).derived(side), number, 4);
+        const auto [u1, u2] = stream.next_two();
+        const SidePoint point = side_point(patches, caster, side, u1, u2);
+        Rgb& source = rows.source_lx[row];
+        for (int k = 0; k < kSideDirect; ++k)
+            source += sample_direct_lx(lights, caster, point, stream) *
+                      (1. / (kSideDirect * static_cast<double>(packets)));
+        const std::array<Vec3, kPacketWidth> directions =
+            spread_directions(point.normal, stream.next_two(), number, packets);
+        RayPacket packet;
+        LaneMask lanes;
+        lanes.fill(-1);
+        for (std::size_t i = 0; i < kPacketWidth; ++i)
+            packet.set(i, point.lifted - patches.center, directions[i],
+                       std::numeric_limits<float>::infinity());
+        const patches::PatchHits hits =
+            guess.patch_caster_.closest(packet, lanes, rays::Coherence::scattered);
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            const std::uint32_t met = hits.sides[i];
+            if (met == patches::kNoSide) continue;
+            if (guess.is_specular_[patches.patch_of(met)] == 0) {
+                rows.seen[row * rows.width + number * kPacketWidth + i] = met;
+            } else if (const auto hit = caster.closest(point.lifted, directions[i])) {
+                source +=
+                    tracer.luminance_without_direct(*hit, directions[i], transport::kUnlimited, stream) *
+                    (kPi / static_cast<double>(rows.width));
+            }
+        }
+    }
+
+    /// The part `number` of `packets` x 16 directions that are spread evenly, shifted together.
+    static std::array<Vec3, kPacketWidth> spread_directions(const Vec3& normal,
+                                                            const std::array<double, 2>& shift,
+                                                            std::uint64_t number, std::uint64_t packets) {
+        const Frame frame = Frame::around(normal);
+        std::array<Vec3, kPacketWidth> directions;
+        for (std::uint32_t i = 0; i < kPacketWidth; ++i) {
+            const auto all = static_cast<double>(packets * kPacketWidth);
+            const std::uint64_t index = i * packets + number;
+            double u1 = (static_cast<double>(index) + shift[0]) / all;
+            double u2 = math::unit_interval(math::sobol(static_cast<std::uint32_t>(index), 0)) + shift[1];
+            u1 = std::min(u1, math::kBelowOne), u2 -= std::floor(u2);
+            directions[i] = frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
+        }
+        return directions;
+    }
+
+    /// The sides that any light reaches: those with a source, and those that see a lit side.
+    std::vector<std::uint32_t> lit(const Rows& rows) const {
+        std::vector<std::uint8_t> is_lit(2 * guess.patches_.count());
+        std::vector<std::uint32_t> lit_sides;
+        for (bool grows = true; grows;) {
+            grows = false;
+            for (std::size_t row = 0; row < rows.sides.size(); ++row) {
+                const std::uint32_t side = rows.sides[row];
+                if (is_lit[side] != 0 || !(is_source(rows, row) || sees_lit(rows, row, is_lit))) continue;
+                is_lit[side] = 1;
+                grows = true;
+            }
+        }
+        for (const std::uint32_t side : rows.sides) {
+            if (is_lit[side] != 0) lit_sides.push_back(side);
+        }
+        return lit_sides;
+    }
+    static bool is_source(const Rows& rows, std::size_t row) { return rows.source_lx[row].max() > 0; }
+    static bool sees_lit(const Rows& rows, std::size_t row, const std::vector<std::uint8_t>& is_lit) {
+        const auto seen = std::span(rows.seen).subspan(row * rows.width, rows.width);
+        return std::ranges::any_of(
+            seen, [&](std::uint32_t side) { return side != patches::kNoSide && is_lit[side] != 0; });
+    }
+
+    /// The luminances of all sides [cd/m2], by Gauss-Seidel sweeps.
+    std::vector<Rgb> solve(const Rows& rows) const {
+        std::vector<Rgb> luminance(2 * guess.patches_.count());
+        const double per_ray = kPi / static_cast<double>(rows.width);
+        for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+            double change = 0, total = 0;
+            for (std::size_t row = 0; row < rows.sides.size(); ++row) {
+                Rgb sum;
+                for (std::size_t i = row * rows.width; i < (row + 1) * rows.width; ++i) {
+                    if (rows.seen[i] != patches::kNoSide) sum += luminance[rows.seen[i]];
+                }
+                const std::uint32_t side = rows.sides[row];
+                const Rgb updated =
+                    (rows.source_lx[row] + sum * per_ray) * guess.reflectance(side) * (1 / kPi);
+                change += std::abs((updated + luminance[side] * -1).luminance());
+                total += updated.luminance();
+                luminance[side] = updated;
+            }
+            if (change <= kChange * total) break;
+        }
+        return luminance;
+    }
+};
+
+LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster,
+                       const transport::LightSampler& lights, const transport::PathTracer& tracer,
+                       math::RandomKey key, const Monitor& monitor)
+    : patches_(patches::make_patches(scene, patches::patch_size_m(scene, kPatches), monitor)) {
+    std::vector<std::uint32_t> sides;
+    for (std::uint32_t p = 0; p < patches_.count(); ++p) {
+        const Material& material = scene.material(patches_.materials[p]);
+        is_specular_.push_back(is_specular(material) ? 1 : 0);
+        reflectance_.push_back(is_specular_[p] != 0 ? Rgb{} : reflectance_bound(material));
+        if (reflectance_[p].max() > 0) sides.insert(sides.end(), {p, patches_.other_side(p)});
+    }
+    const Solver solver{*this, caster, lights, tracer, key, monitor};
+    lit_sides_ = solver.lit(solver.cast(std::move(sides), 1, Solver::kSurvey));
+    std::ranges::sort(lit_sides_);
+    interpolate(solver.solve(solver.cast(lit_sides_, kSidePackets, Solver::kSolution)));
+}
+
+void LightGuess::interpolate(const std::vector<Rgb>& luminance_of_sides) {
+    const patches::VertexInterpolation interpolation(patches_);
+    corners_.resize(luminance_of_sides.size());
+    std::vector<std::uint8_t> is_lit(luminance_of_sides.size());
+    for (const std::uint32_t side : lit_sides_) is_lit[side] = 1;
+    for (const std::uint32_t first : {0u, static_cast<std::uint32_t>(patches_.count())}) {
+        const std::vector<Rgb> at_vertices =
+            interpolation.at_vertices(std::span(luminance_of_sides).subspan(first, patches_.count()));
+        for (std::uint32_t p = 0; p < patches_.count(); ++p) {
+            if (is_lit[first + p] == 0) continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const Rgb& value = at_vertices[patches_.corners[p][c]];
+                for (std::size_t b = 0; b < kBands; ++b)
+                    corners_[first + p][c][b] = static_cast<float>(value[b]);
+            }
+        }
+    }
+}
+
+Rgb LightGuess::luminance_cd_m2(std::uint32_t side, const math::Barycentric& at) const {
+    const CornerLuminances& corners = corners_[side];
+    Rgb luminance;
+    for (std::size_t b = 0; b < kBands; ++b)
+        luminance[b] =
+            at.b0 * double{corners[0][b]} + at.b1 * double{corners[1][b]} + at.b2 * double{corners[2][b]};
+    return luminance;
+}
+
+void LightGuess::look(RayPacket& packet, const LaneMask& lanes, rays::Coherence coherence,
+                      GuessedLight& light) const {
+    const patches::PatchHits hits = patch_caster_.closest(packet, lanes, coherence);
+    light.specular_lanes = 0;
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+        for (std::size_t b = 0; b < kBands; ++b) light.luminance[b][i] = 0;
+        light.cosine[i] = 0;
+        const std::uint32_t side = hits.sides[i];
+        if (side == patches::kNoSide) continue;
+        const std::uint32_t patch = patches_.patch_of(side);
+        if (is_specular_[patch] != 0) {
+            light.specular_lanes |= 1u << i;
+            continue;
+        }
+        const patches::Float3& normal = patches_.normals[patch];
+        light.cosine[i] = std::abs(normal.x * packet.direction_x[i] + normal.y * packet.direction_y[i] +
+                                   normal.z * packet.direction_z[i]);
+        const CornerLuminances& corners = corners_[side];
+        const float b1 = hits.b1[i], b2 = hits.b2[i], b0 = 1 - b1 - b2;
+        for (std::size_t b = 0; b < kBands; ++b)
+            light.luminance[b][i] = b0 * corners[0][b] + b1 * corners[1][b] + b2 * corners[2][b];
+    }
+}
+
+}  // namespace stilb::estimators

@@ -1,0 +1,52 @@
+// What a guess of the light lacks: the residual r = E + T L~ - L~ of theory (T.8), and its reflections.
+//
+// r is the light that a surface point reflects, direct light and light of the guess by one more reflection,
+// minus the guess there. It may be negative. Paths start from r, spread over the surfaces, and walk on as
+// light paths do: their vertices, connected to the receivers, bring what the guess lacks. Paths end on
+// mirrors and glass, because r contains what these bring, by path tracing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "estimators/local/light_guess.h"
+#include "math/sampling.h"
+#include "transport/light_path.h"
+#include "transport/path_tracer.h"
+
+namespace stilb::estimators {
+
+/// Keeps references to its arguments. Immutable.
+class ResidualLight {
+  public:
+    /// `key`: for the pilot that finds where r is large.
+    ResidualLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
+                  const transport::PathTracer& tracer, const LightGuess& guess, math::RandomKey key,
+                  const Monitor& monitor = Monitor::none());
+
+    /// The vertices of paths number `first` ... `end` - 1 of the streams of a key, for a sum over the paths:
+    /// the expectation of each path's sum is the whole residual.
+    std::vector<transport::LightVertex> trace(math::RandomKey key, std::uint64_t first,
+                                              std::uint64_t end) const;
+
+  private:
+    /// Where and how paths start.
+    struct Start {
+        SidePoint point;
+        std::uint32_t side = 0;
+        Rgb missing_lx;  ///< one sample of r, as the illuminance that would be reflected to it
+    };
+    Start start_on(std::uint32_t side, const std::array<double, 2>& u, std::uint64_t packets,
+                   math::SampleStream& stream) const;
+    void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
+
+    const Scene& scene_;
+    const rays::RayCaster& caster_;
+    const transport::LightSampler& lights_;
+    const transport::PathTracer& tracer_;
+    const LightGuess& guess_;
+    std::vector<std::uint32_t> sides_;        ///< that reflect light
+    math::DiscreteDistribution by_residual_;  ///< over `sides_`
+};
+
+}  // namespace stilb::estimators
