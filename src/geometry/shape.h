@@ -98,6 +98,12 @@ void turn_over(Mesh& mesh, std::uint32_t triangle);
 
 using Shape = std::variant<Mesh, Rectangle, Box, Sphere, Disk, Harmonics>;
 
+/// Whether rays meet the surface itself instead of triangles.
+inline bool is_exact(const Shape& shape) {
+    return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Disk>(shape) ||
+           std::holds_alternative<Harmonics>(shape);
+}
+
 /// The axis-parallel bounding box.
 Bounds bounds_of(const Shape& shape);
 /// The area of one side [m2].

@@ -42,6 +42,7 @@ class ShadedSurface {
     }
 
     const Material& material() const { return *material_; }
+    void set_material(const Material& material) { material_ = &material; }
     /// The frame of the geometric normal.
     const Frame& frame() const { return frame_; }
     /// Whether the shading normal differs.

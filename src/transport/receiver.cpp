@@ -52,12 +52,24 @@ Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Mater
       surface_(material, normal_, sub_point.surface.shading_normal),
       outgoing_(surface_.frame().to_local(sub_point.outgoing)),
       factor_(sub_point.transmission),
+      material_(sub_point.surface.material),
       reflections_(sub_point.reflections + 1),
       reading_(reading) {
-    const auto* diffuse = std::get_if<Diffuse>(&material);
-    if (diffuse && !surface_.is_bent()) {
+    set_constant_response();
+}
+
+void Receiver::set_constant_response() {
+    const auto* diffuse = std::get_if<Diffuse>(&surface_.material());
+    constant_response_.reset();
+    if (diffuse && !surface_.is_bent())
         constant_response_ = factor_ * diffuse->reflectance * std::numbers::inv_pi;
-    }
+}
+
+Receiver Receiver::with_material(const Material& material) const {
+    Receiver result = *this;
+    result.surface_.set_material(material);
+    result.set_constant_response();
+    return result;
 }
 
 double Receiver::sensitivity(const Vec3& direction) const {

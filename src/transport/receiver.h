@@ -71,8 +71,16 @@ class Receiver {
 
     /// The point with the response of its illuminance.
     Receiver without_response() const;
+    /// The surface's material in the scene; nothing for illuminance.
+    std::optional<MaterialId> material() const { return material_; }
+    /// Whether the surface's shading normal differs from its own.
+    bool is_bent() const { return surface_.is_bent(); }
+    /// A receiver of luminance with another material, such as a part of its own, which must outlive it.
+    Receiver with_material(const Material& material) const;
 
   private:
+    void set_constant_response();
+
     Vec3 position_, lifted_, normal_;
     materials::ShadedSurface surface_;  ///< its material is owned by the scene; white for illuminance
     const sensors::Sensitivity* body_ = nullptr;  ///< nothing on a surface
@@ -81,6 +89,7 @@ class Receiver {
     Vec3 outgoing_;  ///< in the frame of the surface
     Rgb factor_;
     std::optional<Rgb> constant_response_;
+    std::optional<MaterialId> material_;
     int reflections_ = 0;  ///< from here to the sensor
     std::uint32_t reading_ = 0;
 };

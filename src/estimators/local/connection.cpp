@@ -172,38 +172,40 @@ std::vector<std::size_t> order_over_surfaces(const std::vector<transport::LightV
     return order;
 }
 
-/// Residual light may be negative, in one band or in all.
-double reflected_flux_lm(const transport::LightVertex& node) {
+/// The importance of a vertex: the reflected flux, times the root mean square of the relative BRDF. Residual
+/// light may be negative, in one band or in all.
+double importance_of(const transport::LightVertex& node) {
     const Rgb reflected = node.flux_lm * reflectance_bound(*node.material);
-    return Rgb{{std::abs(reflected[0]), std::abs(reflected[1]), std::abs(reflected[2])}}.luminance();
+    return Rgb{{std::abs(reflected[0]), std::abs(reflected[1]), std::abs(reflected[2])}}.luminance() *
+           std::sqrt(mean_concentration(*node.material));
 }
 
 }  // namespace
 
 NodePool::NodePool(const std::vector<transport::LightVertex>& nodes) {
     nodes_.reserve(nodes.size());
-    passed_lm_.reserve(nodes.size());
-    double passed_lm = 0;
+    passed_.reserve(nodes.size());
+    double passed = 0;
     for (const std::size_t n : order_over_surfaces(nodes)) {
         nodes_.push_back(nodes[n]);
-        passed_lm_.push_back(passed_lm += reflected_flux_lm(nodes[n]));
+        passed_.push_back(passed += importance_of(nodes[n]));
     }
 }
 
 std::vector<transport::LightVertex> NodePool::select(std::size_t count, double u) const {
     if (count >= nodes_.size()) return nodes_;
-    const double step = passed_lm_.back() / static_cast<double>(count);
+    const double step = passed_.back() / static_cast<double>(count);
     std::vector<transport::LightVertex> selected;
     selected.reserve(count + 1);
     double next = u * step;  // flux at which the next vertex is selected
-    for (auto bound = passed_lm_.begin(); bound != passed_lm_.end(); ++bound) {
-        bound = std::upper_bound(bound, passed_lm_.end(), next);
-        if (bound == passed_lm_.end()) break;
+    for (auto bound = passed_.begin(); bound != passed_.end(); ++bound) {
+        bound = std::upper_bound(bound, passed_.end(), next);
+        if (bound == passed_.end()) break;
         const double times = std::ceil((*bound - next) / step);
         next += times * step;
-        const transport::LightVertex& node = nodes_[static_cast<std::size_t>(bound - passed_lm_.begin())];
+        const transport::LightVertex& node = nodes_[static_cast<std::size_t>(bound - passed_.begin())];
         selected.push_back(node);
-        selected.back().flux_lm *= times * step / reflected_flux_lm(node);
+        selected.back().flux_lm *= times * step / importance_of(node);
     }
     return selected;
 }

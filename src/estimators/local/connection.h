@@ -60,14 +60,15 @@ class NodePool {
     /// expectation over u (uniform in [0, 1)) of the sum over the selected ones, with their fluxes, is the
     /// sum over all.
     ///
-    /// Systematic sampling in proportion to the reflected flux: the selected vertices carry about equal
-    /// fluxes and lie as evenly as the flux does, so that a kernel which varies slowly over surfaces is
-    /// summed with far less variance than over as many vertices of independent light paths.
+    /// Systematic sampling in proportion to importance, the reflected flux or, of gloss, more: the selected
+    /// vertices carry about equal fluxes and lie as evenly as the flux does, so that a kernel which varies
+    /// slowly over surfaces is summed with far less variance than over as many vertices of independent light
+    /// paths.
     std::vector<transport::LightVertex> select(std::size_t count, double u) const;
 
   private:
     std::vector<transport::LightVertex> nodes_;
-    std::vector<double> passed_lm_;  ///< reflected flux up to each vertex, its own included
+    std::vector<double> passed_;  ///< importance up to each vertex, its own included
 };
 
 }  // namespace stilb::estimators

@@ -96,15 +96,13 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
             cosine[i] * light.cosine[i] / (packet.end[i] * packet.end[i]) * tile.inverse_k[i];
         const float gathered = kResidualSplit * g_over_k / (1 + kResidualSplit * g_over_k);
         for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += gathered * light.luminance[b][i];
-        const Rgb guessed{{light.luminance[0][i], light.luminance[1][i], light.luminance[2][i]}};
-        double largest = double{gathered} * guessed.luminance();
-        const bool is_bounded =
-            fraction(u[2] + double{lanes.roulette[i]}) * (1 + double{g_over_k}) < double{g_over_k};
-        if (is_bounded || (light.specular_lanes >> i & 1u) != 0) {
+        double largest = double{gathered} * light.luminance_of(i).luminance();
+        const Continuation continuation = continuation_of(light, i, double{g_over_k});
+        if (fraction(u[2] + double{lanes.roulette[i]}) < continuation.probability) {
             const Vec3 direction =
                 normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
-            const Rgb found =
-                missing(tile.receivers[i], direction, guessed, math::SampleStream(key.derived(i), round, 0));
+            const Rgb found = missing(tile.receivers[i], direction, light.luminance_of(i), continuation,
+                                      math::SampleStream(key.derived(i), round, 0));
             sums.found[i] += found;
             largest = std::max(largest, std::abs(found.luminance()));
         }
@@ -122,13 +120,58 @@ void GuessGather::flush(const PointTile& tile, const Sums& sums, ReadingSums& re
     }
 }
 
-/// What path tracing finds along a ray beyond the guess.
+void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
+                                    ReadingSums& readings) const {
+    RayPacket packet;
+    LaneMask used{};
+    std::array<transport::Receiver::Sample, kPacketWidth> samples;
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        const auto [u1, u2] = math::SampleStream(key.derived(i), round, 2).next_two();
+        const auto sample = tile.receivers[i].sample(u1, u2);
+        if (!sample) continue;
+        used[i] = -1;
+        samples[i] = *sample;
+        packet.set(i, tile.receivers[i].lifted() - guess_.patches().center, sample->direction,
+                   std::numeric_limits<float>::infinity());
+    }
+    GuessedLight light;
+    guess_.look(packet, used, rays::Coherence::scattered, light);
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        if (used[i] == 0) continue;
+        const transport::Receiver& receiver = tile.receivers[i];
+        const Vec3& direction = samples[i].direction;
+        const double distance = packet.end[i];
+        const double g_over_k = receiver.sensitivity(direction) * double{light.cosine[i]} /
+                                (distance * distance) * double{tile.inverse_k[i]} *
+                                receiver.response(direction).relative;
+        const Continuation continuation = continuation_of(light, i, g_over_k);
+        math::SampleStream stream(key.derived(kPacketWidth + i), round, 0);
+        Rgb luminance = light.luminance_of(i);
+        if (stream.next() < continuation.probability)
+            luminance += missing(receiver, direction, luminance, continuation, stream);
+        readings.add(receiver.reading(), samples[i].weight * luminance);
+    }
+}
+
+auto GuessGather::continuation_of(const GuessedLight& light, std::size_t lane, double g_over_k) const
+    -> Continuation {
+    const PartShares shares(g_over_k);
+    if ((light.traced_lanes >> lane & 1u) != 0) return {shares, 1, true};
+    const std::uint32_t side = light.sides[lane];
+    if (side == patches::kNoSide) return {shares, 0, false};
+    return {shares, continuation_probability(guess_.material(side), shares), false};
+}
+
 Rgb GuessGather::missing(const transport::Receiver& receiver, const Vec3& direction, const Rgb& guessed,
-                         const math::SampleStream& stream) const {
+                         const Continuation& continuation, math::SampleStream stream) const {
     const auto hit = caster_.closest(receiver.lifted(), direction);
-    const Rgb light =
-        hit ? tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream) : Rgb{};
-    return light + guessed * -1;
+    if (continuation.is_traced)
+        return hit ? tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream) : Rgb{};
+    Rgb luminance = guessed * -continuation.shares.diffuse();
+    if (hit)
+        luminance += reflected_luminance(tracer_, *hit, -direction, guess_.material(hit->material),
+                                         continuation.shares, stream);
+    return luminance * (1 / continuation.probability);
 }
 
 }  // namespace stilb::estimators

@@ -9,6 +9,7 @@
 
 #include "estimators/estimator.h"
 #include "estimators/local/light_guess.h"
+#include "estimators/local/part_reflection.h"
 #include "estimators/local/point_tile.h"
 #include "transport/path_tracer.h"
 
@@ -46,14 +47,26 @@ class GuessGather {
     /// tracing continues.
     void add_round(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
                    math::RandomKey key, std::uint64_t round, Sums& sums) const;
+    /// The same with receivers of any response, by rays about in proportion to it: the rays bring all the
+    /// light of the guess.
+    void add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
+                           ReadingSums& readings) const;
     /// Adds the light of the rays to the readings.
     static void flush(const PointTile& tile, const Sums& sums, ReadingSums& readings);
 
   private:
     void set_rays(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
                   RayPacket& packet, PointTile::Floats& cosine) const;
+    /// How path tracing continues a ray.
+    struct Continuation {
+        PartShares shares;
+        double probability = 0;
+        bool is_traced = false;  ///< the surface that it meets
+    };
+    Continuation continuation_of(const GuessedLight& light, std::size_t lane, double g_over_k) const;
+    /// What the continued ray finds beyond the guess, divided by the probability.
     Rgb missing(const transport::Receiver& receiver, const Vec3& direction, const Rgb& guessed,
-                const math::SampleStream& stream) const;
+                const Continuation& continuation, math::SampleStream stream) const;
 
     const rays::RayCaster& caster_;
     const transport::PathTracer& tracer_;

@@ -22,10 +22,7 @@ constexpr std::uint64_t kSamplesTogether = 64;
 }  // namespace
 
 bool GuidedLight::suits(const Scene& scene, int max_reflections) {
-    if (max_reflections != transport::kUnlimited || !LightGuess::suits(scene)) return false;
-    const bool has_points = std::ranges::any_of(
-        scene.lights, [](const Light& light) { return location_of(light) == LightLocation::point; });
-    return !(has_points && has_specular_surfaces(scene));
+    return max_reflections == transport::kUnlimited && surface_area_m2(scene) > 0;
 }
 
 GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
@@ -45,22 +42,65 @@ double GuidedLight::k_per_m2(std::size_t points_at_once) const {
     return area_m2 > 0 ? kResidualSplit * kKernels * static_cast<double>(points_at_once) / area_m2 : 1;
 }
 
-bool GuidedReadings::suits(std::span<const transport::Receiver> receivers) {
-    return receivers.size() >= kLeastReadings &&
-           std::ranges::all_of(receivers, [](const transport::Receiver& receiver) {
-               return receiver.constant_response() && !receiver.is_body();
-           });
+auto GuidedLight::divide(std::span<const transport::Receiver> receivers) const -> Divided {
+    Divided divided;
+    for (const transport::Receiver& receiver : receivers) {
+        if (receiver.constant_response() && !receiver.is_body()) {
+            divided.even.push_back(receiver);
+            continue;
+        }
+        if (!receiver.material() || receiver.is_bent()) {
+            divided.general.push_back(receiver);
+            continue;
+        }
+        const SplitMaterial& parts = guess.material(*receiver.material());
+        if (parts.diffuse_reflectance().max() > 0)
+            divided.even.push_back(receiver.with_material(parts.diffuse));
+        if (parts.gloss) divided.general.push_back(receiver.with_material(*parts.gloss));
+    }
+    return divided;
 }
 
-GuidedReadings::GuidedReadings(const GuidedLight& light, std::span<const PointTile> tiles,
+bool GuidedReadings::suits(std::span<const transport::Receiver> receivers) {
+    return receivers.size() >= kLeastReadings;
+}
+
+namespace {
+
+std::vector<PointTile> tiles_with(double k_per_m2, std::span<const transport::Receiver> receivers,
+                                  const rays::RayCaster& caster) {
+    return tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2), caster,
+                    transport::kUnlimited);
+}
+
+}  // namespace
+
+GuidedReadings::GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers,
                                const Monitor& monitor)
-    : light_(light), tiles_(tiles), connections_(light.caster, tiles, monitor), monitor_(monitor) {
-    for (const PointTile& tile : tiles) points_of_.push_back(light.points_for(tile.receivers, kPoints));
+    : light_(light),
+      receivers_(light.divide(receivers)),
+      tiles_(tiles_with(light.k_per_m2(kPoints), receivers_.even, light.caster)),
+      general_tiles_(tiles_with(light.k_per_m2(kPoints), receivers_.general, light.caster)),
+      connections_(light.caster, tiles_, monitor),
+      general_connections_(light.caster, general_tiles_, monitor),
+      monitor_(monitor) {
+    for (const PointTile& tile : tiles_) points_of_.push_back(light.points_for(tile.receivers, kPoints));
 }
 
 void GuidedReadings::collect(const Batch& batch, ReadingSums& sums) const {
     gather(batch, sums);
+    gather_general(batch, sums);
     connect_residual(batch, sums);
+}
+
+void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const {
+    for (std::size_t t = 0; t < general_tiles_.size(); ++t) {
+        monitor_.require_more();
+        const math::RandomKey key = batch.key.derived(kGeneral).derived(t);
+        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i)
+            light_.gather.add_general_round(general_tiles_[t], key, i, sums);
+        sums.rays += batch.count * general_tiles_[t].receivers.size();
+    }
 }
 
 void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
@@ -101,7 +141,9 @@ void GuidedReadings::connect_residual(const Batch& batch, ReadingSums& sums) con
         for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(kPathsPerSample);
         const double u = math::SampleStream(batch.key.derived(kSelection).derived(first), 0).next();
         const std::size_t count = kVerticesPerSample * (last - first);
-        connections_.collect(NodePool(nodes).select(count, u), sums);
+        nodes = NodePool(nodes).select(count, u);
+        connections_.collect(nodes, sums);
+        general_connections_.collect(nodes, sums);
     }
 }
 

@@ -19,7 +19,7 @@ namespace stilb::estimators {
 
 /// The common part of readings and pictures. Keeps references to its arguments. Immutable.
 struct GuidedLight {
-    /// Whether the guess fits the scene.
+    /// Whether the guess fits the problem.
     static bool suits(const Scene& scene, int max_reflections);
 
     GuidedLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
@@ -32,6 +32,14 @@ struct GuidedLight {
                                  std::size_t points_at_once) const {
         return points.sums_for(receivers, k_per_m2(points_at_once) / kResidualSplit);
     }
+
+    /// Sorts receivers by what brings light to them, and divides glossy ones into the parts of their
+    /// material.
+    struct Divided {
+        std::vector<transport::Receiver> even;     ///< of constant response, on surfaces
+        std::vector<transport::Receiver> general;  ///< all others
+    };
+    Divided divide(std::span<const transport::Receiver> receivers) const;
 
     enum Purpose : std::uint64_t { kGuess, kPilot };
     const rays::RayCaster& caster;
@@ -52,20 +60,23 @@ class GuidedReadings {
     /// Points of the guess that are connected to a tile for each gathering ray of its receivers.
     static constexpr std::size_t kPoints = 4;
 
-    GuidedReadings(const GuidedLight& light, std::span<const PointTile> tiles, const Monitor& monitor);
+    GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers,
+                   const Monitor& monitor);
 
     void collect(const Batch& batch, ReadingSums& sums) const;
 
   private:
-    enum Purpose : std::uint64_t { kResidual, kSelection, kGather, kShift, kPaths };
+    enum Purpose : std::uint64_t { kResidual, kSelection, kGather, kShift, kPaths, kGeneral };
 
     void gather(const Batch& batch, ReadingSums& sums) const;
+    void gather_general(const Batch& batch, ReadingSums& sums) const;
     void connect_residual(const Batch& batch, ReadingSums& sums) const;
 
     const GuidedLight& light_;
-    std::span<const PointTile> tiles_;
+    GuidedLight::Divided receivers_;
+    std::vector<PointTile> tiles_, general_tiles_;
     std::vector<GuessPoints::Sums> points_of_;  ///< per tile
-    Connections connections_;
+    Connections connections_, general_connections_;
     const Monitor& monitor_;
 };
 

@@ -22,12 +22,18 @@ constexpr int kSideDirect = 2;
 /// The equations are solved to this relative change, in so many sweeps at most.
 constexpr double kChange = 1e-3;
 constexpr int kMostSweeps = 200;
-/// Where there are more lights, so many are chosen.
-constexpr std::size_t kLightsEach = 4;
+/// Lobes of a larger mean concentration, without a diffuse part beside them, are traced.
+constexpr double kSharp = 100;
 
-bool is_flat(const Shape& shape) {
-    if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->normals.empty();
-    return std::holds_alternative<Rectangle>(shape) || std::holds_alternative<Box>(shape);
+bool is_smooth(const Shape& shape) {
+    const auto* mesh = std::get_if<Mesh>(&shape);
+    return mesh != nullptr && !mesh->normals.empty();
+}
+
+bool is_traced(const Material& material) {
+    const SplitMaterial parts = split(material);
+    return is_specular(material) || (!(parts.diffuse_reflectance().max() > 0) && parts.gloss &&
+                                     mean_concentration(*parts.gloss) > kSharp);
 }
 
 }  // namespace
@@ -38,36 +44,6 @@ SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& cas
     const Vec3 position = patches.position(patches.patch_of(side), at);
     const Vec3 normal = patches.normal_of(side);
     return {at, position, position + caster.offset_m(position, caster.half_extent_m()) * normal, normal};
-}
-
-Rgb sample_direct_lx(const transport::LightSampler& lights, const rays::RayCaster& caster,
-                     const SidePoint& at, math::SampleStream& stream) {
-    Rgb sum;
-    const auto add = [&](const std::optional<lights::IncidentLight>& light, double weight) {
-        if (!light) return;
-        const double cosine = dot(light->direction, at.normal);
-        if (cosine <= 0) return;
-        sum += light->normal_illuminance_lx * caster.transmittance({at.lifted, light->source_point}) *
-               (weight * cosine);
-    };
-    if (lights.count() <= kLightsEach) {
-        for (std::size_t light = 0; light < lights.count(); ++light)
-            add(lights.sample_incident(light, {at.position, at.normal}, stream.next_two()), 1);
-        return sum;
-    }
-    for (std::size_t i = 0; i < kLightsEach; ++i)
-        add(lights.sample_one_light(at.position, at.normal, stream), 1. / kLightsEach);
-    return sum;
-}
-
-bool LightGuess::suits(const Scene& scene) {
-    const bool is_diffuse = std::ranges::all_of(scene.materials, [](const auto& named) {
-        return std::holds_alternative<Diffuse>(named.material) || is_specular(named.material) ||
-               !(reflectance_bound(named.material).max() > 0);
-    });
-    const bool flat =
-        std::ranges::all_of(scene.objects, [](const auto& object) { return is_flat(object.shape); });
-    return is_diffuse && flat;
 }
 
 /// The rays of all sides, and the solution of the equations.
@@ -113,9 +89,11 @@ struct LightGuess::Solver {
         const auto [u1, u2] = stream.next_two();
         const SidePoint point = side_point(patches, caster, side, u1, u2);
         Rgb& source = rows.source_lx[row];
-        for (int k = 0; k < kSideDirect; ++k)
-            source += sample_direct_lx(lights, caster, point, stream) *
-                      (1. / (kSideDirect * static_cast<double>(packets)));
+        for (int k = 0; k < kSideDirect; ++k) {
+            sample_direct(lights, caster, point, stream, [&](const Arrival& arrival) {
+                source += arrival.illuminance_lx * (1. / (kSideDirect * static_cast<double>(packets)));
+            });
+        }
         const std::array<Vec3, kPacketWidth> directions =
             spread_directions(point.normal, stream.next_two(), number, packets);
         RayPacket packet;
@@ -128,9 +106,10 @@ struct LightGuess::Solver {
             guess.patch_caster_.closest(packet, lanes, rays::Coherence::scattered);
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
             const std::uint32_t met = hits.sides[i];
-            if (met == patches::kNoSide) continue;
-            if (guess.is_specular_[patches.patch_of(met)] == 0) {
+            if (met != patches::kNoSide && !guess.is_traced(patches.patch_of(met))) {
                 rows.seen[row * rows.width + number * kPacketWidth + i] = met;
+            } else if (met == patches::kNoSide && (hits.exact_lanes >> i & 1u) == 0) {
+                continue;
             } else if (const auto hit = caster.closest(point.lifted, directions[i])) {
                 source +=
                     tracer.luminance_without_direct(*hit, directions[i], transport::kUnlimited, stream) *
@@ -193,8 +172,8 @@ struct LightGuess::Solver {
                     if (rows.seen[i] != patches::kNoSide) sum += luminance[rows.seen[i]];
                 }
                 const std::uint32_t side = rows.sides[row];
-                const Rgb updated =
-                    (rows.source_lx[row] + sum * per_ray) * guess.reflectance(side) * (1 / kPi);
+                const Rgb updated = (rows.source_lx[row] + sum * per_ray) *
+                                    (guess.material(side).diffuse_reflectance() * (1 / kPi));
                 change += std::abs((updated + luminance[side] * -1).luminance());
                 total += updated.luminance();
                 luminance[side] = updated;
@@ -208,18 +187,33 @@ struct LightGuess::Solver {
 LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster,
                        const transport::LightSampler& lights, const transport::PathTracer& tracer,
                        math::RandomKey key, const Monitor& monitor)
-    : patches_(patches::make_patches(scene, patches::patch_size_m(scene, kPatches), monitor)) {
+    : patches_(patches::make_patches(scene, patches::patch_size_m(scene, kPatches), monitor)),
+      patch_caster_(patches_, scene) {
+    split_materials(scene);
     std::vector<std::uint32_t> sides;
     for (std::uint32_t p = 0; p < patches_.count(); ++p) {
-        const Material& material = scene.material(patches_.materials[p]);
-        is_specular_.push_back(is_specular(material) ? 1 : 0);
-        reflectance_.push_back(is_specular_[p] != 0 ? Rgb{} : reflectance_bound(material));
-        if (reflectance_[p].max() > 0) sides.insert(sides.end(), {p, patches_.other_side(p)});
+        if (!is_traced(p) && material(p).diffuse_reflectance().max() > 0)
+            sides.insert(sides.end(), {p, patches_.other_side(p)});
     }
     const Solver solver{*this, caster, lights, tracer, key, monitor};
     lit_sides_ = solver.lit(solver.cast(std::move(sides), 1, Solver::kSurvey));
     std::ranges::sort(lit_sides_);
     interpolate(solver.solve(solver.cast(lit_sides_, kSidePackets, Solver::kSolution)));
+}
+
+void LightGuess::split_materials(const Scene& scene) {
+    for (const auto& named : scene.materials) {
+        materials_.push_back(split(named.material));
+        is_traced_material_.push_back(estimators::is_traced(named.material) ? 1 : 0);
+    }
+    for (const Object& object : scene.objects)
+        is_traced_object_.push_back(geometry::is_exact(object.shape) || is_smooth(object.shape) ? 1 : 0);
+    for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+        for (std::uint32_t p = patches_.first_of_object[object]; p < patches_.first_of_object[object + 1];
+             ++p)
+            is_traced_.push_back(is_traced_object_[object] |
+                                 is_traced_material_[index_of(patches_.materials[p])]);
+    }
 }
 
 void LightGuess::interpolate(const std::vector<Rgb>& luminance_of_sides) {
@@ -253,15 +247,16 @@ Rgb LightGuess::luminance_cd_m2(std::uint32_t side, const math::Barycentric& at)
 void LightGuess::look(RayPacket& packet, const LaneMask& lanes, rays::Coherence coherence,
                       GuessedLight& light) const {
     const patches::PatchHits hits = patch_caster_.closest(packet, lanes, coherence);
-    light.specular_lanes = 0;
+    light.traced_lanes = hits.exact_lanes;
+    light.sides = hits.sides;
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         for (std::size_t b = 0; b < kBands; ++b) light.luminance[b][i] = 0;
         light.cosine[i] = 0;
         const std::uint32_t side = hits.sides[i];
         if (side == patches::kNoSide) continue;
         const std::uint32_t patch = patches_.patch_of(side);
-        if (is_specular_[patch] != 0) {
-            light.specular_lanes |= 1u << i;
+        if (is_traced_[patch] != 0) {
+            light.traced_lanes |= 1u << i;
             continue;
         }
         const patches::Float3& normal = patches_.normals[patch];

@@ -1,10 +1,13 @@
-// A quick guess of the light that diffuse surfaces reflect: a control variate for local estimation (theory
+// A quick guess of the light that surfaces reflect diffusely: a control variate for local estimation (theory
 // T.8).
 //
 // The guess is a function of the point alone: the luminance of patches, interpolated between their vertices.
-// It is wrong by some per cent, and nothing is biased by that: what it lacks, the residual, is estimated
-// beside it (residual_light.h). It must not depend on the samples that it is used with, so it has a random
-// key of its own.
+// It is wrong by some per cent, and lacks all gloss. Nothing is biased by that: what it lacks, the residual,
+// is estimated beside it (residual_light.h). It must not depend on the samples that it is used with, so it
+// has a random key of its own.
+//
+// Some surfaces are traced: mirrors and glass, sharp gloss, exact surfaces and meshes with smooth normals
+// have no guess, and no residual starts there. Path tracing finds the light that comes directly by them.
 //
 // Each lit side of a patch sends out some rays once. The sides that they meet are a sampled matrix of form
 // factors, and the guess is the solution of the equations of radiosity with it.
@@ -15,6 +18,7 @@
 #include <vector>
 
 #include "base/monitor.h"
+#include "estimators/local/split_material.h"
 #include "math/random.h"
 #include "patches/patches.h"
 #include "patches/visibility/patch_caster.h"
@@ -28,17 +32,18 @@ namespace stilb::estimators {
 struct GuessedLight {
     using Floats = RayPacket::Floats;
     alignas(64) std::array<Floats, kBands> luminance{};  ///< [cd/m2]; 0 where a ray meets nothing
-    alignas(64) Floats cosine{};  ///< at the surface that is met; 0 where there is none
-    /// The lanes whose rays meet a mirror or glass, for which there is no guess.
-    std::uint32_t specular_lanes = 0;
+    alignas(64) Floats cosine{};     ///< at the surface that is met; 0 where there is none
+    std::uint32_t traced_lanes = 0;  ///< bits of the lanes whose rays meet a traced surface
+    alignas(64) std::array<std::uint32_t, kPacketWidth> sides{};  ///< that are met; else kNoSide
+
+    Rgb luminance_of(std::size_t lane) const {
+        return {{luminance[0][lane], luminance[1][lane], luminance[2][lane]}};
+    }
 };
 
 /// Keeps references to its arguments. Immutable.
 class LightGuess {
   public:
-    /// Whether all surfaces are flat and diffuse, apart from mirrors and glass.
-    static bool suits(const Scene& scene);
-
     LightGuess(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
                const transport::PathTracer& tracer, math::RandomKey key,
                const Monitor& monitor = Monitor::none());
@@ -46,9 +51,18 @@ class LightGuess {
     const patches::Patches& patches() const { return patches_; }
     /// The sides that light reaches and that reflect it, ascending.
     const std::vector<std::uint32_t>& lit_sides() const { return lit_sides_; }
-    const Rgb& reflectance(std::uint32_t side) const { return reflectance_[patches_.patch_of(side)]; }
+    const SplitMaterial& material(std::uint32_t side) const {
+        return materials_[index_of(patches_.materials[patches_.patch_of(side)])];
+    }
+    const SplitMaterial& material(MaterialId id) const { return materials_[index_of(id)]; }
+    bool is_traced(std::uint32_t patch) const { return is_traced_[patch] != 0; }
+    /// The same of a point that a ray has met in the scene.
+    bool is_traced(const rays::Hit& hit) const {
+        return is_traced_object_[index_of(hit.object)] != 0 ||
+               is_traced_material_[index_of(hit.material)] != 0;
+    }
 
-    /// The guess at a point of a side [cd/m2].
+    /// The guess at a point of a side: the diffuse part of the reflected light [cd/m2].
     Rgb luminance_cd_m2(std::uint32_t side, const math::Barycentric& at) const;
     /// The guess along rays, for lanes that are set. Origins are relative to patches().center; `end` becomes
     /// the distance of the surface that is met.
@@ -60,17 +74,19 @@ class LightGuess {
 
     struct Solver;
 
+    void split_materials(const Scene& scene);
     void interpolate(const std::vector<Rgb>& luminance_of_sides);
 
     patches::Patches patches_;
-    patches::PatchCaster patch_caster_{patches_};
-    std::vector<Rgb> reflectance_;           ///< per patch; 0 where it is specular
-    std::vector<std::uint8_t> is_specular_;  ///< per patch
+    patches::PatchCaster patch_caster_;
+    std::vector<SplitMaterial> materials_;                             ///< per material of the scene
+    std::vector<std::uint8_t> is_traced_material_, is_traced_object_;  ///< per material, per object
+    std::vector<std::uint8_t> is_traced_;                              ///< per patch
     std::vector<std::uint32_t> lit_sides_;
     std::vector<CornerLuminances> corners_;  ///< per side
 };
 
-/// A point of a side, lifted off it, and its direct light.
+/// A point of a side, and where rays from it start.
 struct SidePoint {
     math::Barycentric barycentric;
     Vec3 position, lifted, normal;
@@ -78,9 +94,32 @@ struct SidePoint {
 SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
                      double u1, double u2);
 
-/// One sample of the direct illuminance at a surface point [lx]: of every light, or of some where they are
-/// many.
-Rgb sample_direct_lx(const transport::LightSampler& lights, const rays::RayCaster& caster,
-                     const SidePoint& at, math::SampleStream& stream);
+/// Light that arrives at a surface.
+struct Arrival {
+    Vec3 direction;  ///< unit, towards the light
+    Rgb illuminance_lx;
+};
+/// Calls `visit(arrival)` for one sample of the direct light at a surface point: of every light or, where
+/// they are many, of some.
+template <typename Visit>
+void sample_direct(const transport::LightSampler& lights, const rays::RayCaster& caster, const SidePoint& at,
+                   math::SampleStream& stream, const Visit& visit) {
+    constexpr std::size_t each = 4;
+    const auto add = [&](const std::optional<lights::IncidentLight>& light, double weight) {
+        if (!light) return;
+        const double cosine = dot(light->direction, at.normal);
+        if (cosine <= 0) return;
+        const Rgb arriving = light->normal_illuminance_lx *
+                             caster.transmittance({at.lifted, light->source_point}) * (weight * cosine);
+        if (arriving.max() > 0) visit(Arrival{light->direction, arriving});
+    };
+    if (lights.count() <= each) {
+        for (std::size_t light = 0; light < lights.count(); ++light)
+            add(lights.sample_incident(light, {at.position, at.normal}, stream.next_two()), 1);
+        return;
+    }
+    for (std::size_t i = 0; i < each; ++i)
+        add(lights.sample_one_light(at.position, at.normal, stream), 1. / each);
+}
 
 }  // namespace stilb::estimators

@@ -116,7 +116,7 @@ class LocalReadings {
                           transport_.max_reflections)),
           connections_(transport_.caster, tiles_, transport_.monitor),
           gather_(transport_.caster, transport_.tracer, tiles_, plans_, transport_.monitor) {
-        if (is_guided_) guided_.emplace(*guide, tiles_, transport_.monitor);
+        if (is_guided_) guided_.emplace(*guide, seen_.receivers, transport_.monitor);
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const {
@@ -362,7 +362,8 @@ class LocalPicture {
         kGather,
         kPilot,
         kPlan,
-        kShift
+        kShift,
+        kGeneral
     };
 
     class LocalPass final : public PicturePass {
@@ -414,7 +415,7 @@ class LocalPicture {
             const math::RandomKey key = pass_.key.derived(kPackets).derived(
                 static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
             if (picture_.guide_) {
-                receive_guided(receivers, k_per_m2, {key, pass_.index}, shifts,
+                receive_guided(receivers, {key, pass_.index}, shifts,
                                picture_.cell_of(pixels[started.pixels[0]]), sums);
             } else {
                 picture_.receive(receivers, k_per_m2, pool_, {key, pass_.index}, sums);
@@ -422,25 +423,36 @@ class LocalPicture {
         }
 
         /// As LocalPicture::receive(), with the guess.
-        void receive_guided(std::span<const transport::Receiver> receivers, std::span<const double> k_per_m2,
-                            const Pass& own, std::span<const std::array<double, 2>> shifts, std::size_t cell,
+        void receive_guided(std::span<const transport::Receiver> receivers, const Pass& own,
+                            std::span<const std::array<double, 2>> shifts, std::size_t cell,
                             ReadingSums& sums) const {
             const GuidedLight& guide = *picture_.guide_;
-            const std::vector<PointTile> tiles =
-                tiles_of(receivers, k_per_m2, guide.caster, transport::kUnlimited);
+            const double k = picture_.k_per_m2_[cell];
+            const GuidedLight::Divided divided = guide.divide(receivers);
+            const auto tiles_with_k = [&](const std::vector<transport::Receiver>& part) {
+                return tiles_of(part, std::vector<double>(part.size(), k), guide.caster,
+                                transport::kUnlimited);
+            };
+            const std::vector<PointTile> even = tiles_with_k(divided.even);
+            const std::vector<PointTile> general = tiles_with_k(divided.general);
             const double u = math::SampleStream(own.key.derived(kSelection), own.index).next();
-            Connections(guide.caster, tiles, picture_.transport_.monitor)
-                .collect(pool_.select(kVerticesOfPass, u), sums);
+            const std::vector<transport::LightVertex> nodes = pool_.select(kVerticesOfPass, u);
+            Connections(guide.caster, even, picture_.transport_.monitor).collect(nodes, sums);
+            Connections(guide.caster, general, picture_.transport_.monitor).collect(nodes, sums);
             std::vector<EmittingPoint> points;
             guide.points.select(
                 picture_.points_of_[cell], kPointsOfPass,
                 {fraction(gather_point_[0] + shifts[0][0]), fraction(gather_point_[1] + shifts[0][1])},
                 points);
-            connect_points(guide.caster, tiles[0], points, sums);
-            GuessGather::Sums gathered;
-            guide.gather.add_round(tiles[0], GatherLanes(tiles[0], shifts), gather_point_,
-                                   own.key.derived(kGather), own.index, gathered);
-            GuessGather::flush(tiles[0], gathered, sums);
+            for (const PointTile& tile : even) {
+                connect_points(guide.caster, tile, points, sums);
+                GuessGather::Sums gathered;
+                guide.gather.add_round(tile, GatherLanes(tile, shifts), gather_point_,
+                                       own.key.derived(kGather), own.index, gathered);
+                GuessGather::flush(tile, gathered, sums);
+            }
+            for (const PointTile& tile : general)
+                guide.gather.add_general_round(tile, own.key.derived(kGeneral), own.index, sums);
         }
 
         static std::array<double, 3> gather_point(const Pass& pass) {

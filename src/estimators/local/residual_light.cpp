@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "materials/shaded_surface.h"
 #include "transport/weights.h"
 
 namespace stilb::estimators {
@@ -23,17 +24,54 @@ constexpr std::uint64_t kPilots = 2;
 
 Rgb magnitude(const Rgb& value) { return {{std::abs(value[0]), std::abs(value[1]), std::abs(value[2])}}; }
 
+/// One of several arrivals, chosen in proportion to its light, which gets the light of all.
+class ChosenArrival {
+  public:
+    /// `u`: in [0, 1).
+    explicit ChosenArrival(double u) : u_(u) {}
+
+    void add(const Arrival& arrival) {
+        const double light = arrival.illuminance_lx.luminance();
+        if (!(light > 0)) return;
+        sum_ += light;
+        const double probability = light / sum_;
+        if (u_ < probability) {
+            chosen_ = {arrival.direction, arrival.illuminance_lx * (1 / light)};
+            u_ /= probability;
+        } else {
+            u_ = (u_ - probability) / (1 - probability);
+        }
+    }
+    Arrival arrival() const { return {chosen_.direction, chosen_.illuminance_lx * sum_}; }
+
+  private:
+    double u_, sum_ = 0;
+    Arrival chosen_{};
+};
+
+bool has_light_only_by_light_paths(const Scene& scene) {
+    return has_specular_surfaces(scene) && std::ranges::any_of(scene.lights, [](const Light& light) {
+               return location_of(light) == LightLocation::point;
+           });
+}
+
 }  // namespace
 
 ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
                              const transport::LightSampler& lights, const transport::PathTracer& tracer,
                              const LightGuess& guess, math::RandomKey key, const Monitor& monitor)
-    : scene_(scene), caster_(caster), lights_(lights), tracer_(tracer), guess_(guess) {
+    : scene_(scene),
+      caster_(caster),
+      lights_(lights),
+      tracer_(tracer),
+      guess_(guess),
+      has_unreachable_light_(has_light_only_by_light_paths(scene)) {
     const patches::Patches& patches = guess.patches();
     std::vector<std::uint8_t> is_lit(2 * patches.count());
     for (const std::uint32_t side : guess.lit_sides()) is_lit[side] = 1;
     for (std::uint32_t side = 0; side < is_lit.size(); ++side) {
-        if (guess.reflectance(side).max() > 0) sides_.push_back(side);
+        if (!guess.is_traced(patches.patch_of(side)) && guess.material(side).reflects())
+            sides_.push_back(side);
     }
     std::vector<double> weights(sides_.size());
     parallel_for_parts(
@@ -41,51 +79,66 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
         [&](std::size_t first, std::size_t last) {
             monitor.require_more();
             for (std::size_t i = first; i < last; ++i) {
-                if (is_lit[sides_[i]] == 0) continue;
-                double square = 0;
-                for (std::uint64_t k = 0; k < kPilots; ++k) {
-                    math::SampleStream stream(key.derived(sides_[i]), k, 4);
-                    const auto u = stream.next_two();
-                    const Start start = start_on(sides_[i], u, 1, stream);
-                    const double missing =
-                        magnitude(start.missing_lx * guess.reflectance(sides_[i])).luminance() / kPi;
-                    const double guessed =
-                        guess.luminance_cd_m2(sides_[i], start.point.barycentric).luminance();
-                    square += missing * missing + kFloor * kFloor * guessed * guessed;
-                }
-                weights[i] = double{patches.areas_m2[patches.patch_of(sides_[i])]} *
-                             std::sqrt(square / static_cast<double>(kPilots));
+                const bool has_guess = guess.material(sides_[i]).diffuse_reflectance().max() > 0;
+                if (!has_guess || is_lit[sides_[i]] != 0) weights[i] = pilot(sides_[i], key);
             }
         },
         64);
     double lit_weight = 0, dark_area = 0;
     for (std::size_t i = 0; i < sides_.size(); ++i) {
         lit_weight += weights[i];
-        if (is_lit[sides_[i]] == 0) dark_area += double{patches.areas_m2[patches.patch_of(sides_[i])]};
+        if (!(weights[i] > 0)) dark_area += double{patches.areas_m2[patches.patch_of(sides_[i])]};
     }
     if (!(lit_weight > 0)) lit_weight = 1;
     for (std::size_t i = 0; i < sides_.size(); ++i) {
-        if (is_lit[sides_[i]] == 0)
+        if (!(weights[i] > 0))
             weights[i] =
                 kDarkShare * lit_weight / dark_area * double{patches.areas_m2[patches.patch_of(sides_[i])]};
     }
-    by_residual_ = math::DiscreteDistribution(weights);
+    if (!sides_.empty()) by_residual_ = math::DiscreteDistribution(weights);
+}
+
+/// The root mean square of r over a side, times its area.
+double ResidualLight::pilot(std::uint32_t side, math::RandomKey key) const {
+    const SplitMaterial& material = guess_.material(side);
+    double square = 0;
+    for (std::uint64_t k = 0; k < kPilots; ++k) {
+        math::SampleStream stream(key.derived(side), k, 4);
+        const auto u = stream.next_two();
+        const Start start = start_on(side, u, 1, stream);
+        const double missing = magnitude(start.missing_lx * material.diffuse_reflectance()).luminance() / kPi;
+        const double guessed = guess_.luminance_cd_m2(side, start.point.barycentric).luminance();
+        square += missing * missing + kFloor * kFloor * guessed * guessed;
+        if (!material.gloss) continue;
+        const double gloss = (start.arrival.illuminance_lx * material.gloss_reflectance()).luminance() / kPi;
+        square += gloss * gloss * mean_concentration(*material.gloss);
+    }
+    return double{guess_.patches().areas_m2[guess_.patches().patch_of(side)]} *
+           std::sqrt(square / static_cast<double>(kPilots));
 }
 
 auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u, std::uint64_t packets,
                              math::SampleStream& stream) const -> Start {
     const patches::Patches& patches = guess_.patches();
-    Start start{side_point(patches, caster_, side, u[0], u[1]), side, {}};
-    for (int i = 0; i < kResidualDirect; ++i)
-        start.missing_lx += sample_direct_lx(lights_, caster_, start.point, stream) * (1. / kResidualDirect);
+    Start start{side_point(patches, caster_, side, u[0], u[1]), {}, {}};
     const Frame frame = Frame::around(start.point.normal);
+    ChosenArrival chosen(stream.next());
+    const auto add = [&](const Arrival& arrival) {
+        start.missing_lx += arrival.illuminance_lx;
+        chosen.add(arrival);
+    };
+    for (int i = 0; i < kResidualDirect; ++i) {
+        sample_direct(lights_, caster_, start.point, stream, [&](const Arrival& arrival) {
+            add({arrival.direction, arrival.illuminance_lx * (1. / kResidualDirect)});
+        });
+    }
     const auto [shift_1, shift_2] = stream.next_two();
     const auto rays = static_cast<std::uint32_t>(packets * kPacketWidth);
+    const double per_ray = kPi / rays;
     RayPacket packet;
     LaneMask lanes;
     lanes.fill(-1);
     GuessedLight light;
-    Rgb sum;
     for (std::uint32_t first = 0; first < rays; first += kPacketWidth) {
         std::array<Vec3, kPacketWidth> directions;
         for (std::uint32_t i = 0; i < kPacketWidth; ++i) {
@@ -97,15 +150,18 @@ auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u,
         }
         guess_.look(packet, lanes, rays::Coherence::scattered, light);
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            sum += Rgb{{light.luminance[0][i], light.luminance[1][i], light.luminance[2][i]}};
-            if ((light.specular_lanes >> i & 1u) == 0) continue;
-            if (const auto hit = caster_.closest(start.point.lifted, directions[i]))
-                sum += tracer_.luminance_without_direct(*hit, directions[i], transport::kUnlimited, stream);
+            Rgb luminance = light.luminance_of(i);
+            if ((light.traced_lanes >> i & 1u) != 0) {
+                if (const auto hit = caster_.closest(start.point.lifted, directions[i]))
+                    luminance =
+                        tracer_.luminance_without_direct(*hit, directions[i], transport::kUnlimited, stream);
+            }
+            add({directions[i], luminance * per_ray});
         }
     }
-    start.missing_lx += sum * (kPi / rays);
+    start.arrival = chosen.arrival();
     const Rgb guessed = guess_.luminance_cd_m2(side, start.point.barycentric) * kPi;
-    const Rgb& reflectance = guess_.reflectance(side);
+    const Rgb& reflectance = guess_.material(side).diffuse_reflectance();
     for (std::size_t b = 0; b < kBands; ++b) {
         if (reflectance[b] > 0) start.missing_lx[b] -= guessed[b] / reflectance[b];
     }
@@ -114,10 +170,32 @@ auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u,
 
 std::vector<transport::LightVertex> ResidualLight::trace(math::RandomKey key, std::uint64_t first,
                                                          std::uint64_t end) const {
+    enum Purpose : std::uint64_t { kUnreachable = 1 };
     std::vector<transport::LightVertex> nodes;
-    if (sides_.empty()) return nodes;
-    for (std::uint64_t path = first; path < end; ++path) trace_one(math::SampleStream(key, path, 8), nodes);
+    if (!sides_.empty()) {
+        for (std::uint64_t path = first; path < end; ++path)
+            trace_one(math::SampleStream(key, path, 8), nodes);
+    }
+    if (has_unreachable_light_) trace_unreachable(key.derived(kUnreachable), first, end, nodes);
     return nodes;
+}
+
+void ResidualLight::trace_unreachable(math::RandomKey key, std::uint64_t first, std::uint64_t end,
+                                      std::vector<transport::LightVertex>& nodes) const {
+    for (const transport::LightVertex& node :
+         transport::trace_light_paths(scene_, caster_, lights_, transport::kUnlimited, key, first, end)) {
+        if (node.only_by_light) nodes.push_back(node);
+    }
+}
+
+void ResidualLight::add(const transport::LightVertex& whole, const SplitMaterial& parts,
+                        std::vector<transport::LightVertex>& nodes) const {
+    const auto add_part = [&](const Material& material) {
+        nodes.push_back(whole);
+        nodes.back().material = &material;
+    };
+    if (parts.diffuse_reflectance().max() > 0) add_part(parts.diffuse);
+    if (parts.gloss) add_part(*parts.gloss);
 }
 
 void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const {
@@ -126,27 +204,57 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const std::uint32_t side = sides_[choice.index];
     const auto u = stream.next_two();
     const Start start = start_on(side, u, kResidualPackets, stream);
-    const std::uint32_t patch = patches.patch_of(side);
-    const double per_density = double{patches.areas_m2[patch]} / choice.probability;
-    const Material* material = &scene_.material(patches.materials[patch]);
-    Rgb flux = start.missing_lx * per_density;
-    Vec3 normal = start.point.normal, lifted = start.point.lifted;
-    // The direction of the light that comes in does not matter on diffuse surfaces.
-    nodes.push_back({start.point.position, lifted, normal, normal, normal, material, flux, 1});
+    const double per_density = double{patches.areas_m2[patches.patch_of(side)]} / choice.probability;
+    const SplitMaterial& parts = guess_.material(side);
+    const auto& [barycentric, position, lifted, normal] = start.point;
+    const Rgb missing = start.missing_lx * per_density, arriving = start.arrival.illuminance_lx * per_density;
+    const Rgb diffuse = missing * parts.diffuse_reflectance(), gloss = arriving * parts.gloss_reflectance();
+    // The direction of the light that comes in does not matter for the diffuse part.
+    if (diffuse != Rgb{})
+        nodes.push_back({position, lifted, normal, normal, normal, &parts.diffuse, missing, 1});
+    if (gloss != Rgb{})
+        nodes.push_back(
+            {position, lifted, normal, normal, start.arrival.direction, &*parts.gloss, arriving, 1});
+    // The path goes on by one of the parts.
+    const double sum = magnitude(diffuse).luminance() + gloss.luminance();
+    if (!(sum > 0)) return;
+    const double by_diffuse = magnitude(diffuse).luminance() / sum;
+    const bool is_diffuse = stream.next() < by_diffuse;
+    const Rgb incident = is_diffuse ? missing : arriving;
+    const Rgb reflectance = is_diffuse ? parts.diffuse_reflectance() : parts.gloss_reflectance();
+    const double survival = transport::survival_probability(magnitude(incident), reflectance);
+    if (stream.next() >= survival) return;
+    const auto [u1, u2] = stream.next_two();
+    const materials::ShadedSurface surface(is_diffuse ? parts.diffuse : *parts.gloss, normal, normal);
+    const auto scattered = surface.sample_outgoing(
+        surface.frame().to_local(is_diffuse ? normal : start.arrival.direction), u1, u2);
+    if (!scattered) return;
+    walk({lifted, surface.frame().to_world(scattered->direction)},
+         incident * scattered->weight * (1 / (survival * (is_diffuse ? by_diffuse : 1 - by_diffuse))), stream,
+         nodes);
+}
+
+/// From a first vertex on, with the flux that leaves it.
+void ResidualLight::walk(const rays::Ray& first, const Rgb& flux_lm, math::SampleStream& stream,
+                         std::vector<transport::LightVertex>& nodes) const {
+    rays::Ray ray = first;
+    Rgb flux = flux_lm;
     for (;;) {
-        const Rgb reflectance = reflectance_bound(*material);
-        const double survival = transport::survival_probability(magnitude(flux), reflectance);
+        const auto hit = caster_.closest(ray.origin, ray.direction);
+        if (!hit || guess_.is_traced(*hit)) return;
+        const SplitMaterial& parts = guess_.material(hit->material);
+        if (!parts.reflects()) return;
+        const Material& material = scene_.material(hit->material);
+        add({hit->position, hit->lifted, hit->normal, hit->normal, -ray.direction, &material, flux, 1}, parts,
+            nodes);
+        const double survival = transport::survival_probability(magnitude(flux), reflectance_bound(material));
         if (stream.next() >= survival) return;
-        flux *= reflectance * (1 / survival);
         const auto [u1, u2] = stream.next_two();
-        const Vec3 direction =
-            Frame::around(normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
-        const auto hit = caster_.closest(lifted, direction);
-        if (!hit) return;
-        material = &scene_.material(hit->material);
-        if (is_specular(*material) || !(reflectance_bound(*material).max() > 0)) return;
-        normal = hit->normal, lifted = hit->lifted;
-        nodes.push_back({hit->position, lifted, normal, normal, -direction, material, flux, 1});
+        const materials::ShadedSurface surface(material, hit->normal, hit->normal);
+        const auto scattered = surface.sample_outgoing(surface.frame().to_local(-ray.direction), u1, u2);
+        if (!scattered) return;
+        flux *= scattered->weight * (1 / survival);
+        ray = {hit->lifted, surface.frame().to_world(scattered->direction)};
     }
 }
 

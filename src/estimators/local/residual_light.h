@@ -1,9 +1,13 @@
 // What a guess of the light lacks: the residual r = E + T L~ - L~ of theory (T.8), and its reflections.
 //
 // r is the light that a surface point reflects, direct light and light of the guess by one more reflection,
-// minus the guess there. It may be negative. Paths start from r, spread over the surfaces, and walk on as
-// light paths do: their vertices, connected to the receivers, bring what the guess lacks. Paths end on
-// mirrors and glass, because r contains what these bring, by path tracing.
+// minus the guess there: of the diffuse part of its material, where it may be negative, and of the gloss.
+// Paths start from r, spread over the surfaces, and walk on as light paths do: their vertices, connected to
+// the receivers, bring what the guess lacks. Diffuse part and gloss are vertices of their own. Paths end on
+// traced surfaces, because r contains what these bring, by path tracing.
+//
+// Light that only light paths find, because it left a point-like source and met a mirror or glass first, is
+// not in r: it comes from light paths beside those of the residual.
 #pragma once
 
 #include <cstdint>
@@ -33,19 +37,28 @@ class ResidualLight {
     /// Where and how paths start.
     struct Start {
         SidePoint point;
-        std::uint32_t side = 0;
-        Rgb missing_lx;  ///< one sample of r, as the illuminance that would be reflected to it
+        Rgb missing_lx;   ///< one sample of r, as the illuminance that the diffuse part would reflect to it
+        Arrival arrival;  ///< all the light that the gloss reflects, as if it came from one direction
     };
     Start start_on(std::uint32_t side, const std::array<double, 2>& u, std::uint64_t packets,
                    math::SampleStream& stream) const;
+    double pilot(std::uint32_t side, math::RandomKey key) const;
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
+    void walk(const rays::Ray& first, const Rgb& flux, math::SampleStream& stream,
+              std::vector<transport::LightVertex>& nodes) const;
+    void trace_unreachable(math::RandomKey key, std::uint64_t first, std::uint64_t end,
+                           std::vector<transport::LightVertex>& nodes) const;
+    /// Adds the vertices of both parts of a material.
+    void add(const transport::LightVertex& whole, const SplitMaterial& parts,
+             std::vector<transport::LightVertex>& nodes) const;
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
     const transport::LightSampler& lights_;
     const transport::PathTracer& tracer_;
     const LightGuess& guess_;
-    std::vector<std::uint32_t> sides_;        ///< that reflect light
+    bool has_unreachable_light_;
+    std::vector<std::uint32_t> sides_;        ///< that reflect light and are not traced
     math::DiscreteDistribution by_residual_;  ///< over `sides_`
 };
 

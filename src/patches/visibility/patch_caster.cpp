@@ -66,15 +66,20 @@ struct PatchCaster::Implementation {
     std::atomic<std::int64_t> bytes = 0;
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    std::vector<std::unique_ptr<rays::EmbreeGeometry>> exact_surfaces;
 
-    explicit Implementation(const Patches& all) : patches(all) {
+    /// `exact`: the scene of the patches where exact surfaces replace theirs; else null.
+    Implementation(const Patches& all, const Scene* exact) : patches(all) {
         device = rtcNewDevice(nullptr);
         if (device == nullptr) throw std::runtime_error("Embree: no device could be created");
         rtcSetDeviceErrorFunction(device, throw_error, nullptr);
         rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
         scene = rtcNewScene(device);
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-        if (patches.count() > 0) add_patches();
+        if (patches.count() > 0) add_patches(exact);
+        if (exact != nullptr) {
+            for (const Object& object : exact->objects) add_exact(object.shape);
+        }
         rtcCommitScene(scene);
     }
 
@@ -86,15 +91,31 @@ struct PatchCaster::Implementation {
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
 
-    /// One geometry, whose primitives are the patches.
-    void add_patches() const {
+    /// Geometry 0, whose primitives are the patches.
+    void add_patches(const Scene* exact) const {
         const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                  sizeof(Float3), patches.vertices.size());
         std::ranges::copy(patches.vertices, static_cast<Float3*>(vertices));
-        // Embree only reads shared buffers.
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                   patches.corners.data(), 0, sizeof(Triangle), patches.count());
+        auto* corners = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), patches.count()));
+        std::ranges::copy(patches.corners, corners);
+        for (std::size_t object = 0; exact != nullptr && object < exact->objects.size(); ++object) {
+            if (!geometry::is_exact(exact->objects[object].shape)) continue;
+            // No ray meets a triangle without area.
+            std::fill(corners + patches.first_of_object[object],
+                      corners + patches.first_of_object[object + 1], Triangle{});
+        }
+        attach(geometry);
+    }
+
+    void add_exact(const Shape& shape) {
+        if (!geometry::is_exact(shape)) return;
+        exact_surfaces.push_back(std::make_unique<rays::EmbreeGeometry>());
+        attach(rays::new_geometry(device, shape, patches.center, *exact_surfaces.back()));
+    }
+
+    void attach(RTCGeometry geometry) const {
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
@@ -102,7 +123,9 @@ struct PatchCaster::Implementation {
 };
 
 PatchCaster::PatchCaster(const Patches& patches)
-    : implementation_(std::make_unique<Implementation>(patches)) {}
+    : implementation_(std::make_unique<Implementation>(patches, nullptr)) {}
+PatchCaster::PatchCaster(const Patches& patches, const Scene& scene)
+    : implementation_(std::make_unique<Implementation>(patches, &scene)) {}
 PatchCaster::~PatchCaster() = default;
 
 const Patches& PatchCaster::patches() const { return implementation_->patches; }
@@ -120,7 +143,9 @@ PatchHits PatchCaster::closest(RayPacket& packet, const LaneMask& lanes, rays::C
         const float along_normal = packet.direction_x[i] * found.hit.Ng_x[i] +
                                    packet.direction_y[i] * found.hit.Ng_y[i] +
                                    packet.direction_z[i] * found.hit.Ng_z[i];
-        const bool is_met = lanes[i] != 0 && found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        const bool is_met = lanes[i] != 0 && found.hit.geomID[i] == 0;
+        if (lanes[i] != 0 && !is_met && found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
+            hits.exact_lanes |= 1u << i;
         hits.sides[i] =
             is_met ? side_met(implementation_->patches, found.hit.primID[i], along_normal) : kNoSide;
     }

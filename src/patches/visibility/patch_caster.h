@@ -16,8 +16,9 @@ namespace stilb::patches {
 /// The first hits of sixteen rays.
 struct PatchHits {
     std::array<std::uint32_t, kPacketWidth>
-        sides;                 ///< kNoSide where a ray met nothing, or its lane is not set
-    RayPacket::Floats b1, b2;  ///< barycentric coordinates on the patch, for lanes with a hit
+        sides;                      ///< kNoSide where a ray met no patch, or its lane is not set
+    RayPacket::Floats b1, b2;       ///< barycentric coordinates on the patch, for lanes with a hit
+    std::uint32_t exact_lanes = 0;  ///< bits of the lanes whose rays met an exact surface
 
     math::Barycentric barycentric(std::size_t lane) const {
         const double u = b1[lane], v = b2[lane];
@@ -42,6 +43,9 @@ class PatchCaster {
   public:
     /// Builds the acceleration structure. Throws std::runtime_error where Embree does (out of memory).
     explicit PatchCaster(const Patches& patches);
+    /// Rays meet what they meet in the scene of the patches: spheres, disks and bodies by harmonics replace
+    /// their patches. all() is not for this case.
+    PatchCaster(const Patches& patches, const Scene& scene);
     ~PatchCaster();
     PatchCaster(const PatchCaster&) = delete;
     PatchCaster& operator=(const PatchCaster&) = delete;
