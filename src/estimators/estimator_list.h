@@ -43,8 +43,10 @@ const EstimatorEntry& find_estimator(std::string_view name);
 
 // The constructors, each in the file of its method: estimator_list.cpp has one entry for each.
 
-/// Local estimation balanced with path tracing, and as published: local/local_estimation.cpp.
+/// auto.cpp
 std::unique_ptr<Estimator> make_auto(const Problem& problem);
+/// Local estimation balanced with path tracing, and as published: local/local_estimation.cpp.
+std::unique_ptr<Estimator> make_balanced(const Problem& problem);
 std::unique_ptr<Estimator> make_local(const Problem& problem);
 /// path/path.cpp
 std::unique_ptr<Estimator> make_path(const Problem& problem);

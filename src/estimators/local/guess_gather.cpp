@@ -39,8 +39,6 @@ void avoid_tiny_components(RayPacket& packet) {
     }
 }
 
-double fraction(double x) { return x - std::floor(x); }
-
 }  // namespace
 
 std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::size_t lane) {

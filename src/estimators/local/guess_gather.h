@@ -5,6 +5,7 @@
 // path tracing.
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "estimators/estimator.h"
@@ -29,6 +30,8 @@ struct alignas(64) GatherLanes {
 /// Lanes whose shifts differ by little: enough that neighbours do not have the same noise, little enough that
 /// the packet of rays stays together. `random`: in [0, 1), of the whole tile. `lane`: among neighbours.
 std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::size_t lane);
+
+inline double fraction(double x) { return x - std::floor(x); }
 
 /// Keeps references to its arguments. Immutable.
 class GuessGather {

@@ -85,10 +85,11 @@ void GuessPoints::select(const Sums& sums, std::size_t count, const std::array<d
         const double rest = std::clamp(double{(target - before) / own}, 0., math::kBelowOne);
         const double across = u[1] + 0.6180339887498949 * static_cast<double>(j);
         const std::uint32_t side = guess_.lit_sides()[i];
-        const SidePoint point = side_point(patches, caster_, side, rest, across - std::floor(across));
+        const math::Barycentric at_side = math::sample_triangle(rest, across - std::floor(across));
+        const SidePoint point = side_point(patches, caster_, side, at_side);
         const double weight = double{patches.areas_m2[patches.patch_of(side)]} * double{sums.back()} /
                               (double{own} * static_cast<double>(count));
-        const Rgb light = guess_.luminance_cd_m2(side, point.barycentric) * weight;
+        const Rgb light = guess_.luminance_cd_m2(side, at_side) * weight;
         points.push_back(
             {SegmentOrigin(point.position, point.lifted, point.normal, caster_.center()),
              kResidualSplit,

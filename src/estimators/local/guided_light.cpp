@@ -15,22 +15,24 @@ constexpr double kKernels = 5;
 constexpr std::uint64_t kPathsPerSample = 32;
 constexpr std::uint64_t kVerticesPerSample = 8;
 /// With fewer readings, the guess costs more than it gains.
-constexpr std::size_t kLeastReadings = 64;
+constexpr std::size_t kLeastReadings = 256;
 /// Samples whose vertices are selected together.
 constexpr std::uint64_t kSamplesTogether = 64;
 
 }  // namespace
 
-bool GuidedLight::suits(const Scene& scene, int max_reflections) {
-    return max_reflections == transport::kUnlimited && surface_area_m2(scene) > 0;
+bool GuidedLight::suits(const Problem& problem) {
+    return problem.max_reflections == transport::kUnlimited && surface_area_m2(problem.scene) > 0 &&
+           (problem.camera || problem.measurands.size() >= kLeastReadings);
 }
 
 GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
                          const transport::LightSampler& lights, const transport::PathTracer& tracer,
                          math::RandomKey key, const Monitor& monitor)
     : caster(all),
-      guess(scene, all, lights, tracer, key.derived(kGuess), monitor),
-      residual(scene, all, lights, tracer, guess, key.derived(kPilot), monitor),
+      direct(scene, all, lights),
+      guess(scene, all, direct, tracer, key.derived(kGuess), monitor),
+      residual(scene, all, lights, direct, tracer, guess, key.derived(kPilot), monitor),
       points(guess, all),
       gather(all, tracer, guess) {}
 
@@ -53,16 +55,12 @@ auto GuidedLight::divide(std::span<const transport::Receiver> receivers) const -
             divided.general.push_back(receiver);
             continue;
         }
-        const SplitMaterial& parts = guess.material(*receiver.material());
+        const materials::SplitMaterial& parts = guess.material(*receiver.material());
         if (parts.diffuse_reflectance().max() > 0)
             divided.even.push_back(receiver.with_material(parts.diffuse));
         if (parts.gloss) divided.general.push_back(receiver.with_material(*parts.gloss));
     }
     return divided;
-}
-
-bool GuidedReadings::suits(std::span<const transport::Receiver> receivers) {
-    return receivers.size() >= kLeastReadings;
 }
 
 namespace {
@@ -91,6 +89,14 @@ void GuidedReadings::collect(const Batch& batch, ReadingSums& sums) const {
     gather(batch, sums);
     gather_general(batch, sums);
     connect_residual(batch, sums);
+}
+
+double GuidedReadings::rays_per_sample() const {
+    // Rays of packets take less time than others.
+    constexpr double of_path = 25, of_even = 3, of_general = 12;
+    return of_path * static_cast<double>(kPathsPerSample) +
+           of_even * static_cast<double>(receivers_.even.size()) +
+           of_general * static_cast<double>(receivers_.general.size());
 }
 
 void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const {

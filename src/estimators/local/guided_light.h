@@ -19,8 +19,8 @@ namespace stilb::estimators {
 
 /// The common part of readings and pictures. Keeps references to its arguments. Immutable.
 struct GuidedLight {
-    /// Whether the guess fits the problem.
-    static bool suits(const Scene& scene, int max_reflections);
+    /// Whether the guess pays: not for few readings, and not with a limit on reflections.
+    static bool suits(const Problem& problem);
 
     GuidedLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
                 const transport::PathTracer& tracer, math::RandomKey key, const Monitor& monitor);
@@ -43,6 +43,7 @@ struct GuidedLight {
 
     enum Purpose : std::uint64_t { kGuess, kPilot };
     const rays::RayCaster& caster;
+    BoundedDirect direct;
     LightGuess guess;
     ResidualLight residual;
     GuessPoints points;
@@ -56,7 +57,6 @@ class GuidedReadings {
     /// share of the residual.
     static constexpr std::uint64_t kGranularity = 4;
 
-    static bool suits(std::span<const transport::Receiver> receivers);
     /// Points of the guess that are connected to a tile for each gathering ray of its receivers.
     static constexpr std::size_t kPoints = 4;
 
@@ -64,6 +64,8 @@ class GuidedReadings {
                    const Monitor& monitor);
 
     void collect(const Batch& batch, ReadingSums& sums) const;
+    /// As Estimator's.
+    double rays_per_sample() const;
 
   private:
     enum Purpose : std::uint64_t { kResidual, kSelection, kGather, kShift, kPaths, kGeneral };

@@ -31,7 +31,7 @@ bool is_smooth(const Shape& shape) {
 }
 
 bool is_traced(const Material& material) {
-    const SplitMaterial parts = split(material);
+    const materials::SplitMaterial parts = materials::split(material);
     return is_specular(material) || (!(parts.diffuse_reflectance().max() > 0) && parts.gloss &&
                                      mean_concentration(*parts.gloss) > kSharp);
 }
@@ -39,18 +39,17 @@ bool is_traced(const Material& material) {
 }  // namespace
 
 SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
-                     double u1, double u2) {
-    const math::Barycentric at = math::sample_triangle(u1, u2);
+                     const math::Barycentric& at) {
     const Vec3 position = patches.position(patches.patch_of(side), at);
     const Vec3 normal = patches.normal_of(side);
-    return {at, position, position + caster.offset_m(position, caster.half_extent_m()) * normal, normal};
+    return {position, position + caster.offset_m(position, caster.half_extent_m()) * normal, normal};
 }
 
 /// The rays of all sides, and the solution of the equations.
 struct LightGuess::Solver {
     const LightGuess& guess;
     const rays::RayCaster& caster;
-    const transport::LightSampler& lights;
+    const BoundedDirect& direct;
     const transport::PathTracer& tracer;
     math::RandomKey key;
     const Monitor& monitor;
@@ -87,11 +86,12 @@ struct LightGuess::Solver {
         const std::uint32_t side = rows.sides[row];
         math::SampleStream stream(key.derived(purpose).derived(side), number, 4);
         const auto [u1, u2] = stream.next_two();
-        const SidePoint point = side_point(patches, caster, side, u1, u2);
+        const SidePoint point = side_point(patches, caster, side, math::sample_triangle(u1, u2));
         Rgb& source = rows.source_lx[row];
-        for (int k = 0; k < kSideDirect; ++k) {
-            sample_direct(lights, caster, point, stream, [&](const Arrival& arrival) {
-                source += arrival.illuminance_lx * (1. / (kSideDirect * static_cast<double>(packets)));
+        const int samples = direct.varies() ? kSideDirect : 1;
+        for (int k = 0; k < samples; ++k) {
+            direct.sample(point, stream, [&](const Arrival& arrival) {
+                source += arrival.illuminance_lx * (1. / (samples * static_cast<double>(packets)));
             });
         }
         const std::array<Vec3, kPacketWidth> directions =
@@ -135,27 +135,33 @@ struct LightGuess::Solver {
         return directions;
     }
 
-    /// The sides that any light reaches: those with a source, and those that see a lit side.
+    /// The sides that any light reaches: those with a source, and those that see or are seen by a lit side.
     std::vector<std::uint32_t> lit(const Rows& rows) const {
         std::vector<std::uint8_t> is_lit(2 * guess.patches_.count());
-        std::vector<std::uint32_t> lit_sides;
-        for (bool grows = true; grows;) {
-            grows = false;
-            for (std::size_t row = 0; row < rows.sides.size(); ++row) {
-                const std::uint32_t side = rows.sides[row];
-                if (is_lit[side] != 0 || !(is_source(rows, row) || sees_lit(rows, row, is_lit))) continue;
+        const auto spread_light = [&](std::size_t row) {
+            const auto seen = std::span(rows.seen).subspan(row * rows.width, rows.width);
+            const bool was_lit = is_lit[rows.sides[row]] != 0;
+            if (!was_lit && !is_source(rows, row) && !sees_lit(seen, is_lit)) return false;
+            bool grows = !was_lit;
+            is_lit[rows.sides[row]] = 1;
+            for (const std::uint32_t side : seen) {
+                if (side == patches::kNoSide || is_lit[side] != 0) continue;
                 is_lit[side] = 1;
                 grows = true;
             }
+            return grows;
+        };
+        for (bool grows = true; grows;) {
+            grows = false;
+            for (std::size_t row = 0; row < rows.sides.size(); ++row) grows = spread_light(row) || grows;
         }
-        for (const std::uint32_t side : rows.sides) {
-            if (is_lit[side] != 0) lit_sides.push_back(side);
-        }
+        std::vector<std::uint32_t> lit_sides;
+        std::ranges::copy_if(rows.sides, std::back_inserter(lit_sides),
+                             [&](std::uint32_t side) { return is_lit[side] != 0; });
         return lit_sides;
     }
     static bool is_source(const Rows& rows, std::size_t row) { return rows.source_lx[row].max() > 0; }
-    static bool sees_lit(const Rows& rows, std::size_t row, const std::vector<std::uint8_t>& is_lit) {
-        const auto seen = std::span(rows.seen).subspan(row * rows.width, rows.width);
+    static bool sees_lit(std::span<const std::uint32_t> seen, const std::vector<std::uint8_t>& is_lit) {
         return std::ranges::any_of(
             seen, [&](std::uint32_t side) { return side != patches::kNoSide && is_lit[side] != 0; });
     }
@@ -184,9 +190,8 @@ struct LightGuess::Solver {
     }
 };
 
-LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster,
-                       const transport::LightSampler& lights, const transport::PathTracer& tracer,
-                       math::RandomKey key, const Monitor& monitor)
+LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const BoundedDirect& direct,
+                       const transport::PathTracer& tracer, math::RandomKey key, const Monitor& monitor)
     : patches_(patches::make_patches(scene, patches::patch_size_m(scene, kPatches), monitor)),
       patch_caster_(patches_, scene) {
     split_materials(scene);
@@ -195,7 +200,7 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster,
         if (!is_traced(p) && material(p).diffuse_reflectance().max() > 0)
             sides.insert(sides.end(), {p, patches_.other_side(p)});
     }
-    const Solver solver{*this, caster, lights, tracer, key, monitor};
+    const Solver solver{*this, caster, direct, tracer, key, monitor};
     lit_sides_ = solver.lit(solver.cast(std::move(sides), 1, Solver::kSurvey));
     std::ranges::sort(lit_sides_);
     interpolate(solver.solve(solver.cast(lit_sides_, kSidePackets, Solver::kSolution)));
@@ -203,7 +208,7 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster,
 
 void LightGuess::split_materials(const Scene& scene) {
     for (const auto& named : scene.materials) {
-        materials_.push_back(split(named.material));
+        materials_.push_back(materials::split(named.material));
         is_traced_material_.push_back(estimators::is_traced(named.material) ? 1 : 0);
     }
     for (const Object& object : scene.objects)

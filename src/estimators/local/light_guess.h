@@ -18,12 +18,12 @@
 #include <vector>
 
 #include "base/monitor.h"
-#include "estimators/local/split_material.h"
+#include "estimators/local/bounded_direct.h"
+#include "materials/split_material.h"
 #include "math/random.h"
 #include "patches/patches.h"
 #include "patches/visibility/patch_caster.h"
 #include "rays/ray_caster.h"
-#include "transport/light_sampler.h"
 #include "transport/path_tracer.h"
 
 namespace stilb::estimators {
@@ -44,17 +44,17 @@ struct GuessedLight {
 /// Keeps references to its arguments. Immutable.
 class LightGuess {
   public:
-    LightGuess(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
+    LightGuess(const Scene& scene, const rays::RayCaster& caster, const BoundedDirect& direct,
                const transport::PathTracer& tracer, math::RandomKey key,
                const Monitor& monitor = Monitor::none());
 
     const patches::Patches& patches() const { return patches_; }
     /// The sides that light reaches and that reflect it, ascending.
     const std::vector<std::uint32_t>& lit_sides() const { return lit_sides_; }
-    const SplitMaterial& material(std::uint32_t side) const {
+    const materials::SplitMaterial& material(std::uint32_t side) const {
         return materials_[index_of(patches_.materials[patches_.patch_of(side)])];
     }
-    const SplitMaterial& material(MaterialId id) const { return materials_[index_of(id)]; }
+    const materials::SplitMaterial& material(MaterialId id) const { return materials_[index_of(id)]; }
     bool is_traced(std::uint32_t patch) const { return is_traced_[patch] != 0; }
     /// The same of a point that a ray has met in the scene.
     bool is_traced(const rays::Hit& hit) const {
@@ -79,47 +79,14 @@ class LightGuess {
 
     patches::Patches patches_;
     patches::PatchCaster patch_caster_;
-    std::vector<SplitMaterial> materials_;                             ///< per material of the scene
+    std::vector<materials::SplitMaterial> materials_;                  ///< per material of the scene
     std::vector<std::uint8_t> is_traced_material_, is_traced_object_;  ///< per material, per object
     std::vector<std::uint8_t> is_traced_;                              ///< per patch
     std::vector<std::uint32_t> lit_sides_;
     std::vector<CornerLuminances> corners_;  ///< per side
 };
 
-/// A point of a side, and where rays from it start.
-struct SidePoint {
-    math::Barycentric barycentric;
-    Vec3 position, lifted, normal;
-};
 SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
-                     double u1, double u2);
-
-/// Light that arrives at a surface.
-struct Arrival {
-    Vec3 direction;  ///< unit, towards the light
-    Rgb illuminance_lx;
-};
-/// Calls `visit(arrival)` for one sample of the direct light at a surface point: of every light or, where
-/// they are many, of some.
-template <typename Visit>
-void sample_direct(const transport::LightSampler& lights, const rays::RayCaster& caster, const SidePoint& at,
-                   math::SampleStream& stream, const Visit& visit) {
-    constexpr std::size_t each = 4;
-    const auto add = [&](const std::optional<lights::IncidentLight>& light, double weight) {
-        if (!light) return;
-        const double cosine = dot(light->direction, at.normal);
-        if (cosine <= 0) return;
-        const Rgb arriving = light->normal_illuminance_lx *
-                             caster.transmittance({at.lifted, light->source_point}) * (weight * cosine);
-        if (arriving.max() > 0) visit(Arrival{light->direction, arriving});
-    };
-    if (lights.count() <= each) {
-        for (std::size_t light = 0; light < lights.count(); ++light)
-            add(lights.sample_incident(light, {at.position, at.normal}, stream.next_two()), 1);
-        return;
-    }
-    for (std::size_t i = 0; i < each; ++i)
-        add(lights.sample_one_light(at.position, at.normal, stream), 1. / each);
-}
+                     const math::Barycentric& at);
 
 }  // namespace stilb::estimators

@@ -10,7 +10,8 @@
 //                 in only light by mirrors and glass. Infinite variance where light vertices come arbitrarily
 //                 near to a point: in corners.
 //   double-local  the same for luminance [LocalEstimation (8) to (10)]; local at illuminance readings.
-//   auto          k and the number of gathering rays by plan_splits(), vertices from a NodePool. Unbiased and
+//   balanced      (of method auto) k and the number of gathering rays by plan_splits(), vertices from a
+//   NodePool. Unbiased and
 //                 of finite variance, except for light that only light paths can find (it met a mirror or
 //                 glass first): w = 1.
 //
@@ -110,7 +111,7 @@ class LocalReadings {
           paths_per_selected_(transport.split == Split::balanced ? paths_per_selected(seen_.receivers.size())
                                                                  : 1),
           selected_per_ray_(most_selected_per_ray(seen_.receivers.size())),
-          is_guided_(guide && GuidedReadings::suits(seen_.receivers)),
+          is_guided_(guide && !seen_.receivers.empty()),
           plans_(plans(problem, guide)),
           tiles_(tiles_of(seen_.receivers, constants_per_m2(plans_), transport_.caster,
                           transport_.max_reflections)),
@@ -154,7 +155,7 @@ class LocalReadings {
         return guided_ ? GuidedReadings::kGranularity : kSelectedBeforeCheck * paths_per_selected_;
     }
     double rays_per_sample() const {
-        if (guided_) return 12.0 * static_cast<double>(seen_.receivers.size());
+        if (guided_) return guided_->rays_per_sample();
         constexpr double path_cost = 50;
         return path_cost +
                2.0 * static_cast<double>(seen_.receivers.size()) / static_cast<double>(paths_per_selected_);
@@ -326,7 +327,6 @@ class LocalReadings {
 /// picture's pass.
 constexpr std::uint64_t kPathsPerPass = 4096;
 constexpr std::uint64_t kPathsPerSelected = 256;
-double fraction(double x) { return x - std::floor(x); }
 /// With a guess: points of it and vertices of the residual that are connected to a packet, and pixels for
 /// each path of the residual.
 constexpr std::size_t kPointsOfPass = 8;
@@ -611,8 +611,7 @@ class LocalEstimation final : public Estimator {
     enum Purpose : std::uint64_t { kGuess = 1u << 16 };
 
     std::unique_ptr<GuidedLight> make_guide(const Problem& problem, Split split) const {
-        if (split != Split::balanced || !GuidedLight::suits(problem.scene, problem.max_reflections))
-            return nullptr;
+        if (split != Split::balanced || !GuidedLight::suits(problem)) return nullptr;
         return std::make_unique<GuidedLight>(problem.scene, problem.caster, transport_.lights,
                                              transport_.tracer, problem.preparation_key.derived(kGuess),
                                              problem.monitor);
@@ -630,7 +629,7 @@ std::unique_ptr<Estimator> make_local(const Problem& problem) {
     return std::make_unique<LocalEstimation>(problem, Split::none);
 }
 
-std::unique_ptr<Estimator> make_auto(const Problem& problem) {
+std::unique_ptr<Estimator> make_balanced(const Problem& problem) {
     return std::make_unique<LocalEstimation>(problem, Split::balanced);
 }
 

@@ -12,7 +12,7 @@ namespace {
 /// The parts of a surface's BRDF with their shares, as one BRDF that is sampled by part.
 class SharedReflection {
   public:
-    SharedReflection(const rays::Hit& surface, const Vec3& outgoing, const SplitMaterial& material,
+    SharedReflection(const rays::Hit& surface, const Vec3& outgoing, const materials::SplitMaterial& material,
                      const PartShares& shares)
         : material_(material),
           shares_(shares),
@@ -50,7 +50,7 @@ class SharedReflection {
     }
 
   private:
-    const SplitMaterial& material_;
+    const materials::SplitMaterial& material_;
     const PartShares& shares_;
     materials::ShadedSurface gloss_;
     Vec3 outgoing_;
@@ -59,7 +59,7 @@ class SharedReflection {
 
 }  // namespace
 
-double continuation_probability(const SplitMaterial& material, const PartShares& shares) {
+double continuation_probability(const materials::SplitMaterial& material, const PartShares& shares) {
     const double of_diffuse = shares.diffuse();
     if (!material.gloss) return of_diffuse;
     const double gloss = material.gloss_reflectance().luminance();
@@ -69,7 +69,8 @@ double continuation_probability(const SplitMaterial& material, const PartShares&
 }
 
 Rgb reflected_luminance(const transport::PathTracer& tracer, const rays::Hit& surface, const Vec3& outgoing,
-                        const SplitMaterial& material, const PartShares& shares, math::SampleStream& stream) {
+                        const materials::SplitMaterial& material, const PartShares& shares,
+                        math::SampleStream& stream) {
     const SharedReflection reflection(surface, outgoing, material, shares);
     Rgb sum;
     if (const auto light = tracer.sample_light(surface, stream)) {

@@ -2,7 +2,7 @@
 // own.
 #pragma once
 
-#include "estimators/local/split_material.h"
+#include "materials/split_material.h"
 #include "transport/path_tracer.h"
 #include "transport/weights.h"
 
@@ -19,10 +19,11 @@ struct PartShares {
 
 /// The probability with which a ray that meets such a surface is continued: about the share of its reflected
 /// light for which rays are responsible.
-double continuation_probability(const SplitMaterial& material, const PartShares& shares);
+double continuation_probability(const materials::SplitMaterial& material, const PartShares& shares);
 
 /// One sample of the luminance towards `outgoing`, without emission.
 Rgb reflected_luminance(const transport::PathTracer& tracer, const rays::Hit& surface, const Vec3& outgoing,
-                        const SplitMaterial& material, const PartShares& shares, math::SampleStream& stream);
+                        const materials::SplitMaterial& material, const PartShares& shares,
+                        math::SampleStream& stream);
 
 }  // namespace stilb::estimators

@@ -13,12 +13,13 @@ namespace {
 
 /// Packets of rays on which a path's start spends its r: all receivers share it.
 constexpr std::uint64_t kResidualPackets = 2;
-/// Samples of direct light there.
+/// Samples of direct light there, where they differ.
 constexpr int kResidualDirect = 4;
 /// Paths start with a density that is at least this share of what it would be if r were as large as the
-/// guess; and on sides that seem dark, in so small a share of all paths.
+/// guess; and so many of them, beside the others, evenly over all sides: light that the pilot has missed must
+/// not be rare.
 constexpr double kFloor = 0.1;
-constexpr double kDarkShare = 0.02;
+constexpr double kEvenShare = 0.1;
 /// Points of each side at which r is estimated for that.
 constexpr std::uint64_t kPilots = 2;
 
@@ -58,11 +59,13 @@ bool has_light_only_by_light_paths(const Scene& scene) {
 }  // namespace
 
 ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
-                             const transport::LightSampler& lights, const transport::PathTracer& tracer,
-                             const LightGuess& guess, math::RandomKey key, const Monitor& monitor)
+                             const transport::LightSampler& lights, const BoundedDirect& direct,
+                             const transport::PathTracer& tracer, const LightGuess& guess,
+                             math::RandomKey key, const Monitor& monitor)
     : scene_(scene),
       caster_(caster),
       lights_(lights),
+      direct_(direct),
       tracer_(tracer),
       guess_(guess),
       has_unreachable_light_(has_light_only_by_light_paths(scene)) {
@@ -84,30 +87,25 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
             }
         },
         64);
-    double lit_weight = 0, dark_area = 0;
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-        lit_weight += weights[i];
-        if (!(weights[i] > 0)) dark_area += double{patches.areas_m2[patches.patch_of(sides_[i])]};
-    }
-    if (!(lit_weight > 0)) lit_weight = 1;
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-        if (!(weights[i] > 0))
-            weights[i] =
-                kDarkShare * lit_weight / dark_area * double{patches.areas_m2[patches.patch_of(sides_[i])]};
-    }
+    double sum = 0, area_m2 = 0;
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+        sum += weights[i], area_m2 += double{patches.areas_m2[patches.patch_of(sides_[i])]};
+    const double evenly = sum > 0 ? kEvenShare * sum / area_m2 : 1;
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+        weights[i] += evenly * double{patches.areas_m2[patches.patch_of(sides_[i])]};
     if (!sides_.empty()) by_residual_ = math::DiscreteDistribution(weights);
 }
 
 /// The root mean square of r over a side, times its area.
 double ResidualLight::pilot(std::uint32_t side, math::RandomKey key) const {
-    const SplitMaterial& material = guess_.material(side);
+    const materials::SplitMaterial& material = guess_.material(side);
     double square = 0;
     for (std::uint64_t k = 0; k < kPilots; ++k) {
         math::SampleStream stream(key.derived(side), k, 4);
         const auto u = stream.next_two();
         const Start start = start_on(side, u, 1, stream);
         const double missing = magnitude(start.missing_lx * material.diffuse_reflectance()).luminance() / kPi;
-        const double guessed = guess_.luminance_cd_m2(side, start.point.barycentric).luminance();
+        const double guessed = start.guessed_cd_m2.luminance();
         square += missing * missing + kFloor * kFloor * guessed * guessed;
         if (!material.gloss) continue;
         const double gloss = (start.arrival.illuminance_lx * material.gloss_reflectance()).luminance() / kPi;
@@ -120,16 +118,18 @@ double ResidualLight::pilot(std::uint32_t side, math::RandomKey key) const {
 auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u, std::uint64_t packets,
                              math::SampleStream& stream) const -> Start {
     const patches::Patches& patches = guess_.patches();
-    Start start{side_point(patches, caster_, side, u[0], u[1]), {}, {}};
+    const math::Barycentric at = math::sample_triangle(u[0], u[1]);
+    Start start{side_point(patches, caster_, side, at), guess_.luminance_cd_m2(side, at), {}, {}};
     const Frame frame = Frame::around(start.point.normal);
     ChosenArrival chosen(stream.next());
     const auto add = [&](const Arrival& arrival) {
         start.missing_lx += arrival.illuminance_lx;
         chosen.add(arrival);
     };
-    for (int i = 0; i < kResidualDirect; ++i) {
-        sample_direct(lights_, caster_, start.point, stream, [&](const Arrival& arrival) {
-            add({arrival.direction, arrival.illuminance_lx * (1. / kResidualDirect)});
+    const int samples = direct_.varies() ? kResidualDirect : 1;
+    for (int i = 0; i < samples; ++i) {
+        direct_.sample(start.point, stream, [&](const Arrival& arrival) {
+            add({arrival.direction, arrival.illuminance_lx * (1. / samples)});
         });
     }
     const auto [shift_1, shift_2] = stream.next_two();
@@ -160,7 +160,7 @@ auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u,
         }
     }
     start.arrival = chosen.arrival();
-    const Rgb guessed = guess_.luminance_cd_m2(side, start.point.barycentric) * kPi;
+    const Rgb guessed = start.guessed_cd_m2 * kPi;
     const Rgb& reflectance = guess_.material(side).diffuse_reflectance();
     for (std::size_t b = 0; b < kBands; ++b) {
         if (reflectance[b] > 0) start.missing_lx[b] -= guessed[b] / reflectance[b];
@@ -170,12 +170,14 @@ auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u,
 
 std::vector<transport::LightVertex> ResidualLight::trace(math::RandomKey key, std::uint64_t first,
                                                          std::uint64_t end) const {
-    enum Purpose : std::uint64_t { kUnreachable = 1 };
+    enum Purpose : std::uint64_t { kUnreachable = 1, kParticles };
     std::vector<transport::LightVertex> nodes;
     if (!sides_.empty()) {
         for (std::uint64_t path = first; path < end; ++path)
             trace_one(math::SampleStream(key, path, 8), nodes);
     }
+    for (std::uint64_t path = first; direct_.has_particles() && path < end; ++path)
+        trace_particle(math::SampleStream(key.derived(kParticles), path, 8), nodes);
     if (has_unreachable_light_) trace_unreachable(key.derived(kUnreachable), first, end, nodes);
     return nodes;
 }
@@ -188,7 +190,7 @@ void ResidualLight::trace_unreachable(math::RandomKey key, std::uint64_t first, 
     }
 }
 
-void ResidualLight::add(const transport::LightVertex& whole, const SplitMaterial& parts,
+void ResidualLight::add(const transport::LightVertex& whole, const materials::SplitMaterial& parts,
                         std::vector<transport::LightVertex>& nodes) const {
     const auto add_part = [&](const Material& material) {
         nodes.push_back(whole);
@@ -205,8 +207,8 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const auto u = stream.next_two();
     const Start start = start_on(side, u, kResidualPackets, stream);
     const double per_density = double{patches.areas_m2[patches.patch_of(side)]} / choice.probability;
-    const SplitMaterial& parts = guess_.material(side);
-    const auto& [barycentric, position, lifted, normal] = start.point;
+    const materials::SplitMaterial& parts = guess_.material(side);
+    const auto& [position, lifted, normal] = start.point;
     const Rgb missing = start.missing_lx * per_density, arriving = start.arrival.illuminance_lx * per_density;
     const Rgb diffuse = missing * parts.diffuse_reflectance(), gloss = arriving * parts.gloss_reflectance();
     // The direction of the light that comes in does not matter for the diffuse part.
@@ -229,32 +231,37 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const auto scattered = surface.sample_outgoing(
         surface.frame().to_local(is_diffuse ? normal : start.arrival.direction), u1, u2);
     if (!scattered) return;
-    walk({lifted, surface.frame().to_world(scattered->direction)},
+    const Vec3 direction = surface.frame().to_world(scattered->direction);
+    walk(caster_.closest(lifted, direction), direction,
          incident * scattered->weight * (1 / (survival * (is_diffuse ? by_diffuse : 1 - by_diffuse))), stream,
          nodes);
 }
 
-/// From a first vertex on, with the flux that leaves it.
-void ResidualLight::walk(const rays::Ray& first, const Rgb& flux_lm, math::SampleStream& stream,
-                         std::vector<transport::LightVertex>& nodes) const {
-    rays::Ray ray = first;
-    Rgb flux = flux_lm;
-    for (;;) {
-        const auto hit = caster_.closest(ray.origin, ray.direction);
-        if (!hit || guess_.is_traced(*hit)) return;
-        const SplitMaterial& parts = guess_.material(hit->material);
+void ResidualLight::trace_particle(math::SampleStream stream,
+                                   std::vector<transport::LightVertex>& nodes) const {
+    if (const auto particle = direct_.sample_particle(stream))
+        walk(particle->hit, particle->direction, particle->flux_lm, stream, nodes);
+}
+
+/// Vertices from the surface on that the flux meets.
+void ResidualLight::walk(std::optional<rays::Hit> hit, Vec3 direction, Rgb flux_lm,
+                         math::SampleStream& stream, std::vector<transport::LightVertex>& nodes) const {
+    while (hit && !guess_.is_traced(*hit)) {
+        const materials::SplitMaterial& parts = guess_.material(hit->material);
         if (!parts.reflects()) return;
         const Material& material = scene_.material(hit->material);
-        add({hit->position, hit->lifted, hit->normal, hit->normal, -ray.direction, &material, flux, 1}, parts,
+        add({hit->position, hit->lifted, hit->normal, hit->normal, -direction, &material, flux_lm, 1}, parts,
             nodes);
-        const double survival = transport::survival_probability(magnitude(flux), reflectance_bound(material));
+        const double survival =
+            transport::survival_probability(magnitude(flux_lm), reflectance_bound(material));
         if (stream.next() >= survival) return;
         const auto [u1, u2] = stream.next_two();
         const materials::ShadedSurface surface(material, hit->normal, hit->normal);
-        const auto scattered = surface.sample_outgoing(surface.frame().to_local(-ray.direction), u1, u2);
+        const auto scattered = surface.sample_outgoing(surface.frame().to_local(-direction), u1, u2);
         if (!scattered) return;
-        flux *= scattered->weight * (1 / survival);
-        ray = {hit->lifted, surface.frame().to_world(scattered->direction)};
+        flux_lm *= scattered->weight * (1 / survival);
+        direction = surface.frame().to_world(scattered->direction);
+        hit = caster_.closest(hit->lifted, direction);
     }
 }
 

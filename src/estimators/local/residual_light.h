@@ -6,8 +6,9 @@
 // the receivers, bring what the guess lacks. Diffuse part and gloss are vertices of their own. Paths end on
 // traced surfaces, because r contains what these bring, by path tracing.
 //
-// Light that only light paths find, because it left a point-like source and met a mirror or glass first, is
-// not in r: it comes from light paths beside those of the residual.
+// Close to point lights, r holds only a part of the direct light (bounded_direct.h): particles bring the
+// rest. Light that only light paths find, because it left a point-like source and met a mirror or glass
+// first, is not in r: it comes from light paths beside those of the residual.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +26,8 @@ class ResidualLight {
   public:
     /// `key`: for the pilot that finds where r is large.
     ResidualLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
-                  const transport::PathTracer& tracer, const LightGuess& guess, math::RandomKey key,
-                  const Monitor& monitor = Monitor::none());
+                  const BoundedDirect& direct, const transport::PathTracer& tracer, const LightGuess& guess,
+                  math::RandomKey key, const Monitor& monitor = Monitor::none());
 
     /// The vertices of paths number `first` ... `end` - 1 of the streams of a key, for a sum over the paths:
     /// the expectation of each path's sum is the whole residual.
@@ -37,24 +38,27 @@ class ResidualLight {
     /// Where and how paths start.
     struct Start {
         SidePoint point;
+        Rgb guessed_cd_m2;
         Rgb missing_lx;   ///< one sample of r, as the illuminance that the diffuse part would reflect to it
         Arrival arrival;  ///< all the light that the gloss reflects, as if it came from one direction
     };
     Start start_on(std::uint32_t side, const std::array<double, 2>& u, std::uint64_t packets,
                    math::SampleStream& stream) const;
     double pilot(std::uint32_t side, math::RandomKey key) const;
+    void trace_particle(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
-    void walk(const rays::Ray& first, const Rgb& flux, math::SampleStream& stream,
+    void walk(std::optional<rays::Hit> hit, Vec3 direction, Rgb flux_lm, math::SampleStream& stream,
               std::vector<transport::LightVertex>& nodes) const;
     void trace_unreachable(math::RandomKey key, std::uint64_t first, std::uint64_t end,
                            std::vector<transport::LightVertex>& nodes) const;
     /// Adds the vertices of both parts of a material.
-    void add(const transport::LightVertex& whole, const SplitMaterial& parts,
+    void add(const transport::LightVertex& whole, const materials::SplitMaterial& parts,
              std::vector<transport::LightVertex>& nodes) const;
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
     const transport::LightSampler& lights_;
+    const BoundedDirect& direct_;
     const transport::PathTracer& tracer_;
     const LightGuess& guess_;
     bool has_unreachable_light_;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "materials/split_material.h"
 #include "stilb/error.h"
 
 namespace stilb::estimators {
@@ -96,37 +97,14 @@ void ClassicalFirstShot::add_reflected(std::uint32_t side, const Vec3&, math::Ra
     }
 }
 
-namespace {
-
-// A BRDF as a sum of a part that is the same for all directions, stored here times pi, and the rest.
-// For RoughConductor and Plastic all is rest: their diffuse reflection depends on both angles.
-
-struct SplitMaterial {
-    Rgb diffuse;
-    Material rest;
-};
-
-SplitMaterial split(const Diffuse& material) { return {material.reflectance, Black{}}; }
-SplitMaterial split(const Phong& material) {
-    return {material.diffuse, Phong{{}, material.specular, material.exponent}};
-}
-SplitMaterial split(const Ward& material) {
-    Ward::Parameters rest = material.parameters();
-    rest.diffuse = {};
-    return {material.parameters().diffuse, Ward(rest)};
-}
-SplitMaterial split(const auto& material) { return {{}, material}; }
-
-}  // namespace
-
 DiffuseFirstShot::DiffuseFirstShot(const Scene& scene, const patches::Patches& patches,
                                    const IncomingFirstShot& incoming, const ShadowRays& rays)
     : scene_(scene), patches_(patches), rays_(rays), radiance_cd_m2_(2 * patches.count()) {
     std::vector<Rgb> diffuse;
     for (const NamedMaterial& named : scene.materials) {
-        const SplitMaterial parts = std::visit([](const auto& m) { return split(m); }, named.material);
-        diffuse.push_back(parts.diffuse * std::numbers::inv_pi);
-        rest_.push_back(parts.rest);
+        const materials::SplitMaterial parts = materials::split(named.material);
+        diffuse.push_back(parts.diffuse_reflectance() * std::numbers::inv_pi);
+        rest_.push_back(parts.gloss.value_or(Black{}));
     }
     for (std::uint32_t side = 0; side < radiance_cd_m2_.size(); ++side) {
         const auto material = index_of(patches.materials[patches.patch_of(side)]);

@@ -1,0 +1,86 @@
+// Direct light at surface points, in two parts. Next-event estimation brings light of point lights with the
+// share min(1, d^2 / a^2) at the distance d, so that it is bounded, and other light as it is. Particles of
+// the point lights bring the rest, on the surfaces close to these lights: luminaires' own bodies, mostly.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "math/random.h"
+#include "rays/ray_caster.h"
+#include "transport/light_sampler.h"
+
+namespace stilb::estimators {
+
+/// A point on a surface, and where rays from it start.
+struct SidePoint {
+    Vec3 position, lifted, normal;
+};
+
+/// Light that arrives at a surface.
+struct Arrival {
+    Vec3 direction;  ///< unit, towards the light
+    Rgb illuminance_lx;
+};
+
+/// Keeps references to its arguments. Immutable.
+class BoundedDirect {
+  public:
+    BoundedDirect(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights);
+
+    /// Calls `visit(arrival)` for one sample of the first part: of every light or, where they are many, of
+    /// some.
+    template <typename Visit>
+    void sample(const SidePoint& at, math::SampleStream& stream, const Visit& visit) const;
+    /// Whether several samples at one point differ.
+    bool varies() const { return lights_.has_visible_lights() || lights_.count() > kEach; }
+
+    /// A particle of the second part: its flux, and the surface that it meets.
+    struct Particle {
+        rays::Hit hit;
+        Vec3 direction;
+        Rgb flux_lm;
+    };
+    /// Nothing where it is not close to its light.
+    std::optional<Particle> sample_particle(math::SampleStream& stream) const;
+    bool has_particles() const { return has_points_; }
+
+  private:
+    static constexpr std::size_t kEach = 4;
+
+    double share(double squared_distance) const { return std::min(1.0, squared_distance / near_m2_); }
+    template <typename Visit>
+    void add(const std::optional<lights::IncidentLight>& light, double weight, const SidePoint& at,
+             const Visit& visit) const;
+
+    const rays::RayCaster& caster_;
+    const transport::LightSampler& lights_;
+    double near_m2_;  ///< a^2
+    bool has_points_;
+};
+
+template <typename Visit>
+void BoundedDirect::sample(const SidePoint& at, math::SampleStream& stream, const Visit& visit) const {
+    if (lights_.count() <= kEach) {
+        for (std::size_t light = 0; light < lights_.count(); ++light)
+            add(lights_.sample_incident(light, {at.position, at.normal}, stream.next_two()), 1, at, visit);
+        return;
+    }
+    for (std::size_t i = 0; i < kEach; ++i)
+        add(lights_.sample_one_light(at.position, at.normal, stream), 1. / kEach, at, visit);
+}
+
+template <typename Visit>
+void BoundedDirect::add(const std::optional<lights::IncidentLight>& light, double weight, const SidePoint& at,
+                        const Visit& visit) const {
+    if (!light) return;
+    const double cosine = dot(light->direction, at.normal);
+    if (cosine <= 0) return;
+    if (std::isinf(light->pdf_per_sr)) weight *= share(squared_length(light->source_point - at.position));
+    const Rgb arriving = light->normal_illuminance_lx *
+                         caster_.transmittance({at.lifted, light->source_point}) * (weight * cosine);
+    if (arriving.max() > 0) visit(Arrival{light->direction, arriving});
+}
+
+}  // namespace stilb::estimators
