@@ -15,7 +15,7 @@
 namespace stilb::estimators {
 namespace {
 
-/// With more readings light paths always pay.
+/// With more readings light paths always pay (docs/performance.md).
 constexpr std::size_t kMostReadings = 256;
 /// Independent parts of a pilot, for its variances.
 constexpr std::size_t kPilots = 32;

@@ -44,8 +44,7 @@ GuessPoints::GuessPoints(const LightGuess& guess, const rays::RayCaster& caster)
             middle_[axis].push_back(static_cast<float>(middle[axis]));
             normal_[axis].push_back(static_cast<float>(normal[axis]));
         }
-        const double luminance = guess.luminance_cd_m2(side, {1. / 3, 1. / 3, 1. / 3}).luminance();
-        power_.push_back(static_cast<float>(luminance) * patches.areas_m2[patch]);
+        power_.push_back(static_cast<float>(guess.mean_cd_m2(side)) * patches.areas_m2[patch]);
         all_power_ += power_.back();
     }
 }

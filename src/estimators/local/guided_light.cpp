@@ -15,15 +15,25 @@ constexpr double kKernels = 5;
 constexpr std::uint64_t kPathsPerSample = 32;
 constexpr std::uint64_t kVerticesPerSample = 8;
 /// With fewer readings, the guess costs more than it gains.
-constexpr std::size_t kLeastReadings = 256;
+constexpr double kPatchesPerReading = 8;
+/// Where the residual is more than this share of the guess, light paths without a guess have less variance
+/// (docs/performance.md).
+constexpr double kMostResidual = 0.2;
 /// Samples whose vertices are selected together.
 constexpr std::uint64_t kSamplesTogether = 64;
 
 }  // namespace
 
-bool GuidedLight::suits(const Problem& problem) {
-    return problem.max_reflections == transport::kUnlimited && surface_area_m2(problem.scene) > 0 &&
-           (problem.camera || problem.measurands.size() >= kLeastReadings);
+std::unique_ptr<GuidedLight> GuidedLight::make(const Problem& problem, const transport::LightSampler& lights,
+                                               const transport::PathTracer& tracer, math::RandomKey key) {
+    const bool has_readings = kPatchesPerReading * static_cast<double>(problem.measurands.size()) >=
+                              LightGuess::patch_count(problem.scene);
+    if (problem.max_reflections != transport::kUnlimited || !(surface_area_m2(problem.scene) > 0) ||
+        !(problem.camera || has_readings))
+        return nullptr;
+    auto light =
+        std::make_unique<GuidedLight>(problem.scene, problem.caster, lights, tracer, key, problem.monitor);
+    return light->residual.share_of_guess() < kMostResidual ? std::move(light) : nullptr;
 }
 
 GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,

@@ -6,6 +6,7 @@
 // Direct light is added elsewhere. The receivers' k bounds the connections.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,10 @@ namespace stilb::estimators {
 
 /// The common part of readings and pictures. Keeps references to its arguments. Immutable.
 struct GuidedLight {
-    /// Whether the guess pays: not for few readings, and not with a limit on reflections.
-    static bool suits(const Problem& problem);
+    /// The guided light of a problem; null where it does not pay: for few readings, with a limit on
+    /// reflections, and where the guess lacks much, above all gloss.
+    static std::unique_ptr<GuidedLight> make(const Problem& problem, const transport::LightSampler& lights,
+                                             const transport::PathTracer& tracer, math::RandomKey key);
 
     GuidedLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
                 const transport::PathTracer& tracer, math::RandomKey key, const Monitor& monitor);

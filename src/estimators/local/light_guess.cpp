@@ -45,6 +45,15 @@ SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& cas
     return {position, position + caster.offset_m(position, caster.half_extent_m()) * normal, normal};
 }
 
+double LightGuess::patch_count(const Scene& scene) {
+    double count = kPatches;
+    for (const Object& object : scene.objects) {
+        if (const auto* mesh = std::get_if<Mesh>(&object.shape))
+            count += static_cast<double>(mesh->triangles.size());
+    }
+    return count;
+}
+
 /// The rays of all sides, and the solution of the equations.
 struct LightGuess::Solver {
     const LightGuess& guess;

@@ -44,6 +44,9 @@ struct GuessedLight {
 /// Keeps references to its arguments. Immutable.
 class LightGuess {
   public:
+    /// The number of patches for a scene, about.
+    static double patch_count(const Scene& scene);
+
     LightGuess(const Scene& scene, const rays::RayCaster& caster, const BoundedDirect& direct,
                const transport::PathTracer& tracer, math::RandomKey key,
                const Monitor& monitor = Monitor::none());
@@ -64,6 +67,10 @@ class LightGuess {
 
     /// The guess at a point of a side: the diffuse part of the reflected light [cd/m2].
     Rgb luminance_cd_m2(std::uint32_t side, const math::Barycentric& at) const;
+    /// In the middle of a side.
+    double mean_cd_m2(std::uint32_t side) const {
+        return luminance_cd_m2(side, {1. / 3, 1. / 3, 1. / 3}).luminance();
+    }
     /// The guess along rays, for lanes that are set. Origins are relative to patches().center; `end` becomes
     /// the distance of the surface that is met.
     void look(RayPacket& packet, const LaneMask& lanes, rays::Coherence coherence, GuessedLight& light) const;

@@ -590,7 +590,9 @@ class LocalEstimation final : public Estimator {
   public:
     LocalEstimation(const Problem& problem, Split split)
         : transport_(problem, split),
-          guide_(make_guide(problem, split)),
+          guide_(split == Split::balanced ? GuidedLight::make(problem, transport_.lights, transport_.tracer,
+                                                              problem.preparation_key.derived(kGuess))
+                                          : nullptr),
           readings_(transport_, problem, guide_.get()) {
         if (problem.camera) picture_.emplace(transport_, problem, guide_.get());
     }
@@ -609,13 +611,6 @@ class LocalEstimation final : public Estimator {
 
   private:
     enum Purpose : std::uint64_t { kGuess = 1u << 16 };
-
-    std::unique_ptr<GuidedLight> make_guide(const Problem& problem, Split split) const {
-        if (split != Split::balanced || !GuidedLight::suits(problem)) return nullptr;
-        return std::make_unique<GuidedLight>(problem.scene, problem.caster, transport_.lights,
-                                             transport_.tracer, problem.preparation_key.derived(kGuess),
-                                             problem.monitor);
-    }
 
     LocalTransport transport_;
     std::unique_ptr<GuidedLight> guide_;

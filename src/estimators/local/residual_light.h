@@ -34,6 +34,10 @@ class ResidualLight {
     std::vector<transport::LightVertex> trace(math::RandomKey key, std::uint64_t first,
                                               std::uint64_t end) const;
 
+    /// The residual beside the guess, as the root mean square over each side, by the pilot: the larger it is,
+    /// the less is gained.
+    double share_of_guess() const { return share_of_guess_; }
+
   private:
     /// Where and how paths start.
     struct Start {
@@ -62,6 +66,7 @@ class ResidualLight {
     const transport::PathTracer& tracer_;
     const LightGuess& guess_;
     bool has_unreachable_light_;
+    double share_of_guess_ = 0;
     std::vector<std::uint32_t> sides_;        ///< that reflect light and are not traced
     math::DiscreteDistribution by_residual_;  ///< over `sides_`
 };
