@@ -28,6 +28,13 @@ class LightTree {
         bool is_point = false;
     };
 
+    /// A surface element that receives light, or a group of them: all within `spread_m` of the point, with
+    /// normals that differ from `normal` by vectors no longer than `turn`.
+    struct Place {
+        Vec3 from, normal;
+        double spread_m = 0, turn = 0;
+    };
+
     LightTree() = default;
     explicit LightTree(std::vector<Light> lights);
     bool is_empty() const { return nodes_.empty(); }
@@ -45,15 +52,15 @@ class LightTree {
         std::size_t count_ = 0;
     };
     template <typename Rough>
-    Cut cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const;
+    Cut cut(const Place& at, const Rough& rough_lx) const;
 
     /// A light's number with its probability; the cut of the same point must not be empty.
     template <typename Rough>
-    math::DiscreteChoice choose(const Cut& cut, const Vec3& from, const Vec3& normal, double u,
+    math::DiscreteChoice choose(const Cut& cut, const Place& at, double u,
                                 const Rough& rough_lx) const;
     /// The probability that choose() selects a light of the tree.
     template <typename Rough>
-    double probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
+    double probability(const Cut& cut, std::uint32_t number, const Place& at,
                        const Rough& rough_lx) const;
 
   private:
@@ -71,18 +78,17 @@ class LightTree {
     /// The squared ratio of its radius and its distance; boxes below kNear stay closed.
     static double nearness_of(const Node& node, const Vec3& from);
     static constexpr double kNear = 1. / 9;
-    double box_lx(const Node& node, const Vec3& from, const Vec3& normal) const;
+    double box_lx(const Node& node, const Place& at) const;
     template <typename Rough>
-    double node_lx(std::uint32_t node, const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
-        return nodes_[node].is_point ? rough_lx(nodes_[node].first) : box_lx(nodes_[node], from, normal);
+    double node_lx(std::uint32_t node, const Place& at, const Rough& rough_lx) const {
+        return nodes_[node].is_point ? rough_lx(nodes_[node].first) : box_lx(nodes_[node], at);
     }
     /// The probability of the first child. A box may have a corner above the horizon where neither child has
     /// one.
     template <typename Rough>
-    double first_probability(const Node& parent, const Vec3& from, const Vec3& normal,
-                             const Rough& rough_lx) const {
-        const double first = node_lx(parent.first, from, normal, rough_lx);
-        const double second = node_lx(parent.first + 1, from, normal, rough_lx);
+    double first_probability(const Node& parent, const Place& at, const Rough& rough_lx) const {
+        const double first = node_lx(parent.first, at, rough_lx);
+        const double second = node_lx(parent.first + 1, at, rough_lx);
         return first + second > 0 ? first / (first + second) : 0.5;
     }
 
@@ -91,7 +97,7 @@ class LightTree {
 };
 
 template <typename Rough>
-LightTree::Cut LightTree::cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
+LightTree::Cut LightTree::cut(const Place& at, const Rough& rough_lx) const {
     Cut cut;
     if (nodes_.empty()) return cut;
     /// Boxes to be opened, as a heap: the nearest relative to its size first.
@@ -103,7 +109,7 @@ LightTree::Cut LightTree::cut(const Vec3& from, const Vec3& normal, const Rough&
     std::array<Waiting, Cut::kMostOpen> waiting;
     auto end = waiting.begin();
     const auto add = [&](std::uint32_t node) {
-        const double nearness = nodes_[node].is_light ? 0 : nearness_of(nodes_[node], from);
+        const double nearness = nodes_[node].is_light ? 0 : nearness_of(nodes_[node], at.from);
         if (nearness < kNear) {
             cut.nodes_[cut.count_++] = node;
         } else {
@@ -125,44 +131,44 @@ LightTree::Cut LightTree::cut(const Vec3& from, const Vec3& normal, const Rough&
     }
     double total_lx = 0;
     for (std::size_t i = 0; i < cut.count_; ++i) {
-        cut.sums_lx_[i] = total_lx += node_lx(cut.nodes_[i], from, normal, rough_lx);
+        cut.sums_lx_[i] = total_lx += node_lx(cut.nodes_[i], at, rough_lx);
     }
     return cut;
 }
 
 template <typename Rough>
-math::DiscreteChoice LightTree::choose(const Cut& cut, const Vec3& from, const Vec3& normal, double u,
+math::DiscreteChoice LightTree::choose(const Cut& cut, const Place& at, double u,
                                        const Rough& rough_lx) const {
     math::DiscreteChoice choice = math::choose_by_sums({cut.sums_lx_.data(), cut.count_}, u);
-    std::uint32_t at = cut.nodes_[choice.index];
-    while (!nodes_[at].is_light) {
-        const double first = first_probability(nodes_[at], from, normal, rough_lx);
+    std::uint32_t node = cut.nodes_[choice.index];
+    while (!nodes_[node].is_light) {
+        const double first = first_probability(nodes_[node], at, rough_lx);
         const bool is_first = choice.remainder < first;
         const double share = is_first ? first : 1 - first;
         choice.remainder = std::clamp((is_first ? choice.remainder : choice.remainder - first) / share, 0.0,
                                       math::kBelowOne);
         choice.probability *= share;
-        at = nodes_[at].first + (is_first ? 0 : 1);
+        node = nodes_[node].first + (is_first ? 0 : 1);
     }
-    choice.index = nodes_[at].first;
+    choice.index = nodes_[node].first;
     return choice;
 }
 
 template <typename Rough>
-double LightTree::probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
+double LightTree::probability(const Cut& cut, std::uint32_t number, const Place& at,
                               const Rough& rough_lx) const {
     double below = 1;
     const auto end = cut.nodes_.begin() + static_cast<std::ptrdiff_t>(cut.count_);
-    for (std::uint32_t at = node_of_[number];; at = nodes_[at].parent) {
-        const auto found = std::find(cut.nodes_.begin(), end, at);
+    for (std::uint32_t node = node_of_[number];; node = nodes_[node].parent) {
+        const auto found = std::find(cut.nodes_.begin(), end, node);
         if (found != end) {
             const auto index = static_cast<std::size_t>(found - cut.nodes_.begin());
             const double own_lx = cut.sums_lx_[index] - (index == 0 ? 0 : cut.sums_lx_[index - 1]);
             return below * own_lx / cut.total_lx();
         }
-        const Node& parent = nodes_[nodes_[at].parent];
-        const double first = first_probability(parent, from, normal, rough_lx);
-        below *= at == parent.first ? first : 1 - first;
+        const Node& parent = nodes_[nodes_[node].parent];
+        const double first = first_probability(parent, at, rough_lx);
+        below *= node == parent.first ? first : 1 - first;
     }
 }
 

@@ -35,7 +35,7 @@
 #include "estimators/local/gather.h"
 #include "estimators/local/guided_light.h"
 #include "estimators/local/split_plan.h"
-#include "transport/receiver.h"
+#include "transport/direct_light.h"
 
 namespace stilb::estimators {
 namespace {
@@ -56,6 +56,7 @@ struct LocalTransport {
           gathers(split == Split::balanced || has_specular_surfaces(scene)),
           lights(scene, caster),
           tracer(scene, caster, lights),
+          direct(scene, caster, lights),
           monitor(problem.monitor) {}
     LocalTransport(const LocalTransport&) = delete;
     LocalTransport& operator=(const LocalTransport&) = delete;
@@ -72,6 +73,7 @@ struct LocalTransport {
     bool gathers;
     transport::LightSampler lights;
     transport::PathTracer tracer;
+    transport::DirectLight direct;
     const Monitor& monitor;
 };
 
@@ -122,7 +124,7 @@ class LocalReadings {
     void run_batch(const Batch& batch, ReadingSums& sums) const {
         if (guided_) {
             guided_->collect(batch, sums);
-            if (transport_.lights.has_visible_lights()) add_direct_light(batch, sums);
+            add_direct_light(batch, sums);
             add_faint_branches(batch, sums);
             return;
         }
@@ -131,7 +133,7 @@ class LocalReadings {
         for (std::uint64_t first = batch.first; first < end; first += block) {
             connections_.collect(connected_vertices(batch.key, first, std::min(end, first + block)), sums);
         }
-        if (transport_.lights.has_visible_lights()) add_direct_light(batch, sums);
+        add_direct_light(batch, sums);
         if (transport_.gathers) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
         add_faint_branches(batch, sums);
     }
@@ -182,6 +184,7 @@ class LocalReadings {
         std::vector<Faint> faint;
         std::vector<Rgb> known_part;
         std::vector<std::optional<Vec3>> ends;  ///< of lines of sight
+        transport::DirectLight::Prepared direct;
     };
     Reception receive(std::span<const Measurand> measurands) const {
         Reception seen;
@@ -212,10 +215,9 @@ class LocalReadings {
             }
         }
         seen.receivers = sorted_receivers(std::move(seen.receivers));
-        for (const transport::Receiver& receiver : seen.receivers) {
-            seen.known_part[receiver.reading()] +=
-                direct_from_points(receiver, transport_.caster, transport_.lights);
-        }
+        seen.direct = transport_.direct.prepare(seen.receivers, transport_.monitor);
+        for (std::size_t j = 0; j < seen.receivers.size(); ++j)
+            seen.known_part[seen.receivers[j].reading()] += seen.direct.known[j];
         return seen;
     }
 
@@ -223,16 +225,26 @@ class LocalReadings {
         const math::RandomKey key = batch.key.derived(kDirect);
         const std::uint64_t light_paths = guided_ ? 1 : kPathsPerDirectSample * paths_per_selected_;
         const std::uint64_t end = (batch.first + batch.count) / light_paths;
-        for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
+        for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
-            const transport::Receiver& receiver = seen_.receivers[j];
-            const math::RandomKey own_key = key.derived(j);
             for (std::uint64_t i = batch.first / light_paths; i < end; ++i) {
-                math::SampleStream stream(own_key, i);
-                const Rgb sample =
-                    sample_direct_from_areas(receiver, transport_.caster, transport_.lights, stream);
-                sums.add(receiver.reading(), static_cast<double>(light_paths) * sample);
+                transport::DirectLight::TileLight light{};
+                transport_.direct.add_sample(tile, remainder, key.derived(t), i, light);
+                for (std::size_t j = 0; j < tile.size(); ++j)
+                    sums.add(tile[j].reading(), static_cast<double>(light_paths) * light[j]);
             }
+        });
+    }
+
+    /// Calls visit(tile, remainder, number) for tiles of receivers whose direct light has to be sampled.
+    template <typename Visit>
+    void for_each_open_tile(const Visit& visit) const {
+        const std::span<const transport::Receiver> receivers = seen_.receivers;
+        for (std::size_t t = 0; t < seen_.direct.remainders.size(); ++t) {
+            const std::size_t first = t * kPacketWidth;
+            if (seen_.direct.remainders[t].is_empty()) continue;
+            visit(receivers.subspan(first, std::min<std::size_t>(kPacketWidth, receivers.size() - first)),
+                  seen_.direct.remainders[t], t);
         }
     }
 
@@ -291,16 +303,15 @@ class LocalReadings {
             static_cast<int>(std::clamp<std::size_t>(in_all / (seen_.receivers.size() + 1), 4, 64));
         std::vector<double> direct;
         for (const Rgb& known : seen_.known_part) direct.push_back(known.luminance());
-        for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
-            const transport::Receiver& receiver = seen_.receivers[j];
+        for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             for (int i = 0; i < samples; ++i) {
-                math::SampleStream stream(key.derived(j), static_cast<std::uint64_t>(i));
-                direct[receiver.reading()] +=
-                    sample_direct_from_areas(receiver, transport_.caster, transport_.lights, stream)
-                        .luminance() /
-                    samples;
+                transport::DirectLight::TileLight light{};
+                transport_.direct.add_sample(tile, remainder, key.derived(t), static_cast<std::uint64_t>(i),
+                                             light);
+                for (std::size_t j = 0; j < tile.size(); ++j)
+                    direct[tile[j].reading()] += light[j].luminance() / samples;
             }
-        }
+        });
         return direct;
     }
 
@@ -362,7 +373,8 @@ class LocalPicture {
         kGather,
         kPilot,
         kPlan,
-        kShift
+        kShift,
+        kDirectLight
     };
 
     class LocalPass final : public PicturePass {
@@ -413,6 +425,9 @@ class LocalPicture {
             // The packet's random numbers: those of its first pixel's position.
             const math::RandomKey key = pass_.key.derived(kPackets).derived(
                 static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
+            transport::DirectLight::TileLight direct{};
+            picture_.transport_.direct.add_all(receivers, key.derived(kDirectLight), pass_.index, direct);
+            for (std::size_t i = 0; i < receivers.size(); ++i) sums.add(receivers[i].reading(), direct[i]);
             if (picture_.guide_) {
                 receive_guided(receivers, k_per_m2, {key, pass_.index}, shifts,
                                picture_.cell_of(pixels[started.pixels[0]]), sums);
@@ -483,8 +498,7 @@ class LocalPicture {
         return static_cast<std::size_t>(cell);
     }
 
-    /// Appends the sub-point of a camera path; returns the emission seen and the
-    /// direct light at the sub-point.
+    /// Appends the sub-point of a camera path; returns the emission seen.
     Rgb add_sub_point(transport::Path& path, std::uint32_t reading,
                       std::vector<transport::Receiver>& receivers) const {
         const bool meets_surface = transport_.tracer.follow_to_scattering(path);
@@ -494,9 +508,7 @@ class LocalPicture {
                                transport::SubPoint{path.hit, path.outgoing, path.throughput,
                                                    tracing_.max_reflections - path.reflections_left},
                                tracing_.scene.material(path.hit.material));
-        const transport::Receiver& receiver = receivers.back();
-        return emission + direct_from_points(receiver, tracing_.caster, transport_.lights) +
-               sample_direct_from_areas(receiver, tracing_.caster, transport_.lights, path.stream);
+        return emission;
     }
 
     /// Adds a sample of a packet's indirect light.
