@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "transport/tile_choice.h"
 
 namespace stilb::transport {
 namespace {
@@ -30,23 +31,6 @@ struct ShadowRays {
         for (std::size_t i = 0; i < count; ++i) light[lanes[i]] += received[i] * transmittances[i];
     }
 };
-
-/// The tile as one place for the tree of lights.
-LightTree::Place place_of(std::span<const Receiver> tile) {
-    Bounds bounds;
-    Vec3 normals;
-    for (const Receiver& receiver : tile) {
-        bounds.include(receiver.position());
-        normals += receiver.normal();
-    }
-    LightTree::Place place{bounds.middle(), {0, 0, 1}};
-    if (length(normals) > 0.1) place.normal = normalized(normals);
-    for (const Receiver& receiver : tile) {
-        place.spread_m = std::max(place.spread_m, length(receiver.position() - place.from));
-        place.turn = std::max(place.turn, length(receiver.normal() - place.normal));
-    }
-    return place;
-}
 
 }  // namespace
 
@@ -195,25 +179,16 @@ void DirectLight::add_point(std::span<const Receiver> tile, std::size_t point, d
     shadow_rays.trace(caster_, light);
 }
 
-/// The tree's estimate for a light is the mean of its illuminances at the receivers: above 0 where one of
-/// them receives light. Neighbouring choices often are the same light.
+/// Neighbouring choices often are the same light.
 void DirectLight::add_chosen_points(std::span<const Receiver> tile, math::SampleStream& stream,
                                     TileLight& light) const {
     const double first = stream.next();
-    const LightTree::Place place = place_of(tile);
-    const auto rough_lx = [&](std::uint32_t number) {
-        double sum = 0;
-        for (const Receiver& receiver : tile)
-            sum += lights_.rough_illuminance_lx(number, receiver.position(), receiver.normal());
-        return sum / static_cast<double>(tile.size());
-    };
-    const LightTree::Cut cut = tree_of_points_.cut(place, rough_lx);
-    if (!(cut.total_lx() > 0)) return;
+    const TileChoice lights(tree_of_points_, lights_, tile, caster_.center());
+    if (lights.is_empty()) return;
     std::size_t previous = ~std::size_t{0};
     double factor = 0;
     for (std::size_t i = 0; i < kChosen; ++i) {
-        const double u = (static_cast<double>(i) + first) / kChosen;
-        const auto choice = tree_of_points_.choose(cut, place, u, rough_lx);
+        const auto choice = lights.choose((static_cast<double>(i) + first) / kChosen);
         if (choice.index != previous) {
             if (factor > 0) add_point(tile, previous, factor, light);
             previous = choice.index, factor = 0;

@@ -87,27 +87,27 @@ std::optional<math::DiscreteChoice> LightSampler::choose(const Vec3& from, const
 std::optional<math::DiscreteChoice> LightSampler::choose_by_tree(const Vec3& from, const Vec3& normal,
                                                                  double u) const {
     const auto rough_lx = [&](std::uint32_t light) { return rough_illuminance_lx(light, from, normal); };
-    const LightTree::Cut cut = tree_.cut({from, normal}, rough_lx);
+    const LightTree::Cut cut = tree_.cut(from, normal, rough_lx);
     const double outside_lx = outside_ == kNoLight ? 0 : rough_lx(outside_),
                  all_lx = outside_lx + cut.total_lx();
     if (!(all_lx > 0)) return std::nullopt;
     const double outside = outside_lx / all_lx;
     if (u < outside) return math::DiscreteChoice{outside_, outside, u / outside};
     const double rest = std::min((u - outside) / (1 - outside), math::kBelowOne);
-    math::DiscreteChoice choice = tree_.choose(cut, {from, normal}, rest, rough_lx);
+    math::DiscreteChoice choice = tree_.choose(cut, from, normal, rest, rough_lx);
     choice.probability *= 1 - outside;
     return choice;
 }
 
 double LightSampler::tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const {
     const auto rough_lx = [&](std::uint32_t other) { return rough_illuminance_lx(other, from, normal); };
-    const LightTree::Cut cut = tree_.cut({from, normal}, rough_lx);
+    const LightTree::Cut cut = tree_.cut(from, normal, rough_lx);
     const double outside_lx = outside_ == kNoLight ? 0 : rough_lx(outside_),
                  all_lx = outside_lx + cut.total_lx();
     if (light == outside_) return all_lx > 0 ? outside_lx / all_lx : 0;
     if (!(cut.total_lx() > 0)) return 0;
     return cut.total_lx() / all_lx *
-           tree_.probability(cut, static_cast<std::uint32_t>(light), {from, normal}, rough_lx);
+           tree_.probability(cut, static_cast<std::uint32_t>(light), from, normal, rough_lx);
 }
 
 template <typename Condition>
@@ -132,10 +132,10 @@ double LightSampler::extended_pdf_per_sr(const rays::Hit& hit, const ReceivingPo
     const double pdf_per_sr = pdf_of_its_light_per_sr(hit, at.position);
     if (!(pdf_per_sr > 0) || !chooses_extended(at)) return pdf_per_sr;
     const auto rough_lx = rough_at(at);
-    const LightTree::Cut cut = extended_.cut({at.position, *at.normal}, rough_lx);
+    const LightTree::Cut cut = extended_.cut(at.position, *at.normal, rough_lx);
     if (!(cut.total_lx() > 0)) return 0;
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
-    return kFew * extended_.probability(cut, light, {at.position, *at.normal}, rough_lx) * pdf_per_sr;
+    return kFew * extended_.probability(cut, light, at.position, *at.normal, rough_lx) * pdf_per_sr;
 }
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,

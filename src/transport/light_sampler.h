@@ -139,12 +139,12 @@ void LightSampler::sample_extended(const ReceivingPoint& at, math::SampleStream&
     }
     if (outside_ != kNoLight) sample(outside_);
     const auto rough_lx = rough_at(at);
-    const LightTree::Cut cut = extended_.cut({at.position, *at.normal}, rough_lx);
+    const LightTree::Cut cut = extended_.cut(at.position, *at.normal, rough_lx);
     if (!(cut.total_lx() > 0)) return;
     const double first = stream.next();
     for (std::size_t i = 0; i < kFew; ++i) {
         const double u = (static_cast<double>(i) + first) / kFew;
-        const auto choice = extended_.choose(cut, {at.position, *at.normal}, u, rough_lx);
+        const auto choice = extended_.choose(cut, at.position, *at.normal, u, rough_lx);
         auto incident = sample_incident(choice.index, at, stream.next_two());
         if (!incident) continue;
         const double expected = kFew * choice.probability;

@@ -54,19 +54,13 @@ double LightTree::nearness_of(const Node& node, const Vec3& from) {
     return squared_m2 > 0 ? node.squared_radius_m2 / squared_m2 : std::numeric_limits<double>::infinity();
 }
 
-double LightTree::box_lx(const Node& node, const Place& at) const {
-    const Vec3& normal = at.normal;
-    const Vec3 towards = node.center - at.from;
+double LightTree::box_lx(const Node& node, const Vec3& from, const Vec3& normal) {
+    const Vec3 towards = node.center - from;
     const double reach_m = std::abs(normal.x) * node.half.x + std::abs(normal.y) * node.half.y +
                            std::abs(normal.z) * node.half.z;
-    const double squared_size_m2 = squared_length(towards) + node.squared_radius_m2;
-    double height_m = dot(towards, normal) + reach_m;  // of the box's highest corner
-    if (at.spread_m > 0 || at.turn > 0) {              // over the element of the group where it is highest
-        const double farthest_m = std::sqrt(2 * squared_size_m2) + at.spread_m;
-        height_m += at.spread_m + at.turn * farthest_m;
-    }
+    const double height_m = dot(towards, normal) + reach_m;  // of the box's highest corner
     if (!(height_m > 0)) return 0;
-    const double squared_m2 = squared_size_m2 + at.spread_m * at.spread_m;
+    const double squared_m2 = squared_length(towards) + node.squared_radius_m2;
     const double cosine = std::min(1.0, height_m / std::sqrt(squared_m2));
     return node.intensity_cd * cosine / squared_m2;
 }

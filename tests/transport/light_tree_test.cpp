@@ -60,18 +60,18 @@ TEST(LightTree, LightsAreChosenWithTheProbabilityThatIsSaid) {
     for (const Vec3& from : {Vec3{3, 2, 1}, Vec3{-30, 2, 1}}) {  // among them, and far away
         const Vec3 normal = normalized(Vec3{0.5, 0.2, 1});
         const auto rough = [&](std::uint32_t number) { return rough_lx(lights[number], from, normal); };
-        const LightTree::Cut cut = tree.cut({from, normal}, rough);
+        const LightTree::Cut cut = tree.cut(from, normal, rough);
         std::vector<double> probability, observed(kLights), remainders;
         double sum = 0;
         for (std::uint32_t light = 0; light < kLights; ++light) {
-            probability.push_back(tree.probability(cut, light, {from, normal}, rough));
+            probability.push_back(tree.probability(cut, light, from, normal, rough));
             sum += probability.back();
             EXPECT_TRUE(probability.back() > 0 || rough(light) == 0) << light;
         }
         EXPECT_NEAR(sum, 1, 1e-12);
         for (std::uint64_t i = 0; i < kSamples; ++i) {
             const double u = math::SampleStream(math::RandomKey{2}.derived(i), 0).next();
-            const math::DiscreteChoice choice = tree.choose(cut, {from, normal}, u, rough);
+            const math::DiscreteChoice choice = tree.choose(cut, from, normal, u, rough);
             ASSERT_NEAR(choice.probability, probability[choice.index], 1e-9);
             ++observed[choice.index];
             remainders.push_back(choice.remainder);
@@ -96,12 +96,12 @@ TEST(LightTree, GivesNothingBehindTheSurface) {
     const LightTree tree(lights);
     const Vec3 from{0, 0, 4}, up{0, 0, 1};
     const auto total_lx = [&](const Vec3& normal) {
-        return tree.cut({from, normal}, [&](std::uint32_t i) { return rough_lx(lights[i], from, normal); })
+        return tree.cut(from, normal, [&](std::uint32_t i) { return rough_lx(lights[i], from, normal); })
             .total_lx();
     };
     EXPECT_EQ(total_lx(up), 0);
     EXPECT_GT(total_lx(-up), 0);
-    EXPECT_EQ(LightTree().cut({from, up}, [](std::uint32_t) { return 1.0; }).total_lx(), 0);
+    EXPECT_EQ(LightTree().cut(from, up, [](std::uint32_t) { return 1.0; }).total_lx(), 0);
 }
 
 /// One light of many, divided by its probability, against all of them.
