@@ -91,8 +91,12 @@ void compare_points(std::string_view what, double height) {
         open += is_open;
         for (std::uint64_t i = 0; i < samples; ++i) {
             DirectLight::TileLight light{};
-            if (is_open)
-                direct.add_sample(tile, prepared.remainders[t], math::RandomKey{1}.derived(t), i, light);
+            if (is_open) {
+                std::vector<math::SampleStream> streams;
+                for (std::size_t j = 0; j < tile.size(); ++j)
+                    streams.emplace_back(math::RandomKey{1}.derived(t).derived(j), i);
+                direct.add_sample(tile, prepared.remainders[t], streams, light);
+            }
             for (std::size_t j = 0; j < tile.size(); ++j) {
                 const double x = light[j].luminance() + prepared.known[t * kPacketWidth + j].luminance();
                 sums[t * kPacketWidth + j] += x, squares[t * kPacketWidth + j] += x * x;

@@ -69,6 +69,7 @@ DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
             receivers.subspan(first, std::min<std::size_t>(kPacketWidth, receivers.size() - first));
         TileLight light{};
         prepared.remainders[t] = add_known(tile, light);
+        add_seen_by_one(tile, prepared.remainders[t], light);
         // The tree chooses for surfaces.
         prepared.remainders[t].points = !exact_points && std::ranges::none_of(tile, &Receiver::is_body);
         if (!prepared.remainders[t].points) add_points(tile, light);
@@ -77,12 +78,12 @@ DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
     return prepared;
 }
 
-void DirectLight::add_all(std::span<const Receiver> tile, math::RandomKey key, std::uint64_t index,
+void DirectLight::add_all(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
                           TileLight& light) const {
     Remainder remainder = add_known(tile, light);
     remainder.points = points_.size() > kFewPoints;
     if (!remainder.points) add_points(tile, light);
-    add_sample(tile, remainder, key, index, light);
+    add_sample(tile, remainder, streams, light);
 }
 
 /// Lamps that are seen for certain; the others, unless they give no light, remain.
@@ -103,7 +104,9 @@ DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, Ti
         }
         if (count == 0) continue;
         if (!lamps_[l].is_seen_from(std::span(lit).first(count), *shafts_)) {
-            remainder.lamps |= 1u << l;
+            for (std::size_t i = 0; i < tile.size(); ++i) {
+                if (projected_sr[i] > 0) remainder.lamps[i] |= 1u << l;
+            }
             continue;
         }
         for (std::size_t i = 0; i < tile.size(); ++i) {
@@ -114,35 +117,43 @@ DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, Ti
     return remainder;
 }
 
-void DirectLight::add_sample(std::span<const Receiver> tile, const Remainder& remainder, math::RandomKey key,
-                             std::uint64_t index, TileLight& light) const {
-    for (std::size_t l = 0; l < lamps_.size(); ++l) {
-        if ((remainder.lamps >> l & 1u) != 0) add_shadowed(tile, lamps_[l], key.derived(l), index, light);
-    }
-    if (remainder.by_directions) {
-        const math::RandomKey own_key = key.derived(kByDirections);
-        for (std::size_t i = 0; i < tile.size(); ++i) {
-            math::SampleStream stream(own_key.derived(i), index);
-            light[i] += sampled_by_directions(tile[i], stream);
+/// From one receiver the shaft to a lamp is narrower than from all of them.
+void DirectLight::add_seen_by_one(std::span<const Receiver> tile, Remainder& remainder,
+                                  TileLight& light) const {
+    for (std::size_t i = 0; i < tile.size(); ++i) {
+        for (std::size_t l = 0; l < lamps_.size(); ++l) {
+            const std::uint32_t bit = 1u << l;
+            if ((remainder.lamps[i] & bit) == 0) continue;
+            if (!lamps_[l].is_seen_from(std::span(&tile[i].lifted(), 1), *shafts_)) continue;
+            remainder.lamps[i] &= ~bit;
+            light[i] += lamps_[l].projected_solid_angle_sr(lit_point(tile[i])) *
+                        lamps_[l].luminance_cd_m2() * *tile[i].constant_response();
         }
-    }
-    if (remainder.points) {
-        math::SampleStream stream(key.derived(kPoints), index, 4);
-        add_chosen_points(tile, stream, light);
     }
 }
 
-void DirectLight::add_shadowed(std::span<const Receiver> tile, const UniformLamp& lamp, math::RandomKey key,
-                               std::uint64_t index, TileLight& light) const {
+void DirectLight::add_sample(std::span<const Receiver> tile, const Remainder& remainder,
+                             std::span<math::SampleStream> streams, TileLight& light) const {
+    if (remainder.has_lamps()) {
+        for (std::size_t l = 0; l < lamps_.size(); ++l) add_shadowed(tile, l, remainder, streams, light);
+    }
+    if (remainder.by_directions) {
+        for (std::size_t i = 0; i < tile.size(); ++i)
+            light[i] += sampled_by_directions(tile[i], streams[i]);
+    }
+    if (remainder.points) add_chosen_points(tile, streams[0], light);
+}
+
+void DirectLight::add_shadowed(std::span<const Receiver> tile, std::size_t lamp, const Remainder& remainder,
+                               std::span<math::SampleStream> streams, TileLight& light) const {
+    const Rgb& luminance_cd_m2 = lamps_[lamp].luminance_cd_m2();
     ShadowRays shadow_rays;
     for (std::size_t i = 0; i < tile.size(); ++i) {
-        if (!has_closed_form(tile[i])) continue;
-        math::SampleStream stream(key.derived(i), index, 4);
-        const auto sample = lamp.sample(lit_point(tile[i]), stream);
+        if ((remainder.lamps[i] >> lamp & 1u) == 0) continue;
+        const auto sample = lamps_[lamp].sample(lit_point(tile[i]), streams[i]);
         if (!sample) continue;
-        shadow_rays.add(
-            i, {tile[i].lifted(), sample->lifted},
-            sample->projected_solid_angle_sr * lamp.luminance_cd_m2() * *tile[i].constant_response());
+        shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
+                        sample->projected_solid_angle_sr * luminance_cd_m2 * *tile[i].constant_response());
     }
     shadow_rays.trace(caster_, light);
 }

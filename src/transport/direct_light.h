@@ -15,6 +15,7 @@
 // response depends on direction, are sampled as in sample_direct_from_areas() (receiver.h).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -38,10 +39,14 @@ class DirectLight {
 
     /// The parts of a tile's light that have to be sampled.
     struct Remainder {
-        std::uint32_t lamps = 0;   ///< one bit for each that may be partly hidden
+        /// For each receiver, one bit for each lamp that may be partly hidden.
+        std::array<std::uint32_t, kPacketWidth> lamps{};
         bool by_directions = false;  ///< lights without closed form, or receivers with gloss
-        bool points = false;       ///< point lights that are chosen by the tree
-        bool is_empty() const { return lamps == 0 && !by_directions && !points; }
+        bool points = false;         ///< point lights that are chosen by the tree
+        bool has_lamps() const {
+            return std::ranges::any_of(lamps, [](std::uint32_t bits) { return bits != 0; });
+        }
+        bool is_empty() const { return !has_lamps() && !by_directions && !points; }
     };
     struct Prepared {
         std::vector<Rgb> known;             ///< of each receiver, exact
@@ -49,12 +54,12 @@ class DirectLight {
     };
     /// For receivers that stay. May use several threads.
     Prepared prepare(std::span<const Receiver> receivers, const Monitor& monitor) const;
-    /// Adds sample `index` of the remainder.
-    void add_sample(std::span<const Receiver> tile, const Remainder& remainder, math::RandomKey key,
-                    std::uint64_t index, TileLight& light) const;
+    /// Adds a sample of the remainder. `streams`: of each receiver.
+    void add_sample(std::span<const Receiver> tile, const Remainder& remainder,
+                    std::span<math::SampleStream> streams, TileLight& light) const;
 
     /// Adds all direct light of a tile of receivers that were drawn for this sample.
-    void add_all(std::span<const Receiver> tile, math::RandomKey key, std::uint64_t index,
+    void add_all(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
                  TileLight& light) const;
 
     /// The largest number of point lights that pictures take one by one.
@@ -63,8 +68,6 @@ class DirectLight {
     static constexpr std::size_t kChosen = 16;
 
   private:
-    /// Parts of the key of a sample, after the numbers of lamps.
-    enum Purpose : std::uint64_t { kByDirections = 1000, kPoints };
     /// Point lights times receivers up to which readings take all of them once: seconds.
     static constexpr std::size_t kMostExact = 100'000'000;
 
@@ -72,12 +75,13 @@ class DirectLight {
         return receiver.constant_response() && !receiver.is_body();
     }
     Remainder add_known(std::span<const Receiver> tile, TileLight& light) const;
+    void add_seen_by_one(std::span<const Receiver> tile, Remainder& remainder, TileLight& light) const;
     void add_points(std::span<const Receiver> tile, TileLight& light) const;
     void add_point(std::span<const Receiver> tile, std::size_t point, double factor, TileLight& light) const;
     void add_chosen_points(std::span<const Receiver> tile, math::SampleStream& stream,
                            TileLight& light) const;
-    void add_shadowed(std::span<const Receiver> tile, const UniformLamp& lamp, math::RandomKey key,
-                      std::uint64_t index, TileLight& light) const;
+    void add_shadowed(std::span<const Receiver> tile, std::size_t lamp, const Remainder& remainder,
+                      std::span<math::SampleStream> streams, TileLight& light) const;
     Rgb sampled_by_directions(const Receiver& receiver, math::SampleStream& stream) const;
 
     const rays::RayCaster& caster_;

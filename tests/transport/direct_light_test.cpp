@@ -39,6 +39,12 @@ struct Setting {
     }
 };
 
+std::vector<math::SampleStream> streams(std::uint64_t key, std::uint64_t index) {
+    std::vector<math::SampleStream> all;
+    for (std::uint64_t j = 0; j < kPacketWidth; ++j) all.emplace_back(math::RandomKey{key}.derived(j), index);
+    return all;
+}
+
 struct Estimate {
     double mean = 0, standard_error = 0;
 };
@@ -63,9 +69,11 @@ void expect_agreement(const Setting& s, int count = 4000) {
         const auto index = static_cast<std::uint64_t>(i);
         auto& reading = readings.emplace_back();
         // A key for each sample: independent, for the standard error.
+        auto own = streams(1'000'000 + index, 0);
         if (!prepared.remainders[0].is_empty())
-            s.direct.add_sample(tile, prepared.remainders[0], math::RandomKey{7}.derived(index), 0, reading);
-        s.direct.add_all(tile, math::RandomKey{8}.derived(index), 0, pictures.emplace_back());
+            s.direct.add_sample(tile, prepared.remainders[0], own, reading);
+        own = streams(2'000'000 + index, 0);
+        s.direct.add_all(tile, own, pictures.emplace_back());
     }
     for (std::size_t j = 0; j < tile.size(); ++j) {
         const double known = prepared.known[j].luminance();
@@ -94,7 +102,8 @@ TEST(DirectLight, IsExactInAnEmptyRoom) {
                                                kPanel.edge_u, kPanel.edge_v, Rgb{{1000, 800, 600}}.luminance());
         EXPECT_NEAR(prepared.known[j].luminance(), expected, 1e-9 * expected);
         DirectLight::TileLight light{};
-        s.direct.add_all(s.receivers, math::RandomKey{1}, 0, light);
+        auto own = streams(1, 0);
+        s.direct.add_all(s.receivers, own, light);
         EXPECT_EQ(light[j], prepared.known[j]);
     }
 }
@@ -107,7 +116,7 @@ TEST(DirectLight, AgreesWithSamplingBehindOccluders) {
         add_object(scene, Rectangle{{0.8, 0.8, 1.2}, {0.8, 0, 0}, {0, 0.8, 0.2}}, diffuse(0.5));
         Setting s(std::move(scene));
         s.add_tile(0.3, 0.3, 0.01, 0.4);
-        EXPECT_EQ(s.direct.prepare(s.receivers, Monitor::none()).remainders[0].lamps, 1u);
+        EXPECT_TRUE(s.direct.prepare(s.receivers, Monitor::none()).remainders[0].has_lamps());
         expect_agreement(s);
     }
 }
@@ -127,13 +136,15 @@ TEST(DirectLight, ThereIsNoNoiseWhereAllOrNothingIsSeen) {
     Scene scene = room(kPanel);
     add_object(scene, Rectangle{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, diffuse(0.5));
     Setting s(std::move(scene));
-    // Below the shelf, beside it, and above it; all in one tile, so that no shaft is empty.
+    // Below the shelf, beside it, and above it.
     for (const Vec3& at : {Vec3{0.1, 0.1, 0.9}, {2.5, 2.5, 0.1}, {0.5, 0.5, 1.1}}) s.add(at, {0, 0, 1});
-    const auto prepared = s.direct.prepare(s.receivers, Monitor::none());
-    ASSERT_EQ(prepared.remainders[0].lamps, 1u);
+    // As if no shaft were empty.
+    DirectLight::Remainder all;
+    all.lamps.fill(1);
     for (std::uint64_t i = 0; i < 100; ++i) {
         DirectLight::TileLight light{};
-        s.direct.add_sample(s.receivers, prepared.remainders[0], math::RandomKey{3}, i, light);
+        auto own = streams(3, i);
+        s.direct.add_sample(s.receivers, all, own, light);
         EXPECT_EQ(light[0].max(), 0);
         for (const std::size_t j : {1u, 2u}) {
             const double expected = exact::illuminance_by_rectangle_lx(
@@ -150,7 +161,8 @@ TEST(DirectLight, NothingArrivesInTheLampsPlaneAndBehindIt) {
     s.add({2, 2, 2.95}, {0, 0, -1});
     s.add({2, 2, 1}, {0, 0, -1});
     DirectLight::TileLight light{};
-    s.direct.add_all(s.receivers, math::RandomKey{1}, 0, light);
+    auto own = streams(1, 0);
+    s.direct.add_all(s.receivers, own, light);
     for (const Rgb& received : light) EXPECT_EQ(received.max(), 0);
 }
 
@@ -159,7 +171,8 @@ TEST(DirectLight, ThinOccludersAreSampled) {
     add_object(scene, Rectangle{{2, 0, 1.5}, {1e-4, 0, 0}, {0, 4, 0}}, diffuse(0.5));  // a wire
     Setting s(std::move(scene));
     s.add_tile(1.8, 1.8, 0.8);
-    EXPECT_EQ(s.direct.prepare(s.receivers, Monitor::none()).remainders[0].lamps, 1u);
+    const auto prepared = s.direct.prepare(s.receivers, Monitor::none());
+    for (const std::uint32_t lamps : prepared.remainders[0].lamps) EXPECT_EQ(lamps, 1u);
 }
 
 TEST(DirectLight, GoesThroughPanesWithTheirTransmittance) {
@@ -167,8 +180,21 @@ TEST(DirectLight, GoesThroughPanesWithTheirTransmittance) {
     add_object(scene, Rectangle{{0, 0, 1.5}, {4, 0, 0}, {0, 4, 0}}, ThinDielectric{});
     Setting s(std::move(scene));
     s.add_tile(0.5, 0.5, 0.8);
-    EXPECT_EQ(s.direct.prepare(s.receivers, Monitor::none()).remainders[0].lamps, 1u);
+    EXPECT_TRUE(s.direct.prepare(s.receivers, Monitor::none()).remainders[0].has_lamps());
     expect_agreement(s);
+}
+
+TEST(DirectLight, ReceiversOfATileAreProvedApart) {
+    Scene scene = room(kPanel);
+    add_object(scene, Rectangle{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, diffuse(0.5));
+    Setting s(std::move(scene));
+    for (const Vec3& at : {Vec3{0.1, 0.1, 0.9}, {2.5, 2.5, 0.1}, {0.5, 0.5, 1.1}}) s.add(at, {0, 0, 1});
+    const auto prepared = s.direct.prepare(s.receivers, Monitor::none());
+    const auto& lamps = prepared.remainders[0].lamps;
+    EXPECT_EQ(lamps[0], 1u);
+    EXPECT_EQ(lamps[1], 0u);
+    EXPECT_EQ(lamps[2], 0u);
+    expect_agreement(s, 1000);
 }
 
 TEST(DirectLight, BodiesAndLightFromOutsideAreSampledByDirections) {

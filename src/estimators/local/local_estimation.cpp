@@ -228,12 +228,22 @@ class LocalReadings {
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
             for (std::uint64_t i = batch.first / light_paths; i < end; ++i) {
+                std::vector<math::SampleStream> streams = streams_of(tile.size(), key.derived(t), i);
                 transport::DirectLight::TileLight light{};
-                transport_.direct.add_sample(tile, remainder, key.derived(t), i, light);
+                transport_.direct.add_sample(tile, remainder, streams, light);
                 for (std::size_t j = 0; j < tile.size(); ++j)
                     sums.add(tile[j].reading(), static_cast<double>(light_paths) * light[j]);
             }
         });
+    }
+
+    /// Sample `index` of a tile's receivers.
+    static std::vector<math::SampleStream> streams_of(std::size_t receivers, math::RandomKey key,
+                                                      std::uint64_t index) {
+        std::vector<math::SampleStream> streams;
+        streams.reserve(receivers);
+        for (std::size_t j = 0; j < receivers; ++j) streams.emplace_back(key.derived(j), index);
+        return streams;
     }
 
     /// Calls visit(tile, remainder, number) for tiles of receivers whose direct light has to be sampled.
@@ -305,9 +315,10 @@ class LocalReadings {
         for (const Rgb& known : seen_.known_part) direct.push_back(known.luminance());
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             for (int i = 0; i < samples; ++i) {
+                std::vector<math::SampleStream> streams =
+                    streams_of(tile.size(), key.derived(t), static_cast<std::uint64_t>(i));
                 transport::DirectLight::TileLight light{};
-                transport_.direct.add_sample(tile, remainder, key.derived(t), static_cast<std::uint64_t>(i),
-                                             light);
+                transport_.direct.add_sample(tile, remainder, streams, light);
                 for (std::size_t j = 0; j < tile.size(); ++j)
                     direct[tile[j].reading()] += light[j].luminance() / samples;
             }
@@ -373,8 +384,7 @@ class LocalPicture {
         kGather,
         kPilot,
         kPlan,
-        kShift,
-        kDirectLight
+        kShift
     };
 
     class LocalPass final : public PicturePass {
@@ -410,6 +420,7 @@ class LocalPicture {
             std::vector<transport::Receiver> receivers;
             std::vector<double> k_per_m2;
             std::vector<std::array<double, 2>> shifts;
+            std::vector<math::SampleStream> streams;
             receivers.reserve(kPacketWidth);
             CameraPaths started = picture_.tracing_.start_paths(pixels, pass_);
             for (const auto& [pixel, luminance_cd_m2] : started.outside)
@@ -420,13 +431,14 @@ class LocalPicture {
                          picture_.add_sub_point(started.paths[i], readings[pixel], receivers));
                 k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(pixels[pixel])]);
                 shifts.resize(receivers.size(), shift_of(pixels[pixel], pass_));
+                streams.resize(receivers.size(), started.paths[i].stream);
             }
             if (receivers.empty()) return;
             // The packet's random numbers: those of its first pixel's position.
             const math::RandomKey key = pass_.key.derived(kPackets).derived(
                 static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
             transport::DirectLight::TileLight direct{};
-            picture_.transport_.direct.add_all(receivers, key.derived(kDirectLight), pass_.index, direct);
+            picture_.transport_.direct.add_all(receivers, streams, direct);
             for (std::size_t i = 0; i < receivers.size(); ++i) sums.add(receivers[i].reading(), direct[i]);
             if (picture_.guide_) {
                 receive_guided(receivers, k_per_m2, {key, pass_.index}, shifts,
