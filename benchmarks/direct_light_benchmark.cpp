@@ -31,7 +31,8 @@ Scene room_with_panel() {
     Scene scene = make_room(0);
     scene.lights.clear();
     scene.objects.push_back({"table", Box{{1.2, 1.2, 0.7}, {2.8, 2, 0.74}}, {MaterialId{0}}});
-    scene.objects.push_back({"panel", Rectangle{{1.7, 1.7, 2.98}, {0, 0.6, 0}, {0.6, 0, 0}}, {MaterialId{0}}});
+    scene.objects.push_back(
+        {"panel", Rectangle{{1.7, 1.7, 2.98}, {0, 0.6, 0}, {0.6, 0, 0}}, {MaterialId{0}}});
     scene.lights.push_back({"panel", AreaLight{ObjectId{2}, Rgb::grey(3000)}});
     return scene;
 }
@@ -172,11 +173,12 @@ void compare_counts(std::string_view method, int max_reflections) {
         measure(0, passes);
         const double pass_s = (cpu_s() - start) / passes;
         fmt::print(
-            "  {:6} {:>14} {:8} luminaires: set-up {:6.2f} s, {:8.2f} us a pixel, relative sigma {:.3f}, cost at "
+            "  {:6} {:>14} {:8} luminaires: set-up {:6.2f} s, {:8.2f} us a pixel, relative sigma {:.3f}, "
+            "cost at "
             "equal error {:7.2f}\n",
             method, max_reflections == 1 ? "direct light" : "all light", count, setup_s,
-            1e6 * pass_s / (camera().resolution[0] * camera().resolution[1]), std::sqrt(1 / (e.by_mean * pass_s)),
-            first / e.by_mean);
+            1e6 * pass_s / (camera().resolution[0] * camera().resolution[1]),
+            std::sqrt(1 / (e.by_mean * pass_s)), first / e.by_mean);
         std::fflush(stdout);
     }
 }
@@ -189,7 +191,8 @@ void time_readings() {
         const double start = cpu_s();
         const DirectLight direct(scene, caster, lights);
         std::vector<transport::Receiver> receivers;
-        const auto measurands = Sensor{"grid", Grid{{1, 1, 0.8}, {48, 0, 0}, {0, 38, 0}, {16, 16}}}.measurands();
+        const auto measurands =
+            Sensor{"grid", Grid{{1, 1, 0.8}, {48, 0, 0}, {0, 38, 0}, {16, 16}}}.measurands();
         for (std::uint32_t i = 0; i < measurands.size(); ++i)
             receivers.push_back(*transport::receiver_of_illuminance(i, measurands[i], caster));
         receivers = transport::sorted_receivers(std::move(receivers));

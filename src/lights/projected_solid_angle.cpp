@@ -69,7 +69,8 @@ struct SeenSphere {
         const Vec3 towards = sphere.center - at.position;
         const double distance = length(towards);
         sine_s = sphere.radius / distance;
-        cosine_s = std::sqrt(std::max(0.0, (distance - sphere.radius) * (distance + sphere.radius))) / distance;
+        cosine_s =
+            std::sqrt(std::max(0.0, (distance - sphere.radius) * (distance + sphere.radius))) / distance;
         cosine_t = dot(towards, at.normal) / distance;
         sine_t = length(cross(towards, at.normal)) / distance;
     }
@@ -82,12 +83,10 @@ struct SeenSphere {
         const double rim = std::acos(std::clamp(-cosine_s * cosine_t / (sine_s * sine_t), -1.0, 1.0));
         const double chord =
             std::atan2(sine_s * std::sin(rim), cosine_s * sine_t - sine_s * cosine_t * std::cos(rim));
-        return std::max(0.0, sine_s * sine_s * cosine_t * rim - sine_s * cosine_s * sine_t * std::sin(rim) +
-                                 chord);
+        return std::max(
+            0.0, sine_s * sine_s * cosine_t * rim - sine_s * cosine_s * sine_t * std::sin(rim) + chord);
     }
-    bool contains(const Vec3& local) const {
-        return local.x * sine_t + local.z * cosine_t >= cosine_s;
-    }
+    bool contains(const Vec3& local) const { return local.x * sine_t + local.z * cosine_t >= cosine_s; }
 
     /// In a frame whose x axis is the direction of the horizon below or above the sphere.
     Vec3 sample(math::SampleStream& stream) const {
@@ -99,13 +98,13 @@ struct SeenSphere {
         const double x = sine_t * cosine_s + sine_s * cosine_t * p.x, y = sine_s * p.y;
         return {x, y, std::sqrt(std::max(0.0, 1 - x * x - y * y))};
     }
-    /// By rejection from the azimuths and squared heights that hold the part above the horizon: a half or more
-    /// of all are taken.
+    /// By rejection from the azimuths and squared heights that hold the part above the horizon: a half or
+    /// more of all are taken.
     Vec3 sample_above_horizon(double u1, double u2, math::SampleStream& stream) const {
         double most_azimuth = kPi, most_height = 1;
         if (sine_t > sine_s || cosine_t < 0) {
-            most_azimuth = cosine_t > 0 ? std::asin(sine_s / sine_t)
-                                        : std::acos(std::min(1.0, cosine_s / sine_t));
+            most_azimuth =
+                cosine_t > 0 ? std::asin(sine_s / sine_t) : std::acos(std::min(1.0, cosine_s / sine_t));
             most_height = sine_s * sine_t + cosine_s * cosine_t;
         }
         for (;;) {
@@ -125,8 +124,7 @@ Vec3 on_sphere(const Sphere& sphere, const Vec3& from, const Vec3& direction) {
     const Vec3 towards = sphere.center - from;
     const double along = dot(towards, direction);
     const Vec3 nearest = from + along * direction - sphere.center;
-    const double chord =
-        std::sqrt(std::max(0.0, sphere.radius * sphere.radius - squared_length(nearest)));
+    const double chord = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - squared_length(nearest)));
     return sphere.center + sphere.radius * normalized(nearest - chord * direction);
 }
 
@@ -150,8 +148,8 @@ Rim rim_of(const Disk& disk, const Vec3& from) {
     const Vec3 axis = -disk.normal;
     const Vec3 aside = center - dot(center, axis) * axis;
     const double offset = length(aside);
-    const Vec3 u = offset > 1e-12 * length(center) ? normalized(aside - dot(aside, axis) * axis)
-                                                   : Frame::around(axis).u;
+    const Vec3 u =
+        offset > 1e-12 * length(center) ? normalized(aside - dot(aside, axis) * axis) : Frame::around(axis).u;
     return {center, u, cross(axis, u), disk.radius};
 }
 

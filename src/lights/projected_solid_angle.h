@@ -29,8 +29,8 @@ bool has_closed_form(const EmitterElement& element);
 /// element's plane and behind it, and inside of spheres. Precondition: has_closed_form().
 double projected_solid_angle_sr(const EmitterElement& element, const LitPoint& at);
 
-/// A point of the element whose direction is uniform by projected solid angle; nothing where that is 0, or too
-/// small for a direction in double precision. Precondition: has_closed_form().
+/// A point of the element whose direction is uniform by projected solid angle; nothing where that is 0, or
+/// too small for a direction in double precision. Precondition: has_closed_form().
 struct ProjectedSample {
     EmitterPoint point;
     double projected_solid_angle_sr = 0;  ///< of the whole element

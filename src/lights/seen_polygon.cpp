@@ -68,8 +68,8 @@ struct SeenPolygon::Sector {
     /// root of a linear density.
     double angle_of(double part) const {
         const double at_start = density(0, 1), at_end = density(std::sin(span), std::cos(span));
-        const double root = std::sqrt(
-            std::max(0.0, at_start * at_start + 2 * (at_end - at_start) / span * part));
+        const double root =
+            std::sqrt(std::max(0.0, at_start * at_start + 2 * (at_end - at_start) / span * part));
         double low = 0, high = span;
         double angle = std::clamp(at_start + root > 0 ? 2 * part / (at_start + root) : 0.0, low, high);
         constexpr int most_steps = 60;

@@ -25,7 +25,7 @@ class SeenPolygon {
 
   private:
     struct Edge {
-        Vec3 normal;      ///< unit, of the plane through the edge and the element; 0 for an edge without size
+        Vec3 normal;  ///< unit, of the plane through the edge and the element; 0 for an edge without size
         bool is_outer() const { return normal.z > 0; }
         bool is_inner() const { return normal.z < 0; }
     };

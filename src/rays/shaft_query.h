@@ -1,10 +1,10 @@
 // Certain visibility: whether no surface can lie between two groups of points, proved by separating planes
 // instead of sampled by rays. An answer that is not certain is "no".
 //
-// The shaft between two groups is the convex hull of both, bounded by the planes of [Haines, Wallace 1991] for
-// the groups' boxes. A triangle is outside of it where all of it is beyond one of these planes, or all of the
-// hull on one side of the triangle's own plane. Curved surfaces count as their parts' boxes. Thin surfaces
-// are never missed, because nothing is sampled.
+// The shaft between two groups is the convex hull of both, bounded by the planes of [Haines, Wallace 1991]
+// for the groups' boxes. A triangle is outside of it where all of it is beyond one of these planes, or all of
+// the hull on one side of the triangle's own plane. Curved surfaces count as their parts' boxes. Thin
+// surfaces are never missed, because nothing is sampled.
 #pragma once
 
 #include <array>

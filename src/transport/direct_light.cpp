@@ -59,8 +59,7 @@ DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, cons
 DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
                                            const Monitor& monitor) const {
     const std::size_t tiles = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
-    const bool exact_points =
-        points_.size() <= kFewPoints || points_.size() * receivers.size() <= kMostExact;
+    const bool exact_points = points_.size() <= kFewPoints || points_.size() * receivers.size() <= kMostExact;
     Prepared prepared{std::vector<Rgb>(receivers.size()), std::vector<Remainder>(tiles)};
     parallel_for(tiles, [&](std::size_t t) {
         monitor.require_more();
@@ -126,8 +125,8 @@ void DirectLight::add_seen_by_one(std::span<const Receiver> tile, Remainder& rem
             if ((remainder.lamps[i] & bit) == 0) continue;
             if (!lamps_[l].is_seen_from(std::span(&tile[i].lifted(), 1), *shafts_)) continue;
             remainder.lamps[i] &= ~bit;
-            light[i] += lamps_[l].projected_solid_angle_sr(lit_point(tile[i])) *
-                        lamps_[l].luminance_cd_m2() * *tile[i].constant_response();
+            light[i] += lamps_[l].projected_solid_angle_sr(lit_point(tile[i])) * lamps_[l].luminance_cd_m2() *
+                        *tile[i].constant_response();
         }
     }
 }
@@ -138,8 +137,7 @@ void DirectLight::add_sample(std::span<const Receiver> tile, const Remainder& re
         for (std::size_t l = 0; l < lamps_.size(); ++l) add_shadowed(tile, l, remainder, streams, light);
     }
     if (remainder.by_directions) {
-        for (std::size_t i = 0; i < tile.size(); ++i)
-            light[i] += sampled_by_directions(tile[i], streams[i]);
+        for (std::size_t i = 0; i < tile.size(); ++i) light[i] += sampled_by_directions(tile[i], streams[i]);
     }
     if (remainder.points) add_chosen_points(tile, streams[0], light);
 }

@@ -52,8 +52,8 @@ class LightSampler {
                                                  const std::array<double, 2>& u) const {
         return sample_incident(light, ReceivingPoint{from, std::nullopt}, u);
     }
-    /// Its approximate unshadowed illuminance of a surface; 0 only where that is exactly 0, or where the light
-    /// is made elsewhere.
+    /// Its approximate unshadowed illuminance of a surface; 0 only where that is exactly 0, or where the
+    /// light is made elsewhere.
     double rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const;
     /// Samples one source, chosen by its unshadowed contribution at `from` (approximately, if there are many
     /// lights); divided by the choice's probability. Allocates no memory.

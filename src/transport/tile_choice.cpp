@@ -98,10 +98,14 @@ void TileChoice::estimate(const LightTree::Node& node, Floats& lanes_lx) const {
         return;
     }
     const Vec3 c = node.center - center_;
-    const FloatBox box{static_cast<float>(c.x),         static_cast<float>(c.y),
-                       static_cast<float>(c.z),         static_cast<float>(node.half.x),
-                       static_cast<float>(node.half.y), static_cast<float>(node.half.z),
-                       static_cast<float>(node.squared_radius_m2), static_cast<float>(node.intensity_cd)};
+    const FloatBox box{static_cast<float>(c.x),
+                       static_cast<float>(c.y),
+                       static_cast<float>(c.z),
+                       static_cast<float>(node.half.x),
+                       static_cast<float>(node.half.y),
+                       static_cast<float>(node.half.z),
+                       static_cast<float>(node.squared_radius_m2),
+                       static_cast<float>(node.intensity_cd)};
     estimate_lanes(lanes_.x.data(), lanes_.y.data(), lanes_.z.data(), lanes_.normal_x.data(),
                    lanes_.normal_y.data(), lanes_.normal_z.data(), box, lanes_lx.data());
 }

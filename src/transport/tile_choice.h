@@ -14,7 +14,8 @@ namespace stilb::transport {
 /// light_tree.h: above 0 where one of them receives light. No memory is allocated. Keeps references.
 class TileChoice {
   public:
-    /// `tile`: on surfaces; up to kPacketWidth receivers. `tree`: of point lights. `center`: the ray caster's.
+    /// `tile`: on surfaces; up to kPacketWidth receivers. `tree`: of point lights. `center`: the ray
+    /// caster's.
     TileChoice(const LightTree& tree, const LightSampler& lights, std::span<const Receiver> tile,
                const Vec3& center);
 

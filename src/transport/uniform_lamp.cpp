@@ -110,7 +110,8 @@ void UniformLamp::add_to_hull(const lights::EmitterElement& element) {
 
 double UniformLamp::projected_solid_angle_sr(const lights::LitPoint& at) const {
     double sum = 0;
-    for (const lights::EmitterElement& element : elements_) sum += lights::projected_solid_angle_sr(element, at);
+    for (const lights::EmitterElement& element : elements_)
+        sum += lights::projected_solid_angle_sr(element, at);
     return sum;
 }
 

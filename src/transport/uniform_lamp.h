@@ -25,7 +25,7 @@ class UniformLamp {
 
     /// A point of the front by projected solid angle.
     struct Sample {
-        Vec3 lifted;  ///< shadow rays end here
+        Vec3 lifted;                          ///< shadow rays end here
         double projected_solid_angle_sr = 0;  ///< as above
     };
     std::optional<Sample> sample(const lights::LitPoint& at, math::SampleStream& stream) const;

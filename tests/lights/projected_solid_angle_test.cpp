@@ -87,7 +87,8 @@ TEST(ProjectedSolidAngle, AgreesWithTheExactFactors) {
         for (std::uint64_t i = 0; i < 200; ++i) {
             math::SampleStream stream(math::RandomKey{2}.derived(c), i, 0);
             const LitPoint at{3 * random_vector(stream), random_direction(stream)};
-            if (const auto* s = std::get_if<Sphere>(&cases[c].whole); s && length(at.position - s->center) <= s->radius)
+            if (const auto* s = std::get_if<Sphere>(&cases[c].whole);
+                s && length(at.position - s->center) <= s->radius)
                 continue;
             const double expected = exact_sr(cases[c].whole, at);
             EXPECT_NEAR(projected_solid_angle_sr(element, at), expected, 1e-11) << c << " " << i;
@@ -109,7 +110,8 @@ TEST(ProjectedSolidAngle, SamplesAreUniform) {
         for (std::uint64_t place = 0; place < 20; ++place) {
             math::SampleStream placing(math::RandomKey{4}.derived(c), place, 0);
             const LitPoint at{2 * random_vector(placing), random_direction(placing)};
-            if (const auto* s = std::get_if<Sphere>(&cases[c].whole); s && length(at.position - s->center) <= s->radius)
+            if (const auto* s = std::get_if<Sphere>(&cases[c].whole);
+                s && length(at.position - s->center) <= s->radius)
                 continue;
             const double whole = exact_sr(cases[c].whole, at), part = exact_sr(cases[c].part, at);
             if (!(whole > 0) || !(part > 0.001 * whole) || !(part < 0.999 * whole)) continue;
@@ -149,7 +151,8 @@ TEST(ProjectedSolidAngle, NothingArrivesInThePlaneOfAFlatEmitterAndBehindIt) {
 }
 
 TEST(ProjectedSolidAngle, ASquareOverheadFillsTheSkyAndAFarOneKeepsItsDigits) {
-    const EmitterElement wide = emitter_elements(Rectangle{{-1e6, -1e6, 1}, {0, 2e6, 0}, {2e6, 0, 0}}).front();
+    const EmitterElement wide =
+        emitter_elements(Rectangle{{-1e6, -1e6, 1}, {0, 2e6, 0}, {2e6, 0, 0}}).front();
     EXPECT_NEAR(projected_solid_angle_sr(wide, {{0, 0, 0}, {0, 0, 1}}), kPi, 1e-9);
     const EmitterElement far = emitter_elements(Rectangle{{0, 0, 1000}, {0, 0.1, 0}, {0.1, 0, 0}}).front();
     EXPECT_NEAR(projected_solid_angle_sr(far, {{0, 0, 0}, {0, 0, 1}}), 1e-8, 1e-8 * 1e-7);

@@ -49,7 +49,8 @@ TEST(ShaftQuery, TinyOccludersAreNeverMissed) {
 }
 
 TEST(ShaftQuery, SurfacesBesideBelowAndBehindDoNotCount) {
-    for (const Vec3& at : {Vec3{2.5, 0.5, 0.5}, {0.2, 0.5, 1.8}, {0.5, 1.5, 0.5}, {0.5, 0.5, -0.5}, {2.5, 0.5, 2.2}}) {
+    for (const Vec3& at :
+         {Vec3{2.5, 0.5, 0.5}, {0.2, 0.5, 1.8}, {0.5, 1.5, 0.5}, {0.5, 0.5, -0.5}, {2.5, 0.5, 2.2}}) {
         Scene scene = room();
         add_object(scene, splinter(at, 0.1), diffuse(0.5));
         EXPECT_TRUE(is_empty(scene)) << at.x << " " << at.y << " " << at.z;
@@ -84,7 +85,8 @@ TEST(ShaftQuery, RaysAgree) {
         Scene scene = room();
         for (int k = 0; k < 12; ++k) {
             const Vec3 at{5 * next() - 1, 4 * next() - 1, 2.4 * next()};
-            const Vec3 u{next() - 0.5, next() - 0.5, next() - 0.5}, v{next() - 0.5, next() - 0.5, next() - 0.5};
+            const Vec3 u{next() - 0.5, next() - 0.5, next() - 0.5},
+                v{next() - 0.5, next() - 0.5, next() - 0.5};
             add_object(scene, Rectangle{at, 0.6 * u, 0.6 * v}, diffuse(0.5));
         }
         const RayCaster caster(scene);

@@ -63,7 +63,8 @@ Estimate estimate(int count, const Sample& sample) {
 /// sample_direct_from_areas() and direct_from_points().
 void expect_agreement(const Setting& s, int count = 4000) {
     const auto prepared = s.direct.prepare(s.receivers, Monitor::none());
-    const std::span<const Receiver> tile = std::span(s.receivers).first(std::min<std::size_t>(16, s.receivers.size()));
+    const std::span<const Receiver> tile =
+        std::span(s.receivers).first(std::min<std::size_t>(16, s.receivers.size()));
     std::vector<DirectLight::TileLight> readings, pictures;
     for (int i = 0; i < count; ++i) {
         const auto index = static_cast<std::uint64_t>(i);
@@ -77,7 +78,8 @@ void expect_agreement(const Setting& s, int count = 4000) {
     }
     for (std::size_t j = 0; j < tile.size(); ++j) {
         const double known = prepared.known[j].luminance();
-        const Estimate by_reading = estimate(count, [&](auto i) { return known + readings[i][j].luminance(); });
+        const Estimate by_reading =
+            estimate(count, [&](auto i) { return known + readings[i][j].luminance(); });
         const Estimate by_picture = estimate(count, [&](auto i) { return pictures[i][j].luminance(); });
         const double points = direct_from_points(tile[j], s.caster, s.lights).luminance();
         const Estimate old = estimate(4 * count, [&](auto i) {
@@ -97,9 +99,9 @@ TEST(DirectLight, IsExactInAnEmptyRoom) {
     const auto prepared = s.direct.prepare(s.receivers, Monitor::none());
     EXPECT_TRUE(prepared.remainders[0].is_empty());
     for (std::size_t j = 0; j < s.receivers.size(); ++j) {
-        const double expected =
-            exact::illuminance_by_rectangle_lx({s.receivers[j].position(), {0, 0, 1}}, kPanel.corner,
-                                               kPanel.edge_u, kPanel.edge_v, Rgb{{1000, 800, 600}}.luminance());
+        const double expected = exact::illuminance_by_rectangle_lx(
+            {s.receivers[j].position(), {0, 0, 1}}, kPanel.corner, kPanel.edge_u, kPanel.edge_v,
+            Rgb{{1000, 800, 600}}.luminance());
         EXPECT_NEAR(prepared.known[j].luminance(), expected, 1e-9 * expected);
         DirectLight::TileLight light{};
         auto own = streams(1, 0);
