@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "lights/projected_parallelogram.h"
 #include "lights/seen_polygon.h"
 #include "math/gauss_legendre.h"
 #include "math/sampling.h"
@@ -58,6 +59,28 @@ std::optional<ProjectedSample> sample_polygon(const Polygon& polygon, const Vec3
     if (!direction) return std::nullopt;
     const Vec3 point = in_plane(at.position, frame.to_world(*direction), corner_of(polygon), normal);
     return ProjectedSample{{point, normal}, projection.projected_solid_angle_sr()};
+}
+
+std::optional<ProjectedSample> sample_flat(const std::array<Vec3, 3>& triangle, const Vec3& normal,
+                                           const LitPoint& at, math::SampleStream& stream) {
+    return sample_polygon(triangle, normal, at, stream);
+}
+
+/// Along the edges where all of it is above the horizon.
+std::optional<ProjectedSample> sample_flat(const Rectangle& r, const Vec3& normal, const LitPoint& at,
+                                           math::SampleStream& stream) {
+    const Frame frame = Frame::around(at.normal);
+    const Vec3 corner = frame.to_local(r.corner - at.position);
+    const Vec3 u = frame.to_local(r.edge_u), v = frame.to_local(r.edge_v);
+    const double lowest = corner.z + std::min(0.0, u.z) + std::min(0.0, v.z);
+    if (!(lowest > 0) || !sees_front(r.corner - at.position, normal))
+        return sample_polygon(r, normal, at, stream);
+    const ProjectedParallelogram projection(corner, u, v);
+    const auto [u1, u2] = stream.next_two();
+    if (!(projection.projected_solid_angle_sr() > 0)) return std::nullopt;
+    const auto shares = projection.sample(u1, u2);
+    return ProjectedSample{{r.corner + shares.u * r.edge_u + shares.v * r.edge_v, normal},
+                           projection.projected_solid_angle_sr()};
 }
 
 // Spheres. The cone of directions to a sphere has the half angle `s`, its axis the angle `t` to the normal.
@@ -277,7 +300,7 @@ std::optional<ProjectedSample> sample_projected(const EmitterElement& element, c
             } else if constexpr (std::is_same_v<S, Harmonics>) {
                 return std::nullopt;
             } else {
-                return sample_polygon(shape, *element.normal, at, stream);
+                return sample_flat(shape, *element.normal, at, stream);
             }
         },
         element.shape);

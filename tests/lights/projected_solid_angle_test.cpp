@@ -52,6 +52,7 @@ std::vector<Case> random_cases(math::RandomKey key) {
         const double share = 0.2 + 0.6 * stream.next();
         const Vec3 normal = random_direction(stream);
         cases.push_back({Rectangle{corner, u, v}, Rectangle{corner, share * u, v}});
+        cases.push_back({Rectangle{corner, u, v}, Rectangle{corner, u, share * v}});
         cases.push_back({triangle(corner, corner + u, corner + v),
                          triangle(corner, corner + share * u, corner + share * v)});
         cases.push_back({Disk{corner, normal, size}, Disk{corner, normal, share * size}});
@@ -71,8 +72,8 @@ bool is_in(const Shape& part, const LitPoint& at, const Vec3& point) {
         return dot(cross(b - a, point - a), normal) >= 0;
     };
     if (const auto* r = std::get_if<Rectangle>(&part)) {
-        const Vec3 normal = cross(r->edge_u, r->edge_v), end = r->corner + r->edge_u;
-        return side(end, end + r->edge_v, normal);
+        const Vec3 normal = cross(r->edge_u, r->edge_v), end = r->corner + r->edge_u + r->edge_v;
+        return side(end - r->edge_v, end, normal) && side(end, end - r->edge_u, normal);
     }
     const auto& v = std::get<Mesh>(part).vertices;
     return side(v[1], v[2], cross(v[1] - v[0], v[2] - v[0]));
