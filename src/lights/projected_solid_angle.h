@@ -4,10 +4,9 @@
 // the same light.
 //
 // A polygon's is Lambert's formula after clipping at the horizon [Lambert 1760]; it is sampled in sectors
-// about the normal after [Peters 2021, BRDF importance sampling for polygonal lights], a rectangle wholly above
-// the horizon along its edges. A sphere's cone is an
-// ellipse in the projection, cut off by the horizon. A disk's is the contour integral along its rim, and it
-// is sampled through its square.
+// about the normal after [Peters 2021, BRDF importance sampling for polygonal lights], a rectangle wholly
+// above the horizon along its edges. A sphere's cone is an ellipse in the projection, cut off by the
+// horizon. A disk's is the contour integral along its rim, and it is sampled through its square.
 #pragma once
 
 #include <optional>
