@@ -228,7 +228,7 @@ class LocalReadings {
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
             for (std::uint64_t i = batch.first / light_paths; i < end; ++i) {
-                std::vector<math::SampleStream> streams = streams_of(tile.size(), key.derived(t), i);
+                std::vector<math::SampleStream> streams = streams_of(key, t, tile.size(), i);
                 transport::DirectLight::TileLight light{};
                 transport_.direct.add_sample(tile, remainder, streams, light);
                 for (std::size_t j = 0; j < tile.size(); ++j)
@@ -238,11 +238,12 @@ class LocalReadings {
     }
 
     /// Sample `index` of a tile's receivers.
-    static std::vector<math::SampleStream> streams_of(std::size_t receivers, math::RandomKey key,
-                                                      std::uint64_t index) {
+    static std::vector<math::SampleStream> streams_of(math::RandomKey key, std::size_t tile,
+                                                      std::size_t receivers, std::uint64_t index) {
         std::vector<math::SampleStream> streams;
         streams.reserve(receivers);
-        for (std::size_t j = 0; j < receivers; ++j) streams.emplace_back(key.derived(j), index);
+        for (std::size_t j = 0; j < receivers; ++j)
+            streams.emplace_back(key.derived(tile * kPacketWidth + j), index);
         return streams;
     }
 
@@ -316,7 +317,7 @@ class LocalReadings {
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             for (int i = 0; i < samples; ++i) {
                 std::vector<math::SampleStream> streams =
-                    streams_of(tile.size(), key.derived(t), static_cast<std::uint64_t>(i));
+                    streams_of(key, t, tile.size(), static_cast<std::uint64_t>(i));
                 transport::DirectLight::TileLight light{};
                 transport_.direct.add_sample(tile, remainder, streams, light);
                 for (std::size_t j = 0; j < tile.size(); ++j)
