@@ -52,6 +52,9 @@ class LightSampler {
                                                  const std::array<double, 2>& u) const {
         return sample_incident(light, ReceivingPoint{from, std::nullopt}, u);
     }
+    /// Its approximate unshadowed illuminance of a surface; 0 only where that is exactly 0, or where the
+    /// light is made elsewhere.
+    double rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const;
     /// Samples one source, chosen by its unshadowed contribution at `from` (approximately, if there are many
     /// lights); divided by the choice's probability. Allocates no memory.
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
@@ -62,6 +65,8 @@ class LightSampler {
     /// expected numbers.
     template <typename Visit>
     void sample_extended(const ReceivingPoint& at, math::SampleStream& stream, const Visit& visit) const;
+    /// Whether that chooses some, not all of them.
+    bool chooses_extended() const { return !extended_.is_empty(); }
     /// The approximate density of the direction to `hit` over all samples of sample_extended(); likewise for
     /// a ray that leaves the scene.
     double extended_pdf_per_sr(const rays::Hit& hit, const ReceivingPoint& at) const;
@@ -91,7 +96,6 @@ class LightSampler {
     bool is_made_elsewhere(std::size_t light) const {
         return !made_elsewhere_.empty() && made_elsewhere_[light];
     }
-    double rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const;
     /// The probability that sample_one_light() chooses a light there, times `pdf`.
     double times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const;
     /// More than kFew lights are chosen by the tree, and the light from infinity separately.
@@ -99,7 +103,7 @@ class LightSampler {
     /// The leaves of a tree of all lights at finite distance that meet the condition.
     template <typename Condition>
     LightTree planted_tree(const Scene& scene, const Condition& condition) const;
-    bool chooses_extended(const ReceivingPoint& at) const { return !extended_.is_empty() && at.normal; }
+    bool chooses_extended(const ReceivingPoint& at) const { return chooses_extended() && at.normal; }
     auto rough_at(const ReceivingPoint& at) const {
         return
             [this, &at](std::uint32_t light) { return rough_illuminance_lx(light, at.position, *at.normal); };

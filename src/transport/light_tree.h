@@ -28,35 +28,6 @@ class LightTree {
         bool is_point = false;
     };
 
-    LightTree() = default;
-    explicit LightTree(std::vector<Light> lights);
-    bool is_empty() const { return nodes_.empty(); }
-
-    /// The opened boxes at a point, with running sums of their estimates [lx].
-    class Cut {
-      public:
-        double total_lx() const { return count_ == 0 ? 0 : sums_lx_[count_ - 1]; }
-
-      private:
-        friend class LightTree;
-        static constexpr std::size_t kMostOpen = 32;
-        std::array<std::uint32_t, kMostOpen> nodes_;
-        std::array<double, kMostOpen> sums_lx_;
-        std::size_t count_ = 0;
-    };
-    template <typename Rough>
-    Cut cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const;
-
-    /// A light's number with its probability; the cut of the same point must not be empty.
-    template <typename Rough>
-    math::DiscreteChoice choose(const Cut& cut, const Vec3& from, const Vec3& normal, double u,
-                                const Rough& rough_lx) const;
-    /// The probability that choose() selects a light of the tree.
-    template <typename Rough>
-    double probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
-                       const Rough& rough_lx) const;
-
-  private:
     struct Node {
         Vec3 center;
         Vec3 half;  ///< of the box's edges
@@ -67,22 +38,72 @@ class LightTree {
         bool is_light = false, is_point = false;
     };
 
+    LightTree() = default;
+    explicit LightTree(std::vector<Light> lights);
+    bool is_empty() const { return nodes_.empty(); }
+
+    /// The opened boxes at a point, with running sums of their estimates [lx].
+    class Cut {
+      public:
+        double total_lx() const { return count_ == 0 ? 0 : sums_lx_[count_ - 1]; }
+
+        std::size_t count() const { return count_; }
+        /// Replaces the estimates, in the order in which the view was asked for them.
+        void set_estimates_lx(std::span<const double> estimates_lx) {
+            double total_lx = 0;
+            for (std::size_t i = 0; i < count_; ++i) sums_lx_[i] = total_lx += estimates_lx[i];
+        }
+
+        static constexpr std::size_t kMostOpen = 32;
+
+      private:
+        friend class LightTree;
+        std::array<std::uint32_t, kMostOpen> nodes_;
+        std::array<double, kMostOpen> sums_lx_;
+        std::size_t count_ = 0;
+    };
+    template <typename Rough>
+    Cut cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
+        return cut(PointView<Rough>{from, normal, rough_lx});
+    }
+    /// The same for other receivers than a point: `view` has nearness(node) and estimate_lx(node).
+    template <typename View>
+    Cut cut(const View& view) const;
+
+    /// A light's number with its probability; the cut of the same point must not be empty.
+    template <typename Rough>
+    math::DiscreteChoice choose(const Cut& cut, const Vec3& from, const Vec3& normal, double u,
+                                const Rough& rough_lx) const {
+        return choose(cut, PointView<Rough>{from, normal, rough_lx}, u);
+    }
+    template <typename View>
+    math::DiscreteChoice choose(const Cut& cut, const View& view, double u) const;
+    /// The probability that choose() selects a light of the tree.
+    template <typename Rough>
+    double probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
+                       const Rough& rough_lx) const;
+
+  private:
     void divide(std::uint32_t node, std::span<Light> lights);
-    /// The squared ratio of its radius and its distance; boxes below kNear stay closed.
+    /// The squared ratio of a box's radius and its distance; boxes below kNear stay closed.
     static double nearness_of(const Node& node, const Vec3& from);
     static constexpr double kNear = 1. / 9;
-    double box_lx(const Node& node, const Vec3& from, const Vec3& normal) const;
+    static double box_lx(const Node& node, const Vec3& from, const Vec3& normal);
     template <typename Rough>
-    double node_lx(std::uint32_t node, const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
-        return nodes_[node].is_point ? rough_lx(nodes_[node].first) : box_lx(nodes_[node], from, normal);
-    }
+    struct PointView {
+        const Vec3 &from, &normal;
+        const Rough& rough_lx;
+        double nearness(const Node& node) const { return nearness_of(node, from); }
+        double estimate_lx(const Node& node) const {
+            return node.is_point ? rough_lx(node.first) : box_lx(node, from, normal);
+        }
+    };
     /// The probability of the first child. A box may have a corner above the horizon where neither child has
     /// one.
-    template <typename Rough>
-    double first_probability(const Node& parent, const Vec3& from, const Vec3& normal,
-                             const Rough& rough_lx) const {
-        const double first = node_lx(parent.first, from, normal, rough_lx);
-        const double second = node_lx(parent.first + 1, from, normal, rough_lx);
+    template <typename View>
+    double first_probability(const Node& parent, const View& view) const {
+        const double first = view.estimate_lx(nodes_[parent.first]);
+        const double second = view.estimate_lx(nodes_[parent.first + 1]);
         return first + second > 0 ? first / (first + second) : 0.5;
     }
 
@@ -90,8 +111,8 @@ class LightTree {
     std::vector<std::uint32_t> node_of_;  ///< of lights, by number
 };
 
-template <typename Rough>
-LightTree::Cut LightTree::cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
+template <typename View>
+LightTree::Cut LightTree::cut(const View& view) const {
     Cut cut;
     if (nodes_.empty()) return cut;
     /// Boxes to be opened, as a heap: the nearest relative to its size first.
@@ -103,7 +124,7 @@ LightTree::Cut LightTree::cut(const Vec3& from, const Vec3& normal, const Rough&
     std::array<Waiting, Cut::kMostOpen> waiting;
     auto end = waiting.begin();
     const auto add = [&](std::uint32_t node) {
-        const double nearness = nodes_[node].is_light ? 0 : nearness_of(nodes_[node], from);
+        const double nearness = nodes_[node].is_light ? 0 : view.nearness(nodes_[node]);
         if (nearness < kNear) {
             cut.nodes_[cut.count_++] = node;
         } else {
@@ -125,18 +146,17 @@ LightTree::Cut LightTree::cut(const Vec3& from, const Vec3& normal, const Rough&
     }
     double total_lx = 0;
     for (std::size_t i = 0; i < cut.count_; ++i) {
-        cut.sums_lx_[i] = total_lx += node_lx(cut.nodes_[i], from, normal, rough_lx);
+        cut.sums_lx_[i] = total_lx += view.estimate_lx(nodes_[cut.nodes_[i]]);
     }
     return cut;
 }
 
-template <typename Rough>
-math::DiscreteChoice LightTree::choose(const Cut& cut, const Vec3& from, const Vec3& normal, double u,
-                                       const Rough& rough_lx) const {
+template <typename View>
+math::DiscreteChoice LightTree::choose(const Cut& cut, const View& view, double u) const {
     math::DiscreteChoice choice = math::choose_by_sums({cut.sums_lx_.data(), cut.count_}, u);
     std::uint32_t at = cut.nodes_[choice.index];
     while (!nodes_[at].is_light) {
-        const double first = first_probability(nodes_[at], from, normal, rough_lx);
+        const double first = first_probability(nodes_[at], view);
         const bool is_first = choice.remainder < first;
         const double share = is_first ? first : 1 - first;
         choice.remainder = std::clamp((is_first ? choice.remainder : choice.remainder - first) / share, 0.0,
@@ -151,6 +171,7 @@ math::DiscreteChoice LightTree::choose(const Cut& cut, const Vec3& from, const V
 template <typename Rough>
 double LightTree::probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
                               const Rough& rough_lx) const {
+    const PointView<Rough> view{from, normal, rough_lx};
     double below = 1;
     const auto end = cut.nodes_.begin() + static_cast<std::ptrdiff_t>(cut.count_);
     for (std::uint32_t at = node_of_[number];; at = nodes_[at].parent) {
@@ -161,7 +182,7 @@ double LightTree::probability(const Cut& cut, std::uint32_t number, const Vec3& 
             return below * own_lx / cut.total_lx();
         }
         const Node& parent = nodes_[nodes_[at].parent];
-        const double first = first_probability(parent, from, normal, rough_lx);
+        const double first = first_probability(parent, view);
         below *= at == parent.first ? first : 1 - first;
     }
 }

@@ -143,10 +143,12 @@ std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
     return sorted;
 }
 
-namespace {
+ReceivingPoint receiving_point(const Receiver& receiver) {
+    ReceivingPoint point{receiver.position(), std::nullopt};
+    if (squared_length(receiver.normal()) > 0) point.normal = receiver.normal();
+    return point;
+}
 
-/// The sample without the response. Direction and distance are those of the point itself; only the shadow ray
-/// starts lifted.
 Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster) {
     const double sensitivity = receiver.sensitivity(light.direction);
     if (sensitivity <= 0) return {};
@@ -154,12 +156,7 @@ Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const r
            caster.transmittance({receiver.lifted(), light.source_point});
 }
 
-/// A point without a normal receives light from all directions.
-ReceivingPoint receiving_point(const Receiver& receiver) {
-    ReceivingPoint point{receiver.position(), std::nullopt};
-    if (squared_length(receiver.normal()) > 0) point.normal = receiver.normal();
-    return point;
-}
+namespace {
 
 /// The emitters' light along a ray in proportion to the response; combined with samples of each light.
 Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,

@@ -106,6 +106,13 @@ std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers);
 // Direct light at receivers, through panes too, integrated separately
 // [LocalEstimation 3].
 
+/// The receiver's place for lights: one without a normal receives light from all directions.
+ReceivingPoint receiving_point(const Receiver& receiver);
+
+/// A light's sample at a receiver, with its sensitivity and shadows, without its response. Direction and
+/// distance are those of the point itself; only the shadow ray starts lifted.
+Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster);
+
 /// The light from all point lights at a receiver: exact, one shadow ray each.
 Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights);
 

@@ -36,7 +36,7 @@
 #include "estimators/local/gather.h"
 #include "estimators/local/guided_light.h"
 #include "estimators/local/split_plan.h"
-#include "transport/receiver.h"
+#include "transport/direct_light.h"
 
 namespace stilb::estimators {
 namespace {
@@ -57,6 +57,7 @@ struct LocalTransport {
           gathers(split == Split::balanced || has_specular_surfaces(scene)),
           lights(scene, caster),
           tracer(scene, caster, lights),
+          direct(scene, caster, lights),
           monitor(problem.monitor) {}
     LocalTransport(const LocalTransport&) = delete;
     LocalTransport& operator=(const LocalTransport&) = delete;
@@ -73,6 +74,7 @@ struct LocalTransport {
     bool gathers;
     transport::LightSampler lights;
     transport::PathTracer tracer;
+    transport::DirectLight direct;
     const Monitor& monitor;
 };
 
@@ -123,7 +125,7 @@ class LocalReadings {
     void run_batch(const Batch& batch, ReadingSums& sums) const {
         if (guided_) {
             guided_->collect(batch, sums);
-            if (transport_.lights.has_visible_lights()) add_direct_light(batch, sums);
+            add_direct_light(batch, sums);
             add_faint_branches(batch, sums);
             return;
         }
@@ -132,7 +134,7 @@ class LocalReadings {
         for (std::uint64_t first = batch.first; first < end; first += block) {
             connections_.collect(connected_vertices(batch.key, first, std::min(end, first + block)), sums);
         }
-        if (transport_.lights.has_visible_lights()) add_direct_light(batch, sums);
+        add_direct_light(batch, sums);
         if (transport_.gathers) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
         add_faint_branches(batch, sums);
     }
@@ -183,6 +185,7 @@ class LocalReadings {
         std::vector<Faint> faint;
         std::vector<Rgb> known_part;
         std::vector<std::optional<Vec3>> ends;  ///< of lines of sight
+        transport::DirectLight::Prepared direct;
     };
     Reception receive(std::span<const Measurand> measurands) const {
         Reception seen;
@@ -213,10 +216,9 @@ class LocalReadings {
             }
         }
         seen.receivers = sorted_receivers(std::move(seen.receivers));
-        for (const transport::Receiver& receiver : seen.receivers) {
-            seen.known_part[receiver.reading()] +=
-                direct_from_points(receiver, transport_.caster, transport_.lights);
-        }
+        seen.direct = transport_.direct.prepare(seen.receivers, transport_.monitor);
+        for (std::size_t j = 0; j < seen.receivers.size(); ++j)
+            seen.known_part[seen.receivers[j].reading()] += seen.direct.known[j];
         return seen;
     }
 
@@ -224,16 +226,37 @@ class LocalReadings {
         const math::RandomKey key = batch.key.derived(kDirect);
         const std::uint64_t light_paths = guided_ ? 1 : kPathsPerDirectSample * paths_per_selected_;
         const std::uint64_t end = (batch.first + batch.count) / light_paths;
-        for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
+        for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
-            const transport::Receiver& receiver = seen_.receivers[j];
-            const math::RandomKey own_key = key.derived(j);
             for (std::uint64_t i = batch.first / light_paths; i < end; ++i) {
-                math::SampleStream stream(own_key, i);
-                const Rgb sample =
-                    sample_direct_from_areas(receiver, transport_.caster, transport_.lights, stream);
-                sums.add(receiver.reading(), static_cast<double>(light_paths) * sample);
+                std::vector<math::SampleStream> streams = streams_of(key, t, tile.size(), i);
+                transport::DirectLight::TileLight light{};
+                transport_.direct.add_sample(tile, remainder, streams, light);
+                for (std::size_t j = 0; j < tile.size(); ++j)
+                    sums.add(tile[j].reading(), static_cast<double>(light_paths) * light[j]);
             }
+        });
+    }
+
+    /// Sample `index` of a tile's receivers.
+    static std::vector<math::SampleStream> streams_of(math::RandomKey key, std::size_t tile,
+                                                      std::size_t receivers, std::uint64_t index) {
+        std::vector<math::SampleStream> streams;
+        streams.reserve(receivers);
+        for (std::size_t j = 0; j < receivers; ++j)
+            streams.emplace_back(key.derived(tile * kPacketWidth + j), index);
+        return streams;
+    }
+
+    /// Calls visit(tile, remainder, number) for tiles of receivers whose direct light has to be sampled.
+    template <typename Visit>
+    void for_each_open_tile(const Visit& visit) const {
+        const std::span<const transport::Receiver> receivers = seen_.receivers;
+        for (std::size_t t = 0; t < seen_.direct.remainders.size(); ++t) {
+            const std::size_t first = t * kPacketWidth;
+            if (seen_.direct.remainders[t].is_empty()) continue;
+            visit(receivers.subspan(first, std::min<std::size_t>(kPacketWidth, receivers.size() - first)),
+                  seen_.direct.remainders[t], t);
         }
     }
 
@@ -292,16 +315,16 @@ class LocalReadings {
             static_cast<int>(std::clamp<std::size_t>(in_all / (seen_.receivers.size() + 1), 4, 64));
         std::vector<double> direct;
         for (const Rgb& known : seen_.known_part) direct.push_back(known.luminance());
-        for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
-            const transport::Receiver& receiver = seen_.receivers[j];
+        for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             for (int i = 0; i < samples; ++i) {
-                math::SampleStream stream(key.derived(j), static_cast<std::uint64_t>(i));
-                direct[receiver.reading()] +=
-                    sample_direct_from_areas(receiver, transport_.caster, transport_.lights, stream)
-                        .luminance() /
-                    samples;
+                std::vector<math::SampleStream> streams =
+                    streams_of(key, t, tile.size(), static_cast<std::uint64_t>(i));
+                transport::DirectLight::TileLight light{};
+                transport_.direct.add_sample(tile, remainder, streams, light);
+                for (std::size_t j = 0; j < tile.size(); ++j)
+                    direct[tile[j].reading()] += light[j].luminance() / samples;
             }
-        }
+        });
         return direct;
     }
 
@@ -399,6 +422,7 @@ class LocalPicture {
             std::vector<transport::Receiver> receivers;
             std::vector<double> k_per_m2;
             std::vector<std::array<double, 2>> shifts;
+            std::vector<math::SampleStream> streams;
             receivers.reserve(kPacketWidth);
             CameraPaths started = picture_.tracing_.start_paths(pixels, pass_);
             for (const auto& [pixel, luminance_cd_m2] : started.outside)
@@ -409,11 +433,15 @@ class LocalPicture {
                          picture_.add_sub_point(started.paths[i], readings[pixel], receivers));
                 k_per_m2.resize(receivers.size(), picture_.k_per_m2_[picture_.cell_of(pixels[pixel])]);
                 shifts.resize(receivers.size(), shift_of(pixels[pixel], pass_));
+                streams.resize(receivers.size(), started.paths[i].stream);
             }
             if (receivers.empty()) return;
             // The packet's random numbers: those of its first pixel's position.
             const math::RandomKey key = pass_.key.derived(kPackets).derived(
                 static_cast<std::uint64_t>(packet.left) << 32 | static_cast<std::uint64_t>(packet.top));
+            transport::DirectLight::TileLight direct{};
+            picture_.transport_.direct.add_all(receivers, streams, direct);
+            for (std::size_t i = 0; i < receivers.size(); ++i) sums.add(receivers[i].reading(), direct[i]);
             if (picture_.guide_) {
                 receive_guided(receivers, {key, pass_.index}, shifts,
                                picture_.cell_of(pixels[started.pixels[0]]), sums);
@@ -495,8 +523,7 @@ class LocalPicture {
         return static_cast<std::size_t>(cell);
     }
 
-    /// Appends the sub-point of a camera path; returns the emission seen and the
-    /// direct light at the sub-point.
+    /// Appends the sub-point of a camera path; returns the emission seen.
     Rgb add_sub_point(transport::Path& path, std::uint32_t reading,
                       std::vector<transport::Receiver>& receivers) const {
         const bool meets_surface = transport_.tracer.follow_to_scattering(path);
@@ -506,9 +533,7 @@ class LocalPicture {
                                transport::SubPoint{path.hit, path.outgoing, path.throughput,
                                                    tracing_.max_reflections - path.reflections_left},
                                tracing_.scene.material(path.hit.material));
-        const transport::Receiver& receiver = receivers.back();
-        return emission + direct_from_points(receiver, tracing_.caster, transport_.lights) +
-               sample_direct_from_areas(receiver, tracing_.caster, transport_.lights, path.stream);
+        return emission;
     }
 
     /// Adds a sample of a packet's indirect light.

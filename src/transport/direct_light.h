@@ -1,0 +1,96 @@
+// Direct light at tiles of receivers, with as little noise as there is [LocalEstimation 3].
+//
+// For a receiver on a surface whose response does not depend on direction, a lamp of uniform luminance gives
+//
+//     response x luminance x projected solid angle x visible fraction.
+//
+// The projected solid angle has a closed form (lights/projected_solid_angle.h). The fraction is 1 for
+// certain where no surface lies in the shaft between tile and lamp (rays/shaft_query.h): then no ray is
+// traced. Elsewhere one shadow ray goes to a point that is drawn by projected solid angle, so that it is 0 or
+// 1 but for panes: there is no noise where all of the lamp is seen, or nothing of it. The shadow rays of a
+// tile form packets.
+//
+// Point lights are exact, one packet of shadow rays each. Where there are many of them, pictures choose
+// kChosen by a tree for the whole tile, with exact probabilities. All other lights, and receivers whose
+// response depends on direction, are sampled as in sample_direct_from_areas() (receiver.h).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/monitor.h"
+#include "rays/shaft_query.h"
+#include "transport/receiver.h"
+#include "transport/uniform_lamp.h"
+
+namespace stilb::transport {
+
+/// Immutable. Keeps references to its arguments.
+class DirectLight {
+  public:
+    DirectLight(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights);
+
+    /// Light of each of up to kPacketWidth receivers.
+    using TileLight = std::array<Rgb, kPacketWidth>;
+
+    /// The parts of a tile's light that have to be sampled.
+    struct Remainder {
+        /// For each receiver, one bit for each lamp that may be partly hidden.
+        std::array<std::uint32_t, kPacketWidth> lamps{};
+        bool by_directions = false;  ///< lights without closed form, or receivers with gloss
+        bool points = false;         ///< point lights that are chosen by the tree
+        bool has_lamps() const {
+            return std::ranges::any_of(lamps, [](std::uint32_t bits) { return bits != 0; });
+        }
+        bool is_empty() const { return !has_lamps() && !by_directions && !points; }
+    };
+    struct Prepared {
+        std::vector<Rgb> known;             ///< of each receiver, exact
+        std::vector<Remainder> remainders;  ///< of each tile: kPacketWidth receivers in their order
+    };
+    /// For receivers that stay. May use several threads.
+    Prepared prepare(std::span<const Receiver> receivers, const Monitor& monitor) const;
+    /// Adds a sample of the remainder. `streams`: of each receiver.
+    void add_sample(std::span<const Receiver> tile, const Remainder& remainder,
+                    std::span<math::SampleStream> streams, TileLight& light) const;
+
+    /// Adds all direct light of a tile of receivers that were drawn for this sample.
+    void add_all(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
+                 TileLight& light) const;
+
+    /// The largest number of point lights that pictures take one by one.
+    static constexpr std::size_t kFewPoints = 16;
+    /// Point lights chosen for a tile where there are more.
+    static constexpr std::size_t kChosen = 16;
+
+  private:
+    /// Point lights times receivers up to which readings take all of them once: seconds.
+    static constexpr std::size_t kMostExact = 100'000'000;
+
+    bool has_closed_form(const Receiver& receiver) const {
+        return receiver.constant_response() && !receiver.is_body();
+    }
+    Remainder add_known(std::span<const Receiver> tile, TileLight& light) const;
+    void add_seen_by_one(std::span<const Receiver> tile, Remainder& remainder, TileLight& light) const;
+    void add_points(std::span<const Receiver> tile, TileLight& light) const;
+    void add_point(std::span<const Receiver> tile, std::size_t point, double factor, TileLight& light) const;
+    void add_chosen_points(std::span<const Receiver> tile, math::SampleStream& stream,
+                           TileLight& light) const;
+    void add_shadowed(std::span<const Receiver> tile, std::size_t lamp, const Remainder& remainder,
+                      std::span<math::SampleStream> streams, TileLight& light) const;
+    Rgb sampled_by_directions(const Receiver& receiver, math::SampleStream& stream) const;
+
+    const rays::RayCaster& caster_;
+    const LightSampler& lights_;
+    std::vector<UniformLamp> lamps_;
+    std::vector<std::size_t> points_, others_;  ///< lights without closed form
+    LightTree tree_of_points_;
+    std::optional<rays::ShaftQuery> shafts_;
+    bool chooses_lamps_ = false;  ///< extended lights are so many that some are chosen
+};
+
+}  // namespace stilb::transport
