@@ -34,8 +34,8 @@ std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pix
                                      pixel.y + 0.5 + radius * std::sin(angle));
 }
 
-/// Of a pixel's sample: for the position in the pixel and the first light and direction.
-constexpr unsigned kPacketSobolDimensions = 8;
+/// Of a pixel's sample: for the position in the pixel, and the light and direction at two vertices.
+constexpr unsigned kPacketSobolDimensions = 12;
 
 /// The rays of up to sixteen pixels, the first of which has the number `first`. Sets the lanes that have one.
 void start_packet(const PictureTracing& tracing, std::span<const Pixel> pixels, std::size_t first,

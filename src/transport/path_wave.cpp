@@ -1,5 +1,6 @@
 #include "transport/path_wave.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace stilb::transport {
@@ -16,6 +17,12 @@ void set_rgb(Bands& bands, std::size_t lane, const Rgb& rgb) {
 bool any(const LaneMask& lanes) {
     std::int32_t set = 0;
     for (const std::int32_t lane : lanes) set |= lane;
+    return set != 0;
+}
+
+bool all(const LaneMask& lanes) {
+    std::int32_t set = -1;
+    for (const std::int32_t lane : lanes) set &= lane;
     return set != 0;
 }
 
@@ -227,16 +234,15 @@ void PathWave::make_general(PathPacket& paths, std::size_t lane, const Path& pat
 
 void PathWave::remove_ended(std::span<const LaneMask> going) {
     const auto goes_on = [&](std::size_t n) { return going[n / kPacketWidth][n % kPacketWidth] != 0; };
-    std::size_t n = 0;
-    while (n < count_) {
-        if (goes_on(n)) {
-            ++n;
-            continue;
+    for (std::size_t first = 0; first < count_; first += kPacketWidth) {
+        if (all(going[first / kPacketWidth])) continue;
+        for (std::size_t n = first; n < std::min(first + kPacketWidth, count_); ++n) {
+            if (goes_on(n)) continue;
+            do --count_;
+            while (count_ > n && !goes_on(count_));
+            if (count_ > n)
+                packet_of(n).copy_lane(n % kPacketWidth, packet_of(count_), count_ % kPacketWidth);
         }
-        while (count_ > n + 1 && !goes_on(count_ - 1)) --count_;
-        --count_;
-        if (n < count_) packet_of(n).copy_lane(n % kPacketWidth, packet_of(count_), count_ % kPacketWidth);
-        ++n;
     }
 }
 
