@@ -27,7 +27,6 @@ STILB_VECTORIZED void random_blocks(const Words& __restrict key_low, const Words
     for (int i = 0; i < kPacketWidth; ++i) {
         std::uint32_t c0 = index_low[i], c1 = index_high[i], c2 = block_low[i], c3 = block_high;
         std::uint32_t k0 = key_low[i], k1 = key_high[i];
-#pragma GCC unroll 10
         for (int round = 0; round < 10; ++round) {
             constexpr std::uint32_t m0 = 0xD2511F53u, m1 = 0xCD9E8D57u;
             const std::uint32_t high0 = high_product(c0, m0), high1 = high_product(c2, m1);
