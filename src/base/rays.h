@@ -15,6 +15,8 @@
 #else
 #define STILB_VECTORIZED
 #endif
+// For what is called in the loops of such functions: a call that is not inlined would keep them scalar.
+#define STILB_INLINED [[gnu::always_inline]] inline
 
 namespace stilb {
 
@@ -28,6 +30,9 @@ struct alignas(64) LaneMask : std::array<std::int32_t, kPacketWidth> {};
 inline float packet_direction(double component) {
     return std::abs(component) < 1e-11 ? 0 : static_cast<float>(component);
 }
+
+/// The same of components that are computed in single precision.
+STILB_INLINED float lane_direction(float component) { return std::abs(component) < 1e-11f ? 0 : component; }
 
 /// Sixteen rays as a structure of arrays, in the memory layout of Embree's RTCRay16: lengths count in units
 /// of `direction`. Coordinates are relative to RayCaster::center().

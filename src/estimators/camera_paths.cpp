@@ -2,24 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace stilb::estimators {
 namespace {
 
+/// The identifier of a pixel for its key.
+std::uint32_t number_of(const Pixel& pixel, int width) {
+    return static_cast<std::uint32_t>(pixel.y) * static_cast<std::uint32_t>(width) +
+           static_cast<std::uint32_t>(pixel.x);
+}
+
 /// The random numbers of a pixel's sample: Sobol' points for the position in the pixel and for the first
 /// light and direction.
 math::SampleStream stream_of(const Pixel& pixel, int width, const Pass& pass) {
     constexpr unsigned sobol_dimensions = 8;
-    const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(width) +
-                        static_cast<std::uint64_t>(pixel.x);
-    return {pass.key.derived(kPixels).derived(number), pass.index, sobol_dimensions};
+    return {pass.key.derived(kPixels).derived(number_of(pixel, width)), pass.index, sobol_dimensions};
 }
 
 /// The unit direction of a pixel's sample; nothing outside of the camera's field.
-std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pixel,
-                                 math::SampleStream& stream) {
-    const auto [u1, u2] = stream.next_two();
+std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pixel, double u1, double u2) {
     if (tracing.camera.filter == PixelFilter::box) {
         return tracing.view.direction_at(pixel.x + u1, pixel.y + u2);
     }
@@ -29,6 +32,33 @@ std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pix
     const double angle = 2 * std::numbers::pi * u2;
     return tracing.view.direction_at(pixel.x + 0.5 + radius * std::cos(angle),
                                      pixel.y + 0.5 + radius * std::sin(angle));
+}
+
+/// Of a pixel's sample: for the position in the pixel, and the light and direction at two vertices.
+constexpr unsigned kPacketSobolDimensions = 12;
+
+/// The rays of up to sixteen pixels, the first of which has the number `first`. Sets the lanes that have one.
+void start_packet(const PictureTracing& tracing, std::span<const Pixel> pixels, std::size_t first,
+                  const Pass& pass, transport::PathPacket& packet, LaneMask& lanes) {
+    math::StreamPacket::Words numbers{};
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        numbers[i] = number_of(pixels[i], tracing.camera.resolution[0]);
+    set_derived_keys(pass.key.derived(kPixels), numbers, packet.streams);
+    packet.streams.index_low.fill(static_cast<std::uint32_t>(pass.index));
+    packet.streams.index_high.fill(static_cast<std::uint32_t>(pass.index >> 32));
+    const math::NumberPacket in_pixel = next_four(packet.streams, kPacketSobolDimensions);
+    const Vec3 position = tracing.view.position() - tracing.caster.center();
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const auto direction = sample_pixel(tracing, pixels[i], math::unit_interval(in_pixel.words[0][i]),
+                                            math::unit_interval(in_pixel.words[1][i]));
+        if (!direction) continue;
+        lanes[i] = -1;
+        packet.number[i] = static_cast<std::uint32_t>(first + i);
+        packet.set_ray(i, position, *direction);
+    }
+    packet.reflections_left.fill(static_cast<std::uint32_t>(tracing.max_reflections));
+    packet.previous_pdf_per_sr.fill(std::numeric_limits<float>::infinity());
+    for (auto& band : packet.throughput) band.fill(1);
 }
 
 }  // namespace
@@ -48,7 +78,8 @@ CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pas
     std::vector<std::size_t> pixel_of_ray;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         math::SampleStream stream = stream_of(pixels[i], camera.resolution[0], pass);
-        const auto direction = sample_pixel(*this, pixels[i], stream);
+        const auto [u1, u2] = stream.next_two();
+        const auto direction = sample_pixel(*this, pixels[i], u1, u2);
         if (!direction) continue;
         rays.push_back({view.position(), *direction});
         streams.push_back(stream);
@@ -69,6 +100,28 @@ CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pas
         started.pixels.push_back(pixel_of_ray[i]);
     }
     return started;
+}
+
+std::uint64_t PictureTracing::trace(std::span<const Pixel> pixels, const Pass& pass,
+                                    const transport::PathTracer& path_tracer,
+                                    std::span<Rgb> luminances_cd_m2) const {
+    const std::size_t count = (pixels.size() + kPacketWidth - 1) / kPacketWidth;
+    std::vector<transport::PathPacket> packets(count);
+    std::vector<LaneMask> lanes(count);
+    for (std::size_t p = 0; p < count; ++p) {
+        const std::size_t first = p * kPacketWidth;
+        const auto part = pixels.subspan(first, std::min<std::size_t>(kPacketWidth, pixels.size() - first));
+        start_packet(*this, part, first, pass, packets[p], lanes[p]);
+    }
+    std::ranges::fill(luminances_cd_m2, Rgb{});
+    path_tracer.trace(packets, lanes, kPacketSobolDimensions, rays::Coherence::coherent, luminances_cd_m2);
+    std::uint64_t invalid = 0;
+    for (Rgb& luminance : luminances_cd_m2) {
+        if (luminance.is_finite()) continue;
+        luminance = {};
+        ++invalid;
+    }
+    return invalid;
 }
 
 std::uint64_t CameraPaths::write_to(std::span<Rgb> luminances_cd_m2) const {

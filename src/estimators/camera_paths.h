@@ -40,6 +40,10 @@ struct PictureTracing {
 
     /// One path for each pixel with a first hit, along a ray drawn by the camera's filter.
     CameraPaths start_paths(std::span<const Pixel> pixels, const Pass& pass) const;
+    /// Traces such paths to their ends; writes one luminance for each pixel. Returns the number of non-finite
+    /// values: these are set to 0.
+    std::uint64_t trace(std::span<const Pixel> pixels, const Pass& pass,
+                        const transport::PathTracer& path_tracer, std::span<Rgb> luminances_cd_m2) const;
 
     const Scene& scene;
     const rays::RayCaster& caster;

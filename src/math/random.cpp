@@ -18,8 +18,7 @@ std::array<std::uint32_t, 4> random_block(RandomKey key, std::uint64_t index, st
 }
 
 RandomKey RandomKey::derived(std::uint64_t part) const {
-    constexpr std::uint64_t derivation = ~std::uint64_t{0};  // a block that no stream reaches
-    const auto words = random_block(*this, part, derivation);
+    const auto words = random_block(*this, part, kDerivation);
     return {words[0] | std::uint64_t{words[1]} << 32};
 }
 
@@ -57,22 +56,12 @@ const DirectionNumbers& direction_numbers() {
     return numbers;
 }
 
-std::uint32_t reversed_bits(std::uint32_t x) {
-    x = __builtin_bswap32(x);
-    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
-    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
-    return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
-}
-
-/// A random permutation in which a bit influences only higher bits: on reversed fractions that is Owen's
-/// nested scrambling. Multipliers: Vegdahl's, chosen there for small bias.
-std::uint32_t permuted_upwards(std::uint32_t x, std::uint32_t seed) {
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return x;
+DirectionNumbers reversed_numbers() {
+    DirectionNumbers numbers = direction_numbers();
+    for (auto& of_dimension : numbers) {
+        for (std::uint32_t& number : of_dimension) number = reversed_bits(number);
+    }
+    return numbers;
 }
 
 }  // namespace
@@ -84,21 +73,23 @@ std::uint32_t sobol(std::uint32_t index, unsigned dimension) {
     return result;
 }
 
+const std::array<std::uint32_t, kBits>& reversed_direction_numbers(unsigned dimension) {
+    static const DirectionNumbers numbers = reversed_numbers();
+    return numbers[dimension];
+}
+
 std::uint32_t scrambled_sobol(std::uint32_t index, unsigned dimension, std::uint32_t scramble) {
     return reversed_bits(permuted_upwards(reversed_bits(sobol(index, dimension)), scramble));
 }
 
 SampleStream SampleStream::continued(RandomKey key) const {
-    SampleStream stream(key, index_, sobol_dimensions_);
-    stream.dimension_ = (dimension_ + 3) / 4 * 4;  // words are drawn four at a time
-    return stream;
+    return SampleStream(key, index_, sobol_dimensions_).from(next_block());
 }
 
 std::array<std::uint32_t, 4> SampleStream::words_from(unsigned dimension) const {
     if (dimension >= sobol_dimensions_) return random_block(key_, index_, dimension / 4);
     // Four dimensions' scrambles come from one block, which belongs to the key alone, not to the index.
-    constexpr std::uint64_t scrambles = ~std::uint64_t{0} - 1;
-    std::array<std::uint32_t, 4> words = random_block(key_, scrambles, dimension / 4);
+    std::array<std::uint32_t, 4> words = random_block(key_, kScrambles, dimension / 4);
     for (unsigned lane = 0; lane < 4; ++lane) {
         words[lane] = scrambled_sobol(static_cast<std::uint32_t>(index_), dimension + lane, words[lane]);
     }

@@ -15,6 +15,13 @@ struct RandomKey {
     RandomKey derived(std::uint64_t part) const;
 };
 
+// Blocks and indices that no stream reaches.
+
+/// The block of the words of derived keys.
+inline constexpr std::uint64_t kDerivation = ~std::uint64_t{0};
+/// The index of the words that scramble Sobol' points.
+inline constexpr std::uint64_t kScrambles = ~std::uint64_t{0} - 1;
+
 /// Philox 4x32-10 [Salmon et al. 2011]: four words of block `block` of stream `index` under a key.
 std::array<std::uint32_t, 4> random_block(RandomKey key, std::uint64_t index, std::uint64_t block);
 
@@ -34,6 +41,29 @@ std::uint32_t sobol(std::uint32_t index, unsigned dimension);
 /// The number of dimensions from Sobol' points; later ones are random.
 inline constexpr unsigned kSobolDimensions = 32;
 
+// The parts of scrambled_sobol(), for many points at once (random_lanes.h).
+
+/// The contributions of the index's bits to a coordinate, bits reversed.
+const std::array<std::uint32_t, 32>& reversed_direction_numbers(unsigned dimension);
+
+constexpr std::uint32_t reversed_bits(std::uint32_t x) {
+    x = x << 24 | (x & 0xff00u) << 8 | (x >> 8 & 0xff00u) | x >> 24;
+    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
+    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
+    return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
+}
+
+/// A random permutation in which a bit influences only higher bits: on reversed fractions that is Owen's
+/// nested scrambling. Multipliers: Vegdahl's, chosen there for small bias.
+constexpr std::uint32_t permuted_upwards(std::uint32_t x, std::uint32_t seed) {
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
 /// The coordinates of point `index`, one after another. Streams of different keys are independent; the points
 /// of one key, index 0, 1, 2 ..., are a scrambled low-discrepancy sequence.
 class SampleStream {
@@ -46,6 +76,18 @@ class SampleStream {
     /// first dimensions. (A new stream of the same index would repeat the point's first dimensions, not
     /// independent of these.)
     SampleStream continued(RandomKey key) const;
+    /// The same stream, with the number of this dimension, a multiple of 4, as the next.
+    SampleStream from(unsigned dimension) const {
+        SampleStream stream(key_, index_, sobol_dimensions_);
+        stream.dimension_ = dimension;
+        return stream;
+    }
+
+    RandomKey key() const { return key_; }
+    std::uint64_t index() const { return index_; }
+    unsigned sobol_dimensions() const { return sobol_dimensions_; }
+    /// The first dimension of four that are all still to come.
+    unsigned next_block() const { return (dimension_ + 3) / 4 * 4; }
 
     /// Uniform in [0, 1).
     double next() {

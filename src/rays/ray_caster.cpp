@@ -13,6 +13,7 @@
 
 #include "base/vec.h"
 #include "rays/embree_geometry.h"
+#include "rays/surface_packet.h"
 #include "stilb/error.h"
 
 namespace stilb::rays {
@@ -22,10 +23,11 @@ static_assert(sizeof(RayPacket) == sizeof(RTCRay16));
 static_assert(offsetof(RayPacket, direction_x) == offsetof(RTCRay16, dir_x));
 static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
 static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
+static_assert(sizeof(RayHitPacket) == sizeof(RTCRayHit16));
+static_assert(offsetof(RayHitPacket, u) == offsetof(RTCRayHit16, hit.u));
+static_assert(offsetof(RayHitPacket, object) == offsetof(RTCRayHit16, hit.geomID));
+static_assert(kNothing == RTC_INVALID_GEOMETRY_ID);
 
-/// Hits are moved away from edges by so many offsets: lifted points stay on this side of neighbours at up to
-/// 7 degrees.
-constexpr double kEdgeMargin = 8;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void throw_error(void*, RTCError, const char* message) {
@@ -89,32 +91,83 @@ InnerPoint away_from_edges(const std::array<double, 3>& b, const std::array<Vec3
     return moved;
 }
 
-/// The packet in parts of `width` rays, for processors without 16-wide vectors.
-template <int width, typename EmbreeRays, typename Occlude>
-void occlude_in_parts(RayPacket& packet, const LaneMask& lanes, Occlude occlude) {
+/// A packet in parts of `width` rays, for processors without 16-wide vectors: calls `trace(valid, first,
+/// fill)` for each; `fill(rays)` fills an RTCRay8 or RTCRay4.
+template <int width, typename Trace>
+void trace_in_parts(const RayPacket& packet, const LaneMask& lanes, const Trace& trace) {
     for (int first = 0; first < kPacketWidth; first += width) {
         const auto part = [&](const auto& all) { return all.data() + first; };
         alignas(32) std::array<int, width> valid;
         std::copy_n(part(lanes), width, valid.begin());
-        EmbreeRays rays;
-        std::copy_n(part(packet.origin_x), width, rays.org_x);
-        std::copy_n(part(packet.origin_y), width, rays.org_y);
-        std::copy_n(part(packet.origin_z), width, rays.org_z);
-        std::copy_n(part(packet.start), width, rays.tnear);
-        std::copy_n(part(packet.direction_x), width, rays.dir_x);
-        std::copy_n(part(packet.direction_y), width, rays.dir_y);
-        std::copy_n(part(packet.direction_z), width, rays.dir_z);
-        std::copy_n(part(packet.time), width, rays.time);
-        std::copy_n(part(packet.end), width, rays.tfar);
-        std::copy_n(part(packet.mask), width, rays.mask);
-        std::copy_n(part(packet.id), width, rays.id);
-        std::copy_n(part(packet.flags), width, rays.flags);
-        occlude(valid.data(), &rays);
-        std::copy_n(rays.tfar, width, packet.end.data() + first);
+        trace(valid.data(), first, [&](auto& rays) {
+            std::copy_n(part(packet.origin_x), width, rays.org_x);
+            std::copy_n(part(packet.origin_y), width, rays.org_y);
+            std::copy_n(part(packet.origin_z), width, rays.org_z);
+            std::copy_n(part(packet.start), width, rays.tnear);
+            std::copy_n(part(packet.direction_x), width, rays.dir_x);
+            std::copy_n(part(packet.direction_y), width, rays.dir_y);
+            std::copy_n(part(packet.direction_z), width, rays.dir_z);
+            std::copy_n(part(packet.time), width, rays.time);
+            std::copy_n(part(packet.end), width, rays.tfar);
+            std::copy_n(part(packet.mask), width, rays.mask);
+            std::copy_n(part(packet.id), width, rays.id);
+            std::copy_n(part(packet.flags), width, rays.flags);
+        });
     }
 }
 
+template <int width, typename EmbreeRays, typename Occlude>
+void occlude_in_parts(RayPacket& packet, const LaneMask& lanes, const Occlude& occlude) {
+    trace_in_parts<width>(packet, lanes, [&](const int* valid, int first, const auto& fill) {
+        EmbreeRays rays;
+        fill(rays);
+        occlude(valid, &rays);
+        std::copy_n(rays.tfar, width, packet.end.data() + first);
+    });
+}
+
+template <int width, typename EmbreeRayHits, typename Intersect>
+void intersect_in_parts(RayHitPacket& packet, const LaneMask& lanes, const Intersect& intersect) {
+    trace_in_parts<width>(packet.ray, lanes, [&](const int* valid, int first, const auto& fill) {
+        EmbreeRayHits part;
+        fill(part.ray);
+        std::fill_n(part.hit.geomID, width, RTC_INVALID_GEOMETRY_ID);
+        intersect(valid, &part);
+        const auto keep = [&](const auto* found, auto& all) {
+            std::copy_n(found, width, all.data() + first);
+        };
+        keep(part.ray.tfar, packet.ray.end);
+        keep(part.hit.Ng_x, packet.normal_x), keep(part.hit.Ng_y, packet.normal_y);
+        keep(part.hit.Ng_z, packet.normal_z), keep(part.hit.u, packet.u), keep(part.hit.v, packet.v);
+        keep(part.hit.primID, packet.primitive), keep(part.hit.geomID, packet.object);
+        keep(part.hit.instID[0], packet.instance);
+    });
+}
+
 }  // namespace
+
+/// The part of an object's data that surfaces() needs, close together.
+struct MetObject {
+    const std::array<float, 3>* vertices;  ///< null for curved surfaces
+    const Triangle* triangles;
+    const std::uint32_t* parents;  ///< null where no triangle is part of a larger one
+    const MaterialId* materials;   ///< one, or one for each triangle
+    bool has_one_material;
+    bool is_smooth;
+
+    MetObject(const EmbreeGeometry& geometry, const std::vector<MaterialId>& materials_of_object)
+        : vertices(geometry.vertices),
+          triangles(geometry.triangles),
+          parents(geometry.parents.empty() ? nullptr : geometry.parents.data()),
+          materials(materials_of_object.data()),
+          has_one_material(materials_of_object.size() == 1),
+          is_smooth(geometry.smooth != nullptr) {}
+
+    MaterialId material_of(std::uint32_t primitive) const {
+        if (has_one_material) return materials[0];
+        return materials[parents == nullptr ? primitive : parents[primitive]];
+    }
+};
 
 struct RayCaster::Implementation {
     const Scene& scene;
@@ -125,6 +178,7 @@ struct RayCaster::Implementation {
     RTCScene embree_scene = nullptr;
     int packet_width = 4;                                     ///< widest that the processor takes natively
     std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
+    std::vector<MetObject> met_objects;
 
     explicit Implementation(const Scene& s) : scene(s), lift_rule(scene::lift_of(s)) {
         require_within_reach(s);
@@ -157,6 +211,7 @@ struct RayCaster::Implementation {
         const RTCGeometry embree_geometry = new_geometry(device, object.shape, center, *geometries.back());
         rtcCommitGeometry(embree_geometry);
         rtcAttachGeometryByID(embree_scene, embree_geometry, static_cast<unsigned>(geometries.size() - 1));
+        met_objects.emplace_back(*geometries.back(), object.materials);
         rtcReleaseGeometry(embree_geometry);
     }
 
@@ -261,34 +316,9 @@ struct RayCaster::Implementation {
         return ray;
     }
 
-    /// Up to `width` rays as one packet of Embree's; EmbreeRayHits: RTCRayHit16 or its smaller variants.
-    template <int width, typename EmbreeRayHits, typename Intersect>
-    void closest_of_packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits,
-                           Intersect intersect) const {
-        alignas(64) std::array<int, width> valid{};
-        EmbreeRayHits packet;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Vec3 origin = rays[i].origin - center;
-            const Vec3& direction = rays[i].direction;
-            packet.ray.org_x[i] = static_cast<float>(origin.x);
-            packet.ray.org_y[i] = static_cast<float>(origin.y);
-            packet.ray.org_z[i] = static_cast<float>(origin.z);
-            packet.ray.dir_x[i] = packet_direction(direction.x);
-            packet.ray.dir_y[i] = packet_direction(direction.y);
-            packet.ray.dir_z[i] = packet_direction(direction.z);
-            packet.ray.tnear[i] = packet.ray.time[i] = 0;
-            packet.ray.tfar[i] = kInfinity;
-            packet.ray.mask[i] = ~0u;
-            packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-            valid[i] = -1;
-        }
-        intersect(valid.data(), &packet);
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            hits[i].reset();
-            if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-            hits[i] = hit_of(rtcGetRayHitFromRayHitN(reinterpret_cast<RTCRayHitN*>(&packet), width,
-                                                     static_cast<unsigned>(i)));
-        }
+    Hit hit_of(const RayHitPacket& packet, std::size_t lane) const {
+        auto* const found = reinterpret_cast<RTCRayHitN*>(const_cast<RayHitPacket*>(&packet));
+        return hit_of(rtcGetRayHitFromRayHitN(found, kPacketWidth, static_cast<unsigned>(lane)));
     }
 
     /// Between positions relative to the centre.
@@ -323,31 +353,77 @@ std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction)
 
 void RayCaster::closest(std::span<const Ray> rays, Coherence coherence,
                         std::span<std::optional<Hit>> hits) const {
-    RTCIntersectContext context = context_for(coherence);
-    const Implementation& own = *implementation_;
-    const auto width = static_cast<std::size_t>(own.packet_width);
-    for (std::size_t first = 0; first < rays.size(); first += width) {
-        const auto part = rays.subspan(first, std::min(width, rays.size() - first));
-        const auto found = hits.subspan(first, part.size());
-        switch (own.packet_width) {
-            case 16:
-                own.closest_of_packet<16, RTCRayHit16>(
-                    part, found, [&](const int* valid, RTCRayHit16* packet) {
-                        rtcIntersect16(valid, own.embree_scene, &context, packet);
-                    });
-                break;
-            case 8:
-                own.closest_of_packet<8, RTCRayHit8>(part, found, [&](const int* valid, RTCRayHit8* packet) {
-                    rtcIntersect8(valid, own.embree_scene, &context, packet);
-                });
-                break;
-            default:
-                own.closest_of_packet<4, RTCRayHit4>(part, found, [&](const int* valid, RTCRayHit4* packet) {
-                    rtcIntersect4(valid, own.embree_scene, &context, packet);
-                });
+    RayHitPacket packet;
+    for (std::size_t first = 0; first < rays.size(); first += kPacketWidth) {
+        const std::size_t count = std::min<std::size_t>(kPacketWidth, rays.size() - first);
+        LaneMask lanes{};
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto& [origin, direction] = rays[first + i];
+            packet.ray.set(i, origin - center(), direction, kInfinity);
+            lanes[i] = -1;
+        }
+        closest(packet, lanes, coherence);
+        for (std::size_t i = 0; i < count; ++i) {
+            std::optional<Hit>& hit = hits[first + i];
+            hit.reset();
+            if (packet.object[i] != kNothing) hit = this->hit(packet, i);
         }
     }
 }
+
+void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence coherence) const {
+    RTCIntersectContext context = context_for(coherence);
+    const RTCScene embree_scene = implementation_->embree_scene;
+    packet.object.fill(kNothing);
+    switch (implementation_->packet_width) {
+        case 16:
+            rtcIntersect16(lanes.data(), embree_scene, &context, reinterpret_cast<RTCRayHit16*>(&packet));
+            break;
+        case 8:
+            intersect_in_parts<8, RTCRayHit8>(packet, lanes, [&](const int* valid, RTCRayHit8* part) {
+                rtcIntersect8(valid, embree_scene, &context, part);
+            });
+            break;
+        default:
+            intersect_in_parts<4, RTCRayHit4>(packet, lanes, [&](const int* valid, RTCRayHit4* part) {
+                rtcIntersect4(valid, embree_scene, &context, part);
+            });
+    }
+}
+
+Hit RayCaster::hit(const RayHitPacket& packet, std::size_t lane) const {
+    return implementation_->hit_of(packet, lane);
+}
+
+void RayCaster::surfaces(const RayHitPacket& hits, SurfacePacket& surfaces) const {
+    CornerPacket corners{};
+    LaneMask is_curved{}, is_inside;
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+        surfaces.object[i] = hits.object[i];
+        surfaces.is_smooth[i] = 0;
+        if (hits.object[i] == kNothing) continue;
+        const MetObject& met = implementation_->met_objects[hits.object[i]];
+        if (met.vertices == nullptr) {
+            is_curved[i] = -1;
+            continue;
+        }
+        const Triangle& triangle = met.triangles[hits.primitive[i]];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto& [x, y, z] = met.vertices[triangle[c]];
+            LaneVectors& corner = corners.corner[c];
+            corner.x[i] = x, corner.y[i] = y, corner.z[i] = z;
+        }
+        surfaces.material[i] = index_of(met.material_of(hits.primitive[i]));
+        surfaces.is_smooth[i] = met.is_smooth ? -1 : 0;
+    }
+    find_surfaces(hits, corners, surfaces, is_inside);
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+        if (hits.object[i] == kNothing || (is_curved[i] == 0 && is_inside[i] != 0)) continue;
+        surfaces.set(i, hit(hits, i), center());
+    }
+}
+
+bool RayCaster::has_panes() const { return implementation_->has_panes; }
 
 bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
     return implementation_->occluded(from - center(), to - center());

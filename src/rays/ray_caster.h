@@ -20,6 +20,7 @@
 #include "base/ids.h"
 #include "base/rays.h"
 #include "base/vec.h"
+#include "rays/surface_packet.h"
 #include "scene/scene.h"
 
 namespace stilb::rays {
@@ -72,6 +73,16 @@ class RayCaster {
     /// The same of many rays, into as many hits.
     void closest(std::span<const Ray> rays, Coherence coherence, std::span<std::optional<Hit>> hits) const;
 
+    /// The same of a packet, for lanes that are set; directions need not be unit vectors, and components as
+    /// in packet_direction(). `start`, `end` and the direction are the caller's, `hit` and `end` the result.
+    void closest(RayHitPacket& packet, const LaneMask& lanes, Coherence coherence) const;
+    /// The surface points of a packet's hits.
+    void surfaces(const RayHitPacket& hits, SurfacePacket& surfaces) const;
+    /// The whole hit of a lane that has met something.
+    Hit hit(const RayHitPacket& packet, std::size_t lane) const;
+
+    /// Whether segments may pass through surfaces (transmittance()).
+    bool has_panes() const;
     /// True where a surface lies between two (lifted) points.
     bool occluded(const Vec3& from, const Vec3& to) const;
     /// The transmittance along a straight segment: 0 where a surface lies in between, the panes'

@@ -85,6 +85,8 @@ class LightSampler {
     double outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const;
     double pdf_of_outside_light_per_sr(const Vec3& direction, const ReceivingPoint& at) const;
     bool has_light_from_outside() const { return outside_ != kNoLight; }
+    /// Whether the light of some lights is computed elsewhere.
+    bool leaves_out_lights() const { return !made_elsewhere_.empty(); }
     /// Whether rays can meet light.
     bool has_visible_lights() const { return has_visible_lights_; }
 

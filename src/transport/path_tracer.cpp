@@ -4,59 +4,61 @@
 
 #include "materials/shaded_surface.h"
 #include "transport/line_of_sight.h"
+#include "transport/path_wave.h"
 #include "transport/weights.h"
 
 namespace stilb::transport {
+namespace {
+
+/// The MIS weight of light that a path finds by itself. `other_pdf_per_sr`: the density of next-event
+/// estimation at the previous vertex, if that could have found it.
+template <typename Pdf>
+double share_of(const PreviousVertex& previous_vertex, const Pdf& other_pdf_per_sr) {
+    const double pdf_per_sr = previous_vertex.pdf_per_sr;
+    if (pdf_per_sr == 0 || std::isinf(pdf_per_sr)) return pdf_per_sr == 0 ? 0 : 1;
+    return balance(pdf_per_sr, other_pdf_per_sr());
+}
+
+}  // namespace
+
+PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights,
+                       const StoredReflection* stored)
+    : scene_(scene),
+      caster_(caster),
+      lights_(lights),
+      stored_(stored),
+      plain_materials_(scene.materials.size()),
+      may_emit_(scene.objects.size()) {
+    for (const Light& light : scene.lights) {
+        if (const auto surface = lights::surface_emission(light)) may_emit_[index_of(surface->object)] = true;
+    }
+    if (stored_) return;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto* diffuse = std::get_if<Diffuse>(&scene.materials[i].material);
+        if (diffuse == nullptr) continue;
+        plain_materials_[i].is_plain = true;
+        for (std::size_t b = 0; b < kBands; ++b)
+            plain_materials_[i].reflectance[b] = static_cast<float>(diffuse->reflectance[b]);
+    }
+    if (!lights.leaves_out_lights()) lane_lights_ = LaneLights::of(scene, caster.center());
+}
 
 void PathTracer::trace(std::span<Path> paths, rays::Coherence first) const {
-    struct Lit {
-        Path* path;
-        Rgb luminance_cd_m2;
-    };
-    std::vector<Path*> going;
-    for (Path& path : paths) going.push_back(&path);
-    std::vector<Lit> lit;
-    std::vector<rays::Segment> segments;
-    std::vector<rays::Ray> rays;
-    std::vector<Rgb> transmittances(paths.size());
-    std::vector<std::optional<rays::Hit>> hits(paths.size());
-    for (rays::Coherence coherence = first; !going.empty(); coherence = rays::Coherence::scattered) {
-        if (stored_) add_stored_reflection(going, coherence);
-        lit.clear(), segments.clear(), rays.clear();
-        std::size_t count = 0;
-        for (Path* path : going) {
-            const Step step = take_step(*path);
-            if (step.connection) {
-                segments.push_back(step.connection->segment);
-                lit.push_back({path, step.connection->luminance_cd_m2});
-            }
-            if (step.ray) {
-                rays.push_back(*step.ray);
-                going[count++] = path;
-            }
-        }
-        caster_.transmittances(segments, coherence, transmittances);
-        for (std::size_t i = 0; i < lit.size(); ++i) {
-            lit[i].path->luminance_cd_m2 += lit[i].luminance_cd_m2 * transmittances[i];
-        }
-        caster_.closest(rays, rays::Coherence::scattered, hits);
-        count = 0;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            if (!hits[i]) {
-                leave(*going[i], rays[i].direction);
-                continue;
-            }
-            arrive(*going[i], rays[i].direction, *hits[i]);
-            going[count++] = going[i];
-        }
-        going.resize(count);
-    }
+    if (paths.empty()) return;
+    std::vector<Rgb> luminances_cd_m2(paths.size());
+    PathWave(*this, paths[0].stream.sobol_dimensions(), luminances_cd_m2).trace_from_hits(paths, first);
+    for (std::size_t i = 0; i < paths.size(); ++i) paths[i].luminance_cd_m2 += luminances_cd_m2[i];
+}
+
+void PathTracer::trace(std::span<PathPacket> packets, std::span<const LaneMask> lanes,
+                       unsigned sobol_dimensions, rays::Coherence first,
+                       std::span<Rgb> luminances_cd_m2) const {
+    PathWave(*this, sobol_dimensions, luminances_cd_m2).trace_from_rays(packets, lanes, first);
 }
 
 void PathTracer::follow(Path& path) const {
-    Path* const self = &path;
     for (;;) {
-        if (stored_) add_stored_reflection({&self, 1}, rays::Coherence::scattered);
+        add_stored_reflection({&path, 1}, rays::Coherence::scattered);
         const Step step = take_step(path);
         if (step.connection) {
             path.luminance_cd_m2 +=
@@ -91,10 +93,11 @@ PathTracer::Step PathTracer::take_step(Path& path) const {
     return reflect(path, material);
 }
 
-void PathTracer::add_stored_reflection(std::span<Path* const> paths, rays::Coherence coherence) const {
+void PathTracer::add_stored_reflection(std::span<Path> paths, rays::Coherence coherence) const {
+    if (!stored_) return;
     std::vector<Path*> reflecting;
-    for (Path* path : paths) {
-        if (path->reflections_left > 0 && !is_specular(material(path->hit))) reflecting.push_back(path);
+    for (Path& path : paths) {
+        if (path.reflections_left > 0 && !is_specular(material(path.hit))) reflecting.push_back(&path);
     }
     stored_->add_to(reflecting, coherence);
 }
@@ -138,31 +141,34 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
     return step;
 }
 
-double PathTracer::share_of(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const {
-    if (previous_vertex.pdf_per_sr == 0 || std::isinf(previous_vertex.pdf_per_sr))
-        return previous_vertex.pdf_per_sr == 0 ? 0 : 1;
-    return balance(previous_vertex.pdf_per_sr,
-                   lights_.pdf_per_sr(emitter, previous_vertex.position, previous_vertex.normal));
+double PathTracer::pdf_per_sr(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const {
+    const auto& [pdf, position, normal, took_lanes] = previous_vertex;
+    if (!took_lanes) return lights_.pdf_per_sr(emitter, position, normal);
+    const Vec3& center = caster_.center();
+    return double{
+        lane_lights_->pdf_per_sr(emitter.object, emitter.position - center, position - center, normal)};
 }
 
-double PathTracer::share_of_outside(const PreviousVertex& previous_vertex, const Vec3& direction) const {
-    if (previous_vertex.pdf_per_sr == 0 || std::isinf(previous_vertex.pdf_per_sr))
-        return previous_vertex.pdf_per_sr == 0 ? 0 : 1;
-    return balance(previous_vertex.pdf_per_sr,
-                   lights_.outside_pdf_per_sr(direction, previous_vertex.position, previous_vertex.normal));
+Rgb PathTracer::emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const {
+    const Rgb emission = lights_.emitted_luminance(emitter);
+    if (!(emission.max() > 0)) return {};
+    return emission * share_of(previous_vertex, [&] { return pdf_per_sr(previous_vertex, emitter); });
+}
+
+Rgb PathTracer::outside_light_towards(const PreviousVertex& previous_vertex, const Vec3& direction) const {
+    const Rgb luminance = lights_.outside_luminance(direction);
+    if (!(luminance.max() > 0)) return {};
+    return luminance * share_of(previous_vertex, [&] {
+               return lights_.outside_pdf_per_sr(direction, previous_vertex.position, previous_vertex.normal);
+           });
 }
 
 void PathTracer::leave(Path& path, const Vec3& direction) const {
-    const Rgb luminance = lights_.outside_luminance(direction);
-    if (luminance.max() > 0)
-        path.luminance_cd_m2 +=
-            path.throughput * luminance * share_of_outside(path.previous_vertex, direction);
+    path.luminance_cd_m2 += path.throughput * outside_light_towards(path.previous_vertex, direction);
 }
 
 void PathTracer::arrive(Path& path, const Vec3& direction, const rays::Hit& next) const {
-    const Rgb emission = lights_.emitted_luminance(next);
-    if (emission.max() > 0)
-        path.luminance_cd_m2 += path.throughput * emission * share_of(path.previous_vertex, next);
+    path.luminance_cd_m2 += path.throughput * emission_towards(path.previous_vertex, next);
     path.hit = next;
     path.outgoing = -direction;
 }
@@ -188,14 +194,9 @@ Rgb PathTracer::luminance_behind(const rays::Hit& hit, const Vec3& direction,
 Rgb PathTracer::incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex,
                                    int max_reflections, const math::SampleStream& stream) const {
     const auto hit = caster_.closest(ray.origin, ray.direction);
-    if (!hit) {
-        const Rgb outside = lights_.outside_luminance(ray.direction);
-        return outside.max() > 0 ? outside * share_of_outside(previous_vertex, ray.direction) : Rgb{};
-    }
-    Rgb luminance = luminance_behind(*hit, ray.direction, previous_vertex, max_reflections, stream);
-    const Rgb emission = lights_.emitted_luminance(*hit);
-    if (emission.max() > 0) luminance += emission * share_of(previous_vertex, *hit);
-    return luminance;
+    if (!hit) return outside_light_towards(previous_vertex, ray.direction);
+    return emission_towards(previous_vertex, *hit) +
+           luminance_behind(*hit, ray.direction, previous_vertex, max_reflections, stream);
 }
 
 }  // namespace stilb::transport

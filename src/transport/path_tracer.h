@@ -10,10 +10,15 @@
 // adds its stored reflection instead.
 #pragma once
 
+#include <array>
 #include <limits>
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "transport/lane_lights.h"
 #include "transport/light_sampler.h"
+#include "transport/path_packet.h"
 
 namespace stilb::transport {
 
@@ -23,6 +28,7 @@ struct PreviousVertex {
     /// path, 0 where it finds all of it.
     double pdf_per_sr = std::numeric_limits<double>::infinity();
     Vec3 position{}, normal{};  ///< of the surface, where the density is finite
+    bool took_lanes = false;    ///< next-event estimation there was that of LaneLights
 };
 
 /// For paths that leave out directly visible emission.
@@ -54,12 +60,17 @@ class PathTracer {
   public:
     /// `stored`: null where no light is left out. The lights left out must be made elsewhere in `lights`.
     PathTracer(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights,
-               const StoredReflection* stored = nullptr)
-        : scene_(scene), caster_(caster), lights_(lights), stored_(stored) {}
+               const StoredReflection* stored = nullptr);
 
-    /// Follows paths to their ends, in parallel. `first`: coherence of the rays to their first hits, and of
-    /// the shadow rays there.
+    /// Follows paths to their ends, side by side, and adds to their luminances; the rest of a path is used
+    /// up. Their streams have as many Sobol' dimensions. `first`: coherence of the rays to their first hits,
+    /// and of the shadow rays there.
     void trace(std::span<Path> paths, rays::Coherence first) const;
+    /// The same for paths of which the rays to their first hits are known, in the lanes that are set; adds
+    /// the light along the ray of path `number` to that element of `luminances_cd_m2`, emission of the first
+    /// hit weighted by the previous vertex. Uses the packets up.
+    void trace(std::span<PathPacket> packets, std::span<const LaneMask> lanes, unsigned sobol_dimensions,
+               rays::Coherence first, std::span<Rgb> luminances_cd_m2) const;
 
     /// Follows a path through mirrors and glass to the next surface that scatters; returns false where it
     /// ends before.
@@ -90,6 +101,17 @@ class PathTracer {
     const Material& material(const rays::Hit& hit) const { return scene_.material(hit.material); }
 
   private:
+    friend class PathWave;
+
+    /// A diffuse material, in single precision; other materials are not plain.
+    struct PlainMaterial {
+        std::array<float, kBands> reflectance{};
+        bool is_plain = false;
+    };
+    bool is_plain(const rays::SurfacePacket& surface, std::size_t lane) const {
+        return surface.is_smooth[lane] == 0 && plain_materials_[surface.material[lane]].is_plain;
+    }
+
     /// The light of a source at a path's surface if nothing lies in between.
     struct Connection {
         rays::Segment segment;
@@ -102,16 +124,18 @@ class PathTracer {
     };
     Step take_step(Path& path) const;
     /// The light of the left-out lights that the paths' surfaces reflect.
-    void add_stored_reflection(std::span<Path* const> paths, rays::Coherence coherence) const;
+    void add_stored_reflection(std::span<Path> paths, rays::Coherence coherence) const;
     std::optional<rays::Ray> pass_specular(Path& path, const Material& material) const;
     Step reflect(Path& path, const Material& material) const;
     /// Continues where the step's ray has hit a surface.
     void arrive(Path& path, const Vec3& direction, const rays::Hit& next) const;
     /// Continues where the step's ray leaves the scene.
     void leave(Path& path, const Vec3& direction) const;
-    /// The MIS weight of emission that a path finds; likewise of light from outside.
-    double share_of(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const;
-    double share_of_outside(const PreviousVertex& previous_vertex, const Vec3& direction) const;
+    /// Emission that a path finds, by its MIS weight; likewise light from outside.
+    Rgb emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const;
+    Rgb outside_light_towards(const PreviousVertex& previous_vertex, const Vec3& direction) const;
+    /// The density of next-event estimation at the previous vertex.
+    double pdf_per_sr(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const;
     /// A single path.
     void follow(Path& path) const;
 
@@ -119,6 +143,9 @@ class PathTracer {
     const rays::RayCaster& caster_;
     const LightSampler& lights_;
     const StoredReflection* stored_;
+    std::vector<PlainMaterial> plain_materials_;  ///< by MaterialId
+    std::vector<bool> may_emit_;                  ///< by ObjectId
+    std::optional<LaneLights> lane_lights_;
 };
 
 }  // namespace stilb::transport

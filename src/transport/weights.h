@@ -53,10 +53,15 @@ constexpr double survival_probability(const Rgb& throughput, const Rgb& factor) 
 }
 
 /// The same for paths that gather light at every step, whose noise is less if they always survive while their
-/// throughput is large: roulette begins where the largest band would fall below a quarter.
+/// throughput is large: roulette begins where the largest band would fall below an eighth.
+/// `largest`: that band, a double or, in loops over lanes, a float.
+template <typename Number>
+constexpr Number patient_survival_probability(Number largest) {
+    constexpr Number roulette_threshold = 0.125;
+    return std::min(largest / roulette_threshold, static_cast<Number>(kMostSurvival));
+}
 constexpr double patient_survival_probability(const Rgb& throughput, const Rgb& factor) {
-    constexpr double roulette_threshold = 0.25;
-    return std::min((throughput * factor).max() / roulette_threshold, kMostSurvival);
+    return patient_survival_probability((throughput * factor).max());
 }
 
 }  // namespace stilb::transport

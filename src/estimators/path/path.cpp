@@ -99,9 +99,7 @@ class PathPass final : public PicturePass {
         : tracing_(tracing), tracer_(tracer), pass_(pass) {}
 
     std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
-        CameraPaths started = tracing_.start_paths(pixels_of(block), pass_);
-        tracer_.trace(started.paths, rays::Coherence::coherent);
-        return started.write_to(pixels);
+        return tracing_.trace(pixels_of(block), pass_, tracer_, pixels);
     }
 
   private:

@@ -1,0 +1,68 @@
+// Next-event estimation for sixteen surface points at once, in scenes that have few lights, all of them
+// points or right-angled rectangles. Other scenes take LightSampler, point by point. The expectation is the
+// same; densities are this class's own, so that MIS weights at a vertex take either this class or
+// LightSampler.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lights/lane_rectangle.h"
+#include "math/random_lanes.h"
+#include "rays/ray_caster.h"
+
+namespace stilb::transport {
+
+/// The decisions that take hashed numbers (NumberPacket).
+enum HashedNumber : std::uint32_t { kChoiceOfLight, kRoulette };
+
+/// Light that arrives at the lanes' points, visibility left out; as IncidentLight.
+struct alignas(64) LightPacket {
+    using Floats = RayPacket::Floats;
+    rays::LaneVectors source;                          ///< lifted; relative to the scene's centre
+    rays::LaneVectors direction;                       ///< unit
+    std::array<Floats, kBands> normal_illuminance_lx;  ///< 0 where no light arrives
+    Floats inverse_pdf_sr;                             ///< 0 for points
+};
+
+/// Immutable.
+class LaneLights {
+  public:
+    static constexpr std::size_t kMost = 32;
+
+    /// Nothing where some light is of another kind, or where there are none or too many.
+    static std::optional<LaneLights> of(const Scene& scene, const Vec3& center);
+
+    /// Samples one light at each point by the first two numbers.
+    void sample(const rays::SurfacePacket& at, const math::NumberPacket& numbers, LightPacket& light) const;
+    /// The density of the direction from a surface to a point of an emitting object in sample(). Relative to
+    /// the scene's centre.
+    float pdf_per_sr(ObjectId object, const Vec3& position, const Vec3& from, const Vec3& normal) const;
+
+  private:
+    struct Light {
+        lights::LaneRectangle rectangle;           ///< of points: its corner
+        std::array<float, kBands> emission;        ///< luminance [cd/m2] or, of points, intensity [cd]
+        float squared_radius_m2 = 0, flux_lm = 0;  ///< for the choice among lights; of points: 4 pi intensity
+        bool is_point = false;
+    };
+    /// The lights of the lanes.
+    struct alignas(64) Chosen;
+
+    static void add_rough(const Light& light, const rays::SurfacePacket& at, RayPacket::Floats& rough,
+                          RayPacket::Floats& sum);
+    void choose(const rays::SurfacePacket& at, const math::NumberPacket& numbers, Chosen& chosen) const;
+    static void sample_chosen(const Chosen& chosen, const rays::SurfacePacket& at,
+                              const math::NumberPacket& numbers, LightPacket& light);
+    static float rough_lx(const Light& light, const lights::LanePoint& from, const lights::LanePoint& normal);
+
+    std::vector<Light> lights_;
+    std::vector<std::uint32_t> light_of_object_;
+    std::shared_ptr<const Chosen> only_;  ///< the choice where there is one light; else null
+};
+
+}  // namespace stilb::transport
