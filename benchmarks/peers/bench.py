@@ -14,7 +14,8 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-import programs
+import radiance
+from programs import MitsubaSession, StilbSession
 from references import Reference, reference
 from tasks import ROOT, TASKS, Task
 
@@ -36,10 +37,22 @@ class Row:
     bias: float
     z: float
     memory_mb: float
+    is_biased: bool
 
     @property
     def is_extrapolated(self) -> bool:
         return not 0.5 <= (self.error / self.target) ** 2 <= 2
+
+
+def sessions(task: Task, threads: int) -> dict:
+    """What opens a session of each program and method, by its name in tables."""
+    contestants = {f"stilb {method}": lambda method=method: StilbSession(task, method, threads)
+                   for method in ("auto", "path")}
+    for sampler in ("independent", "multijitter"):
+        contestants[f"mitsuba {sampler}"] = lambda s=sampler: MitsubaSession(task, s, "llvm_ad_rgb", threads)
+    for settings in ("exact", "cached") if not radiance.lacks(task) else ():
+        contestants[f"radiance {settings}"] = lambda s=settings: radiance.RadianceSession(task, s, threads)
+    return contestants
 
 
 def find_size(session, ref: Reference, target: float, most_s: float, size: int) -> int:
@@ -60,23 +73,25 @@ def find_size(session, ref: Reference, target: float, most_s: float, size: int) 
         size = max(int(size * growth), size + 1)
 
 
-def row_of(task: Task, name: str, session, ref: Reference, target: float, size: int) -> Row:
-    runs = [session.run(size, seed) for seed in range(2, 2 + task.seeds)]
+def row_of(task: Task, name: str, session, ref: Reference, target: float, size: int, seeds: int) -> Row:
+    runs = [session.run(size, seed) for seed in range(2, 2 + seeds)]
     squared = max(np.mean([ref.squared_error(run.values) for run in runs]), 1e-16)
     biases = np.array([ref.bias(run.values) for run in runs])
     spread = np.hypot(biases.std(ddof=1) / np.sqrt(len(runs)), ref.mean_error)
     sampling = np.median([run.seconds for run in runs])
     factor = squared / target**2
-    if size <= session.first_size:
-        factor = max(factor, 1)  # there is no smaller run
+    if session.is_biased:
+        factor = 1.0  # its error does not fall with the number of samples alone
+    elif size <= session.first_size:
+        factor = max(factor, 1.0)  # no run is smaller
     set_up = session.set_up_s()
     return Row(task.name, target, name, set_up + sampling * factor, set_up, float(np.sqrt(squared)), size,
-               float(biases.mean()), float(biases.mean() / spread), session.memory_mb)
+               float(biases.mean()), float(biases.mean() / spread), session.memory_mb, session.is_biased)
 
 
 def rows_of(task: Task, ref: Reference, arguments) -> list[Row]:
     rows = []
-    for name, open_session in programs.sessions(task, arguments.threads).items():
+    for name, open_session in sessions(task, arguments.threads).items():
         if arguments.programs and not any(name.startswith(wanted) for wanted in arguments.programs):
             continue
         session = open_session()
@@ -84,7 +99,7 @@ def rows_of(task: Task, ref: Reference, arguments) -> list[Row]:
         for target in task.targets:
             start = time.monotonic()
             size = find_size(session, ref, target, arguments.limit, size)
-            rows.append(row_of(task, name, session, ref, target, size))
+            rows.append(row_of(task, name, session, ref, target, size, arguments.seeds or task.seeds))
             print(f"{line_of(rows[-1], rows)}  ({time.monotonic() - start:.0f} s)", file=sys.stderr, flush=True)
         session.close()
     return rows
@@ -93,7 +108,7 @@ def rows_of(task: Task, ref: Reference, arguments) -> list[Row]:
 def line_of(row: Row, rows: list[Row]) -> str:
     base = next((r.seconds for r in rows if r.target == row.target and r.program == "stilb auto"), None)
     ratio = f"{row.seconds / base:.3g}" if base else ""
-    sign = "~" if row.is_extrapolated else ""
+    sign = "" if not row.is_extrapolated else ">" if row.is_biased else "~"
     return (f"| {row.task} | {100 * row.target:g} % | {row.program} | {sign}{row.seconds:.3g} | {row.set_up_s:.2g} | "
             f"{ratio} | {100 * row.error:.2g} % | {100 * row.bias:+.3f} % | {row.z:+.1f} | {row.memory_mb:.0f} |")
 
@@ -105,6 +120,7 @@ def main() -> None:
     parser.add_argument("--kinds", nargs="+", help="only grid, picture or readings")
     parser.add_argument("--programs", nargs="+", help="only those whose name begins so")
     parser.add_argument("--threads", type=int, default=2, help="of every program (2)")
+    parser.add_argument("--seeds", type=int, help="runs from which a row is derived (3 to 12, by the kind of task)")
     parser.add_argument("--limit", type=float, default=60, help="processor seconds of a run (60)")
     parser.add_argument("--reference", type=float, default=40, help="processor seconds of each reference (40)")
     arguments = parser.parse_args()

@@ -21,7 +21,7 @@ from tasks import HERE, ROOT, Task
 
 mi.set_variant("scalar_rgb")  # to read pictures
 
-STILB = ROOT / "build/release/stilb"
+STILB = Path(os.environ.get("STILB", ROOT / "build/release/stilb"))
 EXPORTS = ROOT / "build/peers/exports"
 LLVM = "/usr/lib/x86_64-linux-gnu/libLLVM.so.19.1"
 
@@ -84,6 +84,7 @@ def read_luminance(path: Path) -> np.ndarray:
 
 class StilbSession:
     first_size = 1
+    is_biased = False
 
     def __init__(self, task: Task, method: str, threads: int):
         self.task, self.method, self.threads = task, method, threads
@@ -128,6 +129,7 @@ class StilbSession:
 
 class MitsubaSession:
     first_size = 16
+    is_biased = False
 
     def __init__(self, task: Task, sampler: str, variant: str, threads: int):
         self.folder = tempfile.TemporaryDirectory()
@@ -162,12 +164,3 @@ class MitsubaSession:
         self.process.stdin.close()
         self.process.wait()
         self.folder.cleanup()
-
-
-def sessions(task: Task, threads: int) -> dict:
-    """What opens a session of each program and method, by its name in tables."""
-    contestants = {f"stilb {method}": lambda method=method: StilbSession(task, method, threads)
-                   for method in ("auto", "path")}
-    for sampler in ("independent", "multijitter"):
-        contestants[f"mitsuba {sampler}"] = lambda s=sampler: MitsubaSession(task, s, "llvm_ad_rgb", threads)
-    return contestants

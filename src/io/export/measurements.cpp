@@ -46,8 +46,8 @@ void write_points(const std::vector<Sensor>& sensors, Output& output) {
             lines += *line;
         }
         if (lines.empty()) {
-            output.warn(fmt::format("sensor {}: {} sensors have no equal and are left out.", sensor.name,
-                                    sensor.type()));
+            output.warn("sensor", sensor.name,
+                        fmt::format("{} sensors have no equal and are left out.", sensor.type()));
         } else {
             output.write(identifiers.make(sensor.name) + ".pts", lines);
         }

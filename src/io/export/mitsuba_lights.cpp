@@ -35,10 +35,9 @@ struct MitsubaLight {
                             light_rgb("intensity", light.intensity_cd));
     }
     std::string operator()(const Luminaire& light) const {
-        output.warn(fmt::format(
-            "light {}: Mitsuba has no luminaire files. stilb_plugins.py, which is written beside the scene, "
-            "adds them; it has to be imported before scene.xml is loaded.",
-            name));
+        output.warn("light", name,
+                    "Mitsuba has no luminaire files. stilb_plugins.py, which is written beside the scene, "
+                    "adds them; it has to be imported before scene.xml is loaded.");
         return light_of(
             "stilb_luminaire",
             fmt::format("    <string name=\"filename\" value=\"solid{}.dat\"/>\n", index_of(light.solid)) +
@@ -48,10 +47,9 @@ struct MitsubaLight {
     std::string operator()(const AreaLight&) const { return ""; }
     std::string operator()(const EnvironmentLight& light) const {
         if (!light.panorama) return light_of("constant", light_rgb("radiance", light.luminance_cd_m2));
-        output.warn(fmt::format(
-            "light {}: Mitsuba interpolates between the pixels of a panorama, and has the middles of its "
-            "first and last rows at the poles.",
-            name));
+        output.warn("light", name,
+                    "Mitsuba interpolates between the pixels of a panorama, and has the middles of its "
+                    "first and last rows at the poles.");
         write_panorama(*light.panorama);
         const Vec3 &x = light.axes.v, &y = light.axes.w, &z = light.axes.u;
         return light_of(

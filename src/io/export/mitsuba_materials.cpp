@@ -27,11 +27,12 @@ struct MitsubaMaterial {
     const std::string& name;
     Output& output;
 
+    void warn(std::string_view message) const { output.warn("material", name, message); }
     void warn_of_plugin(std::string_view type) const {
-        output.warn(fmt::format(
-            "material {}: Mitsuba has no model equal to {}. stilb_plugins.py, which is written beside the "
-            "scene, adds it; it has to be imported before scene.xml is loaded.",
-            name, type));
+        warn(fmt::format(
+            "Mitsuba has no model equal to {}. stilb_plugins.py, which is written beside the scene, "
+            "adds it; it has to be imported before scene.xml is loaded.",
+            type));
     }
 
     std::string operator()(const Diffuse& m) const {
@@ -59,10 +60,9 @@ struct MitsubaMaterial {
                              real("roughness", m.parameters().roughness) + real("ior", m.parameters().ior));
     }
     std::string operator()(const materials::Ward& m) const {
-        output.warn(fmt::format(
-            "material {}: Mitsuba has no Ward model. A Phong lobe of the same share and about the same mean "
-            "width stands for it (stilb_plugins.py).",
-            name));
+        warn(
+            "Mitsuba has no Ward model. A Phong lobe of the same share and about the same mean "
+            "width stands for it (stilb_plugins.py).");
         const auto& [u, v] = m.parameters().roughness;
         return two_sided(id, "stilb_phong",
                          color("diffuse", m.parameters().diffuse) +
@@ -77,10 +77,9 @@ struct MitsubaMaterial {
         return dielectric("dielectric", m.ior, "");
     }
     std::string operator()(const materials::ThinDielectric& m) const {
-        output.warn(fmt::format(
-            "material {}: Mitsuba's thin pane averages the polarisations too early, and its transmittance is "
-            "up to 4 % lower at 75 degrees to the normal; absorption is taken as that along the normal.",
-            name));
+        warn(
+            "Mitsuba's thin pane averages the polarisations too early, and its transmittance is "
+            "up to 4 % lower at 75 degrees to the normal; absorption is taken as that along the normal.");
         return dielectric("thindielectric", m.ior, color("specular_transmittance", m.internal_transmittance));
     }
 

@@ -90,8 +90,9 @@ std::string mitsuba_cameras(const std::vector<Sensor>& sensors, Identifiers& ide
         if (camera->projection == Projection::perspective) {
             text += camera_sensor(*camera, identifiers.make(sensor.name));
         } else {
-            output.warn(fmt::format("sensor {}: Mitsuba has no {} camera, so it is left out.", sensor.name,
-                                    name_of(camera->projection)));
+            output.warn(
+                "sensor", sensor.name,
+                fmt::format("Mitsuba has no {} camera, so it is left out.", name_of(camera->projection)));
         }
     }
     return text;

@@ -20,12 +20,19 @@ class Output {
   public:
     explicit Output(std::filesystem::path folder) : folder_(std::move(folder)) {}
     void write(const std::string& name, std::string_view content);
-    void warn(std::string message) { report_.warnings.push_back(std::move(message)); }
-    const ExportReport& report() const { return report_; }
+    /// Things of one kind ("material", "light") with the same message share one warning.
+    void warn(std::string_view kind, std::string_view name, std::string_view message);
+    ExportReport report() const;
 
   private:
+    struct Warning {
+        std::string kind, message;
+        std::vector<std::string> names;
+    };
+
     std::filesystem::path folder_;
-    ExportReport report_;
+    std::vector<std::filesystem::path> files_;
+    std::vector<Warning> warnings_;
 };
 
 /// Identifiers of letters, digits, "_" and "-" that are different from each other.

@@ -57,7 +57,7 @@ struct RadianceLight {
     std::string operator()(const AreaLight&) const { return ""; }
     std::string operator()(const EnvironmentLight& light) const {
         if (!light.panorama) return sky("void", id, light.luminance_cd_m2);
-        output.warn(fmt::format("light {}: the colours of the panorama are in Radiance's primaries.", name));
+        output.warn("light", name, "the colours of the panorama are in Radiance's primaries.");
         Picture picture;
         picture.width = light.panorama->width();
         picture.height = light.panorama->height();

@@ -27,7 +27,7 @@ struct RadianceMaterial {
     const std::string& name;
     Output& output;
 
-    void warn(std::string_view text) const { output.warn(fmt::format("material {}: {}", name, text)); }
+    void warn(std::string_view text) const { output.warn("material", name, text); }
 
     std::string operator()(const Diffuse& m) const { return with_rgb("plastic", id, m.reflectance, {0, 0}); }
     std::string operator()(const materials::Black&) const { return with_rgb("plastic", id, {}, {0, 0}); }

@@ -63,8 +63,7 @@ void write_views(const std::vector<Sensor>& sensors, Output& output) {
         const Camera* camera = sensor.camera();
         if (!camera) continue;
         if (camera->projection == Projection::panorama) {
-            output.warn(fmt::format("sensor {}: Radiance has no equirectangular view, so it is left out.",
-                                    sensor.name));
+            output.warn("sensor", sensor.name, "Radiance has no equirectangular view, so it is left out.");
             continue;
         }
         output.write(identifiers.make(sensor.name) + ".vf",
@@ -100,12 +99,12 @@ void write_radiance(const SceneFile& file, Output& output) {
             modifier = identifiers.make("light_" + surface.name);
             text += luminous_material(surface, modifier);
             if (materials::reflectance_bound(scene.material(surface.material)).max() > 0) {
-                output.warn(fmt::format("object {}: in Radiance a surface that gives light reflects nothing.",
-                                        surface.name));
+                output.warn("object", surface.name,
+                            "in Radiance a surface that gives light reflects nothing.");
             }
         }
         if (has_normals(surface)) {
-            output.warn(fmt::format("object {}: its smooth mesh becomes flat triangles.", surface.name));
+            output.warn("object", surface.name, "its smooth mesh becomes flat triangles.");
         }
         text += std::visit(RadianceShape{modifier, surface.name}, surface.shape);
     }

@@ -11,7 +11,7 @@
 namespace stilb::io::exporting {
 namespace {
 
-/// Of a body by harmonics: 8 parallels for each degree of its series, at most so many.
+/// Of a body by harmonics: 4 parallels for each degree of its series, at most so many.
 constexpr int kMostParallels = 512;
 
 /// The triangles between parallel i and the next one; those at the poles, of no area, are left out.
@@ -29,7 +29,7 @@ void add_ring(Mesh& mesh, int i, int parallels, int azimuths) {
 /// Points on parallels, with the surface's own normals; the first and last parallel are the poles.
 Mesh mesh_of(const Harmonics& body) {
     const int degree = body.surface->radius().degree();
-    const int parallels = std::clamp(8 * degree, 32, kMostParallels), azimuths = 2 * parallels;
+    const int parallels = std::clamp(4 * degree, 32, kMostParallels), azimuths = 2 * parallels;
     Mesh mesh;
     for (int i = 0; i <= parallels; ++i) {
         for (int k = 0; k < azimuths; ++k) {
@@ -93,7 +93,7 @@ class Division {
             [&](const auto& shape) { push(object.name, plain(shape), object.materials[0], luminance); },
             object.shape);
         if (std::holds_alternative<Harmonics>(object.shape)) {
-            output_.warn(fmt::format("object {}: the smooth body by harmonics becomes a mesh.", object.name));
+            output_.warn("object", object.name, "the smooth body by harmonics becomes a mesh.");
         }
     }
 
