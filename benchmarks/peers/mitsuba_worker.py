@@ -2,6 +2,7 @@
 
     mitsuba_worker.py FOLDER SENSOR VARIANT SAMPLER THREADS
 
+SENSOR is names of sensors with "+" between them, after "luminance:" or "picture:" where they are not illuminances.
 Reads lines {"samples": n, "seed": s, "file": path} from standard input; writes an array of values to the file and
 a line {"seconds": processor time, "compile_s": the same of a first launch, "memory_mb": peak} to standard output.
 The first line that it writes is {"load_s": processor time until the scene was loaded}.
@@ -48,11 +49,12 @@ def rounded(samples: int) -> int:
 
 
 class Points:
-    """Illuminances, or luminances where the sensor's name begins with "luminance:"."""
+    """Illuminances or luminances."""
 
     def __init__(self, name: str):
         self.is_luminance = name.startswith("luminance:")
-        self.positions, self.directions = measure.read_points(f"{FOLDER}/{name.split(':')[-1]}.pts")
+        parts = [measure.read_points(f"{FOLDER}/{part}.pts") for part in name.split(":")[-1].split("+")]
+        self.positions, self.directions = (np.concatenate(vectors) for vectors in zip(*parts))
         self.count = len(self.positions)
         flags = [emitter.flags() for emitter in SCENE.emitters()]
         self.has_points_only = all(mi.has_flag(flag, mi.EmitterFlags.DeltaPosition) for flag in flags)

@@ -30,7 +30,9 @@ PATH_TRACER = {"type": "path", "max_depth": -1, "rr_depth": 5}
 
 def load(folder=HERE, sampler: str = "independent"):
     """The scene; `sampler` is that of its cameras."""
-    return mi.load_file(str(Path(folder) / "scene.xml"), sampler=sampler)
+    file = Path(folder) / "scene.xml"
+    has_cameras = "$sampler" in file.read_text()
+    return mi.load_file(str(file), **({"sampler": sampler} if has_cameras else {}))
 
 
 def read_points(path):
