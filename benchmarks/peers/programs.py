@@ -133,9 +133,8 @@ class MitsubaSession:
 
     def __init__(self, task: Task, sampler: str, variant: str, threads: int):
         self.folder = tempfile.TemporaryDirectory()
-        sensor = ("picture:" if task.kind == "picture" else "") + "+".join(task.sensors)
-        if task.scene == "showroom" and task.sensors[0] in ("one", "four"):
-            sensor = f"luminance:{sensor}"
+        kind = "picture:" if task.kind == "picture" else "luminance:" if task.is_luminance else ""
+        sensor = kind + "+".join(task.sensors)
         command = [sys.executable, HERE / "mitsuba_worker.py", exported(task, "mitsuba"), sensor, variant, sampler]
         environment = dict(os.environ, HOME=self.folder.name)  # no kernels of earlier runs
         environment.setdefault("DRJIT_LIBLLVM_PATH", LLVM)

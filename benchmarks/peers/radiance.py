@@ -9,7 +9,6 @@ interpolates between stored interreflections and sees lamps as fixed points, as 
 import subprocess
 import tempfile
 import time
-import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -69,7 +68,7 @@ class RadianceSession:
         if self.task.kind != "picture":
             points = np.concatenate([np.loadtxt(self.scene / f"{name}.pts", ndmin=2) for name in self.task.sensors])
             return np.repeat(points.astype(np.float32), repeats, axis=0)
-        width, height = tomllib.loads(self.task.path.read_text())["sensors"][self.task.sensors[0]]["resolution"]
+        width, height = self.task.sensor["resolution"]
         view = ["vwrays", "-ff", "-vf", f"{self.task.sensors[0]}.vf", "-x", width, "-y", height, "-pj", 1]
         words = [str(word) for word in [BIN / view[0], *view[1:], "-c", repeats]]
         done = subprocess.run(words, env=self.environment, cwd=self.scene, capture_output=True, check=True)
@@ -80,7 +79,7 @@ class RadianceSession:
         at_once = min(repeats, max(MOST_RAYS // self.count, 1))
         store = Path(self.folder.name) / "ambient"
         store.unlink(missing_ok=True)
-        flags = ["-I"] if self.task.kind != "picture" else []
+        flags = [] if self.task.kind == "picture" or self.task.is_luminance else ["-I"]
         total, seconds, done = 0.0, 0.0, 0
         while done < repeats:
             time.sleep(1)  # rtrace takes its seed from the clock, in seconds

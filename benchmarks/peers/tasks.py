@@ -1,5 +1,6 @@
 """What is measured: scenes, sensors and the errors to reach."""
 
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +23,15 @@ class Task:
     def path(self) -> Path:
         folder = ROOT / "scenes/office" if self.scene == "office" else HERE / "scenes"
         return folder / f"{self.scene}.toml"
+
+    @property
+    def sensor(self) -> dict:
+        """The table of the first sensor."""
+        return tomllib.loads(self.path.read_text())["sensors"][self.sensors[0]]
+
+    @property
+    def is_luminance(self) -> bool:
+        return self.sensor["type"] == "luminance"
 
     @property
     def seeds(self) -> int:

@@ -82,8 +82,8 @@ class ExportTest(CommandLineTest):
         self.assertIn("0.25 0.25 0.25", (self.output / "scene.xml").read_text())
 
     def test_wrong_input(self):
-        self.expect_wrong_input(["export", self.scene, "--format", "mitsubishi", "-o", self.output],
-                                "no format mitsubishi", 'Did you mean "mitsuba"?', "radiance")
+        self.expect_wrong_input(["export", self.scene, "--format", "mitsubba", "-o", self.output],
+                                "no format mitsubba", 'Did you mean "mitsuba"?', "radiance")
         self.expect_wrong_input(["export", self.scene, "--format", "mitsuba", "-o", self.folder],
                                 "holds a file of the scene", "another folder")
         self.expect_wrong_input(["export", self.scene, "--format", "mitsuba", "-o", self.scene], "folder")

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "io/export/mitsuba_scene.h"
-#include "io/image/picture_file.h"
 
 namespace stilb::io::exporting {
 namespace {
@@ -54,19 +53,22 @@ struct MitsubaLight {
         const Vec3 &x = light.axes.v, &y = light.axes.w, &z = light.axes.u;
         return light_of(
             "envmap",
-            fmt::format("    <string name=\"filename\" value=\"{}.exr\"/>\n    <transform "
+            fmt::format("    <string name=\"filename\" value=\"{}.pfm\"/>\n    <transform "
                         "name=\"to_world\">\n      <matrix value=\"{:.9g} {:.9g} {:.9g} 0 {:.9g} {:.9g} "
                         "{:.9g} 0 {:.9g} {:.9g} {:.9g} 0 0 0 0 1\"/>\n    </transform>\n",
                         id, x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z));
     }
 
   private:
+    /// A portable float map: rows from the bottom, little-endian.
     void write_panorama(const lights::Panorama& panorama) const {
-        Picture picture;
-        picture.width = panorama.width();
-        picture.height = panorama.height();
-        picture.rgb_cd_m2 = panorama.image().rgb_cd_m2;
-        output.write(id + ".exr", to_exr(picture));
+        const auto width = static_cast<std::size_t>(panorama.width());
+        const auto& pixels = panorama.image().rgb_cd_m2;
+        std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", panorama.width(), panorama.height());
+        for (std::size_t row = pixels.size() / width; row-- > 0;) {
+            bytes.append(reinterpret_cast<const char*>(&pixels[row * width]), width * sizeof pixels[0]);
+        }
+        output.write(id + ".pfm", bytes);
     }
 };
 

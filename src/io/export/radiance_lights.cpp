@@ -41,7 +41,6 @@ std::string sky(const std::string& modifier, const std::string& id, const Rgb& l
 
 struct RadianceLight {
     const std::string& id;
-    const std::string& name;
     Output& output;
 
     std::string operator()(const PointLight& light) const {
@@ -57,12 +56,11 @@ struct RadianceLight {
     std::string operator()(const AreaLight&) const { return ""; }
     std::string operator()(const EnvironmentLight& light) const {
         if (!light.panorama) return sky("void", id, light.luminance_cd_m2);
-        output.warn("light", name, "the colours of the panorama are in Radiance's primaries.");
         Picture picture;
         picture.width = light.panorama->width();
         picture.height = light.panorama->height();
         picture.rgb_cd_m2 = light.panorama->image().rgb_cd_m2;
-        output.write(id + ".hdr", to_hdr(picture));
+        output.write(id + ".hdr", to_hdr(picture, HdrBands::as_they_are));
         output.write("panorama.cal", kPanoramaFunctions);
         // The picture's values are radiances already.
         return radiance_primitive("void", "colorpict", id + "_picture",
@@ -86,7 +84,7 @@ stilb_gamma = acos(if(stilb_z - 1, 1, if(-1 - stilb_z, -1, stilb_z))) * 180/PI;
 )";
 
 std::string radiance_light(const Light& light, const std::string& id, Output& output) {
-    return std::visit(RadianceLight{id, light.name, output}, light.source);
+    return std::visit(RadianceLight{id, output}, light.source);
 }
 
 }  // namespace stilb::io::exporting
