@@ -8,8 +8,6 @@ Definitions and results: docs/performance.md.
 
 import argparse
 import json
-import sys
-import time
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -90,6 +88,7 @@ def row_of(task: Task, name: str, session, ref: Reference, target: float, size: 
 
 
 def rows_of(task: Task, ref: Reference, arguments) -> list[Row]:
+    """Prints them as they come."""
     rows = []
     for name, open_session in sessions(task, arguments.threads).items():
         if arguments.programs and not any(name.startswith(wanted) for wanted in arguments.programs):
@@ -97,10 +96,9 @@ def rows_of(task: Task, ref: Reference, arguments) -> list[Row]:
         session = open_session()
         size = session.first_size
         for target in task.targets:
-            start = time.monotonic()
             size = find_size(session, ref, target, arguments.limit, size)
             rows.append(row_of(task, name, session, ref, target, size, arguments.seeds or task.seeds))
-            print(f"{line_of(rows[-1], rows)}  ({time.monotonic() - start:.0f} s)", file=sys.stderr, flush=True)
+            print(line_of(rows[-1], rows), flush=True)
         session.close()
     return rows
 
@@ -131,10 +129,7 @@ def main() -> None:
             continue
         ref = reference(task, arguments.reference, arguments.threads)
         print(f"\n{task.name}: {ref.agreement()}\n\n{HEADER}", flush=True)
-        rows = rows_of(task, ref, arguments)
-        for row in rows:
-            print(line_of(row, rows), flush=True)
-        every += [asdict(row) for row in rows]
+        every += [asdict(row) for row in rows_of(task, ref, arguments)]
     RESULTS.write_text(json.dumps(every, indent=1))
 
 

@@ -104,9 +104,13 @@ def photometry() -> str:
         " ".join(map(str, gammas)), " ".join(map(str, planes)), *rows, ""])
 
 
+def files() -> dict[str, str]:
+    return {"hall.toml": HEAD + "".join(shelves()) + "".join(luminaires()), "downlight.ies": photometry()}
+
+
 def main() -> None:
-    (HERE / "hall.toml").write_text(HEAD + "".join(shelves()) + "".join(luminaires()))
-    (HERE / "downlight.ies").write_text(photometry())
+    for name, content in files().items():
+        (HERE / name).write_text(content)
 
 
 if __name__ == "__main__":

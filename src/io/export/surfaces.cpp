@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
 #include <map>
+#include <set>
 
 #include "geometry/harmonics/surface.h"
 #include "io/export/parts.h"
@@ -81,9 +81,8 @@ class Division {
 
     void add(const Scene& scene, const Object& object, const std::optional<Rgb>& luminance) {
         if (const auto* mesh = std::get_if<Mesh>(&object.shape); mesh && object.materials.size() > 1) {
-            std::map<MaterialId, bool> seen;
-            for (const MaterialId material : object.materials) seen[material] = true;
-            for (const auto& [material, ignored] : seen) {
+            for (const MaterialId material :
+                 std::set<MaterialId>(object.materials.begin(), object.materials.end())) {
                 const std::string name = object.name + "_" + scene.materials[index_of(material)].name;
                 push(name, part_of(*mesh, object.materials, material), material, luminance);
             }
