@@ -75,7 +75,9 @@ def row_of(task: Task, name: str, session, ref: Reference, target: float, size: 
     runs = [session.run(size, seed) for seed in range(2, 2 + seeds)]
     squared = max(np.mean([ref.squared_error(run.values) for run in runs]), 1e-16)
     biases = np.array([ref.bias(run.values) for run in runs])
-    spread = np.hypot(biases.std(ddof=1) / np.sqrt(len(runs)), ref.mean_error)
+    # Few seeds may agree by chance; the error of the mean is hardly below that of independent values.
+    least = np.mean([np.std(run.values - ref.values) for run in runs]) / np.sqrt(ref.values.size) / ref.mean
+    spread = np.hypot(max(biases.std(ddof=1), least) / np.sqrt(len(runs)), ref.mean_error)
     sampling = np.median([run.seconds for run in runs])
     factor = squared / target**2
     if session.is_biased:

@@ -15,7 +15,7 @@ from programs import MitsubaSession, StilbSession, exported
 from tasks import ROOT, Task
 
 FOLDER = ROOT / "build/peers/references"
-PARTS = 4  # runs of each program, whose spread is its error
+PARTS = 8  # runs of each program, whose spread is its error
 
 
 @dataclass
@@ -84,12 +84,15 @@ def estimate(task: Task, session, seconds: float) -> Estimate:
     parts = np.array([session.run(size, 901 + i).values for i in range(PARTS)])
     session.close()
     values = parts.mean(axis=0)
-    rms = np.sqrt(np.mean(parts.var(axis=0, ddof=1) / PARTS / norm_of(task, values) ** 2))
-    return Estimate(values, float(rms), float(parts.mean(axis=1).std(ddof=1) / np.sqrt(PARTS)))
+    variance = parts.var(axis=0, ddof=1) / PARTS
+    rms = np.sqrt(np.mean(variance / norm_of(task, values) ** 2))
+    spread = parts.mean(axis=1).std(ddof=1) / np.sqrt(PARTS)
+    # Few parts may agree by chance; the error of the mean is hardly below that of independent values.
+    return Estimate(values, float(rms), float(max(spread, np.sqrt(variance.mean() / values.size))))
 
 
 def fingerprint(task: Task, seconds: float) -> str:
-    content = hashlib.sha256(f"{task} {seconds}".encode())
+    content = hashlib.sha256(f"{task} {seconds} {PARTS}".encode())
     for file in sorted(exported(task, "mitsuba").iterdir()):
         if file.suffix in (".xml", ".ply", ".pts", ".dat"):
             content.update(file.read_bytes())
