@@ -55,9 +55,10 @@ def sessions(task: Task, threads: int) -> dict:
 
 def find_size(session, ref: Reference, target: float, most_s: float, size: int) -> int:
     """The size that about reaches the target, or the largest one within `most_s`."""
+    pilots = max(int(8 / ref.values.size**0.5), 1)  # one run says little about the error of a single reading
     while True:
-        run = session.run(size, 1)
-        growth = ref.squared_error(run.values) / target**2
+        runs = [session.run(size, 1001 + i) for i in range(pilots)]
+        growth = np.mean([ref.squared_error(run.values) for run in runs]) / target**2
         if growth <= 1.2 and (growth >= 0.7 or size <= session.first_size):
             return size
         if growth < 0.7:
@@ -65,7 +66,7 @@ def find_size(session, ref: Reference, target: float, most_s: float, size: int) 
             if smaller > 0.8 * size:
                 return size
             return smaller
-        growth = min(growth, MOST_GROWTH, most_s / run.seconds)
+        growth = min(growth, MOST_GROWTH, most_s / runs[0].seconds)
         if growth < 1.2:
             return size
         size = max(int(size * growth), size + 1)
