@@ -6,12 +6,15 @@ SOURCES = $(shell git ls-files '*.h' '*.cpp')
 FUZZERS = $(patsubst fuzz/%_fuzzer.cpp,%,$(wildcard fuzz/*_fuzzer.cpp))
 FUZZ_SECONDS ?= 60
 PREFIX ?= /usr/local
+PEERS := build/peers/venv
+SCENES ?=
+THREADS ?= 2
 
 # $(call configure,PRESET): only where it was not done; afterwards Ninja itself notices changes.
 configure = test -f build/$(1)/build.ninja || cmake --preset $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-lint build demo test web install verify-long bench format format-check lint odr sanitize fuzz clean
+.PHONY: help setup setup-lint build demo test web install verify-long bench bench-peers format format-check lint odr sanitize fuzz clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' Makefile
@@ -59,6 +62,15 @@ bench: setup ## the benchmarks
 	@$(call configure,release)
 	@cmake --build --preset release
 	@for program in $(RELEASE)/bench_*; do echo "$$program"; "$$program" || exit 1; done
+
+$(PEERS)/ready: benchmarks/peers/requirements.txt
+	@scripts/setup peers
+	@python3 -m venv $(PEERS)
+	@$(PEERS)/bin/pip install --quiet --disable-pip-version-check -r $<
+	@touch $@
+
+bench-peers: build $(PEERS)/ready ## time to a given error beside Mitsuba and Radiance; SCENES="room hall", THREADS=1: some, and on one thread
+	@$(PEERS)/bin/python benchmarks/peers/bench.py --threads $(THREADS) $(SCENES)
 
 format: setup-lint ## rewrite all sources in the project's format
 	@clang-format-14 -i $(SOURCES)

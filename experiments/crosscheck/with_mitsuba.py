@@ -4,6 +4,9 @@ Mitsuba has no units: whatever goes in as radiance comes out as irradiance. Lumi
 Emitters are given as "rgb" in an RGB variant; a spectral variant would multiply them by the illuminant D65.
 """
 
+import sys
+from pathlib import Path
+
 import mitsuba as mi
 import numpy as np
 
@@ -11,13 +14,11 @@ mi.set_variant("llvm_ad_rgb")
 
 import drjit as dr  # noqa: E402
 
-from ggx_for_mitsuba import Ggx  # noqa: E402
-from phong_for_mitsuba import Phong  # noqa: E402
 from rays import BATCHES, Rays, until  # noqa: E402
 from scene import LUMINANCE_WEIGHTS, Rectangle, Scene, Sphere, Surface  # noqa: E402
 
-mi.register_bsdf("stilb_phong", lambda properties: Phong(properties))
-mi.register_bsdf("stilb_ggx", lambda properties: Ggx(properties))
+sys.path.append(str(Path(__file__).resolve().parents[2] / "src/io/export/mitsuba"))
+import stilb_plugins  # noqa: E402, F401: the BRDFs that Mitsuba lacks
 
 RAYS_AT_ONCE = 1 << 18
 POLISHED = 0.01  # roughness up to which Mitsuba's own metal and (smooth) plastic will do

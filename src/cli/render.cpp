@@ -27,7 +27,7 @@ namespace {
 
 constexpr double kPreviewEvery_s = 3;
 /// Seconds a pixel that statistics and files take after the last pass. Two threads were measured.
-constexpr double kFinishing_s = 3e-7;
+constexpr double kFinishingPicture_s = 3e-7;
 
 struct RenderRequest {
     std::string scene, solution, sensor, output, preview, command;
@@ -127,7 +127,8 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
                                &progress, &watch_for_interrupt());
     }
     const auto [width, height] = sensor.camera()->resolution;
-    const RunOptions options = with_reserve(request.flags.over(file.run), kFinishing_s * width * height);
+    const RunOptions options =
+        with_reserve(request.flags.over(file.run), kFinishingPicture_s * width * height);
     origin.method = options.method;
     origin.seed = options.seed;
     RenderProgress progress(request, *sensor.camera(), origin);

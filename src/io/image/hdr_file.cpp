@@ -63,7 +63,15 @@ Triple to_radiance(const PrimariesConversion& convert, const std::array<float, 3
     return rgb;
 }
 
-std::string to_header(const Picture& picture) {
+/// A pixel in Radiance's unit, its bands as they are.
+Triple unconverted(const std::array<float, 3>& rgb_cd_m2) {
+    Triple rgb{};
+    for (std::size_t b = 0; b < kBands; ++b)
+        rgb[b] = std::clamp(double(rgb_cd_m2[b]), 0.0, kLargest) / kLumenPerWatt;
+    return rgb;
+}
+
+std::string to_header(const Picture& picture, const Primaries& primaries) {
     std::string header = "#?RADIANCE\n";
     for (const HeaderField& field : header_fields(picture)) {
         std::string name = field.name;
@@ -72,7 +80,7 @@ std::string to_header(const Picture& picture) {
         header += fmt::format("{}= {}\n", name, field.text);
     }
     header += "EXPOSURE= 1\nPRIMARIES=";
-    for (const auto& [x, y] : kRadiance) header += fmt::format(" {:.4f} {:.4f}", x, y);
+    for (const auto& [x, y] : primaries) header += fmt::format(" {:.4f} {:.4f}", x, y);
     return header + fmt::format("\nFORMAT={}\n\n-Y {} +X {}\n", kPixelFormat, picture.height, picture.width);
 }
 
@@ -262,15 +270,17 @@ class HdrReader {
 
 }  // namespace
 
-std::string to_hdr(const Picture& picture) {
+std::string to_hdr(const Picture& picture, HdrBands bands) {
     require_consistency(picture);
     const PrimariesConversion convert(kRec709, kRadiance);
-    std::string content = to_header(picture);
+    const auto stored = [&](const std::array<float, 3>& rgb) {
+        return bands == HdrBands::radiance ? to_radiance(convert, rgb) : unconverted(rgb);
+    };
+    std::string content = to_header(picture, bands == HdrBands::radiance ? kRadiance : kRec709);
     const auto width = static_cast<std::size_t>(picture.width);
     std::vector<Rgbe> scanline(width);
     for (std::size_t first = 0; first < picture.pixel_count(); first += width) {
-        for (std::size_t x = 0; x < width; ++x)
-            scanline[x] = to_rgbe(to_radiance(convert, picture.rgb_cd_m2[first + x]));
+        for (std::size_t x = 0; x < width; ++x) scanline[x] = to_rgbe(stored(picture.rgb_cd_m2[first + x]));
         append_scanline(scanline, content);
     }
     return content;

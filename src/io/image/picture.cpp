@@ -51,6 +51,8 @@ double vertical_fov_deg(const Camera& camera) {
 
 std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 
+}  // namespace
+
 HeaderField view_field(const Camera& camera) {
     const std::string view = fmt::format("-vp {} -vd {} -vu {} -vh {} -vv {}", text_of(camera.position),
                                          text_of(camera.target - camera.position), text_of(camera.up),
@@ -65,6 +67,8 @@ HeaderField view_field(const Camera& camera) {
     }
     return {"PANORAMA", view};
 }
+
+namespace {
 
 std::optional<Vec3> read_vector(std::string_view& words) {
     Vec3 v;

@@ -81,6 +81,9 @@ struct HeaderField {
 /// perspective upwards), so a panorama has a field PANORAMA without type instead, which Radiance ignores.
 std::vector<HeaderField> header_fields(const Picture& picture);
 
+/// The view alone.
+HeaderField view_field(const Camera& camera);
+
 /// Reads the fields of header_fields(), with names in any case; other fields and values out of range are
 /// ignored. Width and height must be set.
 void read_header_field(Picture& picture, std::string_view name, std::string_view text);

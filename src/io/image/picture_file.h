@@ -54,7 +54,10 @@ Picture read_exr(std::string_view content, const std::string& name);
 /// capitals). A component is exact to 1/256 of its pixel's largest one. Colours beyond Radiance's primaries
 /// keep their luminance. Pixels of a luminance that is negative or NaN are black. Optional channels are left
 /// out.
-std::string to_hdr(const Picture& picture);
+///
+/// With HdrBands::as_they_are pixels stay in linear Rec. 709: for scenes of Radiance whose other colours do.
+enum class HdrBands { radiance, as_they_are };
+std::string to_hdr(const Picture& picture, HdrBands bands = HdrBands::radiance);
 
 /// Reads run-length encoded scanlines of both kinds and flat ones, of rows from the top and from left to
 /// right; applies EXPOSURE (all lines multiply) and PRIMARIES. `name` is used in messages. Throws InputError
