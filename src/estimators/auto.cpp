@@ -16,27 +16,27 @@ namespace stilb::estimators {
 namespace {
 
 /// With more readings light paths always pay (docs/performance.md).
-constexpr std::size_t kMostReadings = 256;
+constexpr std::size_t kMostReadings = 64;
 /// Independent parts of a pilot, for its variances.
-constexpr std::size_t kPilots = 32;
+constexpr std::size_t kPilots = 16;
 
 /// The readings of a pilot: of each part, the mean over its samples.
 struct Pilot {
     std::vector<std::vector<double>> parts;
-    double rays = 0;  ///< of each part
+    double cost = 0;  ///< of each part
 };
 
-/// The samples of one of the method's parts, for about so many rays.
-std::uint64_t samples_for(double rays, const Estimator& method) {
+/// The samples of a part of this cost, at least as many as the method makes together.
+std::uint64_t samples_for(double cost, const Estimator& method) {
     const std::uint64_t granularity = method.batch_granularity();
-    const double granules = rays / (method.rays_per_sample() * static_cast<double>(granularity));
+    const double granules = cost / (method.cost_per_sample() * static_cast<double>(granularity));
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(granules)) * granularity;
 }
 
-Pilot run_pilot(const Estimator& method, std::size_t readings, double rays, math::RandomKey key) {
-    const std::uint64_t samples = samples_for(rays, method);
+Pilot run_pilot(const Estimator& method, std::size_t readings, double cost, math::RandomKey key) {
+    const std::uint64_t samples = samples_for(cost, method);
     Pilot pilot{std::vector<std::vector<double>>(kPilots),
-                static_cast<double>(samples) * method.rays_per_sample()};
+                static_cast<double>(samples) * method.cost_per_sample()};
     parallel_for(kPilots, [&](std::size_t part) {
         ReadingSums sums(readings);
         method.run_batch({key.derived(part), 0, samples}, sums);
@@ -73,7 +73,7 @@ bool path_pays(const Pilot& path, const Pilot& balanced, std::span<const double>
         of_path += weight * a.variance / (value * value);
         of_balanced += weight * b.variance / (value * value);
     }
-    return of_path * path.rays < of_balanced * balanced.rays;
+    return of_path * path.cost < of_balanced * balanced.cost;
 }
 
 }  // namespace
@@ -85,10 +85,10 @@ std::unique_ptr<Estimator> make_auto(const Problem& problem) {
     const bool lacks_light = path_warnings(problem.scene).size() > 0;
     if (problem.camera || readings == 0 || readings > kMostReadings || lacks_light) return balanced;
     std::unique_ptr<Estimator> path = make_path(problem);
-    const double rays = balanced->rays_per_sample() * static_cast<double>(balanced->batch_granularity());
-    const Pilot of_path = run_pilot(*path, readings, rays, problem.preparation_key.derived(pilot_of_path));
+    const double cost = balanced->cost_per_sample() * static_cast<double>(balanced->batch_granularity());
+    const Pilot of_path = run_pilot(*path, readings, cost, problem.preparation_key.derived(pilot_of_path));
     const Pilot of_balanced =
-        run_pilot(*balanced, readings, rays, problem.preparation_key.derived(pilot_of_balanced));
+        run_pilot(*balanced, readings, cost, problem.preparation_key.derived(pilot_of_balanced));
     return path_pays(of_path, of_balanced, problem.weights) ? std::move(path) : std::move(balanced);
 }
 

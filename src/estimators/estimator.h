@@ -143,6 +143,9 @@ class Estimator {
     virtual std::uint64_t first_check() const { return 4 * batch_granularity(); }
     /// The approximate number of rays of one sample, over all readings: it determines the length of batches.
     virtual double rays_per_sample() const = 0;
+    /// The approximate processor time of one sample, in units of a scattered ray's: rays of packets take
+    /// less.
+    virtual double cost_per_sample() const { return rays_per_sample(); }
 
     /// A pass over the picture of the problem's camera. Keeps a reference to the estimator.
     virtual std::unique_ptr<const PicturePass> start(const Pass& pass) const = 0;

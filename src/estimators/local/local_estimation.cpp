@@ -162,6 +162,12 @@ class LocalReadings {
         return path_cost +
                2.0 * static_cast<double>(seen_.receivers.size()) / static_cast<double>(paths_per_selected_);
     }
+    double cost_per_sample() const {
+        if (guided_) return guided_->rays_per_sample();
+        constexpr double of_path = 20, of_connection = 0.15;
+        return of_path + of_connection * static_cast<double>(seen_.receivers.size()) /
+                             static_cast<double>(paths_per_selected_);
+    }
 
   private:
     enum Purpose : std::uint64_t { kLightPaths, kSelection, kDirect, kGather, kPilot, kPlan, kFaint };
@@ -629,6 +635,7 @@ class LocalEstimation final : public Estimator {
     std::uint64_t batch_granularity() const override { return readings_.batch_granularity(); }
     std::uint64_t first_check() const override { return readings_.first_check(); }
     double rays_per_sample() const override { return readings_.rays_per_sample(); }
+    double cost_per_sample() const override { return readings_.cost_per_sample(); }
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return picture_->start(pass);
     }
