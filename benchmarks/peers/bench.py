@@ -122,8 +122,8 @@ def main() -> None:
     parser.add_argument("--programs", nargs="+", help="only those whose name begins so")
     parser.add_argument("--threads", type=int, default=2, help="of every program (2)")
     parser.add_argument("--seeds", type=int, help="runs from which a row is derived (3 to 12, by the kind of task)")
-    parser.add_argument("--limit", type=float, default=60, help="processor seconds of a run (60)")
-    parser.add_argument("--reference", type=float, default=40, help="processor seconds of each reference (40)")
+    parser.add_argument("--limit", type=float, default=8, help="processor seconds of a run (8)")
+    parser.add_argument("--reference", type=float, default=16, help="processor seconds of each reference (16)")
     arguments = parser.parse_args()
     every = []
     for task in TASKS:
