@@ -9,6 +9,7 @@ PREFIX ?= /usr/local
 PEERS := build/peers/venv
 SCENES ?=
 THREADS ?= 2
+PEERS_FLAGS ?=
 
 # $(call configure,PRESET): only where it was not done; afterwards Ninja itself notices changes.
 configure = test -f build/$(1)/build.ninja || cmake --preset $(1)
@@ -70,7 +71,7 @@ $(PEERS)/ready: benchmarks/peers/requirements.txt
 	@touch $@
 
 bench-peers: build $(PEERS)/ready ## time to a given error beside Mitsuba and Radiance; SCENES="room hall", THREADS=1: some, and on one thread
-	@$(PEERS)/bin/python benchmarks/peers/bench.py --threads $(THREADS) $(SCENES)
+	@$(PEERS)/bin/python benchmarks/peers/bench.py --threads $(THREADS) $(PEERS_FLAGS) $(SCENES)
 
 format: setup-lint ## rewrite all sources in the project's format
 	@clang-format-14 -i $(SOURCES)

@@ -35,11 +35,12 @@ class Row:
     bias: float
     z: float
     memory_mb: float
-    is_biased: bool
+    factor: float  # by which the time of the runs was scaled
+    is_reached: bool
 
     @property
-    def is_extrapolated(self) -> bool:
-        return not 0.5 <= (self.error / self.target) ** 2 <= 2
+    def sign(self) -> str:
+        return ">" if not self.is_reached else "" if 0.5 <= self.factor <= 2 else "~"
 
 
 def sessions(task: Task, threads: int) -> dict:
@@ -85,9 +86,9 @@ def row_of(task: Task, name: str, session, ref: Reference, target: float, size: 
         factor = 1.0  # its error does not fall with the number of samples alone
     elif size <= session.first_size:
         factor = max(factor, 1.0)  # no run is smaller
-    set_up = session.set_up_s()
+    set_up, is_reached = session.set_up_s(), not session.is_biased or squared <= 2 * target**2
     return Row(task.name, target, name, set_up + sampling * factor, set_up, float(np.sqrt(squared)), size,
-               float(biases.mean()), float(biases.mean() / spread), session.memory_mb, session.is_biased)
+               float(biases.mean()), float(biases.mean() / spread), session.memory_mb, float(factor), is_reached)
 
 
 def rows_of(task: Task, ref: Reference, arguments) -> list[Row]:
@@ -109,8 +110,7 @@ def rows_of(task: Task, ref: Reference, arguments) -> list[Row]:
 def line_of(row: Row, rows: list[Row]) -> str:
     base = next((r.seconds for r in rows if r.target == row.target and r.program == "stilb auto"), None)
     ratio = f"{row.seconds / base:.3g}" if base else ""
-    sign = "" if not row.is_extrapolated else ">" if row.is_biased else "~"
-    return (f"| {row.task} | {100 * row.target:g} % | {row.program} | {sign}{row.seconds:.3g} | {row.set_up_s:.2g} | "
+    return (f"| {row.task} | {100 * row.target:g} % | {row.program} | {row.sign}{row.seconds:.3g} | {row.set_up_s:.2g} | "
             f"{ratio} | {100 * row.error:.2g} % | {100 * row.bias:+.3f} % | {row.z:+.1f} | {row.memory_mb:.0f} |")
 
 
@@ -122,8 +122,8 @@ def main() -> None:
     parser.add_argument("--programs", nargs="+", help="only those whose name begins so")
     parser.add_argument("--threads", type=int, default=2, help="of every program (2)")
     parser.add_argument("--seeds", type=int, help="runs from which a row is derived (3 to 12, by the kind of task)")
-    parser.add_argument("--limit", type=float, default=60, help="processor seconds of a run (60)")
-    parser.add_argument("--reference", type=float, default=40, help="processor seconds of each reference (40)")
+    parser.add_argument("--limit", type=float, default=8, help="processor seconds of a run (8)")
+    parser.add_argument("--reference", type=float, default=16, help="processor seconds of each reference (16)")
     arguments = parser.parse_args()
     every = []
     for task in TASKS:

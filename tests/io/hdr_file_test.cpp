@@ -226,5 +226,12 @@ TEST(HdrFile, RefusesWhatItCannotRead) {
     expect("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", "ends within its header");
 }
 
+TEST(HdrFile, BandsAsTheyAreComeBackByTheirPrimaries) {
+    const Picture read = read_hdr(to_hdr(picture_of({{400, 100, 20}}), HdrBands::as_they_are), "a.hdr");
+    EXPECT_NEAR(read.rgb_cd_m2[0][0], 400, 2);
+    EXPECT_NEAR(read.rgb_cd_m2[0][1], 100, 2);
+    EXPECT_NEAR(read.rgb_cd_m2[0][2], 20, 2);
+}
+
 }  // namespace
 }  // namespace stilb::io

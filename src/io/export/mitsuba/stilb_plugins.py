@@ -64,7 +64,7 @@ class Phong(mi.BSDF):
         return "Phong"
 
 
-KNOTS = 1024  # of the table of E
+KNOTS = 192  # of the table of E
 
 
 class Ggx(mi.BSDF):
@@ -138,7 +138,7 @@ def _lambda(alpha, cosine):
 
 def _albedo(alpha: float, ior: float, cosine: float) -> float:
     """Of the facets alone, over facet normals in proportion to D(h) cos(h)."""
-    u, v = (np.arange(400) + 0.5) / 400, (np.arange(90) + 0.5) / 90
+    u, v = (np.arange(400) + 0.5) / 400, (np.arange(45) + 0.5) / 90  # the other half turn is symmetric
     up = np.sqrt((1 - u) / (1 + (alpha**2 - 1) * u))[:, None]
     dot = np.sqrt(1 - up**2) * np.cos(2 * np.pi * v) * np.sqrt(1 - cosine**2) + up * cosine
     out = 2 * dot * up - cosine
