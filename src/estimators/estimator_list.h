@@ -47,6 +47,8 @@ const EstimatorEntry& find_estimator(std::string_view name);
 std::unique_ptr<Estimator> make_auto(const Problem& problem);
 /// Local estimation balanced with path tracing, and as published: local/local_estimation.cpp.
 std::unique_ptr<Estimator> make_balanced(const Problem& problem);
+/// The same by a guess of the light, whether it pays or not: for tests.
+std::unique_ptr<Estimator> make_guided(const Problem& problem);
 std::unique_ptr<Estimator> make_local(const Problem& problem);
 /// path/path.cpp
 std::unique_ptr<Estimator> make_path(const Problem& problem);

@@ -24,16 +24,19 @@ constexpr std::uint64_t kSamplesTogether = 64;
 
 }  // namespace
 
-std::unique_ptr<GuidedLight> GuidedLight::make(const Problem& problem, const transport::LightSampler& lights,
+std::unique_ptr<GuidedLight> GuidedLight::make(Guess guess, const Problem& problem,
+                                               const transport::LightSampler& lights,
                                                const transport::PathTracer& tracer, math::RandomKey key) {
+    const bool can_be =
+        problem.max_reflections == transport::kUnlimited && surface_area_m2(problem.scene) > 0;
     const bool has_readings = kPatchesPerReading * static_cast<double>(problem.measurands.size()) >=
                               LightGuess::patch_count(problem.scene);
-    if (problem.max_reflections != transport::kUnlimited || !(surface_area_m2(problem.scene) > 0) ||
-        !(problem.camera || has_readings))
-        return nullptr;
+    const bool may_pay = problem.camera || has_readings;
+    if (!can_be || guess == Guess::never || (guess == Guess::where_it_pays && !may_pay)) return nullptr;
     auto light =
         std::make_unique<GuidedLight>(problem.scene, problem.caster, lights, tracer, key, problem.monitor);
-    return light->residual.share_of_guess() < kMostResidual ? std::move(light) : nullptr;
+    const bool pays = light->residual.share_of_guess() < kMostResidual;
+    return pays || guess == Guess::always ? std::move(light) : nullptr;
 }
 
 GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,

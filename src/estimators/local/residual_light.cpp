@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "estimators/limits.h"
 #include "materials/shaded_surface.h"
+#include "transport/receiver.h"
 #include "transport/weights.h"
 
 namespace stilb::estimators {

@@ -15,7 +15,7 @@ constexpr unsigned kDimensions = 12;
 /// The low-discrepancy sequence is used in a random order within blocks of this many points: consecutive
 /// steps must be independent of each other, or their product would be biased.
 constexpr std::uint64_t kShuffled = 256;
-enum Purpose : std::uint64_t { kPoints, kOrder };
+enum BundlePurpose : std::uint64_t { kPoints, kOrder };
 
 /// Uniform among all rotations [Shoemake 1992].
 Frame random_frame(double u1, double u2, double u3) {

@@ -1,0 +1,113 @@
+// Local estimation by a guess of the light against local estimation without one, in all scenes of the
+// agreement suite: also where method auto would leave the guess out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "agreement/sanitized.h"
+#include "agreement/scenes.h"
+#include "base/parallel.h"
+#include "estimators/estimator_list.h"
+#include "statistics/hypothesis.h"
+#include "transport/receiver.h"
+
+namespace stilb {
+namespace {
+
+constexpr std::size_t kReplicates = 32;
+/// Relative standard error that is aimed at.
+constexpr double kTargetError = 0.003 * kCoarser;
+/// Chance that the whole file fails without a defect, when its seeds are first used.
+constexpr double kFamilyError = 0.01;
+
+std::vector<Measurand> measurands_of(const AgreementScene& scene) {
+    std::vector<Measurand> all;
+    for (const Sensor& sensor : scene.sensors())
+        std::ranges::copy(sensor.measurands(), std::back_inserter(all));
+    return all;
+}
+
+std::vector<statistics::Estimate> measure(const estimators::Estimator& method, std::size_t readings,
+                                          math::RandomKey key, std::uint64_t samples) {
+    std::vector<std::vector<double>> means(readings, std::vector<double>(kReplicates));
+    parallel_for(kReplicates, [&](std::size_t r) {
+        estimators::ReadingSums sums(readings);
+        method.run_batch({key.derived(r), 0, samples}, sums);
+        for (std::size_t j = 0; j < readings; ++j) {
+            const Rgb mean = sums.sum[j] * (1 / static_cast<double>(samples));
+            means[j][r] = (method.known_part()[j] + mean).luminance();
+        }
+    });
+    std::vector<statistics::Estimate> estimates;
+    for (const auto& of_reading : means)
+        estimates.push_back(statistics::estimate_from_replicates(of_reading));
+    return estimates;
+}
+
+/// So many samples that most readings reach the error that is aimed at, by a pilot with a key of its own.
+std::vector<statistics::Estimate> measure_exactly(const estimators::Estimator& method, std::size_t readings,
+                                                  math::RandomKey key) {
+    const std::uint64_t granularity = method.batch_granularity();
+    const std::uint64_t pilot = std::max<std::uint64_t>(granularity, 64 / granularity * granularity);
+    double squared = 0;
+    for (const statistics::Estimate& e : measure(method, readings, key.derived(0), pilot)) {
+        const double error = e.value > 0 ? e.standard_error / e.value : 0;
+        squared += error * error / static_cast<double>(readings);
+    }
+    const double granules =
+        squared / (kTargetError * kTargetError) * static_cast<double>(pilot / granularity);
+    const auto most = static_cast<double>((1u << 14) / granularity);
+    return measure(
+        method, readings, key.derived(1),
+        granularity * static_cast<std::uint64_t>(std::clamp(std::ceil(granules), 4., std::max(4., most))));
+}
+
+std::vector<std::size_t> scenes_without_limit() {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < agreement_scenes().size(); ++i) {
+        if (!agreement_scenes()[i].bounces) numbers.push_back(i);
+    }
+    return numbers;
+}
+
+std::size_t comparisons() {
+    std::size_t sum = 0;
+    for (const std::size_t i : scenes_without_limit()) sum += measurands_of(agreement_scenes()[i]).size();
+    return sum;
+}
+
+class Guided : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Guided, IsLocalEstimation) {
+    const AgreementScene& of = agreement_scenes()[GetParam()];
+    const Scene scene = of.make();
+    const rays::RayCaster caster(scene);
+    const std::vector<Measurand> measurands = measurands_of(of);
+    const math::RandomKey key = math::RandomKey{20}.derived(GetParam());
+    const estimators::Problem problem{.scene = scene,
+                                      .caster = caster,
+                                      .max_reflections = transport::kUnlimited,
+                                      .preparation_key = key.derived(2),
+                                      .measurands = measurands};
+    const auto guided = measure_exactly(*estimators::make_guided(problem), measurands.size(), key.derived(0));
+    const auto balanced =
+        measure_exactly(*estimators::make_balanced(problem), measurands.size(), key.derived(1));
+    const double threshold = statistics::sidak_threshold_z(kFamilyError, comparisons());
+    for (std::size_t j = 0; j < measurands.size(); ++j) {
+        const double t = statistics::z_score(guided[j], balanced[j]);
+        EXPECT_LT(std::abs(statistics::equivalent_z(t, kReplicates - 1)), threshold)
+            << "reading " << j << ": " << guided[j].value << " +- " << guided[j].standard_error << ", "
+            << balanced[j].value << " +- " << balanced[j].standard_error;
+    }
+}
+
+std::string name_of(const testing::TestParamInfo<std::size_t>& place) {
+    return std::string(agreement_scenes()[place.param].name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Guided, testing::ValuesIn(scenes_without_limit()), name_of);
+
+}  // namespace
+}  // namespace stilb
