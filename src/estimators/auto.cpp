@@ -17,6 +17,8 @@ namespace {
 
 /// With more readings light paths always pay (docs/performance.md).
 constexpr std::size_t kMostReadings = 64;
+/// The same for all seeds, so that a scene is measured by one method, and a number of paths means the same.
+constexpr math::RandomKey kPilotKey{0x5ee0f7e57a11ed00};
 /// Independent parts of a pilot, for its variances.
 constexpr std::size_t kPilots = 16;
 
@@ -79,16 +81,14 @@ bool path_pays(const Pilot& path, const Pilot& balanced, std::span<const double>
 }  // namespace
 
 std::unique_ptr<Estimator> make_auto(const Problem& problem) {
-    constexpr std::uint64_t pilot_of_path = 1u << 20, pilot_of_balanced = pilot_of_path + 1;
     std::unique_ptr<Estimator> balanced = make_balanced(problem);
     const std::size_t readings = problem.measurands.size();
     const bool lacks_light = path_warnings(problem.scene).size() > 0;
     if (problem.camera || readings == 0 || readings > kMostReadings || lacks_light) return balanced;
     std::unique_ptr<Estimator> path = make_path(problem);
     const double cost = balanced->cost_per_sample() * static_cast<double>(balanced->batch_granularity());
-    const Pilot of_path = run_pilot(*path, readings, cost, problem.preparation_key.derived(pilot_of_path));
-    const Pilot of_balanced =
-        run_pilot(*balanced, readings, cost, problem.preparation_key.derived(pilot_of_balanced));
+    const Pilot of_path = run_pilot(*path, readings, cost, kPilotKey.derived(0));
+    const Pilot of_balanced = run_pilot(*balanced, readings, cost, kPilotKey.derived(1));
     return path_pays(of_path, of_balanced, problem.weights) ? std::move(path) : std::move(balanced);
 }
 

