@@ -44,12 +44,13 @@ RenderResult render_with(const Scene& scene, const Sensor& sensor, const std::st
 }
 
 /// The picture's mean luminance, from independent renderings.
-statistics::Estimate mean_luminance(const Scene& scene, const Sensor& sensor, const std::string& method) {
+statistics::Estimate mean_luminance(const Scene& scene, const Sensor& sensor, const std::string& method,
+                                    std::uint64_t passes = 16) {
     std::vector<double> means;
     // `double-local` has an infinite variance in corners: with seed 9, one vertex is so close to a sub-point
     // that its picture is twice as bright.
     for (std::uint64_t seed = 10; seed < 42; ++seed) {
-        means.push_back(render_with(scene, sensor, method, seed, 16).mean_luminance_cd_m2);
+        means.push_back(render_with(scene, sensor, method, seed, passes).mean_luminance_cd_m2);
     }
     return statistics::estimate_from_replicates(means);
 }
@@ -71,6 +72,23 @@ TEST(Render, MethodsAgree) {
                 << estimates[i].value << ' ' << estimates[j].value;
         }
     }
+}
+
+/// The picture is planned from few sub-points, and none of them lies on the plate, which is all that there is
+/// to see: light of a lit floor behind the camera.
+TEST(Render, ShowsWhatPlanningDidNotSee) {
+    Scene scene;
+    add_object(scene, Rectangle{{-4, -2, -1.5}, {4, 0, 0}, {0, 4, 0}}, diffuse(0.6));
+    add_object(scene, Rectangle{{1, -0.05, -0.05}, {0, 0.1, 0}, {0, 0, 0.1}}, diffuse(0.6));
+    add_area_light(scene, Rectangle{{-3, -1, -0.2}, {0, 2, 0}, {2, 0, 0}}, Rgb::grey(100));
+    const Sensor sensor{"camera",
+                        Camera{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 90, {16, 16}, Projection::perspective}};
+    const statistics::Estimate guided = mean_luminance(scene, sensor, "auto", 256);
+    const statistics::Estimate traced = mean_luminance(scene, sensor, "path", 256);
+    EXPECT_LT(guided.standard_error, 0.03 * guided.value);
+    EXPECT_LT(std::abs(statistics::equivalent_z(z_score(guided, traced), 31)),
+              statistics::sidak_threshold_z(0.001, 1))
+        << guided.value << ' ' << traced.value;
 }
 
 TEST(Render, ErrorsOfPixelsAreHonest) {

@@ -26,7 +26,7 @@ class GuessPoints {
 
     /// The running sums of the sides' weights, for select().
     using Sums = std::vector<float>;
-    /// For receivers around the given ones; `k_per_m2`: of connections to points.
+    /// For receivers around the given ones, of which there may be none; `k_per_m2`: of connections to points.
     Sums sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const;
 
     /// `count` points that lie evenly over the weights; the expectation over `u` of their light is that of

@@ -63,7 +63,7 @@ class SubPointPicture final : public LocalPicture {
             : picture_(picture),
               pass_(pass),
               pool_(picture.trace_paths(pass)),
-              gather_point_(gather_point(pass)) {}
+              gather_point_(gather_point(pass.key.derived(kGather), pass.index)) {}
 
         std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
@@ -123,14 +123,9 @@ class SubPointPicture final : public LocalPicture {
                             std::span<const std::array<double, 2>> shifts, std::size_t cell,
                             ReadingSums& sums) const {
             const GuidedLight& guide = *picture_.guide_;
-            const double k = picture_.k_per_m2_[cell];
             const GuidedLight::Divided divided = guide.divide(receivers);
-            const auto tiles_with_k = [&](const std::vector<transport::Receiver>& part) {
-                return tiles_of(part, std::vector<double>(part.size(), k), guide.caster,
-                                transport::kUnlimited);
-            };
-            const std::vector<PointTile> even = tiles_with_k(divided.even);
-            const std::vector<PointTile> general = tiles_with_k(divided.general);
+            const std::vector<PointTile> even = guide.tiles(divided.even, kPointsOfPass);
+            const std::vector<PointTile> general = guide.tiles(divided.general, kPointsOfPass);
             const double u = math::SampleStream(own.key.derived(kSelection), own.index).next();
             const std::vector<transport::LightVertex> nodes = pool_.select(kVerticesOfPass, u);
             Connections(guide.caster, even, picture_.transport_.monitor).collect(nodes, sums);
@@ -149,12 +144,6 @@ class SubPointPicture final : public LocalPicture {
             }
             for (const PointTile& tile : general)
                 guide.gather.add_general_round(tile, own.key.derived(kGeneral), own.index, sums);
-        }
-
-        static std::array<double, 3> gather_point(const Pass& pass) {
-            math::SampleStream stream(pass.key.derived(kGather), pass.index, 4);
-            const auto [u1, u2] = stream.next_two();
-            return {u1, u2, stream.next()};
         }
 
         const SubPointPicture& picture_;
@@ -259,12 +248,12 @@ class SubPointPicture final : public LocalPicture {
             std::vector<transport::Receiver> receivers;
             for (transport::Path& path : tracing_.start_paths(pixels, pass).paths)
                 add_sub_point(path, 0, receivers);
-            if (receivers.empty()) return;
             if (guide_) {
+                // Also where none of the sub-points meets a surface: those of the pixels may.
                 points_of_[c] = guide_->points_for(receivers, kPointsOfPass);
-                k_per_m2[c] = guide_->k_per_m2(kPointsOfPass);
                 return;
             }
+            if (receivers.empty()) return;
             k_per_m2[c] = plan_constant(tracing_.caster, transport_.tracer, receivers, pilot,
                                         kPathsPerPass / kPathsPerSelected, kPilotRays, pass.key.derived(c));
         });
