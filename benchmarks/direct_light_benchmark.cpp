@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <string_view>
 #include <vector>
 
@@ -21,8 +20,6 @@ namespace stilb {
 namespace {
 
 using transport::DirectLight;
-
-double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // Points under an area lamp.
 
@@ -69,7 +66,7 @@ void compare_points(std::string_view what, double height) {
     const std::vector<transport::Receiver> receivers = grid(caster, height);
     constexpr int samples = 64;
     std::vector<double> sums(receivers.size()), squares(receivers.size());
-    double start = cpu_s();
+    double start = processor_s();
     for (std::size_t j = 0; j < receivers.size(); ++j) {
         for (std::uint64_t i = 0; i < samples; ++i) {
             math::SampleStream stream(math::RandomKey{1}.derived(j), i);
@@ -78,14 +75,14 @@ void compare_points(std::string_view what, double height) {
         }
     }
     fmt::print("{}\n", what);
-    print_sampling("sampled by solid angle", samples, cpu_s() - start, sums, squares);
+    print_sampling("sampled by solid angle", samples, processor_s() - start, sums, squares);
 
-    start = cpu_s();
+    start = processor_s();
     const DirectLight::Prepared prepared = direct.prepare(receivers, Monitor::none());
-    const double setup_s = cpu_s() - start;
+    const double setup_s = processor_s() - start;
     std::ranges::fill(sums, 0), std::ranges::fill(squares, 0);
     std::size_t open = 0;
-    start = cpu_s();
+    start = processor_s();
     for (std::size_t t = 0; t < prepared.remainders.size(); ++t) {
         const auto tile = std::span(receivers).subspan(t * kPacketWidth, kPacketWidth);
         const bool is_open = !prepared.remainders[t].is_empty();
@@ -104,7 +101,7 @@ void compare_points(std::string_view what, double height) {
             }
         }
     }
-    print_sampling("closed form", samples, cpu_s() - start, sums, squares);
+    print_sampling("closed form", samples, processor_s() - start, sums, squares);
     fmt::print("  set-up {:.0f} ns a point; {} of {} tiles are sampled\n",
                1e9 * setup_s / static_cast<double>(receivers.size()), open, prepared.remainders.size());
 }
@@ -137,41 +134,23 @@ Camera camera() {
     return result;
 }
 
-Measure picture_with(const estimators::Estimator& estimator, const std::array<int, 2>& resolution) {
-    return [&, resolution](std::uint64_t round, std::uint64_t passes) {
-        std::vector<double> pixels;
-        for (std::uint64_t index = 0; index < passes; ++index) {
-            const auto pass = estimator.start({math::RandomKey{3}.derived(round), index});
-            std::size_t first = 0;
-            for (const estimators::PixelBlock& block : estimators::blocks_of(resolution)) {
-                std::vector<Rgb> samples(static_cast<std::size_t>(block.width * block.height));
-                pass->sample(block, samples);
-                pixels.resize(std::max(pixels.size(), first + samples.size()));
-                for (const Rgb& sample : samples)
-                    pixels[first++] += sample.luminance() / static_cast<double>(passes);
-            }
-        }
-        return pixels;
-    };
-}
-
-/// Of a picture: set-up, and the cost at equal error over that with 10 luminaires.
+/// Prints the set-up time of a picture, and its cost at equal error over the cost with 10 luminaires.
 void compare_counts(std::string_view method, int max_reflections) {
     double first = 0;
     for (const int count : {10, 1000, 100'000}) {
         const Scene scene = hall(count);
-        double start = cpu_s();
+        double start = processor_s();
         const rays::RayCaster caster(scene);
         const auto estimator = estimators::find_estimator(method).make(
             {scene, caster, max_reflections, math::RandomKey{5}, {}, {}, camera()});
-        const double setup_s = cpu_s() - start;
+        const double setup_s = processor_s() - start;
         const Measure measure = picture_with(*estimator, camera().resolution);
         const Efficiency e = efficiency_of(measure, 1);
         if (count == 10) first = e.by_mean;
         constexpr int passes = 8;
-        start = cpu_s();
+        start = processor_s();
         measure(0, passes);
-        const double pass_s = (cpu_s() - start) / passes;
+        const double pass_s = (processor_s() - start) / passes;
         fmt::print(
             "  {:6} {:>14} {:8} luminaires: set-up {:6.2f} s, {:8.2f} us a pixel, relative sigma {:.3f}, "
             "cost at "
@@ -188,7 +167,7 @@ void time_readings() {
         const Scene scene = hall(count);
         const rays::RayCaster caster(scene);
         const transport::LightSampler lights(scene, caster);
-        const double start = cpu_s();
+        const double start = processor_s();
         const DirectLight direct(scene, caster, lights);
         std::vector<transport::Receiver> receivers;
         const auto measurands =
@@ -197,7 +176,7 @@ void time_readings() {
             receivers.push_back(*transport::receiver_of_illuminance(i, measurands[i], caster));
         receivers = transport::sorted_receivers(std::move(receivers));
         direct.prepare(receivers, Monitor::none());
-        const double seconds = cpu_s() - start;
+        const double seconds = processor_s() - start;
         fmt::print("  256 points, exact, {:6} luminaires: {:.3f} s, {:.1f} ns a point and luminaire\n", count,
                    seconds, 1e9 * seconds / 256 / count);
     }

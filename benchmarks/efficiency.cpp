@@ -11,27 +11,46 @@ namespace {
 constexpr std::uint64_t kRounds = 16;
 constexpr double kRound_s = 1.0 / 3;
 
-double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 std::uint64_t samples_of_a_round(const Measure& measure, std::uint64_t granularity) {
     for (std::uint64_t samples = granularity;; samples *= 2) {
-        const double start = cpu_s();
+        const double start = processor_s();
         measure(kRounds, samples);  // a round that is not used again
-        if (cpu_s() - start > kRound_s / 2) return samples * 2;
+        if (processor_s() - start > kRound_s / 2) return samples * 2;
     }
 }
 
 }  // namespace
 
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+Measure picture_with(const estimators::Estimator& estimator, const std::array<int, 2>& resolution) {
+    return [&, resolution](std::uint64_t round, std::uint64_t passes) {
+        std::vector<double> pixels;
+        for (std::uint64_t index = 0; index < passes; ++index) {
+            const auto pass = estimator.start({math::RandomKey{3}.derived(round), index});
+            std::size_t first = 0;
+            for (const estimators::PixelBlock& block : estimators::blocks_of(resolution)) {
+                std::vector<Rgb> samples(static_cast<std::size_t>(block.width * block.height));
+                pass->sample(block, samples);
+                pixels.resize(std::max(pixels.size(), first + samples.size()));
+                for (const Rgb& sample : samples) {
+                    pixels[first++] += sample.luminance() / static_cast<double>(passes);
+                }
+            }
+        }
+        return pixels;
+    };
+}
+
 Efficiency efficiency_of(const Measure& measure, std::uint64_t granularity) {
     const std::uint64_t samples = samples_of_a_round(measure, granularity);
     std::vector<double> means;
-    const double start = cpu_s();
+    const double start = processor_s();
     for (std::uint64_t round = 0; round < kRounds; ++round) {
         const std::vector<double> readings = measure(round, samples);
         means.insert(means.end(), readings.begin(), readings.end());
     }
-    const double elapsed_s = cpu_s() - start;
+    const double elapsed_s = processor_s() - start;
     std::vector<double> variances;
     double sum = 0;
     for (const statistics::Estimate& e : statistics::estimate_readings({means, means.size() / kRounds})) {

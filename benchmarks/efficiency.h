@@ -4,9 +4,12 @@
 // median, and the square of the error that 95 % of the readings keep, which is what a run stops by.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
+
+#include "estimators/estimator.h"
 
 namespace stilb {
 
@@ -15,8 +18,15 @@ struct Efficiency {
     double cpu_s = 0;  ///< of all rounds
 };
 
-/// What round `round` makes of every reading, by so many samples. Rounds are independent.
+/// Processor time of the program so far, of all its threads.
+double processor_s();
+
+/// Estimates every reading in a round, by so many samples. Rounds are independent.
 using Measure = std::function<std::vector<double>(std::uint64_t round, std::uint64_t samples)>;
+
+/// Passes of a picture of that many columns and rows, as its pixels' luminances [cd/m2]. Keeps a reference to
+/// the estimator.
+Measure picture_with(const estimators::Estimator& estimator, const std::array<int, 2>& resolution);
 
 /// Sixteen rounds, each of so many samples, `granularity` times a power of two, that it takes a third of a
 /// second.

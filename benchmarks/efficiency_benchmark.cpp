@@ -40,25 +40,6 @@ Efficiency of_readings(const estimators::EstimatorEntry& method, const Scene& sc
     return efficiency_of(measure_with(*estimator), estimator->batch_granularity());
 }
 
-Measure picture_with(const estimators::Estimator& estimator, const std::array<int, 2>& resolution) {
-    return [&, resolution](std::uint64_t round, std::uint64_t passes) {
-        std::vector<double> pixels;
-        for (std::uint64_t index = 0; index < passes; ++index) {
-            const auto pass = estimator.start({math::RandomKey{3}.derived(round), index});
-            std::size_t first = 0;
-            for (const estimators::PixelBlock& block : estimators::blocks_of(resolution)) {
-                std::vector<Rgb> samples(static_cast<std::size_t>(block.width * block.height));
-                pass->sample(block, samples);
-                pixels.resize(std::max(pixels.size(), first + samples.size()));
-                for (const Rgb& sample : samples) {
-                    pixels[first++] += sample.luminance() / static_cast<double>(passes);
-                }
-            }
-        }
-        return pixels;
-    };
-}
-
 Efficiency of_picture(const estimators::EstimatorEntry& method, const Scene& scene, const Camera& camera) {
     const rays::RayCaster caster(scene);
     const auto estimator =

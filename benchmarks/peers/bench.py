@@ -44,7 +44,7 @@ class Row:
 
 
 def sessions(task: Task, threads: int) -> dict:
-    """What opens a session of each program and method, by its name in tables."""
+    """Map the name of each program and method in tables to the function that opens a session of it."""
     contestants = {f"stilb {method}": lambda method=method: StilbSession(task, method, threads)
                    for method in ("auto", "path")}
     for sampler in ("independent", "multijitter"):

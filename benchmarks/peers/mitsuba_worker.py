@@ -67,7 +67,7 @@ class Points:
         return measure.illuminance(SCENE, INTEGRATOR, *ends, samples, sampler, not self.has_points_only)
 
     def constant(self) -> np.ndarray | float:
-        """What needs no samples: the direct light of sources that are points, all of them."""
+        """Compute the direct light of all point sources, which needs no samples."""
         if self.is_luminance or not self.has_points_only:
             return 0.0
         return measure.direct_illuminance(SCENE, self.positions, self.directions)

@@ -46,7 +46,7 @@ class Reference:
         return float(np.mean(product / self.norm**2))
 
     def bias(self, values: np.ndarray) -> float:
-        """Of the mean, relative."""
+        """Return the relative error of the mean."""
         return float(values.mean() / self.mean - 1)
 
     @property
@@ -69,7 +69,10 @@ class Reference:
 
 
 def norm_of(task: Task, values: np.ndarray) -> np.ndarray:
-    """What errors are relative to: the mean of a grid, each pixel (at least a tenth of the mean), each reading."""
+    """Return the values that errors are divided by.
+
+    These are the mean of a grid, each pixel (at least a tenth of the mean), or each reading.
+    """
     if task.kind == "grid":
         return np.full_like(values, values.mean())
     return np.maximum(values, 0.1 * values.mean()) if task.kind == "picture" else values

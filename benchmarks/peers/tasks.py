@@ -1,4 +1,4 @@
-"""What is measured: scenes, sensors and the errors to reach."""
+"""The tasks: scenes, their sensors, and the errors to reach."""
 
 import tomllib
 from dataclasses import dataclass

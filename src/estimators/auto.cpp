@@ -83,8 +83,9 @@ bool path_pays(const Pilot& path, const Pilot& balanced, std::span<const double>
 std::unique_ptr<Estimator> make_auto(const Problem& problem) {
     std::unique_ptr<Estimator> balanced = make_balanced(problem);
     const std::size_t readings = problem.measurands.size();
-    const bool lacks_light = path_warnings(problem.scene).size() > 0;
-    if (problem.camera || readings == 0 || readings > kMostReadings || lacks_light) return balanced;
+    if (problem.camera || readings == 0 || readings > kMostReadings ||
+        has_light_for_light_paths_only(problem.scene))
+        return balanced;
     std::unique_ptr<Estimator> path = make_path(problem);
     const double cost = balanced->cost_per_sample() * static_cast<double>(balanced->batch_granularity());
     const Pilot of_path = run_pilot(*path, readings, cost, kPilotKey.derived(0));

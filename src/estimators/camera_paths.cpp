@@ -34,7 +34,8 @@ std::optional<Vec3> sample_pixel(const PictureTracing& tracing, const Pixel& pix
                                      pixel.y + 0.5 + radius * std::sin(angle));
 }
 
-/// Of a pixel's sample: for the position in the pixel, and the light and direction at two vertices.
+/// A sample of a pixel uses so many Sobol' dimensions: for the position in the pixel, and for light and
+/// direction at two vertices.
 constexpr unsigned kPacketSobolDimensions = 12;
 
 /// The rays of up to sixteen pixels, the first of which has the number `first`. Sets the lanes that have one.

@@ -12,10 +12,7 @@ namespace stilb::estimators {
 namespace {
 
 std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what) {
-    const bool point_like = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-        return location_of(light) == LightLocation::point;
-    });
-    if (!point_like || !has_specular_surfaces(scene)) return {};
+    if (!has_light_for_light_paths_only(scene)) return {};
     return {
         fmt::format("{}: that light is missing from the readings. Area lights and luminous spheres "
                     "have no such limit.",
@@ -29,6 +26,12 @@ bool has_specular_surfaces(const Scene& scene) {
         return std::any_of(object.materials.begin(), object.materials.end(),
                            [&](MaterialId id) { return is_specular(scene.material(id)); });
     });
+}
+
+bool has_light_for_light_paths_only(const Scene& scene) {
+    return has_specular_surfaces(scene) && std::ranges::any_of(scene.lights, [](const Light& light) {
+               return location_of(light) == LightLocation::point;
+           });
 }
 
 std::vector<std::string> path_warnings(const Scene& scene) {

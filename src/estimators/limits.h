@@ -10,6 +10,9 @@
 namespace stilb::estimators {
 
 bool has_specular_surfaces(const Scene& scene);
+/// Whether there may be light that path tracing cannot find: it leaves a point or photometry light and meets
+/// a mirror or glass before anything else.
+bool has_light_for_light_paths_only(const Scene& scene);
 
 /// Warnings of light that path tracing and local estimation leave out, where the scene has mirrors or glass
 /// and point or photometry lights; empty elsewhere.

@@ -41,6 +41,12 @@ void avoid_tiny_components(RayPacket& packet) {
 
 }  // namespace
 
+std::array<double, 3> gather_point(math::RandomKey key, std::uint64_t index) {
+    math::SampleStream stream(key, index, 4);
+    const auto [u1, u2] = stream.next_two();
+    return {u1, u2, stream.next()};
+}
+
 std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::size_t lane) {
     constexpr double spread = 1. / 8;
     // Fractional parts of multiples of the plastic number's powers are even in two dimensions.

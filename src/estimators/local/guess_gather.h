@@ -27,6 +27,8 @@ struct alignas(64) GatherLanes {
     GatherLanes(const PointTile& tile, std::span<const std::array<double, 2>> shifts);
 };
 
+/// Random point `index` of the rays.
+std::array<double, 3> gather_point(math::RandomKey key, std::uint64_t index);
 /// Lanes whose shifts differ by little: enough that neighbours do not have the same noise, little enough that
 /// the packet of rays stays together. `random`: in [0, 1), of the whole tile. `lane`: among neighbours.
 std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::size_t lane);
@@ -67,7 +69,7 @@ class GuessGather {
         bool is_traced = false;  ///< the surface that it meets
     };
     Continuation continuation_of(const GuessedLight& light, std::size_t lane, double g_over_k) const;
-    /// What the continued ray finds beyond the guess, divided by the probability.
+    /// The luminance that the continued ray finds beyond the guess, divided by the probability [cd/m2].
     Rgb missing(const transport::Receiver& receiver, const Vec3& direction, const Rgb& guessed,
                 const Continuation& continuation, math::SampleStream stream) const;
 

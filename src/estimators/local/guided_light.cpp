@@ -76,22 +76,18 @@ auto GuidedLight::divide(std::span<const transport::Receiver> receivers) const -
     return divided;
 }
 
-namespace {
-
-std::vector<PointTile> tiles_with(double k_per_m2, std::span<const transport::Receiver> receivers,
-                                  const rays::RayCaster& caster) {
-    return tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2), caster,
+std::vector<PointTile> GuidedLight::tiles(std::span<const transport::Receiver> receivers,
+                                          std::size_t points_at_once) const {
+    return tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2(points_at_once)), caster,
                     transport::kUnlimited);
 }
-
-}  // namespace
 
 GuidedReadings::GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers,
                                const Monitor& monitor)
     : light_(light),
       receivers_(light.divide(receivers)),
-      tiles_(tiles_with(light.k_per_m2(kPoints), receivers_.even, light.caster)),
-      general_tiles_(tiles_with(light.k_per_m2(kPoints), receivers_.general, light.caster)),
+      tiles_(light.tiles(receivers_.even, kPoints)),
+      general_tiles_(light.tiles(receivers_.general, kPoints)),
       connections_(light.caster, tiles_, monitor),
       general_connections_(light.caster, general_tiles_, monitor),
       monitor_(monitor) {
@@ -124,11 +120,8 @@ void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const
 
 void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
     std::vector<std::array<double, 3>> points;
-    for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
-        math::SampleStream stream(batch.key.derived(kGather), i, 4);
-        const auto [u1, u2] = stream.next_two();
-        points.push_back({u1, u2, stream.next()});
-    }
+    for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i)
+        points.push_back(gather_point(batch.key.derived(kGather), i));
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
         monitor_.require_more();
         const PointTile& tile = tiles_[t];
@@ -141,9 +134,9 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
         for (std::uint64_t i = 0; i < batch.count; ++i) {
             light_.gather.add_round(tile, lanes, points[i], batch.key.derived(kPaths).derived(t),
                                     batch.first + i, tile_sums);
-            light_.points.select(
-                points_of_[t], kPoints,
-                {std::fmod(points[i][0] + random[0], 1), std::fmod(points[i][1] + random[1], 1)}, connected);
+            light_.points.select(points_of_[t], kPoints,
+                                 {fraction(points[i][0] + random[0]), fraction(points[i][1] + random[1])},
+                                 connected);
             connect_points(light_.caster, tile, connected, sums);
         }
         GuessGather::flush(tile, tile_sums, sums);

@@ -47,6 +47,9 @@ struct GuidedLight {
         std::vector<transport::Receiver> general;  ///< all others
     };
     Divided divide(std::span<const transport::Receiver> receivers) const;
+    /// Packets of one of the two sorts.
+    std::vector<PointTile> tiles(std::span<const transport::Receiver> receivers,
+                                 std::size_t points_at_once) const;
 
     enum Purpose : std::uint64_t { kGuess, kPilot };
     const rays::RayCaster& caster;

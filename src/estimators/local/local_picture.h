@@ -14,7 +14,8 @@ class LocalPicture {
     virtual std::unique_ptr<const PicturePass> start(const Pass& pass) const = 0;
 };
 
-/// Of the problem's camera. `guide`: null where light paths bring all the light. Keeps references.
+/// Pictures of the problem's camera. `guide` is null where light paths bring all the light. The result keeps
+/// references to the arguments.
 std::unique_ptr<const LocalPicture> make_local_picture(const LocalTransport& transport,
                                                        const Problem& problem, const GuidedLight* guide);
 

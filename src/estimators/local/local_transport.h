@@ -1,4 +1,4 @@
-// What readings and pictures by local estimation have in common.
+// The scene, its lights and the path tracer, as readings and pictures by local estimation use them.
 #pragma once
 
 #include "estimators/estimator.h"

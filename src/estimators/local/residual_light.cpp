@@ -52,12 +52,6 @@ class ChosenArrival {
     Arrival chosen_{};
 };
 
-bool has_light_only_by_light_paths(const Scene& scene) {
-    return has_specular_surfaces(scene) && std::ranges::any_of(scene.lights, [](const Light& light) {
-               return location_of(light) == LightLocation::point;
-           });
-}
-
 }  // namespace
 
 ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
@@ -70,11 +64,9 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
       direct_(direct),
       tracer_(tracer),
       guess_(guess),
-      has_unreachable_light_(has_light_only_by_light_paths(scene)) {
+      has_light_for_light_paths_only_(has_light_for_light_paths_only(scene)) {
     const patches::Patches& patches = guess.patches();
-    std::vector<std::uint8_t> is_lit(2 * patches.count());
-    for (const std::uint32_t side : guess.lit_sides()) is_lit[side] = 1;
-    for (std::uint32_t side = 0; side < is_lit.size(); ++side) {
+    for (std::uint32_t side = 0; side < 2 * patches.count(); ++side) {
         if (!guess.is_traced(patches.patch_of(side)) && guess.material(side).reflects())
             sides_.push_back(side);
     }
@@ -85,7 +77,8 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
             monitor.require_more();
             for (std::size_t i = first; i < last; ++i) {
                 const bool has_guess = guess.material(sides_[i]).diffuse_reflectance().max() > 0;
-                if (!has_guess || is_lit[sides_[i]] != 0) weights[i] = pilot(sides_[i], key);
+                if (!has_guess || std::ranges::binary_search(guess.lit_sides(), sides_[i]))
+                    weights[i] = pilot(sides_[i], key);
             }
         },
         64);
@@ -175,7 +168,7 @@ auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u,
 
 std::vector<transport::LightVertex> ResidualLight::trace(math::RandomKey key, std::uint64_t first,
                                                          std::uint64_t end) const {
-    enum Purpose : std::uint64_t { kUnreachable = 1, kParticles };
+    enum Purpose : std::uint64_t { kLightPaths = 1, kParticles };
     std::vector<transport::LightVertex> nodes;
     if (!sides_.empty()) {
         for (std::uint64_t path = first; path < end; ++path)
@@ -183,12 +176,12 @@ std::vector<transport::LightVertex> ResidualLight::trace(math::RandomKey key, st
     }
     for (std::uint64_t path = first; direct_.has_particles() && path < end; ++path)
         trace_particle(math::SampleStream(key.derived(kParticles), path, 8), nodes);
-    if (has_unreachable_light_) trace_unreachable(key.derived(kUnreachable), first, end, nodes);
+    if (has_light_for_light_paths_only_) trace_light_paths_only(key.derived(kLightPaths), first, end, nodes);
     return nodes;
 }
 
-void ResidualLight::trace_unreachable(math::RandomKey key, std::uint64_t first, std::uint64_t end,
-                                      std::vector<transport::LightVertex>& nodes) const {
+void ResidualLight::trace_light_paths_only(math::RandomKey key, std::uint64_t first, std::uint64_t end,
+                                           std::vector<transport::LightVertex>& nodes) const {
     for (const transport::LightVertex& node :
          transport::trace_light_paths(scene_, caster_, lights_, transport::kUnlimited, key, first, end)) {
         if (node.only_by_light) nodes.push_back(node);

@@ -53,8 +53,8 @@ class ResidualLight {
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
     void walk(std::optional<rays::Hit> hit, Vec3 direction, Rgb flux_lm, math::SampleStream& stream,
               std::vector<transport::LightVertex>& nodes) const;
-    void trace_unreachable(math::RandomKey key, std::uint64_t first, std::uint64_t end,
-                           std::vector<transport::LightVertex>& nodes) const;
+    void trace_light_paths_only(math::RandomKey key, std::uint64_t first, std::uint64_t end,
+                                std::vector<transport::LightVertex>& nodes) const;
     /// Adds the vertices of both parts of a material.
     void add(const transport::LightVertex& whole, const materials::SplitMaterial& parts,
              std::vector<transport::LightVertex>& nodes) const;
@@ -65,7 +65,7 @@ class ResidualLight {
     const BoundedDirect& direct_;
     const transport::PathTracer& tracer_;
     const LightGuess& guess_;
-    bool has_unreachable_light_;
+    bool has_light_for_light_paths_only_;
     double share_of_guess_ = 0;
     std::vector<std::uint32_t> sides_;        ///< that reflect light and are not traced
     math::DiscreteDistribution by_residual_;  ///< over `sides_`

@@ -14,6 +14,17 @@ import numpy as np
 import drjit as dr
 import mitsuba as mi
 
+def _drawn(bsdf, context, si, wo, active):
+    """The sample of a BSDF, with its weight, for a direction that was drawn by its density."""
+    pdf = bsdf.pdf(context, si, wo, active)
+    found = active & (pdf > 0)
+    sample = dr.zeros(mi.BSDFSample3f)
+    sample.wo, sample.pdf, sample.eta = wo, pdf, 1.0
+    sample.sampled_type = mi.UInt32(+bsdf.m_components[0])
+    sample.sampled_component = mi.UInt32(0)
+    return sample, dr.select(found, bsdf.eval(context, si, wo, found) / pdf, 0)
+
+
 class Phong(mi.BSDF):
     def __init__(self, properties):
         super().__init__(properties)
@@ -49,13 +60,7 @@ class Phong(mi.BSDF):
         frame = self._lobe_cosine(si, mi.Vector3f(0, 0, 1))[1]
         glossy = frame.to_world(mi.Vector3f(sine * dr.cos(angle), sine * dr.sin(angle), cosine))
         wo = dr.select(sample1 < self.lobe_share, glossy, mi.warp.square_to_cosine_hemisphere(sample2))
-        pdf = self.pdf(context, si, wo, active)
-        found = active & (pdf > 0)
-        sample = dr.zeros(mi.BSDFSample3f)
-        sample.wo, sample.pdf, sample.eta = wo, pdf, 1.0
-        sample.sampled_type = mi.UInt32(+self.m_components[0])
-        sample.sampled_component = mi.UInt32(0)
-        return sample, dr.select(found, self.eval(context, si, wo, found) / pdf, 0)
+        return _drawn(self, context, si, wo, active)
 
     def traverse(self, callback):
         pass
@@ -117,13 +122,7 @@ class Ggx(mi.BSDF):
     def sample(self, context, si, sample1, sample2, active=True):
         facet = mi.reflect(si.wi, self.facets.sample(si.wi, sample2)[0])
         wo = dr.select(sample1 < self._facet_share(si), facet, mi.warp.square_to_cosine_hemisphere(sample2))
-        pdf = self.pdf(context, si, wo, active)
-        found = active & (pdf > 0)
-        sample = dr.zeros(mi.BSDFSample3f)
-        sample.wo, sample.pdf, sample.eta = wo, pdf, 1.0
-        sample.sampled_type = mi.UInt32(+self.m_components[0])
-        sample.sampled_component = mi.UInt32(0)
-        return sample, dr.select(found, self.eval(context, si, wo, found) / pdf, 0)
+        return _drawn(self, context, si, wo, active)
 
     def traverse(self, callback):
         pass
