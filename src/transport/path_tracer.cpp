@@ -184,15 +184,16 @@ std::optional<IncidentLight> PathTracer::sample_light(const rays::Hit& surface,
 
 Rgb PathTracer::luminance_behind(const rays::Hit& hit, const Vec3& direction,
                                  const PreviousVertex& previous_vertex, int max_reflections,
-                                 const math::SampleStream& stream) const {
+                                 math::SampleStream& stream) const {
     Path path{hit, -direction, stream, max_reflections};
     path.previous_vertex = previous_vertex;
     follow(path);
+    stream = path.stream;
     return path.luminance_cd_m2;
 }
 
 Rgb PathTracer::incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex,
-                                   int max_reflections, const math::SampleStream& stream) const {
+                                   int max_reflections, math::SampleStream& stream) const {
     const auto hit = caster_.closest(ray.origin, ray.direction);
     if (!hit) return outside_light_towards(previous_vertex, ray.direction);
     return emission_towards(previous_vertex, *hit) +

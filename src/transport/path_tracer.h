@@ -80,23 +80,23 @@ class PathTracer {
     std::optional<IncidentLight> sample_light(const rays::Hit& surface, math::SampleStream& stream) const;
 
     /// One sample of the luminance [cd/m2] that arrives along a ray with the hit `hit`, without the emission
-    /// of `hit` itself.
+    /// of `hit` itself. Uses up numbers of the stream.
     Rgb luminance_behind(const rays::Hit& hit, const Vec3& direction, const PreviousVertex& previous_vertex,
-                         int max_reflections, const math::SampleStream& stream) const;
+                         int max_reflections, math::SampleStream& stream) const;
     /// The same without all directly visible emission: that is direct light.
     Rgb luminance_without_direct(const rays::Hit& hit, const Vec3& direction, int max_reflections,
-                                 const math::SampleStream& stream) const {
+                                 math::SampleStream& stream) const {
         return luminance_behind(hit, direction, kDirectIsKnown, max_reflections, stream);
     }
     /// All the light along a ray.
     Rgb luminance(const rays::Hit& hit, const Vec3& direction, int max_reflections,
-                  const math::SampleStream& stream) const {
+                  math::SampleStream& stream) const {
         return lights_.emitted_luminance(hit) + luminance_behind(hit, direction, {}, max_reflections, stream);
     }
     /// The same, where emission directly visible from `previous_vertex` is weighted against next-event
     /// estimation there.
     Rgb incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex, int max_reflections,
-                           const math::SampleStream& stream) const;
+                           math::SampleStream& stream) const;
 
     const Material& material(const rays::Hit& hit) const { return scene_.material(hit.material); }
 

@@ -64,7 +64,7 @@ void expect_agreement(const Scene& scene) {
         double difference = 0;
         for (const Path& path : together) difference += path.luminance_cd_m2.luminance() / count;
         level.add(difference);
-        for (const Path& path : traced.paths({replicate + 1000}, 0, count)) {
+        for (Path& path : traced.paths({replicate + 1000}, 0, count)) {
             difference -=
                 traced.tracer.luminance_behind(path.hit, -path.outgoing, {}, kReflections, path.stream)
                     .luminance() /

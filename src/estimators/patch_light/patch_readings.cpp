@@ -130,8 +130,9 @@ void PatchReadings::compare(const PatchLight& light, math::RandomKey key, std::u
         monitor_.require_more();
         const View& view = views_[i];
         const math::RandomKey own_key = key.derived(kViews).derived(i);
-        const Rgb traced = tracer_.luminance_behind(view.hit, -view.outgoing, {}, transport::kUnlimited,
-                                                    math::SampleStream(own_key, number));
+        math::SampleStream stream(own_key, number);
+        const Rgb traced =
+            tracer_.luminance_behind(view.hit, -view.outgoing, {}, transport::kUnlimited, stream);
         const Rgb of_patches = view.known + sampled_luminance(light, view, own_key.derived(number));
         sums.add_lacking(view.reading, view.transmission * (traced + -1 * of_patches));
     }
@@ -143,7 +144,7 @@ void PatchReadings::compare(const PatchLight& light, math::RandomKey key, std::u
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (!rays[i]) continue;
             const auto hit = transport_.caster.closest(points[i].lifted(), rays[i]->direction);
-            const math::SampleStream stream(own_key.derived(i), number);
+            math::SampleStream stream(own_key.derived(i), number);
             const Rgb traced = hit ? tracer_.luminance_without_direct(*hit, rays[i]->direction,
                                                                       transport::kUnlimited, stream)
                                    : Rgb{};
