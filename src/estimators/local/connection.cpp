@@ -210,4 +210,24 @@ std::vector<transport::LightVertex> NodePool::select(std::size_t count, double u
     return selected;
 }
 
+NearNodePool::NearNodePool(const std::vector<transport::LightVertex>& nodes, const Vec3& center)
+    : choice_(center) {
+    nodes_.reserve(nodes.size());
+    for (const std::size_t n : order_over_surfaces(nodes)) {
+        nodes_.push_back(nodes[n]);
+        choice_.add(nodes[n].position, nodes[n].normal, importance_of(nodes[n]));
+    }
+}
+
+std::vector<transport::LightVertex> NearNodePool::select(const KernelChoice::Sums& sums, std::size_t count,
+                                                         double u) const {
+    std::vector<transport::LightVertex> selected;
+    selected.reserve(count);
+    KernelChoice::select(sums, count, u, [&](std::size_t i, double times, double) {
+        selected.push_back(nodes_[i]);
+        selected.back().flux_lm *= times;
+    });
+    return selected;
+}
+
 }  // namespace stilb::estimators

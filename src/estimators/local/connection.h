@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "estimators/estimator.h"
+#include "estimators/local/kernel_choice.h"
 #include "estimators/local/point_tile.h"
 #include "transport/light_path.h"
 
@@ -69,6 +70,23 @@ class NodePool {
   private:
     std::vector<transport::LightVertex> nodes_;
     std::vector<double> passed_;  ///< importance up to each vertex, its own included
+};
+
+/// Vertices that are chosen for groups of receivers, by their importance as in NodePool and by the kernel.
+class NearNodePool {
+  public:
+    NearNodePool(const std::vector<transport::LightVertex>& nodes, const Vec3& center);
+
+    KernelChoice::Sums sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const {
+        return choice_.sums_for(receivers, k_per_m2);
+    }
+    /// As NodePool's.
+    std::vector<transport::LightVertex> select(const KernelChoice::Sums& sums, std::size_t count,
+                                               double u) const;
+
+  private:
+    std::vector<transport::LightVertex> nodes_;
+    KernelChoice choice_;
 };
 
 }  // namespace stilb::estimators

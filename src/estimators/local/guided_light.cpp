@@ -47,14 +47,15 @@ GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
       guess(scene, all, direct, tracer, key.derived(kGuess), monitor),
       residual(scene, all, lights, direct, tracer, guess, key.derived(kPilot), monitor),
       points(guess, all),
-      gather(all, tracer, guess) {}
+      gather(all, tracer, guess) {
+    const patches::Patches& patches = guess.patches();
+    for (const std::uint32_t side : guess.lit_sides())
+        lit_area_m2_ += double{patches.areas_m2[patches.patch_of(side)]};
+}
 
 double GuidedLight::k_per_m2(std::size_t points_at_once) const {
-    const patches::Patches& patches = guess.patches();
-    double area_m2 = 0;
-    for (const std::uint32_t side : guess.lit_sides())
-        area_m2 += double{patches.areas_m2[patches.patch_of(side)]};
-    return area_m2 > 0 ? kResidualSplit * kKernels * static_cast<double>(points_at_once) / area_m2 : 1;
+    if (!(lit_area_m2_ > 0)) return 1;
+    return kResidualSplit * kKernels * static_cast<double>(points_at_once) / lit_area_m2_;
 }
 
 auto GuidedLight::divide(std::span<const transport::Receiver> receivers) const -> Divided {

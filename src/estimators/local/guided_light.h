@@ -35,7 +35,7 @@ struct GuidedLight {
     /// Of connections to the residual, where so many points of the guess are connected at once.
     double k_per_m2(std::size_t points_at_once) const;
     /// The points that a group of receivers takes.
-    GuessPoints::Sums points_for(std::span<const transport::Receiver> receivers,
+    KernelChoice::Sums points_for(std::span<const transport::Receiver> receivers,
                                  std::size_t points_at_once) const {
         return points.sums_for(receivers, k_per_m2(points_at_once) / kResidualSplit);
     }
@@ -58,6 +58,9 @@ struct GuidedLight {
     ResidualLight residual;
     GuessPoints points;
     GuessGather gather;
+
+  private:
+    double lit_area_m2_ = 0;
 };
 
 /// Light of readings. Keeps references to its arguments' targets. Immutable.
@@ -87,7 +90,7 @@ class GuidedReadings {
     const GuidedLight& light_;
     GuidedLight::Divided receivers_;
     std::vector<PointTile> tiles_, general_tiles_;
-    std::vector<GuessPoints::Sums> points_of_;  ///< per tile
+    std::vector<KernelChoice::Sums> points_of_;  ///< per tile
     Connections connections_, general_connections_;
     const Monitor& monitor_;
 };

@@ -316,7 +316,9 @@ class LocalEstimation final : public Estimator {
           guide_(GuidedLight::make(guess, problem, transport_.lights, transport_.tracer,
                                    problem.preparation_key.derived(kGuess))),
           readings_(transport_, problem, guide_.get()) {
-        if (problem.camera) picture_ = make_local_picture(transport_, problem, guide_.get());
+        if (problem.camera)
+            picture_ = guide_ ? make_guided_picture(transport_, problem, *guide_)
+                              : make_local_picture(transport_, problem);
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override { readings_.run_batch(batch, sums); }

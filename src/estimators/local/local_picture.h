@@ -1,4 +1,4 @@
-// Pictures by local estimation of the surfaces that are seen (local_estimation.cpp).
+// Pictures by local estimation of the surfaces that are seen (sub_points.h).
 #pragma once
 
 #include <memory>
@@ -14,9 +14,13 @@ class LocalPicture {
     virtual std::unique_ptr<const PicturePass> start(const Pass& pass) const = 0;
 };
 
-/// Pictures of the problem's camera. `guide` is null where light paths bring all the light. The result keeps
-/// references to the arguments.
+// Pictures of the problem's camera. The results keep references to the arguments.
+
+/// By light paths.
 std::unique_ptr<const LocalPicture> make_local_picture(const LocalTransport& transport,
-                                                       const Problem& problem, const GuidedLight* guide);
+                                                       const Problem& problem);
+/// By a guess of the light and its residual.
+std::unique_ptr<const LocalPicture> make_guided_picture(const LocalTransport& transport,
+                                                        const Problem& problem, const GuidedLight& guide);
 
 }  // namespace stilb::estimators

@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <atomic>
+
+#include "base/parallel.h"
+#include "estimators/local/connection.h"
+#include "estimators/local/local_picture.h"
+#include "estimators/local/sub_points.h"
+
+namespace stilb::estimators {
+namespace {
+
+/// Gathering rays from each sub-point: it has cost a camera path and direct light.
+constexpr std::uint64_t kRays = 4;
+/// Points of the guess that are connected to a packet for each of them.
+constexpr std::size_t kPoints = 8;
+/// Vertices of the residual that are connected to a packet.
+constexpr std::size_t kVertices = 6;
+/// Pixels for each path of the residual, and the largest number of paths in a pass.
+constexpr std::uint64_t kPixelsPerPath = 128;
+constexpr std::uint64_t kMostPaths = 4096;
+
+class GuidedPicture final : public LocalPicture {
+  public:
+    GuidedPicture(const LocalTransport& transport, const Problem& problem, const GuidedLight& guide)
+        : transport_(transport),
+          guide_(guide),
+          sub_points_(transport, problem),
+          points_of_(sub_points_.cells()) {
+        const Pass pass{problem.preparation_key.derived(kPlan), 0};
+        std::atomic<std::size_t> done = 0;
+        parallel_for(points_of_.size(), [&](std::size_t c) {
+            const double share = static_cast<double>(done++) / static_cast<double>(points_of_.size());
+            problem.monitor.report("planning", share);
+            problem.monitor.require_time("planning", share);
+            // Also where no sub-point meets a surface: those of the pixels may.
+            points_of_[c] = guide_.points_for(sub_points_.of_cell(c, pass), kPoints);
+        });
+    }
+
+    std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
+        return std::make_unique<GuidedPass>(*this, pass);
+    }
+
+  private:
+    enum Purpose : std::uint64_t {
+        kResidual = kPixels + 1,
+        kSelection,
+        kGather,
+        kPaths,
+        kGeneral,
+        kShift,
+        kPlan
+    };
+
+    class GuidedPass final : public PicturePass {
+      public:
+        GuidedPass(const GuidedPicture& picture, const Pass& pass)
+            : picture_(picture),
+              pass_(pass),
+              pool_(picture.trace_residual(pass), picture.guide_.caster.center()) {
+            for (std::uint64_t i = 0; i < kRays; ++i)
+                gather_points_.push_back(gather_point(pass.key.derived(kGather), kRays * pass.index + i));
+        }
+
+        std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
+            ReadingSums sums(pixels.size());
+            const std::vector<SubPointPacket> packets = picture_.sub_points_.of_block(block, pass_, sums);
+            std::vector<transport::Receiver> spread;
+            for (std::size_t p = 0; p < packets.size(); p += 2)
+                spread.push_back(packets[p].receivers[packets[p].receivers.size() / 2]);
+            const KernelChoice::Sums near = pool_.sums_for(spread, picture_.guide_.k_per_m2(kPoints));
+            for (const SubPointPacket& packet : packets) receive(packet, near, sums);
+            std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
+            return sums.invalid;
+        }
+
+      private:
+        /// Adds a sample of a packet's indirect light.
+        void receive(const SubPointPacket& packet, const KernelChoice::Sums& near, ReadingSums& sums) const {
+            const GuidedLight& guide = picture_.guide_;
+            const GuidedLight::Divided divided = guide.divide(packet.receivers);
+            const std::vector<PointTile> even = guide.tiles(divided.even, kPoints);
+            const std::vector<PointTile> general = guide.tiles(divided.general, kPoints);
+            const double u = math::SampleStream(packet.key(pass_, kSelection), pass_.index).next();
+            const std::vector<transport::LightVertex> nodes = pool_.select(near, kVertices, u);
+            Connections(guide.caster, even, picture_.transport_.monitor).collect(nodes, sums);
+            Connections(guide.caster, general, picture_.transport_.monitor).collect(nodes, sums);
+            gather(packet, even, sums);
+            for (const PointTile& tile : general)
+                guide.gather.add_general_round(tile, packet.key(pass_, kGeneral), pass_.index, sums);
+        }
+
+        /// Light of the guess for receivers of constant response.
+        void gather(const SubPointPacket& packet, std::span<const PointTile> tiles, ReadingSums& sums) const {
+            const GuidedLight& guide = picture_.guide_;
+            std::vector<std::array<double, 2>> shifts;
+            for (const Pixel& pixel : packet.pixels) shifts.push_back(shift_of(pixel, pass_));
+            const KernelChoice::Sums& near = picture_.points_of_[picture_.sub_points_.cell_of(packet.pixels[0])];
+            std::vector<std::vector<EmittingPoint>> points(kRays);
+            for (std::uint64_t i = 0; i < kRays; ++i) {
+                guide.points.select(near, kPoints,
+                                    {fraction(gather_points_[i][0] + shifts[0][0]),
+                                     fraction(gather_points_[i][1] + shifts[0][1])},
+                                    points[i]);
+            }
+            for (const PointTile& tile : tiles) {
+                const GatherLanes lanes(tile, shifts);
+                ReadingSums of_tile(sums.sum.size());
+                GuessGather::Sums gathered;
+                for (std::uint64_t i = 0; i < kRays; ++i) {
+                    connect_points(guide.caster, tile, points[i], of_tile);
+                    guide.gather.add_round(tile, lanes, gather_points_[i], packet.key(pass_, kPaths),
+                                           kRays * pass_.index + i, gathered);
+                }
+                GuessGather::flush(tile, gathered, of_tile);
+                for (const transport::Receiver& receiver : tile.receivers)
+                    sums.add(receiver.reading(), of_tile.sum[receiver.reading()] * (1. / kRays));
+            }
+        }
+
+        const GuidedPicture& picture_;
+        Pass pass_;
+        NearNodePool pool_;
+        std::vector<std::array<double, 3>> gather_points_;  ///< of the rays
+    };
+
+    std::vector<transport::LightVertex> trace_residual(const Pass& pass) const {
+        const auto& [width, height] = sub_points_.tracing().camera.resolution;
+        const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+        const std::uint64_t paths = std::clamp<std::uint64_t>(pixels / kPixelsPerPath, 16, kMostPaths);
+        std::vector<transport::LightVertex> nodes =
+            guide_.residual.trace(pass.key.derived(kResidual), pass.index * paths, (pass.index + 1) * paths);
+        for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(paths);
+        return nodes;
+    }
+
+    /// Pixels of a 4 x 4 block take neighbouring directions in all passes of a replicate.
+    static std::array<double, 2> shift_of(const Pixel& pixel, const Pass& pass) {
+        const auto block = static_cast<std::uint64_t>(pixel.x / kPacketSide) << 32 |
+                           static_cast<std::uint64_t>(pixel.y / kPacketSide);
+        const auto random = math::SampleStream(pass.key.derived(kShift), block, 0).next_two();
+        return gather_shift(
+            random, static_cast<std::size_t>(pixel.y % kPacketSide * kPacketSide + pixel.x % kPacketSide));
+    }
+
+    const LocalTransport& transport_;
+    const GuidedLight& guide_;
+    SubPoints sub_points_;
+    std::vector<KernelChoice::Sums> points_of_;  ///< of each cell
+};
+
+}  // namespace
+
+std::unique_ptr<const LocalPicture> make_guided_picture(const LocalTransport& transport,
+                                                        const Problem& problem, const GuidedLight& guide) {
+    return std::make_unique<GuidedPicture>(transport, problem, guide);
+}
+
+}  // namespace stilb::estimators

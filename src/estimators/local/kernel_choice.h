@@ -1,0 +1,61 @@
+// Choice of points on surfaces for connections to a group of receivers: in proportion to the light that a
+// point reflects and to the kernel w G of the bounded connection to the group, shadows ignored. A share of
+// the choices is by light alone: shadows and the extent of groups are not in the kernel.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "math/sampling.h"
+#include "transport/receiver.h"
+
+namespace stilb::estimators {
+
+/// In single precision, relative to a centre.
+class KernelChoice {
+  public:
+    explicit KernelChoice(const Vec3& center) : center_(center) {}
+
+    /// `light`: at least 0, in any unit.
+    void add(const Vec3& position, const Vec3& normal, double light);
+    std::size_t size() const { return light_.size(); }
+
+    /// The running sums of the points' weights, for select().
+    using Sums = std::vector<float>;
+    /// For receivers around the given ones, of which there may be none; `k_per_m2`: of the connections.
+    Sums sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const;
+
+    /// Calls `visit(index, times, rest)` for `count` choices that lie evenly over the weights. `times` is 1 /
+    /// (probability x count): for every function of a point the expectation over `u` (uniform in [0, 1)) of
+    /// the sum of function x times is the sum over all points. `rest`: in [0, 1), evenly distributed in the
+    /// choices of a point.
+    template <typename Visit>
+    static void select(const Sums& sums, std::size_t count, double u, const Visit& visit);
+
+  private:
+    using Floats = std::vector<float>;
+
+    Vec3 center_;
+    std::array<Floats, 3> position_, normal_;
+    Floats light_;
+    double all_light_ = 0;
+};
+
+template <typename Visit>
+void KernelChoice::select(const Sums& sums, std::size_t count, double u, const Visit& visit) {
+    if (sums.empty() || !(sums.back() > 0)) return;
+    const double sum = double{sums.back()}, all = static_cast<double>(count);
+    for (std::size_t j = 0; j < count; ++j) {
+        const auto target = static_cast<float>((static_cast<double>(j) + u) / all * sum);
+        const auto found = std::upper_bound(sums.begin(), sums.end() - 1, target);
+        const auto i = static_cast<std::size_t>(found - sums.begin());
+        const float before = i > 0 ? sums[i - 1] : 0, own = *found - before;
+        if (own > 0) visit(i, sum / (double{own} * all), std::clamp(double{(target - before) / own}, 0., math::kBelowOne));
+    }
+}
+
+}  // namespace stilb::estimators

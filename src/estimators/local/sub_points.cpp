@@ -1,0 +1,98 @@
+#include "estimators/local/sub_points.h"
+
+#include <algorithm>
+
+namespace stilb::estimators {
+namespace {
+
+/// The edge of cells, in pixels: planning must not take long beside the first pass.
+int cell_edge_of(const std::array<int, 2>& resolution) {
+    constexpr std::size_t most_cells = 4096;
+    int edge = kBlockSize;
+    while (blocks_of(resolution, {edge, edge}, edge).size() > most_cells) edge *= 2;
+    return edge;
+}
+
+}  // namespace
+
+math::RandomKey SubPointPacket::key(const Pass& pass, std::uint64_t purpose) const {
+    return pass.key.derived(purpose).derived(static_cast<std::uint64_t>(first.x) << 32 |
+                                             static_cast<std::uint64_t>(first.y));
+}
+
+SubPoints::SubPoints(const LocalTransport& transport, const Problem& problem)
+    : transport_(transport),
+      tracing_(problem, transport.lights),
+      cell_edge_(cell_edge_of(tracing_.camera.resolution)),
+      cells_(blocks_of(tracing_.camera.resolution, {cell_edge_, cell_edge_}, cell_edge_)) {}
+
+std::vector<SubPointPacket> SubPoints::of_block(const PixelBlock& block, const Pass& pass,
+                                                ReadingSums& sums) const {
+    std::vector<SubPointPacket> packets;
+    for (int top = 0; top < block.height; top += kPacketSide) {
+        for (int left = 0; left < block.width; left += kPacketSide) {
+            SubPointPacket packet = of_packet(block, left, top, pass, sums);
+            if (packet.receivers.empty()) continue;
+            transport::DirectLight::TileLight direct{};
+            transport_.direct.add_all(packet.receivers, packet.streams, direct);
+            for (std::size_t i = 0; i < packet.receivers.size(); ++i)
+                sums.add(packet.receivers[i].reading(), direct[i]);
+            packets.push_back(std::move(packet));
+        }
+    }
+    return packets;
+}
+
+SubPointPacket SubPoints::of_packet(const PixelBlock& block, int left, int top, const Pass& pass,
+                                    ReadingSums& sums) const {
+    SubPointPacket packet;
+    packet.first = {block.left + left, block.top + top};
+    const int width = std::min(kPacketSide, block.width - left);
+    const std::vector<Pixel> pixels =
+        pixels_of({packet.first.x, packet.first.y, width, std::min(kPacketSide, block.height - top)});
+    const auto reading_of = [&](std::size_t pixel) {
+        const int x = left + static_cast<int>(pixel) % width, y = top + static_cast<int>(pixel) / width;
+        return static_cast<std::uint32_t>(y * block.width + x);
+    };
+    packet.receivers.reserve(kPacketWidth);
+    CameraPaths started = tracing_.start_paths(pixels, pass);
+    for (const auto& [pixel, luminance_cd_m2] : started.outside) sums.add(reading_of(pixel), luminance_cd_m2);
+    for (std::size_t i = 0; i < started.paths.size(); ++i) {
+        const std::size_t pixel = started.pixels[i];
+        sums.add(reading_of(pixel), add(started.paths[i], reading_of(pixel), packet.receivers));
+        packet.pixels.resize(packet.receivers.size(), pixels[pixel]);
+        packet.streams.resize(packet.receivers.size(), started.paths[i].stream);
+    }
+    return packet;
+}
+
+Rgb SubPoints::add(transport::Path& path, std::uint32_t reading,
+                   std::vector<transport::Receiver>& receivers) const {
+    const bool meets_surface = transport_.tracer.follow_to_scattering(path);
+    const Rgb emission = path.luminance_cd_m2;
+    if (!meets_surface || path.reflections_left == 0) return emission;
+    receivers.emplace_back(reading,
+                           transport::SubPoint{path.hit, path.outgoing, path.throughput,
+                                               tracing_.max_reflections - path.reflections_left},
+                           tracing_.scene.material(path.hit.material));
+    return emission;
+}
+
+std::size_t SubPoints::cell_of(const Pixel& pixel) const {
+    const int cells_per_row = (tracing_.camera.resolution[0] + cell_edge_ - 1) / cell_edge_;
+    return static_cast<std::size_t>(pixel.y / cell_edge_ * cells_per_row + pixel.x / cell_edge_);
+}
+
+std::vector<transport::Receiver> SubPoints::of_cell(std::size_t cell, const Pass& pass) const {
+    const PixelBlock& block = cells_[cell];
+    std::vector<Pixel> pixels;
+    for (int i = 0; i < kPacketWidth; ++i) {
+        pixels.push_back({block.left + (4 * (i % 4) + 2) * block.width / 16,
+                          block.top + (4 * (i / 4) + 2) * block.height / 16});
+    }
+    std::vector<transport::Receiver> receivers;
+    for (transport::Path& path : tracing_.start_paths(pixels, pass).paths) add(path, 0, receivers);
+    return receivers;
+}
+
+}  // namespace stilb::estimators

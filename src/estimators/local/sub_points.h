@@ -1,0 +1,57 @@
+// Sub-points: the surfaces that a picture's pixels see, as receivers of light in packets of 4 x 4 pixels. Each
+// pass draws them anew.
+#pragma once
+
+#include <vector>
+
+#include "estimators/camera_paths.h"
+#include "estimators/estimator.h"
+#include "estimators/local/local_transport.h"
+
+namespace stilb::estimators {
+
+/// Edge of a packet in pixels.
+inline constexpr int kPacketSide = 4;
+static_assert(kPacketSide * kPacketSide == kPacketWidth);
+
+/// The sub-points of a packet.
+struct SubPointPacket {
+    Pixel first;                                  ///< top left
+    std::vector<transport::Receiver> receivers;   ///< `reading`: the pixel's number in its block
+    std::vector<Pixel> pixels;                    ///< of each receiver
+    std::vector<math::SampleStream> streams;      ///< of each receiver, after the numbers of its camera path
+
+    /// A key of the packet's position and the pass.
+    math::RandomKey key(const Pass& pass, std::uint64_t purpose) const;
+};
+
+/// Keeps references to the arguments' targets. Immutable.
+class SubPoints {
+  public:
+    SubPoints(const LocalTransport& transport, const Problem& problem);
+
+    /// The packets of a block. Adds emission, light from outside and direct light to the block's pixels.
+    std::vector<SubPointPacket> of_block(const PixelBlock& block, const Pass& pass, ReadingSums& sums) const;
+
+    // Planning: the picture is divided into cells.
+
+    std::size_t cells() const { return cells_.size(); }
+    std::size_t cell_of(const Pixel& pixel) const;
+    /// Receivers that are spread over a cell; none where no surface is seen.
+    std::vector<transport::Receiver> of_cell(std::size_t cell, const Pass& pass) const;
+
+    const PictureTracing& tracing() const { return tracing_; }
+
+  private:
+    SubPointPacket of_packet(const PixelBlock& block, int left, int top, const Pass& pass,
+                             ReadingSums& sums) const;
+    /// Appends the sub-point of a camera path; returns the emission seen.
+    Rgb add(transport::Path& path, std::uint32_t reading, std::vector<transport::Receiver>& receivers) const;
+
+    const LocalTransport& transport_;
+    PictureTracing tracing_;
+    int cell_edge_;
+    std::vector<PixelBlock> cells_;
+};
+
+}  // namespace stilb::estimators
