@@ -25,7 +25,7 @@ namespace stilb::run {
 namespace {
 
 /// Fewer replicates than for readings: a pixel's error matters less than the memory for all of them.
-constexpr std::uint64_t kPictureReplicates = 8;
+constexpr std::uint64_t kPictureReplicates = 4;
 constexpr double kDefaultTime_s = 60;
 /// 95 % of the pixels have a bias of less than about twice the root mean square.
 constexpr double kBiasesOfMostPixels = 2;

@@ -116,13 +116,13 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
     }
 }
 
-void GuessGather::flush(const PointTile& tile, const Sums& sums, ReadingSums& readings) {
+void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, ReadingSums& readings) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const transport::Receiver& receiver = tile.receivers[i];
-        const Rgb weight = *receiver.constant_response() * kPi;
+        const Rgb per_ray = *receiver.constant_response() * (kPi * weight);
         Rgb sum = sums.found[i];
         for (std::size_t b = 0; b < kBands; ++b) sum[b] += double{sums.guessed[b][i]};
-        readings.add(receiver.reading(), weight * sum, weight.luminance() * sums.largest[i]);
+        readings.add(receiver.reading(), per_ray * sum, per_ray.luminance() * sums.largest[i]);
     }
 }
 

@@ -56,8 +56,8 @@ class GuessGather {
     /// light of the guess.
     void add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
                            ReadingSums& readings) const;
-    /// Adds the light of the rays to the readings.
-    static void flush(const PointTile& tile, const Sums& sums, ReadingSums& readings);
+    /// Adds the light of the rays to the readings, `weight` times.
+    static void flush(const PointTile& tile, const Sums& sums, double weight, ReadingSums& readings);
 
   private:
     void set_rays(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,

@@ -23,8 +23,7 @@ void GuessPoints::select(const KernelChoice::Sums& sums, std::size_t count, cons
     KernelChoice::select(sums, count, u[0], [&](std::size_t i, double times, double rest) {
         const double across = u[1] + 0.6180339887498949 * static_cast<double>(points.size());
         const std::uint32_t side = guess_.lit_sides()[i];
-        const math::Barycentric at_side =
-            math::sample_triangle(rest, across - std::floor(across));
+        const math::Barycentric at_side = math::sample_triangle(rest, across - std::floor(across));
         const SidePoint point = side_point(patches, caster_, side, at_side);
         const Rgb light = guess_.luminance_cd_m2(side, at_side) *
                           (double{patches.areas_m2[patches.patch_of(side)]} * times);

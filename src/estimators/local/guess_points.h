@@ -15,7 +15,7 @@ namespace stilb::estimators {
 
 /// The k of connections to vertices of the residual, over that of connections to points of the guess: the
 /// residual is little light, and the rest of its connections is found by long paths.
-inline constexpr float kResidualSplit = 400;
+inline constexpr float kResidualSplit = 200;
 
 /// Keeps references to its arguments. Immutable.
 class GuessPoints {

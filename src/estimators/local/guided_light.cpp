@@ -140,7 +140,7 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
                                  connected);
             connect_points(light_.caster, tile, connected, sums);
         }
-        GuessGather::flush(tile, tile_sums, sums);
+        GuessGather::flush(tile, tile_sums, 1, sums);
         sums.rays += batch.count * tile.receivers.size();
     }
 }

@@ -36,7 +36,7 @@ struct GuidedLight {
     double k_per_m2(std::size_t points_at_once) const;
     /// The points that a group of receivers takes.
     KernelChoice::Sums points_for(std::span<const transport::Receiver> receivers,
-                                 std::size_t points_at_once) const {
+                                  std::size_t points_at_once) const {
         return points.sums_for(receivers, k_per_m2(points_at_once) / kResidualSplit);
     }
 

@@ -11,12 +11,12 @@ namespace {
 
 /// Gathering rays from each sub-point: it has cost a camera path and direct light.
 constexpr std::uint64_t kRays = 4;
-/// Points of the guess that are connected to a packet for each of them.
-constexpr std::size_t kPoints = 8;
+/// Points of the guess that are connected to a packet.
+constexpr std::size_t kPoints = 32;
 /// Vertices of the residual that are connected to a packet.
-constexpr std::size_t kVertices = 6;
+constexpr std::size_t kVertices = 12;
 /// Pixels for each path of the residual, and the largest number of paths in a pass.
-constexpr std::uint64_t kPixelsPerPath = 128;
+constexpr std::uint64_t kPixelsPerPath = 64;
 constexpr std::uint64_t kMostPaths = 4096;
 
 class GuidedPicture final : public LocalPicture {
@@ -45,6 +45,7 @@ class GuidedPicture final : public LocalPicture {
     enum Purpose : std::uint64_t {
         kResidual = kPixels + 1,
         kSelection,
+        kVertex,
         kGather,
         kPaths,
         kGeneral,
@@ -57,7 +58,8 @@ class GuidedPicture final : public LocalPicture {
         GuidedPass(const GuidedPicture& picture, const Pass& pass)
             : picture_(picture),
               pass_(pass),
-              pool_(picture.trace_residual(pass), picture.guide_.caster.center()) {
+              pool_(picture.trace_residual(pass), picture.guide_.caster.center()),
+              selection_point_(math::SampleStream(pass.key.derived(kSelection), pass.index, 4).next_two()) {
             for (std::uint64_t i = 0; i < kRays; ++i)
                 gather_points_.push_back(gather_point(pass.key.derived(kGather), kRays * pass.index + i));
         }
@@ -66,7 +68,7 @@ class GuidedPicture final : public LocalPicture {
             ReadingSums sums(pixels.size());
             const std::vector<SubPointPacket> packets = picture_.sub_points_.of_block(block, pass_, sums);
             std::vector<transport::Receiver> spread;
-            for (std::size_t p = 0; p < packets.size(); p += 2)
+            for (std::size_t p = 0; p < packets.size(); ++p)
                 spread.push_back(packets[p].receivers[packets[p].receivers.size() / 2]);
             const KernelChoice::Sums near = pool_.sums_for(spread, picture_.guide_.k_per_m2(kPoints));
             for (const SubPointPacket& packet : packets) receive(packet, near, sums);
@@ -81,7 +83,7 @@ class GuidedPicture final : public LocalPicture {
             const GuidedLight::Divided divided = guide.divide(packet.receivers);
             const std::vector<PointTile> even = guide.tiles(divided.even, kPoints);
             const std::vector<PointTile> general = guide.tiles(divided.general, kPoints);
-            const double u = math::SampleStream(packet.key(pass_, kSelection), pass_.index).next();
+            const double u = math::SampleStream(packet.key(pass_, kVertex), pass_.index).next();
             const std::vector<transport::LightVertex> nodes = pool_.select(near, kVertices, u);
             Connections(guide.caster, even, picture_.transport_.monitor).collect(nodes, sums);
             Connections(guide.caster, general, picture_.transport_.monitor).collect(nodes, sums);
@@ -95,32 +97,28 @@ class GuidedPicture final : public LocalPicture {
             const GuidedLight& guide = picture_.guide_;
             std::vector<std::array<double, 2>> shifts;
             for (const Pixel& pixel : packet.pixels) shifts.push_back(shift_of(pixel, pass_));
-            const KernelChoice::Sums& near = picture_.points_of_[picture_.sub_points_.cell_of(packet.pixels[0])];
-            std::vector<std::vector<EmittingPoint>> points(kRays);
-            for (std::uint64_t i = 0; i < kRays; ++i) {
-                guide.points.select(near, kPoints,
-                                    {fraction(gather_points_[i][0] + shifts[0][0]),
-                                     fraction(gather_points_[i][1] + shifts[0][1])},
-                                    points[i]);
-            }
+            const KernelChoice::Sums& near =
+                picture_.points_of_[picture_.sub_points_.cell_of(packet.pixels[0])];
+            std::vector<EmittingPoint> points;
+            guide.points.select(
+                near, kPoints,
+                {fraction(selection_point_[0] + shifts[0][0]), fraction(selection_point_[1] + shifts[0][1])},
+                points);
             for (const PointTile& tile : tiles) {
+                connect_points(guide.caster, tile, points, sums);
                 const GatherLanes lanes(tile, shifts);
-                ReadingSums of_tile(sums.sum.size());
                 GuessGather::Sums gathered;
-                for (std::uint64_t i = 0; i < kRays; ++i) {
-                    connect_points(guide.caster, tile, points[i], of_tile);
+                for (std::uint64_t i = 0; i < kRays; ++i)
                     guide.gather.add_round(tile, lanes, gather_points_[i], packet.key(pass_, kPaths),
                                            kRays * pass_.index + i, gathered);
-                }
-                GuessGather::flush(tile, gathered, of_tile);
-                for (const transport::Receiver& receiver : tile.receivers)
-                    sums.add(receiver.reading(), of_tile.sum[receiver.reading()] * (1. / kRays));
+                GuessGather::flush(tile, gathered, 1. / kRays, sums);
             }
         }
 
         const GuidedPicture& picture_;
         Pass pass_;
         NearNodePool pool_;
+        std::array<double, 2> selection_point_;
         std::vector<std::array<double, 3>> gather_points_;  ///< of the rays
     };
 

@@ -1,60 +1,89 @@
 #include "estimators/local/kernel_choice.h"
 
+#include <numeric>
+
 #include "base/rays.h"
 
 namespace stilb::estimators {
 namespace {
 
 /// The share of choices by light alone.
-constexpr float kDefensive = 0.1f;
+constexpr double kDefensive = 0.1;
 
 struct FloatPoint {
     float x, y, z, normal_x, normal_y, normal_z;
 };
 
-STILB_VECTORIZED void add_kernels(const FloatPoint& at, float k, std::size_t count, const float* __restrict x,
-                                  const float* __restrict y, const float* __restrict z,
-                                  const float* __restrict nx, const float* __restrict ny,
-                                  const float* __restrict nz, float* __restrict sums) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const float dx = x[i] - at.x, dy = y[i] - at.y, dz = z[i] - at.z;
-        const float squared = dx * dx + dy * dy + dz * dz;
-        const float here = at.normal_x * dx + at.normal_y * dy + at.normal_z * dz;
-        const float there = -(nx[i] * dx + ny[i] * dy + nz[i] * dz);
-        const float product = (here > 0 ? here : 0) * (there > 0 ? there : 0);
-        // k G / (k + G) with G = product / squared^2
-        sums[i] += k * product / (k * squared * squared + product + 1e-30f);
+using Sixteen = std::array<float, kPacketWidth>;
+
+/// Sets `weights` to light x w G, and adds them to `sums`, each to that of its number mod 16. (In one sum the
+/// loop would stay scalar.)
+STILB_VECTORIZED void weigh(const FloatPoint& at, float k, std::size_t count, const float* __restrict x,
+                            const float* __restrict y, const float* __restrict z, const float* __restrict nx,
+                            const float* __restrict ny, const float* __restrict nz,
+                            const float* __restrict light, float* __restrict weights,
+                            Sixteen& __restrict sums) {
+    for (std::size_t first = 0; first < count; first += kPacketWidth) {
+        for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
+            const std::size_t i = first + lane;
+            const float dx = x[i] - at.x, dy = y[i] - at.y, dz = z[i] - at.z;
+            const float squared = dx * dx + dy * dy + dz * dz;
+            const float here = at.normal_x * dx + at.normal_y * dy + at.normal_z * dz;
+            const float there = -(nx[i] * dx + ny[i] * dy + nz[i] * dz);
+            const float product = (here > 0 ? here : 0) * (there > 0 ? there : 0);
+            // k G / (k + G) with G = product / squared^2
+            weights[i] = light[i] * (k * product / (k * squared * squared + product + 1e-30f));
+            sums[lane] += weights[i];
+        }
     }
+}
+
+STILB_VECTORIZED void add_multiple(const float* __restrict values, float factor, std::size_t count,
+                                   float* __restrict sums) {
+    for (std::size_t i = 0; i < count; ++i) sums[i] += values[i] * factor;
 }
 
 }  // namespace
 
 void KernelChoice::add(const Vec3& position, const Vec3& normal, double light) {
+    if (count_ % kPacketWidth == 0) {
+        for (Floats* values :
+             {&position_[0], &position_[1], &position_[2], &normal_[0], &normal_[1], &normal_[2], &light_})
+            values->resize(count_ + kPacketWidth);
+    }
     const Vec3 relative = position - center_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        position_[axis].push_back(static_cast<float>(relative[axis]));
-        normal_[axis].push_back(static_cast<float>(normal[axis]));
+        position_[axis][count_] = static_cast<float>(relative[axis]);
+        normal_[axis][count_] = static_cast<float>(normal[axis]);
     }
-    light_.push_back(static_cast<float>(light));
+    light_[count_++] = static_cast<float>(light);
     all_light_ += light;
 }
 
 auto KernelChoice::sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const -> Sums {
-    Sums sums(light_.size());
+    Floats all(light_.size()), own(light_.size());
+    std::size_t reached = 0;
     for (const transport::Receiver& receiver : receivers) {
         const Vec3 p = receiver.position() - center_, n = receiver.normal();
         const FloatPoint at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
                             static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-        add_kernels(at, static_cast<float>(k_per_m2), sums.size(), position_[0].data(), position_[1].data(),
-                    position_[2].data(), normal_[0].data(), normal_[1].data(), normal_[2].data(),
-                    sums.data());
+        Sixteen parts{};
+        weigh(at, static_cast<float>(k_per_m2), own.size(), position_[0].data(), position_[1].data(),
+              position_[2].data(), normal_[0].data(), normal_[1].data(), normal_[2].data(), light_.data(),
+              own.data(), parts);
+        const float sum = std::accumulate(parts.begin(), parts.end(), 0.0f);
+        if (!(sum > 0)) continue;
+        add_multiple(own.data(), 1 / sum, own.size(), all.data());
+        ++reached;
     }
-    double all = 0;
-    for (std::size_t i = 0; i < sums.size(); ++i) all += double{sums[i]} * double{light_[i]};
-    const float evenly = all > 0 ? kDefensive * static_cast<float>(all / all_light_) : 1;
+    const double share = reached > 0 ? kDefensive : 1;
+    const auto by_light = static_cast<float>(all_light_ > 0 ? share / all_light_ : 0);
+    const auto by_kernel =
+        static_cast<float>((1 - share) / static_cast<double>(std::max<std::size_t>(1, reached)));
+    Sums sums(count_);
     double sum = 0;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        sum += double{light_[i] * (sums[i] + evenly)};
+    for (std::size_t i = 0; i < count_; ++i) {
+        sum += double{all[i] * by_kernel + light_[i] * by_light};
         sums[i] = static_cast<float>(sum);
     }
     return sums;

@@ -1,6 +1,7 @@
-// Choice of points on surfaces for connections to a group of receivers: in proportion to the light that a
-// point reflects and to the kernel w G of the bounded connection to the group, shadows ignored. A share of
-// the choices is by light alone: shadows and the extent of groups are not in the kernel.
+// Choice of points on surfaces for connections to a group of receivers. For each of some receivers of the
+// group there is a density that is proportional to the light a point reflects and to the kernel w G of the
+// bounded connection, shadows ignored. Points are chosen by the mean of these densities, so that no
+// receiver's points are rare, and some by light alone, for the other receivers.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,7 @@ class KernelChoice {
 
     /// `light`: at least 0, in any unit.
     void add(const Vec3& position, const Vec3& normal, double light);
-    std::size_t size() const { return light_.size(); }
+    std::size_t size() const { return count_; }
 
     /// The running sums of the points' weights, for select().
     using Sums = std::vector<float>;
@@ -40,7 +41,8 @@ class KernelChoice {
     using Floats = std::vector<float>;
 
     Vec3 center_;
-    std::array<Floats, 3> position_, normal_;
+    std::size_t count_ = 0;
+    std::array<Floats, 3> position_, normal_;  ///< as all arrays, filled with 0 to a multiple of 16
     Floats light_;
     double all_light_ = 0;
 };
@@ -54,7 +56,9 @@ void KernelChoice::select(const Sums& sums, std::size_t count, double u, const V
         const auto found = std::upper_bound(sums.begin(), sums.end() - 1, target);
         const auto i = static_cast<std::size_t>(found - sums.begin());
         const float before = i > 0 ? sums[i - 1] : 0, own = *found - before;
-        if (own > 0) visit(i, sum / (double{own} * all), std::clamp(double{(target - before) / own}, 0., math::kBelowOne));
+        if (own > 0)
+            visit(i, sum / (double{own} * all),
+                  std::clamp(double{(target - before) / own}, 0., math::kBelowOne));
     }
 }
 

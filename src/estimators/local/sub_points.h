@@ -1,5 +1,5 @@
-// Sub-points: the surfaces that a picture's pixels see, as receivers of light in packets of 4 x 4 pixels. Each
-// pass draws them anew.
+// Sub-points: the surfaces that a picture's pixels see, as receivers of light in packets of 4 x 4 pixels.
+// Each pass draws them anew.
 #pragma once
 
 #include <vector>
@@ -16,10 +16,10 @@ static_assert(kPacketSide * kPacketSide == kPacketWidth);
 
 /// The sub-points of a packet.
 struct SubPointPacket {
-    Pixel first;                                  ///< top left
-    std::vector<transport::Receiver> receivers;   ///< `reading`: the pixel's number in its block
-    std::vector<Pixel> pixels;                    ///< of each receiver
-    std::vector<math::SampleStream> streams;      ///< of each receiver, after the numbers of its camera path
+    Pixel first;                                 ///< top left
+    std::vector<transport::Receiver> receivers;  ///< `reading`: the pixel's number in its block
+    std::vector<Pixel> pixels;                   ///< of each receiver
+    std::vector<math::SampleStream> streams;     ///< of each receiver, after the numbers of its camera path
 
     /// A key of the packet's position and the pass.
     math::RandomKey key(const Pass& pass, std::uint64_t purpose) const;
