@@ -77,12 +77,11 @@ DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
     return prepared;
 }
 
-void DirectLight::add_all(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
-                          TileLight& light) const {
+auto DirectLight::add_certain(std::span<const Receiver> tile, TileLight& light) const -> Remainder {
     Remainder remainder = add_known(tile, light);
     remainder.points = points_.size() > kFewPoints;
     if (!remainder.points) add_points(tile, light);
-    add_sample(tile, remainder, streams, light);
+    return remainder;
 }
 
 /// Lamps that are seen for certain; the others, unless they give no light, remain.

@@ -58,9 +58,8 @@ class DirectLight {
     void add_sample(std::span<const Receiver> tile, const Remainder& remainder,
                     std::span<math::SampleStream> streams, TileLight& light) const;
 
-    /// Adds all direct light of a tile of receivers that were drawn for this sample.
-    void add_all(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
-                 TileLight& light) const;
+    /// For a tile of receivers that were drawn for one sample: adds what needs no random numbers.
+    Remainder add_certain(std::span<const Receiver> tile, TileLight& light) const;
 
     /// The largest number of point lights that pictures take one by one.
     static constexpr std::size_t kFewPoints = 16;

@@ -29,10 +29,11 @@ class BoundedDirect {
   public:
     BoundedDirect(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights);
 
-    /// Calls `visit(arrival)` for one sample of the first part: of every light or, where they are many, of
-    /// some.
+    enum class Part { bounded, all };
+    /// Calls `visit(arrival)` for one sample of the first part, or of all direct light: of every light or,
+    /// where they are many, of some.
     template <typename Visit>
-    void sample(const SidePoint& at, math::SampleStream& stream, const Visit& visit) const;
+    void sample(const SidePoint& at, Part part, math::SampleStream& stream, const Visit& visit) const;
     /// Whether several samples at one point differ.
     bool varies() const { return lights_.has_visible_lights() || lights_.count() > kEach; }
 
@@ -51,7 +52,7 @@ class BoundedDirect {
 
     double share(double squared_distance) const { return std::min(1.0, squared_distance / near_m2_); }
     template <typename Visit>
-    void add(const std::optional<lights::IncidentLight>& light, double weight, const SidePoint& at,
+    void add(const std::optional<lights::IncidentLight>& light, double weight, const SidePoint& at, Part part,
              const Visit& visit) const;
 
     const rays::RayCaster& caster_;
@@ -61,23 +62,26 @@ class BoundedDirect {
 };
 
 template <typename Visit>
-void BoundedDirect::sample(const SidePoint& at, math::SampleStream& stream, const Visit& visit) const {
+void BoundedDirect::sample(const SidePoint& at, Part part, math::SampleStream& stream,
+                           const Visit& visit) const {
     if (lights_.count() <= kEach) {
         for (std::size_t light = 0; light < lights_.count(); ++light)
-            add(lights_.sample_incident(light, {at.position, at.normal}, stream.next_two()), 1, at, visit);
+            add(lights_.sample_incident(light, {at.position, at.normal}, stream.next_two()), 1, at, part,
+                visit);
         return;
     }
     for (std::size_t i = 0; i < kEach; ++i)
-        add(lights_.sample_one_light(at.position, at.normal, stream), 1. / kEach, at, visit);
+        add(lights_.sample_one_light(at.position, at.normal, stream), 1. / kEach, at, part, visit);
 }
 
 template <typename Visit>
 void BoundedDirect::add(const std::optional<lights::IncidentLight>& light, double weight, const SidePoint& at,
-                        const Visit& visit) const {
+                        Part part, const Visit& visit) const {
     if (!light) return;
     const double cosine = dot(light->direction, at.normal);
     if (cosine <= 0) return;
-    if (std::isinf(light->pdf_per_sr)) weight *= share(squared_length(light->source_point - at.position));
+    if (part == Part::bounded && std::isinf(light->pdf_per_sr))
+        weight *= share(squared_length(light->source_point - at.position));
     const Rgb arriving = light->normal_illuminance_lx *
                          caster_.transmittance({at.lifted, light->source_point}) * (weight * cosine);
     if (arriving.max() > 0) visit(Arrival{light->direction, arriving});

@@ -107,7 +107,7 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
         if (fraction(u[2] + double{lanes.roulette[i]}) < continuation.probability) {
             const Vec3 direction =
                 normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
-            const Rgb found = missing(tile.receivers[i], direction, light.luminance_of(i), continuation,
+            const Rgb found = missing(tile.receivers[i], direction, light, i, continuation,
                                       math::SampleStream(key.derived(i), round, 0));
             sums.found[i] += found;
             largest = std::max(largest, std::abs(found.luminance()));
@@ -156,7 +156,7 @@ void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, 
         math::SampleStream stream(key.derived(kPacketWidth + i), round, 0);
         Rgb luminance = light.luminance_of(i);
         if (stream.next() < continuation.probability)
-            luminance += missing(receiver, direction, luminance, continuation, stream);
+            luminance += missing(receiver, direction, light, i, continuation, stream);
         readings.add(receiver.reading(), samples[i].weight * luminance);
     }
 }
@@ -170,16 +170,21 @@ auto GuessGather::continuation_of(const GuessedLight& light, std::size_t lane, d
     return {shares, continuation_probability(guess_.material(side), shares), false};
 }
 
-Rgb GuessGather::missing(const transport::Receiver& receiver, const Vec3& direction, const Rgb& guessed,
-                         const Continuation& continuation, math::SampleStream stream) const {
+Rgb GuessGather::missing(const transport::Receiver& receiver, const Vec3& direction,
+                         const GuessedLight& light, std::size_t lane, const Continuation& continuation,
+                         math::SampleStream stream) const {
+    const auto& [shares, probability, is_traced] = continuation;
+    if (!is_traced && !guess_.material(light.sides[lane]).gloss)
+        return residual_.missing_cd_m2(light.sides[lane], light.barycentric_of(lane), stream) *
+               (shares.diffuse() / probability);
     const auto hit = caster_.closest(receiver.lifted(), direction);
-    if (continuation.is_traced)
+    if (is_traced)
         return hit ? tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream) : Rgb{};
-    Rgb luminance = guessed * -continuation.shares.diffuse();
+    Rgb luminance = light.luminance_of(lane) * -shares.diffuse();
     if (hit)
-        luminance += reflected_luminance(tracer_, *hit, -direction, guess_.material(hit->material),
-                                         continuation.shares, stream);
-    return luminance * (1 / continuation.probability);
+        luminance +=
+            reflected_luminance(tracer_, *hit, -direction, guess_.material(hit->material), shares, stream);
+    return luminance * (1 / probability);
 }
 
 }  // namespace stilb::estimators

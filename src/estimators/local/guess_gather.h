@@ -12,6 +12,7 @@
 #include "estimators/local/light_guess.h"
 #include "estimators/local/part_reflection.h"
 #include "estimators/local/point_tile.h"
+#include "estimators/local/residual_light.h"
 #include "transport/path_tracer.h"
 
 namespace stilb::estimators {
@@ -38,8 +39,9 @@ inline double fraction(double x) { return x - std::floor(x); }
 /// Keeps references to its arguments. Immutable.
 class GuessGather {
   public:
-    GuessGather(const rays::RayCaster& caster, const transport::PathTracer& tracer, const LightGuess& guess)
-        : caster_(caster), tracer_(tracer), guess_(guess) {}
+    GuessGather(const rays::RayCaster& caster, const transport::PathTracer& tracer, const LightGuess& guess,
+                const ResidualLight& residual)
+        : caster_(caster), tracer_(tracer), guess_(guess), residual_(residual) {}
 
     /// Sums of luminances over rays, by lanes [cd/m2].
     struct Sums {
@@ -62,20 +64,22 @@ class GuessGather {
   private:
     void set_rays(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
                   RayPacket& packet, PointTile::Floats& cosine) const;
-    /// How path tracing continues a ray.
+    /// How a ray is continued beyond the guess.
     struct Continuation {
         PartShares shares;
         double probability = 0;
         bool is_traced = false;  ///< the surface that it meets
     };
     Continuation continuation_of(const GuessedLight& light, std::size_t lane, double g_over_k) const;
-    /// The luminance that the continued ray finds beyond the guess, divided by the probability [cd/m2].
-    Rgb missing(const transport::Receiver& receiver, const Vec3& direction, const Rgb& guessed,
-                const Continuation& continuation, math::SampleStream stream) const;
+    /// The luminance that the continued ray of a lane finds beyond the guess, divided by the probability
+    /// [cd/m2].
+    Rgb missing(const transport::Receiver& receiver, const Vec3& direction, const GuessedLight& light,
+                std::size_t lane, const Continuation& continuation, math::SampleStream stream) const;
 
     const rays::RayCaster& caster_;
     const transport::PathTracer& tracer_;
     const LightGuess& guess_;
+    const ResidualLight& residual_;
 };
 
 }  // namespace stilb::estimators

@@ -13,7 +13,7 @@ namespace {
 constexpr double kKernels = 5;
 /// Paths of the residual for each sample of readings, and the number of their vertices that are connected.
 constexpr std::uint64_t kPathsPerSample = 32;
-constexpr std::uint64_t kVerticesPerSample = 8;
+constexpr std::uint64_t kVerticesPerSample = 2;
 /// With fewer readings, the guess costs more than it gains.
 constexpr double kPatchesPerReading = 8;
 /// Where the residual is more than this share of the guess, light paths without a guess have less variance
@@ -47,7 +47,7 @@ GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
       guess(scene, all, direct, tracer, key.derived(kGuess), monitor),
       residual(scene, all, lights, direct, tracer, guess, key.derived(kPilot), monitor),
       points(guess, all),
-      gather(all, tracer, guess) {
+      gather(all, tracer, guess, residual) {
     const patches::Patches& patches = guess.patches();
     for (const std::uint32_t side : guess.lit_sides())
         lit_area_m2_ += double{patches.areas_m2[patches.patch_of(side)]};
@@ -89,8 +89,6 @@ GuidedReadings::GuidedReadings(const GuidedLight& light, std::span<const transpo
       receivers_(light.divide(receivers)),
       tiles_(light.tiles(receivers_.even, kPoints)),
       general_tiles_(light.tiles(receivers_.general, kPoints)),
-      connections_(light.caster, tiles_, monitor),
-      general_connections_(light.caster, general_tiles_, monitor),
       monitor_(monitor) {
     for (const PointTile& tile : tiles_) points_of_.push_back(light.points_for(tile.receivers, kPoints));
 }
@@ -152,11 +150,18 @@ void GuidedReadings::connect_residual(const Batch& batch, ReadingSums& sums) con
         std::vector<transport::LightVertex> nodes = light_.residual.trace(
             batch.key.derived(kResidual), first * kPathsPerSample, last * kPathsPerSample);
         for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(kPathsPerSample);
-        const double u = math::SampleStream(batch.key.derived(kSelection).derived(first), 0).next();
+        const NearNodePool pool(nodes, light_.caster.center());
+        const math::RandomKey key = batch.key.derived(kSelection).derived(first);
         const std::size_t count = kVerticesPerSample * (last - first);
-        nodes = NodePool(nodes).select(count, u);
-        connections_.collect(nodes, sums);
-        general_connections_.collect(nodes, sums);
+        const auto connect_all = [&](std::span<const PointTile> tiles, math::RandomKey own) {
+            for (std::size_t t = 0; t < tiles.size(); ++t) {
+                const auto near = pool.sums_for(tiles[t].receivers, light_.k_per_m2(kPoints));
+                nodes = pool.select(near, count, math::SampleStream(own, t, 0).next());
+                Connections(light_.caster, tiles.subspan(t, 1), monitor_).collect(nodes, sums);
+            }
+        };
+        connect_all(tiles_, key.derived(0));
+        connect_all(general_tiles_, key.derived(1));
     }
 }
 

@@ -71,7 +71,7 @@ class GuidedReadings {
     static constexpr std::uint64_t kGranularity = 4;
 
     /// Points of the guess that are connected to a tile for each gathering ray of its receivers.
-    static constexpr std::size_t kPoints = 4;
+    static constexpr std::size_t kPoints = 8;
 
     GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers,
                    const Monitor& monitor);
@@ -91,7 +91,6 @@ class GuidedReadings {
     GuidedLight::Divided receivers_;
     std::vector<PointTile> tiles_, general_tiles_;
     std::vector<KernelChoice::Sums> points_of_;  ///< per tile
-    Connections connections_, general_connections_;
     const Monitor& monitor_;
 };
 

@@ -9,8 +9,10 @@
 namespace stilb::estimators {
 namespace {
 
-/// Gathering rays from each sub-point: it has cost a camera path and direct light.
+/// Gathering rays from each sub-point, which has cost a camera path; and samples of direct light where lamps
+/// may be partly hidden.
 constexpr std::uint64_t kRays = 4;
+constexpr std::uint64_t kDirectSamples = 4;
 /// Points of the guess that are connected to a packet.
 constexpr std::size_t kPoints = 32;
 /// Vertices of the residual that are connected to a packet.
@@ -24,7 +26,7 @@ class GuidedPicture final : public LocalPicture {
     GuidedPicture(const LocalTransport& transport, const Problem& problem, const GuidedLight& guide)
         : transport_(transport),
           guide_(guide),
-          sub_points_(transport, problem),
+          sub_points_(transport, problem, kDirectSamples),
           points_of_(sub_points_.cells()) {
         const Pass pass{problem.preparation_key.derived(kPlan), 0};
         std::atomic<std::size_t> done = 0;

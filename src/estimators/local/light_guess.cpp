@@ -99,7 +99,7 @@ struct LightGuess::Solver {
         Rgb& source = rows.source_lx[row];
         const int samples = direct.varies() ? kSideDirect : 1;
         for (int k = 0; k < samples; ++k) {
-            direct.sample(point, stream, [&](const Arrival& arrival) {
+            direct.sample(point, BoundedDirect::Part::bounded, stream, [&](const Arrival& arrival) {
                 source += arrival.illuminance_lx * (1. / (samples * static_cast<double>(packets)));
             });
         }
@@ -263,6 +263,8 @@ void LightGuess::look(RayPacket& packet, const LaneMask& lanes, rays::Coherence 
     const patches::PatchHits hits = patch_caster_.closest(packet, lanes, coherence);
     light.traced_lanes = hits.exact_lanes;
     light.sides = hits.sides;
+    light.b1 = hits.b1;
+    light.b2 = hits.b2;
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         for (std::size_t b = 0; b < kBands; ++b) light.luminance[b][i] = 0;
         light.cosine[i] = 0;

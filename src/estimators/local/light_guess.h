@@ -35,9 +35,13 @@ struct GuessedLight {
     alignas(64) Floats cosine{};     ///< at the surface that is met; 0 where there is none
     std::uint32_t traced_lanes = 0;  ///< bits of the lanes whose rays meet a traced surface
     alignas(64) std::array<std::uint32_t, kPacketWidth> sides{};  ///< that are met; else kNoSide
+    alignas(64) Floats b1{}, b2{};  ///< where they are met: barycentric coordinates, if at all
 
     Rgb luminance_of(std::size_t lane) const {
         return {{luminance[0][lane], luminance[1][lane], luminance[2][lane]}};
+    }
+    math::Barycentric barycentric_of(std::size_t lane) const {
+        return {1 - double{b1[lane]} - double{b2[lane]}, b1[lane], b2[lane]};
     }
 };
 

@@ -24,7 +24,7 @@ constexpr unsigned kPilotRays = 4;
 class LightPathPicture final : public LocalPicture {
   public:
     LightPathPicture(const LocalTransport& transport, const Problem& problem)
-        : transport_(transport), sub_points_(transport, problem), k_per_m2_(plan(problem)) {}
+        : transport_(transport), sub_points_(transport, problem, 1), k_per_m2_(plan(problem)) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<LightPathPass>(*this, pass);

@@ -17,6 +17,9 @@ namespace {
 constexpr std::uint64_t kResidualPackets = 2;
 /// Samples of direct light there, where they differ.
 constexpr int kResidualDirect = 4;
+/// The probability with which an estimate of what the guess lacks at a point goes on to the surfaces around:
+/// they lack little.
+constexpr double kAround = 0.25;
 /// Paths start with a density that is at least this share of what it would be if r were as large as the
 /// guess; and so many of them, beside the others, evenly over all sides: light that the pilot has missed must
 /// not be rare.
@@ -101,7 +104,8 @@ double ResidualLight::pilot(std::uint32_t side, math::RandomKey key) const {
     for (std::uint64_t k = 0; k < kPilots; ++k) {
         math::SampleStream stream(key.derived(side), k, 4);
         const auto u = stream.next_two();
-        const Start start = start_on(side, u, 1, stream);
+        const Start start =
+            start_at(side, math::sample_triangle(u[0], u[1]), 1, BoundedDirect::Part::bounded, stream);
         const double missing = magnitude(start.missing_lx * material.diffuse_reflectance()).luminance() / kPi;
         const double guessed = start.guessed_cd_m2.luminance();
         square += missing * missing + kFloor * kFloor * guessed * guessed;
@@ -113,10 +117,9 @@ double ResidualLight::pilot(std::uint32_t side, math::RandomKey key) const {
            std::sqrt(square / static_cast<double>(kPilots));
 }
 
-auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u, std::uint64_t packets,
-                             math::SampleStream& stream) const -> Start {
+auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, std::uint64_t packets,
+                             BoundedDirect::Part part, math::SampleStream& stream) const -> Start {
     const patches::Patches& patches = guess_.patches();
-    const math::Barycentric at = math::sample_triangle(u[0], u[1]);
     Start start{side_point(patches, caster_, side, at), guess_.luminance_cd_m2(side, at), {}, {}};
     const Frame frame = Frame::around(start.point.normal);
     ChosenArrival chosen(stream.next());
@@ -126,7 +129,7 @@ auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u,
     };
     const int samples = direct_.varies() ? kResidualDirect : 1;
     for (int i = 0; i < samples; ++i) {
-        direct_.sample(start.point, stream, [&](const Arrival& arrival) {
+        direct_.sample(start.point, part, stream, [&](const Arrival& arrival) {
             add({arrival.direction, arrival.illuminance_lx * (1. / samples)});
         });
     }
@@ -166,6 +169,36 @@ auto ResidualLight::start_on(std::uint32_t side, const std::array<double, 2>& u,
     return start;
 }
 
+Rgb ResidualLight::missing_cd_m2(std::uint32_t side, const math::Barycentric& at,
+                                 math::SampleStream& stream) const {
+    const Start start = start_at(side, at, 1, BoundedDirect::Part::all, stream);
+    return (start.missing_lx + missing_around_lx(start.point, stream)) *
+           (guess_.material(side).diffuse_reflectance() * (1 / kPi));
+}
+
+Rgb ResidualLight::missing_around_lx(const SidePoint& point, math::SampleStream& stream) const {
+    if (stream.next() >= kAround) return {};
+    const auto [u1, u2] = stream.next_two();
+    const Vec3 direction =
+        Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
+    RayPacket packet;
+    LaneMask lanes{};
+    lanes[0] = -1;
+    packet.set(0, point.lifted - guess_.patches().center, direction, std::numeric_limits<float>::infinity());
+    GuessedLight light;
+    guess_.look(packet, lanes, rays::Coherence::scattered, light);
+    const std::uint32_t side = light.sides[0];
+    // Traced surfaces lack nothing.
+    if (side == patches::kNoSide || (light.traced_lanes & 1u) != 0) return {};
+    constexpr double illuminance_per_luminance = kPi / kAround;
+    if (!guess_.material(side).gloss)
+        return missing_cd_m2(side, light.barycentric_of(0), stream) * illuminance_per_luminance;
+    const auto hit = caster_.closest(point.lifted, direction);
+    if (!hit) return {};
+    const Rgb all = tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream);
+    return (all + light.luminance_of(0) * -1) * illuminance_per_luminance;
+}
+
 std::vector<transport::LightVertex> ResidualLight::trace(math::RandomKey key, std::uint64_t first,
                                                          std::uint64_t end) const {
     enum Purpose : std::uint64_t { kLightPaths = 1, kParticles };
@@ -203,7 +236,8 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const math::DiscreteChoice choice = by_residual_.choose(stream.next());
     const std::uint32_t side = sides_[choice.index];
     const auto u = stream.next_two();
-    const Start start = start_on(side, u, kResidualPackets, stream);
+    const Start start = start_at(side, math::sample_triangle(u[0], u[1]), kResidualPackets,
+                                 BoundedDirect::Part::bounded, stream);
     const double per_density = double{patches.areas_m2[patches.patch_of(side)]} / choice.probability;
     const materials::SplitMaterial& parts = guess_.material(side);
     const auto& [position, lifted, normal] = start.point;

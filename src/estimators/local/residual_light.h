@@ -34,6 +34,10 @@ class ResidualLight {
     std::vector<transport::LightVertex> trace(math::RandomKey key, std::uint64_t first,
                                               std::uint64_t end) const;
 
+    /// An estimate of the luminance that the guess lacks at a point of a side whose material is diffuse, all
+    /// the light of point lights included [cd/m2].
+    Rgb missing_cd_m2(std::uint32_t side, const math::Barycentric& at, math::SampleStream& stream) const;
+
     /// The residual beside the guess, as the root mean square over each side, by the pilot: the larger it is,
     /// the less is gained.
     double share_of_guess() const { return share_of_guess_; }
@@ -46,8 +50,10 @@ class ResidualLight {
         Rgb missing_lx;   ///< one sample of r, as the illuminance that the diffuse part would reflect to it
         Arrival arrival;  ///< all the light that the gloss reflects, as if it came from one direction
     };
-    Start start_on(std::uint32_t side, const std::array<double, 2>& u, std::uint64_t packets,
-                   math::SampleStream& stream) const;
+    Start start_at(std::uint32_t side, const math::Barycentric& at, std::uint64_t packets,
+                   BoundedDirect::Part part, math::SampleStream& stream) const;
+    /// What reaches a point in light that the guess lacks at the surfaces around [lx].
+    Rgb missing_around_lx(const SidePoint& point, math::SampleStream& stream) const;
     double pilot(std::uint32_t side, math::RandomKey key) const;
     void trace_particle(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;

@@ -5,6 +5,11 @@
 namespace stilb::estimators {
 namespace {
 
+/// The part of a pass's key for direct light; other purposes take other numbers, as of kPixels.
+constexpr std::uint64_t kDirectOfPixels = 1u << 10;
+/// Sobol' dimensions of a sample of direct light.
+constexpr unsigned kDirectDimensions = 8;
+
 /// The edge of cells, in pixels: planning must not take long beside the first pass.
 int cell_edge_of(const std::array<int, 2>& resolution) {
     constexpr std::size_t most_cells = 4096;
@@ -20,9 +25,10 @@ math::RandomKey SubPointPacket::key(const Pass& pass, std::uint64_t purpose) con
                                              static_cast<std::uint64_t>(first.y));
 }
 
-SubPoints::SubPoints(const LocalTransport& transport, const Problem& problem)
+SubPoints::SubPoints(const LocalTransport& transport, const Problem& problem, std::uint64_t direct_samples)
     : transport_(transport),
       tracing_(problem, transport.lights),
+      direct_samples_(direct_samples),
       cell_edge_(cell_edge_of(tracing_.camera.resolution)),
       cells_(blocks_of(tracing_.camera.resolution, {cell_edge_, cell_edge_}, cell_edge_)) {}
 
@@ -33,10 +39,7 @@ std::vector<SubPointPacket> SubPoints::of_block(const PixelBlock& block, const P
         for (int left = 0; left < block.width; left += kPacketSide) {
             SubPointPacket packet = of_packet(block, left, top, pass, sums);
             if (packet.receivers.empty()) continue;
-            transport::DirectLight::TileLight direct{};
-            transport_.direct.add_all(packet.receivers, packet.streams, direct);
-            for (std::size_t i = 0; i < packet.receivers.size(); ++i)
-                sums.add(packet.receivers[i].reading(), direct[i]);
+            add_direct(packet, pass, sums);
             packets.push_back(std::move(packet));
         }
     }
@@ -61,9 +64,29 @@ SubPointPacket SubPoints::of_packet(const PixelBlock& block, int left, int top, 
         const std::size_t pixel = started.pixels[i];
         sums.add(reading_of(pixel), add(started.paths[i], reading_of(pixel), packet.receivers));
         packet.pixels.resize(packet.receivers.size(), pixels[pixel]);
-        packet.streams.resize(packet.receivers.size(), started.paths[i].stream);
     }
     return packet;
+}
+
+void SubPoints::add_direct(const SubPointPacket& packet, const Pass& pass, ReadingSums& sums) const {
+    const std::span<const transport::Receiver> receivers = packet.receivers;
+    transport::DirectLight::TileLight light{};
+    const transport::DirectLight::Remainder remainder = transport_.direct.add_certain(receivers, light);
+    for (std::size_t i = 0; i < receivers.size(); ++i) sums.add(receivers[i].reading(), light[i]);
+    if (remainder.is_empty()) return;
+    transport::DirectLight::TileLight sampled{};
+    const auto width = static_cast<std::uint64_t>(tracing_.camera.resolution[0]);
+    for (std::uint64_t sample = 0; sample < direct_samples_; ++sample) {
+        std::vector<math::SampleStream> streams;
+        for (const auto& [x, y] : packet.pixels) {
+            const std::uint64_t pixel = static_cast<std::uint64_t>(y) * width + static_cast<std::uint64_t>(x);
+            streams.emplace_back(pass.key.derived(kDirectOfPixels).derived(pixel),
+                                 direct_samples_ * pass.index + sample, kDirectDimensions);
+        }
+        transport_.direct.add_sample(receivers, remainder, streams, sampled);
+    }
+    const double weight = 1 / static_cast<double>(direct_samples_);
+    for (std::size_t i = 0; i < receivers.size(); ++i) sums.add(receivers[i].reading(), sampled[i] * weight);
 }
 
 Rgb SubPoints::add(transport::Path& path, std::uint32_t reading,

@@ -28,7 +28,8 @@ struct SubPointPacket {
 /// Keeps references to the arguments' targets. Immutable.
 class SubPoints {
   public:
-    SubPoints(const LocalTransport& transport, const Problem& problem);
+    /// `direct_samples`: of direct light at each sub-point, where it has to be sampled.
+    SubPoints(const LocalTransport& transport, const Problem& problem, std::uint64_t direct_samples);
 
     /// The packets of a block. Adds emission, light from outside and direct light to the block's pixels.
     std::vector<SubPointPacket> of_block(const PixelBlock& block, const Pass& pass, ReadingSums& sums) const;
@@ -45,11 +46,13 @@ class SubPoints {
   private:
     SubPointPacket of_packet(const PixelBlock& block, int left, int top, const Pass& pass,
                              ReadingSums& sums) const;
+    void add_direct(const SubPointPacket& packet, const Pass& pass, ReadingSums& sums) const;
     /// Appends the sub-point of a camera path; returns the emission seen.
     Rgb add(transport::Path& path, std::uint32_t reading, std::vector<transport::Receiver>& receivers) const;
 
     const LocalTransport& transport_;
     PictureTracing tracing_;
+    std::uint64_t direct_samples_;
     int cell_edge_;
     std::vector<PixelBlock> cells_;
 };
