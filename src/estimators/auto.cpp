@@ -1,96 +1,163 @@
-// Method auto: local estimation balanced with path tracing (local/local_estimation.cpp) or, for few readings,
-// path tracing alone (path/path.cpp), whichever has less variance for the same work. Light paths pay where
-// many readings share them, and where path tracing finds light rarely.
+// Method auto: for few readings path tracing (path/path.cpp) or local estimation that is balanced with it
+// (local/local_estimation.cpp), for many the latter or the same by a guess of the light. Light paths pay
+// where many readings share them, and where path tracing finds light rarely; a guess pays where still more
+// readings share it, and where it lacks little of the light.
 //
-// Both are unbiased, and the choice depends on the samples of a pilot with random keys of its own: the result
-// is unbiased, too.
+// Pilots of the methods give their variances. Chosen is the method that takes the least work to a usual
+// error, with the work of its set-up; a method whose set-up alone takes more than all of the other is not
+// tried. All are unbiased, and the choice depends on samples with random keys of their own: the result is
+// unbiased, too.
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "estimators/limits.h"
+#include "estimators/local/light_guess.h"
+#include "estimators/local/split_plan.h"
 
 namespace stilb::estimators {
 namespace {
 
-/// With more readings light paths always pay (docs/performance.md).
+/// With more readings light paths always pay, and with fewer no guess (docs/performance.md).
 constexpr std::size_t kMostReadings = 64;
+/// Pilots of more readings measure as many as these, in runs of neighbours, which share packets of rays.
+constexpr std::size_t kMostInPilots = 128, kRun = 16;
 /// The same for all seeds, so that a scene is measured by one method, and a number of paths means the same.
 constexpr math::RandomKey kPilotKey{0x5ee0f7e57a11ed00};
+enum PilotPurpose : std::uint64_t { kPath, kBalanced, kGuided };
 /// Independent parts of a pilot, for its variances.
 constexpr std::size_t kPilots = 16;
+/// The usual error: the relative standard error of an interval of 1 %, as a run without targets has it.
+constexpr double kError = 0.005;
+/// Costs as Estimator's: of a planning ray with its path, and of a patch of a guess.
+constexpr double kPlanningRayCost = 30, kPatchCost = 250;
+/// A pilot's part by path tracing: so much work, but at least so many samples.
+constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
 
-/// The readings of a pilot: of each part, the mean over its samples.
+/// The readings of the parts of a pilot.
 struct Pilot {
-    std::vector<std::vector<double>> parts;
-    double cost = 0;  ///< of each part
+    std::vector<double> means, deviations;  ///< of each reading: mean and standard deviation of the parts
+    double cost = 0;                        ///< of a part
 };
 
-/// The samples of a part of this cost, at least as many as the method makes together.
-std::uint64_t samples_for(double cost, const Estimator& method) {
-    const std::uint64_t granularity = method.batch_granularity();
-    const double granules = cost / (method.cost_per_sample() * static_cast<double>(granularity));
-    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(granules)) * granularity;
-}
-
-Pilot run_pilot(const Estimator& method, std::size_t readings, double cost, math::RandomKey key) {
-    const std::uint64_t samples = samples_for(cost, method);
-    Pilot pilot{std::vector<std::vector<double>>(kPilots),
-                static_cast<double>(samples) * method.cost_per_sample()};
+Pilot run_pilot(const Estimator& method, std::uint64_t samples, PilotPurpose purpose) {
+    const std::size_t readings = method.known_part().size();
+    std::vector<std::vector<double>> parts(kPilots);
     parallel_for(kPilots, [&](std::size_t part) {
         ReadingSums sums(readings);
-        method.run_batch({key.derived(part), 0, samples}, sums);
+        method.run_batch({kPilotKey.derived(purpose).derived(part), 0, samples}, sums);
         for (std::size_t j = 0; j < readings; ++j) {
             const Rgb mean = method.known_part()[j] + sums.sum[j] * (1 / static_cast<double>(samples));
-            pilot.parts[part].push_back(mean.luminance());
+            parts[part].push_back(mean.luminance());
         }
     });
+    Pilot pilot{{}, {}, static_cast<double>(samples) * method.cost_per_sample()};
+    for (std::size_t j = 0; j < readings; ++j) {
+        double mean = 0, squares = 0;
+        for (const auto& part : parts) mean += part[j] / kPilots;
+        for (const auto& part : parts) squares += (part[j] - mean) * (part[j] - mean);
+        pilot.means.push_back(mean);
+        pilot.deviations.push_back(std::sqrt(squares / (kPilots - 1)));
+    }
     return pilot;
 }
 
-/// The variance of the parts' means of a reading, and their mean.
-struct Moments {
-    double mean = 0, variance = 0;
-};
-Moments moments_of(const Pilot& pilot, std::size_t reading) {
-    Moments moments;
-    for (const auto& part : pilot.parts) moments.mean += part[reading] / kPilots;
-    for (const auto& part : pilot.parts) {
-        const double deviation = part[reading] - moments.mean;
-        moments.variance += deviation * deviation / (kPilots - 1);
+/// The work to the usual error on average over the readings, which have about these values. Not to a mean of
+/// squares: few readings in corners would outweigh all others.
+double sampling_cost(const Pilot& pilot, std::span<const double> values, std::span<const double> weights) {
+    double sum = 0, all = 0;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+        const double weight = weights.empty() ? 1 : weights[j];
+        all += weight;
+        if (values[j] > 0) sum += weight * pilot.deviations[j] / values[j];
     }
-    return moments;
+    const double error_of_part = sum / all;
+    return pilot.cost * error_of_part * error_of_part / (kError * kError);
 }
 
-/// Whether path tracing has less variance for the same work, over all readings, relative to their values.
-bool path_pays(const Pilot& path, const Pilot& balanced, std::span<const double> weights) {
-    double of_path = 0, of_balanced = 0;
-    for (std::size_t j = 0; j < path.parts.front().size(); ++j) {
-        const Moments a = moments_of(path, j), b = moments_of(balanced, j);
-        // Where one of them has found nothing, its variance says nothing.
-        if (!(a.mean > 0)) return false;
-        const double value = std::max(a.mean, b.mean), weight = weights.empty() ? 1 : weights[j];
-        of_path += weight * a.variance / (value * value);
-        of_balanced += weight * b.variance / (value * value);
+/// The larger means: what a method finds rarely, its pilot may have missed.
+std::vector<double> values_of(const Pilot& a, const Pilot& b) {
+    std::vector<double> values;
+    std::ranges::transform(a.means, b.means, std::back_inserter(values),
+                           [](double x, double y) { return std::max(x, y); });
+    return values;
+}
+
+std::unique_ptr<Estimator> make_for_few(Problem problem) {
+    if (has_light_for_light_paths_only(problem.scene)) return make_balanced(problem);
+    problem.preparation_key = kPilotKey;
+    std::unique_ptr<Estimator> path = make_path(problem);
+    const double paths = std::max(kLeastPaths, kPathPilotCost / path->cost_per_sample());
+    const Pilot of_path = run_pilot(*path, static_cast<std::uint64_t>(paths), kPath);
+    // Where path tracing has found nothing, its variance says nothing.
+    const bool is_path_possible = std::ranges::all_of(of_path.means, [](double mean) { return mean > 0; });
+    const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
+    if (is_path_possible && sampling_cost(of_path, of_path.means, problem.weights) < planning) return path;
+    std::unique_ptr<Estimator> balanced = make_balanced(problem);
+    if (!is_path_possible) return balanced;
+    const Pilot of_balanced = run_pilot(*balanced, balanced->batch_granularity(), kBalanced);
+    const std::vector<double> values = values_of(of_path, of_balanced);
+    const bool path_pays =
+        sampling_cost(of_path, values, problem.weights) < sampling_cost(of_balanced, values, problem.weights);
+    return path_pays ? std::move(path) : std::move(balanced);
+}
+
+/// Readings of a problem, spread evenly over all of them, which pilots measure.
+struct Survey {
+    explicit Survey(const Problem& whole) {
+        const std::size_t all = whole.measurands.size(), runs = std::min(all, kMostInPilots) / kRun;
+        for (std::size_t run = 0; run < runs; ++run) {
+            const std::size_t first = (2 * run + 1) * (all - kRun) / (2 * runs);
+            for (std::size_t i = first; i < first + kRun; ++i) {
+                measurands.push_back(whole.measurands[i]);
+                if (!whole.weights.empty()) weights.push_back(whole.weights[i]);
+            }
+        }
+        stands_for = static_cast<double>(all) / static_cast<double>(measurands.size());
     }
-    return of_path * path.cost < of_balanced * balanced.cost;
+    /// The problem of these readings.
+    Problem part_of(Problem whole) const {
+        whole.preparation_key = kPilotKey;
+        whole.measurands = measurands;
+        whole.weights = weights;
+        whole.stands_for = stands_for;
+        return whole;
+    }
+
+    std::vector<Measurand> measurands;
+    std::vector<double> weights;
+    double stands_for = 1;
+};
+
+std::unique_ptr<Estimator> make_for_many(const Problem& problem) {
+    if (problem.max_reflections != transport::kUnlimited) return make_balanced(problem);
+    const Survey survey(problem);
+    const Problem part = survey.part_of(problem);
+    const auto run = [](const Estimator& method, PilotPurpose purpose) {
+        return run_pilot(method, method.batch_granularity(), purpose);
+    };
+    const Pilot of_balanced = run(*make_balanced(part), kBalanced);
+    const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
+    const double guess = kPatchCost * LightGuess::patch_count(problem.scene);
+    if (planning + sampling_cost(of_balanced, of_balanced.means, part.weights) < guess)
+        return make_balanced(problem);
+    const EstimatorMaker make_guided_part = with_guess(part);
+    const Pilot of_guided = run(*make_guided_part(part), kGuided);
+    const std::vector<double> values = values_of(of_balanced, of_guided);
+    const bool guess_pays = sampling_cost(of_guided, values, part.weights) <
+                            planning + sampling_cost(of_balanced, values, part.weights);
+    return guess_pays ? make_guided_part(problem) : make_balanced(problem);
 }
 
 }  // namespace
 
 std::unique_ptr<Estimator> make_auto(const Problem& problem) {
-    std::unique_ptr<Estimator> balanced = make_balanced(problem);
-    const std::size_t readings = problem.measurands.size();
-    if (problem.camera || readings == 0 || readings > kMostReadings ||
-        has_light_for_light_paths_only(problem.scene))
-        return balanced;
-    std::unique_ptr<Estimator> path = make_path(problem);
-    const double cost = balanced->cost_per_sample() * static_cast<double>(balanced->batch_granularity());
-    const Pilot of_path = run_pilot(*path, readings, cost, kPilotKey.derived(0));
-    const Pilot of_balanced = run_pilot(*balanced, readings, cost, kPilotKey.derived(1));
-    return path_pays(of_path, of_balanced, problem.weights) ? std::move(path) : std::move(balanced);
+    if (problem.camera || problem.measurands.empty()) return make_balanced_picture(problem);
+    return problem.measurands.size() <= kMostReadings ? make_for_few(problem) : make_for_many(problem);
 }
 
 }  // namespace stilb::estimators

@@ -33,6 +33,8 @@ struct Problem {
     std::span<const Measurand> measurands = {};
     /// The weight of each measurand's relative variance. Empty: all equal.
     std::span<const double> weights = {};
+    /// Each measurand is one of so many: plans and costs are those of all of them.
+    double stands_for = 1;
     std::optional<Camera> camera = {};
     /// Options of methods on patches, and of first shot.
     PatchOptions patches = {};

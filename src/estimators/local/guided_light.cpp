@@ -14,8 +14,6 @@ constexpr double kKernels = 5;
 /// Paths of the residual for each sample of readings, and the number of their vertices that are connected.
 constexpr std::uint64_t kPathsPerSample = 32;
 constexpr std::uint64_t kVerticesPerSample = 2;
-/// With fewer readings, the guess costs more than it gains.
-constexpr double kPatchesPerReading = 8;
 /// Where the residual is more than this share of the guess, light paths without a guess have less variance
 /// (docs/performance.md).
 constexpr double kMostResidual = 0.2;
@@ -29,10 +27,7 @@ std::unique_ptr<GuidedLight> GuidedLight::make(Guess guess, const Problem& probl
                                                const transport::PathTracer& tracer, math::RandomKey key) {
     const bool can_be =
         problem.max_reflections == transport::kUnlimited && surface_area_m2(problem.scene) > 0;
-    const bool has_readings = kPatchesPerReading * static_cast<double>(problem.measurands.size()) >=
-                              LightGuess::patch_count(problem.scene);
-    const bool may_pay = problem.camera || has_readings;
-    if (!can_be || guess == Guess::never || (guess == Guess::where_it_pays && !may_pay)) return nullptr;
+    if (!can_be || guess == Guess::never) return nullptr;
     auto light =
         std::make_unique<GuidedLight>(problem.scene, problem.caster, lights, tracer, key, problem.monitor);
     const bool pays = light->residual.share_of_guess() < kMostResidual;
@@ -105,6 +100,13 @@ double GuidedReadings::rays_per_sample() const {
     return of_path * static_cast<double>(kPathsPerSample) +
            of_even * static_cast<double>(receivers_.even.size()) +
            of_general * static_cast<double>(receivers_.general.size());
+}
+
+double GuidedReadings::cost_per_sample(double stands_for) const {
+    constexpr double of_path = 80, of_even = 5, of_general = 15;
+    return of_path * static_cast<double>(kPathsPerSample) +
+           stands_for * (of_even * static_cast<double>(receivers_.even.size()) +
+                         of_general * static_cast<double>(receivers_.general.size()));
 }
 
 void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const {

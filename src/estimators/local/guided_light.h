@@ -23,8 +23,8 @@ enum class Guess { never, where_it_pays, always };
 
 /// The common part of readings and pictures. Keeps references to its arguments. Immutable.
 struct GuidedLight {
-    /// The guided light of a problem; null where it is not used. It does not pay for few readings, and where
-    /// the guess lacks much, above all gloss.
+    /// The guided light of a problem; null where it is not used. It does not pay where the guess lacks much,
+    /// above all gloss.
     static std::unique_ptr<GuidedLight> make(Guess guess, const Problem& problem,
                                              const transport::LightSampler& lights,
                                              const transport::PathTracer& tracer, math::RandomKey key);
@@ -77,8 +77,9 @@ class GuidedReadings {
                    const Monitor& monitor);
 
     void collect(const Batch& batch, ReadingSums& sums) const;
-    /// As Estimator's.
+    /// As Estimator's, where each receiver is one of so many.
     double rays_per_sample() const;
+    double cost_per_sample(double stands_for) const;
 
   private:
     enum Purpose : std::uint64_t { kResidual, kSelection, kGather, kShift, kPaths, kGeneral };

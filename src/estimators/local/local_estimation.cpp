@@ -11,9 +11,8 @@
 //                 near to a point: in corners.
 //   double-local  the same for luminance [LocalEstimation (8) to (10)]; local at illuminance readings.
 //   balanced      (of method auto) k and the number of gathering rays by plan_splits(), vertices from a
-//   NodePool. Unbiased and
-//                 of finite variance, except for light that only light paths can find (it met a mirror or
-//                 glass first): w = 1.
+//                 NodePool, or a guess of the light (guided_light.h). Unbiased and of finite variance, except
+//                 for light that only light paths can find (it met a mirror or glass first): w = 1.
 //
 // Pictures: double local estimation of sub-points that each pass draws anew. A pass traces light paths of its
 // own for the whole picture. Each packet of 4 x 4 pixels selects its own few of their vertices, and packets
@@ -25,7 +24,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
+#include <memory>
 
 #include "estimators/estimator_list.h"
 #include "estimators/local/connection.h"
@@ -68,15 +69,15 @@ class LocalReadings {
     LocalReadings(const LocalTransport& transport, const Problem& problem, const GuidedLight* guide)
         : transport_(transport),
           seen_(receive(problem.measurands)),
-          paths_per_selected_(transport.split == Split::balanced ? paths_per_selected(seen_.receivers.size())
-                                                                 : 1),
-          selected_per_ray_(most_selected_per_ray(seen_.receivers.size())),
+          stands_for_(problem.stands_for),
+          paths_per_selected_(transport.split == Split::balanced ? paths_per_selected(all_receivers()) : 1),
+          selected_per_ray_(most_selected_per_ray(all_receivers())),
           is_guided_(guide && !seen_.receivers.empty()),
           plans_(plans(problem, guide)),
-          tiles_(tiles_of(seen_.receivers, constants_per_m2(plans_), transport_.caster,
+          tiles_(tiles_of(seen_.receivers, constants_per_m2(plans_.of_receivers), transport_.caster,
                           transport_.max_reflections)),
           connections_(transport_.caster, tiles_, transport_.monitor),
-          gather_(transport_.caster, transport_.tracer, tiles_, plans_, transport_.monitor) {
+          gather_(transport_.caster, transport_.tracer, tiles_, plans_.of_receivers, transport_.monitor) {
         if (is_guided_) guided_.emplace(*guide, seen_.receivers, transport_.monitor);
     }
 
@@ -103,8 +104,8 @@ class LocalReadings {
         std::vector<double> all(seen_.known_part.size());
         for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
             double& largest = all[seen_.receivers[j].reading()];
-            largest =
-                std::max(largest, plans_[j].largest_of_rays * static_cast<double>(plans_[j].paths_per_ray));
+            const SplitPlan& plan = plans_.of_receivers[j];
+            largest = std::max(largest, plan.largest_of_rays * static_cast<double>(plan.paths_per_ray));
         }
         return all;
     }
@@ -121,13 +122,29 @@ class LocalReadings {
                2.0 * static_cast<double>(seen_.receivers.size()) / static_cast<double>(paths_per_selected_);
     }
     double cost_per_sample() const {
-        if (guided_) return guided_->rays_per_sample();
-        constexpr double of_path = 20, of_connection = 0.15;
-        return of_path + of_connection * static_cast<double>(seen_.receivers.size()) /
-                             static_cast<double>(paths_per_selected_);
+        constexpr double of_shadow_ray = 1. / 3, of_direct = 3;
+        const double direct =
+            of_direct * stands_for_ * open_receivers() / static_cast<double>(light_paths_per_direct_sample());
+        if (guided_) return direct + guided_->cost_per_sample(stands_for_);
+        return direct + of_shadow_ray * plans_.cost_per_path;
     }
 
   private:
+    /// Of the whole problem.
+    std::size_t all_receivers() const {
+        return static_cast<std::size_t>(
+            std::lround(stands_for_ * static_cast<double>(seen_.receivers.size())));
+    }
+    std::uint64_t light_paths_per_direct_sample() const {
+        return guided_ ? 1 : kPathsPerDirectSample * paths_per_selected_;
+    }
+    /// The number of those whose direct light has to be sampled.
+    double open_receivers() const {
+        std::size_t count = 0;
+        for_each_open_tile([&](const auto& tile, const auto&, std::size_t) { count += tile.size(); });
+        return static_cast<double>(count);
+    }
+
     enum Purpose : std::uint64_t { kLightPaths, kSelection, kDirect, kGather, kPilot, kPlan, kFaint };
 
     std::vector<transport::LightVertex> connected_vertices(math::RandomKey key, std::uint64_t first,
@@ -188,7 +205,7 @@ class LocalReadings {
 
     void add_direct_light(const Batch& batch, ReadingSums& sums) const {
         const math::RandomKey key = batch.key.derived(kDirect);
-        const std::uint64_t light_paths = guided_ ? 1 : kPathsPerDirectSample * paths_per_selected_;
+        const std::uint64_t light_paths = light_paths_per_direct_sample();
         const std::uint64_t end = (batch.first + batch.count) / light_paths;
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
@@ -243,14 +260,14 @@ class LocalReadings {
         }
     }
 
-    std::vector<SplitPlan> plans(const Problem& problem, const GuidedLight* guide) const {
+    SplitPlans plans(const Problem& problem, const GuidedLight* guide) const {
         if (seen_.receivers.empty()) return {};
         if (is_guided_)
-            return std::vector<SplitPlan>(seen_.receivers.size(),
-                                          {guide->k_per_m2(GuidedReadings::kPoints), 1});
+            return {std::vector<SplitPlan>(seen_.receivers.size(),
+                                           {guide->k_per_m2(GuidedReadings::kPoints), 1})};
         if (transport_.split == Split::none) {
-            return std::vector<SplitPlan>(seen_.receivers.size(),
-                                          {std::numeric_limits<double>::infinity(), kPathsPerSpecularRay});
+            return {std::vector<SplitPlan>(seen_.receivers.size(),
+                                           {std::numeric_limits<double>::infinity(), kPathsPerSpecularRay})};
         }
         const math::RandomKey key = problem.preparation_key;
         const std::vector<transport::LightVertex> nodes =
@@ -264,11 +281,12 @@ class LocalReadings {
                                surface_area_m2(transport_.scene),
                                transport_.max_reflections,
                                paths_per_selected_,
-                               selected_per_ray_};
-        std::vector<SplitPlan> plans =
+                               selected_per_ray_,
+                               stands_for_};
+        SplitPlans plans =
             plan_splits(transport_.caster, transport_.tracer, seen_.receivers,
                         weights.empty() ? alike : weights, pilot, key.derived(kPlan), problem.monitor);
-        for (SplitPlan& plan : plans) plan.paths_per_ray *= paths_per_selected_;
+        for (SplitPlan& plan : plans.of_receivers) plan.paths_per_ray *= paths_per_selected_;
         return plans;
     }
 
@@ -300,25 +318,35 @@ class LocalReadings {
 
     const LocalTransport& transport_;
     Reception seen_;
+    double stands_for_;
     std::uint64_t paths_per_selected_, selected_per_ray_;
     bool is_guided_ = false;
-    std::vector<SplitPlan> plans_;
+    SplitPlans plans_;
     std::vector<PointTile> tiles_;
     Connections connections_;
     Gather gather_;
     std::optional<GuidedReadings> guided_;
 };
 
+/// What estimators of several sets of readings share.
+struct LocalScene {
+    LocalScene(const Problem& problem, Split split, Guess guess)
+        : transport(problem, split),
+          guide(GuidedLight::make(guess, problem, transport.lights, transport.tracer,
+                                  problem.preparation_key.derived(kGuess))) {}
+
+    enum Purpose : std::uint64_t { kGuess = 1u << 16 };
+    LocalTransport transport;
+    std::unique_ptr<const GuidedLight> guide;
+};
+
 class LocalEstimation final : public Estimator {
   public:
-    LocalEstimation(const Problem& problem, Split split, Guess guess)
-        : transport_(problem, split),
-          guide_(GuidedLight::make(guess, problem, transport_.lights, transport_.tracer,
-                                   problem.preparation_key.derived(kGuess))),
-          readings_(transport_, problem, guide_.get()) {
+    LocalEstimation(const Problem& problem, std::shared_ptr<const LocalScene> scene)
+        : scene_(std::move(scene)), readings_(scene_->transport, problem, scene_->guide.get()) {
         if (problem.camera)
-            picture_ = guide_ ? make_guided_picture(transport_, problem, *guide_)
-                              : make_local_picture(transport_, problem);
+            picture_ = scene_->guide ? make_guided_picture(scene_->transport, problem, *scene_->guide)
+                                     : make_local_picture(scene_->transport, problem);
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const override { readings_.run_batch(batch, sums); }
@@ -332,29 +360,38 @@ class LocalEstimation final : public Estimator {
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return picture_->start(pass);
     }
-    std::vector<std::string> warnings() const override { return local_warnings(transport_.scene); }
+    std::vector<std::string> warnings() const override { return local_warnings(scene_->transport.scene); }
 
   private:
-    enum Purpose : std::uint64_t { kGuess = 1u << 16 };
-
-    LocalTransport transport_;
-    std::unique_ptr<GuidedLight> guide_;
+    std::shared_ptr<const LocalScene> scene_;
     LocalReadings readings_;
     std::unique_ptr<const LocalPicture> picture_;
 };
 
+std::unique_ptr<Estimator> make(const Problem& problem, Split split, Guess guess) {
+    return std::make_unique<LocalEstimation>(problem,
+                                             std::make_shared<const LocalScene>(problem, split, guess));
+}
+
 }  // namespace
 
 std::unique_ptr<Estimator> make_local(const Problem& problem) {
-    return std::make_unique<LocalEstimation>(problem, Split::none, Guess::never);
+    return make(problem, Split::none, Guess::never);
 }
 
 std::unique_ptr<Estimator> make_balanced(const Problem& problem) {
-    return std::make_unique<LocalEstimation>(problem, Split::balanced, Guess::where_it_pays);
+    return make(problem, Split::balanced, Guess::never);
 }
 
-std::unique_ptr<Estimator> make_guided(const Problem& problem) {
-    return std::make_unique<LocalEstimation>(problem, Split::balanced, Guess::always);
+std::unique_ptr<Estimator> make_balanced_picture(const Problem& problem) {
+    return make(problem, Split::balanced, Guess::where_it_pays);
 }
+
+EstimatorMaker with_guess(const Problem& problem) {
+    return [scene = std::make_shared<const LocalScene>(problem, Split::balanced, Guess::always)](
+               const Problem& part) { return std::make_unique<LocalEstimation>(part, scene); };
+}
+
+std::unique_ptr<Estimator> make_guided(const Problem& problem) { return with_guess(problem)(problem); }
 
 }  // namespace stilb::estimators

@@ -270,14 +270,18 @@ struct ReceiverModel {
     double indirect = 0;  ///< [lx or cd/m2]
 };
 
+/// A constant number for all points together, except for very few or very many points.
+unsigned planning_rays_per_point(double points) {
+    constexpr double rays = 1u << 14;
+    return static_cast<unsigned>(std::clamp(rays / points, 16., 1024.));
+}
+
 std::vector<ReceiverModel> model_receivers(const rays::RayCaster& caster, const transport::PathTracer& tracer,
                                            std::span<const transport::Receiver> receivers,
                                            const PilotLight& pilot, math::RandomKey key,
                                            const Monitor& monitor) {
-    // A constant number for all points together, except for very few or very many points.
-    constexpr std::size_t rays = 1u << 14;
-    const auto rays_per_point =
-        static_cast<unsigned>(std::clamp<std::size_t>(rays / receivers.size(), 16, 1024));
+    const unsigned rays_per_point =
+        planning_rays_per_point(pilot.stands_for * static_cast<double>(receivers.size()));
     const std::vector<transport::LightVertex> units = unit_nodes(pilot.nodes);
     std::vector<ReceiverModel> models(receivers.size());
     const std::size_t packets = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
@@ -320,11 +324,10 @@ std::vector<PointModel> weighted_models(std::vector<ReceiverModel> models,
 /// near them: receivers are in the order of a space-filling curve.
 constexpr std::size_t kMostSurveyed = 1024;
 
-/// plan_splits() for receivers that stand for `stride` times as many.
-std::vector<SplitPlan> plan_surveyed(const rays::RayCaster& caster, const transport::PathTracer& tracer,
-                                     std::span<const transport::Receiver> receivers, std::size_t stride,
-                                     std::span<const double> weights, const PilotLight& pilot,
-                                     math::RandomKey key, const Monitor& monitor) {
+/// plan_splits() for all receivers.
+SplitPlans plan_surveyed(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                         std::span<const transport::Receiver> receivers, std::span<const double> weights,
+                         const PilotLight& pilot, math::RandomKey key, const Monitor& monitor) {
     const std::vector<PointModel> models = weighted_models(
         model_receivers(caster, tracer, receivers, pilot, key, monitor), receivers, weights, pilot.direct);
     // About half of the vertices face a point; all points share the cost of tracing.
@@ -333,11 +336,10 @@ std::vector<SplitPlan> plan_surveyed(const rays::RayCaster& caster, const transp
     const std::size_t lanes = (receivers.size() + kPacketWidth - 1) / kPacketWidth * kPacketWidth;
     const double connection_cost = 0.5 * vertices_per_path * static_cast<double>(lanes) +
                                    kSegmentCost * (vertices_per_path + 1) *
-                                       static_cast<double>(pilot.paths_per_selected) /
-                                       static_cast<double>(stride);
+                                       static_cast<double>(pilot.paths_per_selected) / pilot.stands_for;
     // The worth of a unit of cost: at the best plan, the quotient of variance and cost. Both depend on the
     // plan; after some rounds they change little.
-    double price = 0;
+    double price = 0, cost = 0;
     for (const PointModel& model : models)
         price += predict(model[model.size() / 2], 16).variance / connection_cost;
     std::vector<SplitPlan> plans(receivers.size());
@@ -353,16 +355,22 @@ std::vector<SplitPlan> plan_surveyed(const rays::RayCaster& caster, const transp
             sum.cost += packet.cost;
         }
         price = sum.variance / sum.cost;
+        cost = sum.cost;
     }
-    return plans;
+    return {std::move(plans), cost * pilot.stands_for / static_cast<double>(pilot.paths_per_selected)};
 }
 
 }  // namespace
 
-std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
-                                   std::span<const transport::Receiver> receivers,
-                                   std::span<const double> weights, const PilotLight& pilot,
-                                   math::RandomKey key, const Monitor& monitor) {
+double planning_rays(std::size_t receivers) {
+    const auto points = static_cast<double>(receivers);
+    constexpr double most_points = kMostSurveyed * kPacketWidth;
+    return std::min(points, most_points) * planning_rays_per_point(points);
+}
+
+SplitPlans plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                       std::span<const transport::Receiver> receivers, std::span<const double> weights,
+                       const PilotLight& pilot, math::RandomKey key, const Monitor& monitor) {
     if (receivers.empty()) return {};
     const std::size_t packets = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
     const std::size_t stride = (packets + kMostSurveyed - 1) / kMostSurveyed;
@@ -372,14 +380,16 @@ std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transpor
             receivers.subspan(first, std::min<std::size_t>(kPacketWidth, receivers.size() - first));
         surveyed.insert(surveyed.end(), packet.begin(), packet.end());
     }
-    const std::vector<SplitPlan> of_surveyed =
-        plan_surveyed(caster, tracer, surveyed, stride, weights, pilot, key, monitor);
+    PilotLight of_surveyed = pilot;
+    of_surveyed.stands_for *= static_cast<double>(stride);
+    const auto [plans_of_surveyed, cost_per_path] =
+        plan_surveyed(caster, tracer, surveyed, weights, of_surveyed, key, monitor);
     std::vector<SplitPlan> plans(receivers.size());
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const std::size_t packet = i / kPacketWidth / stride;
-        plans[i] = of_surveyed[packet * kPacketWidth + i % kPacketWidth];
+        plans[i] = plans_of_surveyed[packet * kPacketWidth + i % kPacketWidth];
     }
-    return plans;
+    return {std::move(plans), cost_per_path};
 }
 
 double plan_constant(const rays::RayCaster& caster, const transport::PathTracer& tracer,

@@ -20,6 +20,12 @@ struct SplitPlan {
     double largest_of_rays = 0;
 };
 
+struct SplitPlans {
+    std::vector<SplitPlan> of_receivers;
+    /// Of a light path with its connections and its share of gathering, in units of a shadow ray.
+    double cost_per_path = 1;
+};
+
 /// An estimate of the light before planning, and its sampling.
 struct PilotLight {
     std::span<const transport::LightVertex> nodes;
@@ -30,6 +36,7 @@ struct PilotLight {
     std::uint64_t paths_per_selected = 1;  ///< light paths for each whose vertices are connected
     /// The upper limit of SplitPlan::paths_per_ray: a power of two.
     std::uint64_t most_paths_per_ray = 64;
+    double stands_for = 1;  ///< each receiver is one of so many
 };
 
 /// Plans, one for each receiver, that about minimise the sum over the readings of weight variance / value^2,
@@ -45,10 +52,12 @@ struct PilotLight {
 /// pilot gives nu and the share of indirect light, a few paths from each receiver G, l and r. Any plan is
 /// unbiased; a poor one only costs time. The plans depend on `key`, which must be independent of the keys
 /// of their use.
-std::vector<SplitPlan> plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
-                                   std::span<const transport::Receiver> receivers,
-                                   std::span<const double> weights, const PilotLight& pilot,
-                                   math::RandomKey key, const Monitor& monitor = Monitor::none());
+SplitPlans plan_splits(const rays::RayCaster& caster, const transport::PathTracer& tracer,
+                       std::span<const transport::Receiver> receivers, std::span<const double> weights,
+                       const PilotLight& pilot, math::RandomKey key,
+                       const Monitor& monitor = Monitor::none());
+/// Its number of rays: of all receivers.
+double planning_rays(std::size_t receivers);
 
 /// One k for a packet of receivers (one at least, kPacketWidth at most), each of which gathers by one ray per
 /// so many light paths whose vertices are all connected to it: by the same model.

@@ -17,6 +17,7 @@
 #include "estimators/estimator_list.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/first_shot/first_shot.h"
+#include "transport/light_path.h"
 #include "transport/path_tracer.h"
 #include "transport/receiver.h"
 
@@ -115,6 +116,8 @@ class PathEstimator final : public Estimator {
           caster_(problem.caster),
           monitor_(problem.monitor),
           max_reflections_(problem.max_reflections),
+          preparation_key_(problem.preparation_key),
+          stands_for_(problem.stands_for),
           paths_(scene_, caster_, problem.patches, problem.monitor),
           known_part_(problem.measurands.size()),
           sight_ends_(problem.measurands.size()) {
@@ -139,6 +142,17 @@ class PathEstimator final : public Estimator {
     /// Rare bright paths dominate the error.
     std::uint64_t first_check() const override { return 256; }
     double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
+    double cost_per_sample() const override {
+        // As light paths are long, these will be.
+        constexpr std::uint64_t light_paths = 64;
+        const std::size_t vertices =
+            transport::trace_light_paths(scene_, caster_, paths_.lights, max_reflections_, preparation_key_,
+                                         0, light_paths)
+                .size();
+        constexpr double of_segment = 8;
+        const double segments = 1 + static_cast<double>(vertices) / static_cast<double>(light_paths);
+        return of_segment * segments * stands_for_ * static_cast<double>(known_part_.size());
+    }
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<PathPass>(*tracing_, paths_.tracer, pass);
     }
@@ -236,6 +250,8 @@ class PathEstimator final : public Estimator {
     const rays::RayCaster& caster_;
     const Monitor& monitor_;
     int max_reflections_;
+    math::RandomKey preparation_key_;
+    double stands_for_;
     FlattenedPaths paths_;
     std::vector<transport::Receiver> points_;
     std::vector<FirstHit> sights_;

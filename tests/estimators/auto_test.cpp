@@ -1,0 +1,109 @@
+// What method auto chooses. Each method makes batches of its own granularity: that tells them apart.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "estimators/estimator_list.h"
+#include "support/scene_builder.h"
+#include "transport/receiver.h"
+
+namespace stilb::estimators {
+namespace {
+
+using Maker = std::unique_ptr<Estimator> (*)(const Problem&);
+
+/// A room with a lamp below its ceiling and a box.
+Scene office_room() {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5));
+    add_object(scene, Box{{1.7, 0.6, 0.001}, {2.5, 1.4, 0.7}}, diffuse(0.5));
+    add_area_light(scene, Rectangle{{1.1, 1.1, 2.99}, {0, 0.8, 0}, {0.8, 0, 0}}, Rgb::grey(5000));
+    return scene;
+}
+
+/// Point lights below the ceiling and glossy furniture. Light paths by Sobol' points have little noise here.
+Scene room_with_point_lights() {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4.2, 3.1, 2.6}}, diffuse(0.75));
+    add_object(scene, Box{{0, 2.4, 0}, {4.2, 3.1, 0.7}}, Phong{Rgb::grey(0.35), Rgb::grey(0.3), 60});
+    for (const double x : {1., 3.2})
+        for (const double y : {0.8, 2.3}) add_point_light(scene, {x, y, 2.2}, Rgb::grey(100));
+    return scene;
+}
+
+/// columns x rows points on a horizontal rectangle.
+std::vector<Measurand> grid(const Vec3& corner, double width, double depth, int columns, int rows) {
+    std::vector<Measurand> points;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const Vec3 offset{width * (column + 0.5) / columns, depth * (row + 0.5) / rows, 0};
+            points.push_back(MeasuringPoint{corner + offset, {0, 0, 1}});
+        }
+    }
+    return points;
+}
+std::vector<Measurand> room_grid(int edge) { return grid({0, 0, 0.8}, 3, 3, edge, edge); }
+std::vector<Measurand> desk() { return grid({1, 1, 0.8}, 1.6, 0.8, 16, 8); }
+
+struct Choice {
+    Choice(Scene made, std::vector<Measurand> asked)
+        : scene(std::move(made)), caster(scene), measurands(std::move(asked)) {}
+
+    Problem problem() const {
+        return {.scene = scene,
+                .caster = caster,
+                .max_reflections = transport::kUnlimited,
+                .preparation_key = math::RandomKey{1},
+                .measurands = measurands};
+    }
+    std::uint64_t granularity(Maker make) const { return make(problem())->batch_granularity(); }
+
+    Scene scene;
+    rays::RayCaster caster;
+    std::vector<Measurand> measurands;
+};
+
+TEST(Auto, TracesPathsFromFewPointsUnderAnAreaLamp) {
+    const Choice choice(office_room(), room_grid(4));
+    EXPECT_EQ(choice.granularity(make_auto), choice.granularity(make_path));
+}
+
+TEST(Auto, TakesAGuessForManyPointsUnderAnAreaLamp) {
+    const Choice choice(office_room(), room_grid(40));
+    EXPECT_EQ(choice.granularity(make_auto), choice.granularity(make_guided));
+}
+
+TEST(Auto, TakesNoGuessUnderPointLights) {
+    const Choice choice(room_with_point_lights(), desk());
+    EXPECT_EQ(choice.granularity(make_auto), choice.granularity(make_balanced));
+    EXPECT_NE(choice.granularity(make_auto), choice.granularity(make_guided));
+}
+
+TEST(Auto, TakesNoGuessWhereReflectionsHaveALimit) {
+    const Choice choice(office_room(), room_grid(40));
+    Problem limited = choice.problem();
+    limited.max_reflections = 100;
+    EXPECT_EQ(make_auto(limited)->batch_granularity(), make_balanced(limited)->batch_granularity());
+}
+
+TEST(Auto, TracesNoPathsWhereTheyFindNothing) {
+    Scene dark;
+    add_object(dark, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5));
+    const Choice choice(std::move(dark), room_grid(2));
+    EXPECT_EQ(choice.granularity(make_auto), choice.granularity(make_balanced));
+}
+
+/// Pilots of a part of the readings promise the cost of all.
+TEST(CostPerSample, OfAPartThatStandsForAllIsThatOfAll) {
+    for (const auto& make : {make_path, make_balanced, make_guided}) {
+        Choice choice(office_room(), room_grid(40));
+        const double of_all = make(choice.problem())->cost_per_sample();
+        Problem part = choice.problem();
+        part.measurands = part.measurands.subspan(640, 160);
+        part.stands_for = 10;
+        EXPECT_NEAR(make(part)->cost_per_sample(), of_all, 0.25 * of_all);
+    }
+}
+
+}  // namespace
+}  // namespace stilb::estimators
