@@ -16,6 +16,7 @@
 #include "math/random.h"
 #include "run/level_of_detail.h"
 #include "run/picture_comparison.h"
+#include "run/picture_sums.h"
 #include "run/run.h"
 #include "run/schedule.h"
 #include "statistics/interval.h"
@@ -24,8 +25,9 @@
 namespace stilb::run {
 namespace {
 
-/// Fewer replicates than for readings: a pixel's error matters less than the memory for all of them.
-constexpr std::uint64_t kPictureReplicates = 4;
+/// Replicates of a picture. The fewer there are, the more evenly lie the low-discrepancy points of each; four
+/// suffice where neighbours help to estimate the errors.
+constexpr std::uint64_t kPictureReplicates = 4, kPatchPictureReplicates = 8;
 constexpr double kDefaultTime_s = 60;
 /// 95 % of the pixels have a bias of less than about twice the root mean square.
 constexpr double kBiasesOfMostPixels = 2;
@@ -40,72 +42,6 @@ enum PicturePurpose : std::uint64_t {
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
-/// Sums of passes. Pass p is of replicate p mod `replicates`, so that all replicates grow together.
-class PictureSums {
-  public:
-    /// One replicate: no errors are estimated.
-    PictureSums(std::size_t pixels, std::uint64_t replicates)
-        : replicates_(replicates), rgb_(pixels), luminance_(pixels * replicates) {}
-
-    std::uint64_t passes() const { return passes_; }
-    std::uint64_t replicates() const { return std::min(passes_, replicates_); }
-
-    void add(const std::vector<std::array<float, 3>>& pass) {
-        const std::size_t replicate = passes_ % replicates_;
-        parallel_for_parts(rgb_.size(), [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) {
-                for (std::size_t b = 0; b < kBands; ++b) rgb_[i][b] += pass[i][b];
-                luminance_[i * replicates_ + replicate] +=
-                    static_cast<float>(Rgb{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
-            }
-        });
-        ++passes_;
-    }
-
-    double luminance_cd_m2(std::size_t pixel) const {
-        double sum = 0;
-        for (std::size_t r = 0; r < replicates_; ++r) sum += double{luminance_[pixel * replicates_ + r]};
-        return sum / static_cast<double>(passes_);
-    }
-
-    /// The standard error from the replicates' means, each weighted by its passes (which differ by one at
-    /// most); infinite for a single replicate.
-    double standard_error_cd_m2(std::size_t pixel) const {
-        const std::uint64_t used = replicates();
-        if (used < 2) return std::numeric_limits<double>::infinity();
-        const double all = static_cast<double>(passes_), mean = luminance_cd_m2(pixel);
-        double variance = 0;
-        for (std::uint64_t r = 0; r < used; ++r) {
-            const std::uint64_t passes = passes_ / replicates_ + (r < passes_ % replicates_ ? 1 : 0);
-            const double own = static_cast<double>(passes);
-            const double deviation = (double{luminance_[pixel * replicates_ + r]} - own * mean) / all;
-            variance += deviation * deviation;
-        }
-        return std::sqrt(variance * static_cast<double>(used) / static_cast<double>(used - 1));
-    }
-
-    Pixels pixels() const {
-        Pixels pixels;
-        pixels.rgb_cd_m2.resize(rgb_.size());
-        if (replicates() > 1) pixels.standard_error_cd_m2.resize(rgb_.size());
-        const float per_pass = 1 / static_cast<float>(passes_);
-        parallel_for_parts(rgb_.size(), [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) {
-                for (std::size_t b = 0; b < kBands; ++b) pixels.rgb_cd_m2[i][b] = rgb_[i][b] * per_pass;
-                if (replicates() > 1)
-                    pixels.standard_error_cd_m2[i] = static_cast<float>(standard_error_cd_m2(i));
-            }
-        });
-        return pixels;
-    }
-
-  private:
-    std::uint64_t replicates_;
-    std::vector<std::array<float, 3>> rgb_;
-    std::vector<float> luminance_;  ///< pixels x replicates
-    std::uint64_t passes_ = 0;
-};
-
 /// The number of pixels outside of the camera's field.
 std::vector<bool> blind_pixels(const Camera& camera) {
     const sensors::CameraView view(camera);
@@ -116,48 +52,24 @@ std::vector<bool> blind_pixels(const Camera& camera) {
     return blind;
 }
 
-double attained_error(const PictureSums& sums, const std::vector<bool>& blind) {
-    const std::uint64_t used = sums.replicates();
-    if (used < 2) return std::numeric_limits<double>::infinity();
-    const double t =
-        statistics::student_t_quantile((1 + statistics::kStoppedConfidence) / 2, static_cast<int>(used) - 1);
-    constexpr double none = -1;
-    std::vector<double> half_widths(blind.size(), none);
-    parallel_for_parts(blind.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            if (blind[i]) continue;
-            const double error = t * sums.standard_error_cd_m2(i);
-            half_widths[i] = error > 0 ? error / sums.luminance_cd_m2(i) : 0;
-        }
-    });
-    std::erase(half_widths, none);
-    return statistics::attained_error_of(std::move(half_widths));
-}
-
-/// The number of passes at the next error estimate: 1, 2, 3, 4, 6, 8, 12 ... of each replicate.
-std::uint64_t next_checkpoint(std::uint64_t passes) {
-    return kPictureReplicates * statistics::next_check(passes / kPictureReplicates, 1);
-}
-
 /// A picture that accumulates one pass after another over all blocks.
 class Passes final : public Work {
   public:
     /// `sink` may be null, and `comparison`, for methods without patches.
     Passes(const estimators::Estimator& estimator, const Camera& camera, const std::vector<bool>& blind,
-           std::uint64_t replicates, std::uint64_t seed, PictureSink* sink, const Monitor& monitor,
+           PictureSums sums, std::uint64_t seed, PictureSink* sink, const Monitor& monitor,
            const PictureComparison* comparison)
         : estimator_(estimator),
           comparison_(comparison),
           monitor_(monitor),
           blind_(blind),
           sink_(sink),
-          replicates_(replicates),
           resolution_(camera.resolution),
           width_(static_cast<std::size_t>(camera.resolution[0])),
           key_(math::RandomKey{seed}.derived(kPictureSamples)),
           offset_key_(math::RandomKey{seed}.derived(kPictureOffset)),
           pixels_(width_ * static_cast<std::size_t>(camera.resolution[1])),
-          sums_(pixels_.size(), replicates) {}
+          sums_(std::move(sums)) {}
 
     const PictureSums& sums() const { return sums_; }
     std::uint64_t samples() const override { return sums_.passes(); }
@@ -166,10 +78,14 @@ class Passes final : public Work {
     std::uint64_t most_samples() const override { return std::numeric_limits<std::uint64_t>::max(); }
     /// There is no error without two replicates.
     bool has_result() const override { return sums_.passes() >= 2; }
-    std::uint64_t next_check() const override { return next_checkpoint(sums_.passes()); }
+    /// After 1, 2, 3, 4, 6, 8, 12 ... passes of each replicate.
+    std::uint64_t next_check() const override {
+        const std::uint64_t replicates = sums_.all_replicates();
+        return replicates * statistics::next_check(sums_.passes() / replicates, 1);
+    }
     std::uint64_t most_at_once() const override { return 1; }
     double attained_error() const override {
-        return run::attained_error(sums_, blind_) + kBiasesOfMostPixels * bias().at_most;
+        return sums_.attained_error(blind_) + kBiasesOfMostPixels * bias().at_most;
     }
     bool is_beyond_reach(double error) const override {
         return kBiasesOfMostPixels * bias().at_least > error;
@@ -178,7 +94,8 @@ class Passes final : public Work {
     PictureComparison::Bias bias() const {
         if (!comparison_) return {};
         return comparison_->bias_of([&](std::size_t pixel) {
-            return PictureComparison::Shown{sums_.luminance_cd_m2(pixel), sums_.standard_error_cd_m2(pixel)};
+            return PictureComparison::Shown{sums_.luminance_cd_m2(pixel),
+                                            sums_.own_standard_error_cd_m2(pixel)};
         });
     }
     void show() override {
@@ -186,8 +103,8 @@ class Passes final : public Work {
     }
 
     void advance(std::uint64_t) override {
-        const std::uint64_t p = sums_.passes();
-        const estimators::Pass pass{key_.derived(p % replicates_), p / replicates_, p % replicates_};
+        const std::uint64_t p = sums_.passes(), replicates = sums_.all_replicates();
+        const estimators::Pass pass{key_.derived(p % replicates), p / replicates, p % replicates};
         const std::vector<estimators::PixelBlock> blocks = estimators::blocks_of(resolution_, offset_of(p));
         const auto started = estimator_.start(pass);
         parallel_for(blocks.size(), [&](std::size_t b) {
@@ -228,7 +145,6 @@ class Passes final : public Work {
     const Monitor& monitor_;
     const std::vector<bool>& blind_;
     PictureSink* sink_;
-    std::uint64_t replicates_;
     std::array<int, 2> resolution_;
     std::size_t width_;
     math::RandomKey key_, offset_key_;
@@ -320,8 +236,9 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
         std::optional<PictureComparison> comparison;
         if (method.lights_patches)
             comparison.emplace(problem, blind, math::RandomKey{options.seed}.derived(kPictureComparison));
-        Passes passes(*estimator, camera, blind, method.replicates, options.seed, sink, session.monitor(),
-                      comparison ? &*comparison : nullptr);
+        const auto errors = method.lights_patches ? PictureSums::Errors::own : PictureSums::Errors::pooled;
+        Passes passes(*estimator, camera, blind, PictureSums(camera.resolution, method.replicates, errors),
+                      options.seed, sink, session.monitor(), comparison ? &*comparison : nullptr);
         session.run(passes, result);
         session.describe(*estimator, result);
         result.replicates = static_cast<int>(passes.sums().replicates());
@@ -351,7 +268,8 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
         throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
                                      fmt::join(estimators::luminance_methods(), ", ")));
     }
-    RenderResult result = render_by({method.make, kPictureReplicates, method.lights_patches}, scene, camera,
+    const std::uint64_t replicates = method.lights_patches ? kPatchPictureReplicates : kPictureReplicates;
+    RenderResult result = render_by({method.make, replicates, method.lights_patches}, scene, camera,
                                     asked_options, options, sink, interrupt);
     if (method.has_heavy_tails) {
         result.warnings.push_back(

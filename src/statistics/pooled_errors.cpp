@@ -1,0 +1,71 @@
+#include "statistics/pooled_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/parallel.h"
+
+namespace stilb::statistics {
+namespace {
+
+/// Pixels to each side of a pixel that help.
+constexpr std::size_t kReach = 2;
+/// Degrees of freedom for which the neighbours count at most: their errors are not independent, because they
+/// share samples.
+constexpr double kMostPrior = 20;
+
+/// Squared relative errors.
+double relative_variance(float value, float standard_error) {
+    const double relative = double{standard_error} / double{value};
+    return relative * relative;
+}
+
+struct Pooled {
+    double variance;  ///< relative
+    double degrees;
+};
+
+/// `own`, `mean`: relative variances; `ratio`: the mean square of those around over the squared mean.
+Pooled pooled(double own, double mean, double ratio, double degrees) {
+    // By chance alone, the ratio is 1 + 2 / degrees. Beyond that it is the squared coefficient of variation of
+    // the true variances, 2 / d0 if they scatter like a mean of d0 squares.
+    const double excess = ratio / (1 + 2 / degrees) - 1;
+    const double prior = excess > 0 ? std::min(kMostPrior, 2 / excess) : kMostPrior;
+    return {(prior * mean + degrees * own) / (prior + degrees), prior + degrees};
+}
+
+}  // namespace
+
+PooledErrors pool_errors(std::size_t width, std::span<const float> values,
+                         std::span<const float> standard_errors, int degrees_of_freedom) {
+    if (width == 0 || values.size() % width != 0 || values.size() != standard_errors.size())
+        throw std::invalid_argument("pool_errors(): values and errors of all pixels are needed");
+    PooledErrors result{{standard_errors.begin(), standard_errors.end()},
+                        std::vector<int>(values.size(), degrees_of_freedom)};
+    const std::size_t height = values.size() / width;
+    parallel_for(height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t pixel = y * width + x;
+            if (!(values[pixel] > 0)) continue;
+            double count = 0, sum = 0, squares = 0;
+            for (std::size_t v = y - std::min(y, kReach); v <= std::min(height - 1, y + kReach); ++v) {
+                for (std::size_t u = x - std::min(x, kReach); u <= std::min(width - 1, x + kReach); ++u) {
+                    const std::size_t other = v * width + u;
+                    if (!(values[other] > 0)) continue;
+                    const double variance = relative_variance(values[other], standard_errors[other]);
+                    ++count, sum += variance, squares += variance * variance;
+                }
+            }
+            if (!(sum > 0)) continue;
+            const auto [variance, degrees] =
+                pooled(relative_variance(values[pixel], standard_errors[pixel]), sum / count,
+                       squares * count / (sum * sum), degrees_of_freedom);
+            result.standard_errors[pixel] = static_cast<float>(std::sqrt(variance)) * values[pixel];
+            result.degrees_of_freedom[pixel] = static_cast<int>(degrees);
+        }
+    });
+    return result;
+}
+
+}  // namespace stilb::statistics
