@@ -17,9 +17,6 @@ namespace {
 constexpr std::uint64_t kResidualPackets = 2;
 /// Samples of direct light there, where they differ.
 constexpr int kResidualDirect = 4;
-/// The probability with which an estimate of what the guess lacks at a point goes on to the surfaces around:
-/// they lack little.
-constexpr double kAround = 0.25;
 /// Paths start with a density that is at least this share of what it would be if r were as large as the
 /// guess; and so many of them, beside the others, evenly over all sides: light that the pilot has missed must
 /// not be rare.
@@ -172,12 +169,15 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
 Rgb ResidualLight::missing_cd_m2(std::uint32_t side, const math::Barycentric& at,
                                  math::SampleStream& stream) const {
     const Start start = start_at(side, at, 1, BoundedDirect::Part::all, stream);
-    return (start.missing_lx + missing_around_lx(start.point, stream)) *
-           (guess_.material(side).diffuse_reflectance() * (1 / kPi));
+    const Rgb& reflectance = guess_.material(side).diffuse_reflectance();
+    Rgb missing_lx = start.missing_lx;
+    // The factor of a step is reflectance / survival: its square times survival must be less than 1.
+    const double survival = reflectance.max();
+    if (stream.next() < survival) missing_lx += missing_around_lx(start.point, stream) * (1 / survival);
+    return missing_lx * (reflectance * (1 / kPi));
 }
 
 Rgb ResidualLight::missing_around_lx(const SidePoint& point, math::SampleStream& stream) const {
-    if (stream.next() >= kAround) return {};
     const auto [u1, u2] = stream.next_two();
     const Vec3 direction =
         Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
@@ -190,13 +190,11 @@ Rgb ResidualLight::missing_around_lx(const SidePoint& point, math::SampleStream&
     const std::uint32_t side = light.sides[0];
     // Traced surfaces lack nothing.
     if (side == patches::kNoSide || (light.traced_lanes & 1u) != 0) return {};
-    constexpr double illuminance_per_luminance = kPi / kAround;
-    if (!guess_.material(side).gloss)
-        return missing_cd_m2(side, light.barycentric_of(0), stream) * illuminance_per_luminance;
+    if (!guess_.material(side).gloss) return missing_cd_m2(side, light.barycentric_of(0), stream) * kPi;
     const auto hit = caster_.closest(point.lifted, direction);
     if (!hit) return {};
     const Rgb all = tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream);
-    return (all + light.luminance_of(0) * -1) * illuminance_per_luminance;
+    return (all + light.luminance_of(0) * -1) * kPi;
 }
 
 std::vector<transport::LightVertex> ResidualLight::trace(math::RandomKey key, std::uint64_t first,

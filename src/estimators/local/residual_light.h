@@ -52,7 +52,7 @@ class ResidualLight {
     };
     Start start_at(std::uint32_t side, const math::Barycentric& at, std::uint64_t packets,
                    BoundedDirect::Part part, math::SampleStream& stream) const;
-    /// What reaches a point in light that the guess lacks at the surfaces around [lx].
+    /// A sample of the illuminance of a point by light that the guess lacks at the surfaces around [lx].
     Rgb missing_around_lx(const SidePoint& point, math::SampleStream& stream) const;
     double pilot(std::uint32_t side, math::RandomKey key) const;
     void trace_particle(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
