@@ -16,7 +16,7 @@ constexpr std::uint64_t kPathsPerSample = 32;
 constexpr std::uint64_t kVerticesPerSample = 2;
 /// Where the residual is more than this share of the guess, light paths without a guess have less variance
 /// (docs/performance.md).
-constexpr double kMostResidual = 0.2;
+constexpr double kMostResidual = 20;
 /// Samples whose vertices are selected together.
 constexpr std::uint64_t kSamplesTogether = 64;
 
