@@ -42,8 +42,11 @@ Efficiency of_readings(const estimators::EstimatorEntry& method, const Scene& sc
 
 Efficiency of_picture(const estimators::EstimatorEntry& method, const Scene& scene, const Camera& camera) {
     const rays::RayCaster caster(scene);
-    const auto estimator =
-        method.make({scene, caster, transport::kUnlimited, math::RandomKey{5}, {}, {}, camera});
+    const auto estimator = method.make({.scene = scene,
+                                        .caster = caster,
+                                        .max_reflections = transport::kUnlimited,
+                                        .preparation_key = math::RandomKey{5},
+                                        .camera = camera});
     return efficiency_of(picture_with(*estimator, camera.resolution), 1);
 }
 

@@ -38,6 +38,12 @@ constexpr double kPlanningRayCost = 30, kPatchCost = 250;
 /// A pilot's part by path tracing: so much work, but at least so many samples.
 constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
 
+// Pilots of pictures: some blocks of pixels in some passes, each with a key of its own.
+constexpr int kPilotBlock = 8, kPilotRows = 4;
+constexpr std::uint64_t kPilotPasses = 4;
+/// The processor time of a pass by the guess over that of one without (docs/performance.md).
+constexpr double kGuidedPassCost = 1.7;
+
 /// The readings of the parts of a pilot.
 struct Pilot {
     std::vector<double> means, deviations;  ///< of each reading: mean and standard deviation of the parts
@@ -153,10 +159,72 @@ std::unique_ptr<Estimator> make_for_many(const Problem& problem) {
     return guess_pays ? make_guided_part(problem) : make_balanced(problem);
 }
 
+/// Blocks that are spread over a picture.
+std::vector<PixelBlock> pilot_blocks(const std::array<int, 2>& resolution) {
+    const auto& [width, height] = resolution;
+    std::vector<PixelBlock> blocks;
+    for (int row = 0; row < kPilotRows; ++row) {
+        for (int column = 0; column < kPilotRows; ++column) {
+            const int left = (2 * column + 1) * width / (2 * kPilotRows);
+            const int top = (2 * row + 1) * height / (2 * kPilotRows);
+            blocks.push_back(
+                {left, top, std::min(kPilotBlock, width - left), std::min(kPilotBlock, height - top)});
+        }
+    }
+    return blocks;
+}
+
+/// The luminances of the blocks' pixels in each pass; the cost is that of a pass, in passes without a guess.
+Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resolution, double cost,
+                        PilotPurpose purpose) {
+    const std::vector<PixelBlock> blocks = pilot_blocks(resolution);
+    std::vector<std::unique_ptr<const PicturePass>> passes(kPilotPasses);
+    parallel_for(kPilotPasses, [&](std::size_t pass) {
+        passes[pass] = method.start({kPilotKey.derived(purpose).derived(pass), 0});
+    });
+    std::vector<std::vector<double>> means(blocks.size()), deviations(blocks.size());
+    parallel_for(blocks.size(), [&](std::size_t b) {
+        const auto pixels = static_cast<std::size_t>(blocks[b].width * blocks[b].height);
+        std::vector<double> sums(pixels), squares(pixels);
+        std::vector<Rgb> samples(pixels);
+        for (const auto& pass : passes) {
+            pass->sample(blocks[b], samples);
+            for (std::size_t i = 0; i < pixels; ++i) {
+                const double value = samples[i].luminance();
+                sums[i] += value, squares[i] += value * value;
+            }
+        }
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const double mean = sums[i] / kPilotPasses;
+            means[b].push_back(mean);
+            deviations[b].push_back(std::sqrt(std::max(0.0, squares[i] / kPilotPasses - mean * mean)));
+        }
+    });
+    Pilot pilot{{}, {}, cost};
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        pilot.means.insert(pilot.means.end(), means[b].begin(), means[b].end());
+        pilot.deviations.insert(pilot.deviations.end(), deviations[b].begin(), deviations[b].end());
+    }
+    return pilot;
+}
+
+std::unique_ptr<Estimator> make_for_picture(const Problem& problem) {
+    std::unique_ptr<Estimator> balanced = make_balanced(problem);
+    if (problem.max_reflections != transport::kUnlimited) return balanced;
+    std::unique_ptr<Estimator> guided = make_guided(problem);
+    const auto& resolution = problem.camera->resolution;
+    const Pilot of_balanced = run_picture_pilot(*balanced, resolution, 1, kBalanced);
+    const Pilot of_guided = run_picture_pilot(*guided, resolution, kGuidedPassCost, kGuided);
+    const std::vector<double> values = values_of(of_balanced, of_guided);
+    const bool guess_pays = sampling_cost(of_guided, values, {}) < sampling_cost(of_balanced, values, {});
+    return guess_pays ? std::move(guided) : std::move(balanced);
+}
+
 }  // namespace
 
 std::unique_ptr<Estimator> make_auto(const Problem& problem) {
-    if (problem.camera || problem.measurands.empty()) return make_balanced_picture(problem);
+    if (problem.camera) return make_for_picture(problem);
+    if (problem.measurands.empty()) return make_balanced(problem);
     return problem.measurands.size() <= kMostReadings ? make_for_few(problem) : make_for_many(problem);
 }
 

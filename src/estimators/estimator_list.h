@@ -48,10 +48,8 @@ const EstimatorEntry& find_estimator(std::string_view name);
 std::unique_ptr<Estimator> make_auto(const Problem& problem);
 /// Local estimation balanced with path tracing, and as published: local/local_estimation.cpp.
 std::unique_ptr<Estimator> make_balanced(const Problem& problem);
-/// The same by a guess of the light where reflections have no limit, and for pictures where a rule says that
-/// it pays.
+/// The same by a guess of the light where reflections have no limit.
 std::unique_ptr<Estimator> make_guided(const Problem& problem);
-std::unique_ptr<Estimator> make_balanced_picture(const Problem& problem);
 /// Makes what make_guided() does, for parts of a problem that share the guess of the whole.
 using EstimatorMaker = std::function<std::unique_ptr<Estimator>(const Problem& part)>;
 EstimatorMaker with_guess(const Problem& problem);

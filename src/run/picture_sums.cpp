@@ -69,7 +69,8 @@ double PictureSums::attained_error(const std::vector<bool>& blind) const {
     const int most = *std::ranges::max_element(errors.degrees_of_freedom);
     std::vector<double> quantiles{0};
     for (int degrees = 1; degrees <= most; ++degrees)
-        quantiles.push_back(statistics::student_t_quantile((1 + statistics::kStoppedConfidence) / 2, degrees));
+        quantiles.push_back(
+            statistics::student_t_quantile((1 + statistics::kStoppedConfidence) / 2, degrees));
     std::vector<double> half_widths;
     for (std::size_t i = 0; i < blind.size(); ++i) {
         if (blind[i]) continue;

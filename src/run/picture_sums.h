@@ -28,8 +28,8 @@ class PictureSums {
     void add(const std::vector<std::array<float, 3>>& pass);
 
     double luminance_cd_m2(std::size_t pixel) const;
-    /// The standard error from the pixel's own replicates, each weighted by its passes (which differ by one at
-    /// most); infinite for a single replicate.
+    /// The standard error from the pixel's own replicates, each weighted by its passes (which differ by one
+    /// at most); infinite for a single replicate.
     double own_standard_error_cd_m2(std::size_t pixel) const;
 
     /// What 95 % of the pixels keep, relative to their luminance; infinite for a single replicate. Those that

@@ -28,8 +28,8 @@ struct Pooled {
 
 /// `own`, `mean`: relative variances; `ratio`: the mean square of those around over the squared mean.
 Pooled pooled(double own, double mean, double ratio, double degrees) {
-    // By chance alone, the ratio is 1 + 2 / degrees. Beyond that it is the squared coefficient of variation of
-    // the true variances, 2 / d0 if they scatter like a mean of d0 squares.
+    // By chance alone, the ratio is 1 + 2 / degrees. Beyond that it is the squared coefficient of variation
+    // of the true variances, 2 / d0 if they scatter like a mean of d0 squares.
     const double excess = ratio / (1 + 2 / degrees) - 1;
     const double prior = excess > 0 ? std::min(kMostPrior, 2 / excess) : kMostPrior;
     return {(prior * mean + degrees * own) / (prior + degrees), prior + degrees};

@@ -23,7 +23,8 @@ struct NoisyPicture {
         for (std::size_t i = 0; i < kPixels; ++i) {
             std::vector<double> replicates;
             for (int r = 0; r < kReplicates; ++r)
-                replicates.push_back(1 + sigma(i % kWidth, i / kWidth) * std::sqrt(kReplicates) * normal(random));
+                replicates.push_back(1 +
+                                     sigma(i % kWidth, i / kWidth) * std::sqrt(kReplicates) * normal(random));
             const Estimate estimate = estimate_from_replicates(replicates);
             values[i] = static_cast<float>(estimate.value);
             errors[i] = static_cast<float>(estimate.standard_error);

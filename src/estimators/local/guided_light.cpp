@@ -14,24 +14,16 @@ constexpr double kKernels = 5;
 /// Paths of the residual for each sample of readings, and the number of their vertices that are connected.
 constexpr std::uint64_t kPathsPerSample = 32;
 constexpr std::uint64_t kVerticesPerSample = 2;
-/// Where the residual is more than this share of the guess, light paths without a guess have less variance
-/// (docs/performance.md).
-constexpr double kMostResidual = 20;
 /// Samples whose vertices are selected together.
 constexpr std::uint64_t kSamplesTogether = 64;
 
 }  // namespace
 
-std::unique_ptr<GuidedLight> GuidedLight::make(Guess guess, const Problem& problem,
-                                               const transport::LightSampler& lights,
+std::unique_ptr<GuidedLight> GuidedLight::make(const Problem& problem, const transport::LightSampler& lights,
                                                const transport::PathTracer& tracer, math::RandomKey key) {
-    const bool can_be =
-        problem.max_reflections == transport::kUnlimited && surface_area_m2(problem.scene) > 0;
-    if (!can_be || guess == Guess::never) return nullptr;
-    auto light =
-        std::make_unique<GuidedLight>(problem.scene, problem.caster, lights, tracer, key, problem.monitor);
-    const bool pays = light->residual.share_of_guess() < kMostResidual;
-    return pays || guess == Guess::always ? std::move(light) : nullptr;
+    if (problem.max_reflections != transport::kUnlimited || !(surface_area_m2(problem.scene) > 0))
+        return nullptr;
+    return std::make_unique<GuidedLight>(problem.scene, problem.caster, lights, tracer, key, problem.monitor);
 }
 
 GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,

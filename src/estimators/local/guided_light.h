@@ -18,15 +18,10 @@
 
 namespace stilb::estimators {
 
-/// When the guess is used; `always`: where reflections have no limit.
-enum class Guess { never, where_it_pays, always };
-
 /// The common part of readings and pictures. Keeps references to its arguments. Immutable.
 struct GuidedLight {
-    /// The guided light of a problem; null where it is not used. It does not pay where the guess lacks much,
-    /// above all gloss.
-    static std::unique_ptr<GuidedLight> make(Guess guess, const Problem& problem,
-                                             const transport::LightSampler& lights,
+    /// The guided light of a problem; null where reflections have a limit, or there are none.
+    static std::unique_ptr<GuidedLight> make(const Problem& problem, const transport::LightSampler& lights,
                                              const transport::PathTracer& tracer, math::RandomKey key);
 
     GuidedLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,

@@ -26,8 +26,8 @@ const transport::Receiver& middle_of(const SubPointPacket& packet) {
     return packet.receivers[packet.receivers.size() / 2];
 }
 
-/// Whether the sub-points lie in one plane: what is near to one of them is not far from the others, nor behind
-/// them.
+/// Whether the sub-points lie in one plane: what is near to one of them is not far from the others, nor
+/// behind them.
 bool is_flat(const SubPointPacket& packet) {
     const transport::Receiver& middle = middle_of(packet);
     return std::ranges::all_of(packet.receivers, [&](const transport::Receiver& receiver) {

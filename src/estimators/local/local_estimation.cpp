@@ -330,10 +330,11 @@ class LocalReadings {
 
 /// What estimators of several sets of readings share.
 struct LocalScene {
-    LocalScene(const Problem& problem, Split split, Guess guess)
-        : transport(problem, split),
-          guide(GuidedLight::make(guess, problem, transport.lights, transport.tracer,
-                                  problem.preparation_key.derived(kGuess))) {}
+    LocalScene(const Problem& problem, Split split) : transport(problem, split) {}
+    void make_guide(const Problem& problem) {
+        guide = GuidedLight::make(problem, transport.lights, transport.tracer,
+                                  problem.preparation_key.derived(kGuess));
+    }
 
     enum Purpose : std::uint64_t { kGuess = 1u << 16 };
     LocalTransport transport;
@@ -368,28 +369,20 @@ class LocalEstimation final : public Estimator {
     std::unique_ptr<const LocalPicture> picture_;
 };
 
-std::unique_ptr<Estimator> make(const Problem& problem, Split split, Guess guess) {
-    return std::make_unique<LocalEstimation>(problem,
-                                             std::make_shared<const LocalScene>(problem, split, guess));
+std::unique_ptr<Estimator> make(const Problem& problem, Split split) {
+    return std::make_unique<LocalEstimation>(problem, std::make_shared<const LocalScene>(problem, split));
 }
 
 }  // namespace
 
-std::unique_ptr<Estimator> make_local(const Problem& problem) {
-    return make(problem, Split::none, Guess::never);
-}
+std::unique_ptr<Estimator> make_local(const Problem& problem) { return make(problem, Split::none); }
 
-std::unique_ptr<Estimator> make_balanced(const Problem& problem) {
-    return make(problem, Split::balanced, Guess::never);
-}
-
-std::unique_ptr<Estimator> make_balanced_picture(const Problem& problem) {
-    return make(problem, Split::balanced, Guess::where_it_pays);
-}
+std::unique_ptr<Estimator> make_balanced(const Problem& problem) { return make(problem, Split::balanced); }
 
 EstimatorMaker with_guess(const Problem& problem) {
-    return [scene = std::make_shared<const LocalScene>(problem, Split::balanced, Guess::always)](
-               const Problem& part) { return std::make_unique<LocalEstimation>(part, scene); };
+    const auto scene = std::make_shared<LocalScene>(problem, Split::balanced);
+    scene->make_guide(problem);
+    return [scene](const Problem& part) { return std::make_unique<LocalEstimation>(part, scene); };
 }
 
 std::unique_ptr<Estimator> make_guided(const Problem& problem) { return with_guess(problem)(problem); }

@@ -82,12 +82,9 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
             }
         },
         64);
-    double sum = 0, guessed = 0, area_m2 = 0;
+    double sum = 0, area_m2 = 0;
     for (std::size_t i = 0; i < sides_.size(); ++i)
         sum += weights[i], area_m2 += double{patches.areas_m2[patches.patch_of(sides_[i])]};
-    for (const std::uint32_t side : guess.lit_sides())
-        guessed += guess.mean_cd_m2(side) * double{patches.areas_m2[patches.patch_of(side)]};
-    share_of_guess_ = guessed > 0 ? sum / guessed : 1;
     const double evenly = sum > 0 ? kEvenShare * sum / area_m2 : 1;
     for (std::size_t i = 0; i < sides_.size(); ++i)
         weights[i] += evenly * double{patches.areas_m2[patches.patch_of(sides_[i])]};

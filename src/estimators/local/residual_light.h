@@ -38,10 +38,6 @@ class ResidualLight {
     /// the light of point lights included [cd/m2].
     Rgb missing_cd_m2(std::uint32_t side, const math::Barycentric& at, math::SampleStream& stream) const;
 
-    /// The residual beside the guess, as the root mean square over each side, by the pilot: the larger it is,
-    /// the less is gained.
-    double share_of_guess() const { return share_of_guess_; }
-
   private:
     /// Where and how paths start.
     struct Start {
@@ -72,7 +68,6 @@ class ResidualLight {
     const transport::PathTracer& tracer_;
     const LightGuess& guess_;
     bool has_light_for_light_paths_only_;
-    double share_of_guess_ = 0;
     std::vector<std::uint32_t> sides_;        ///< that reflect light and are not traced
     math::DiscreteDistribution by_residual_;  ///< over `sides_`
 };
