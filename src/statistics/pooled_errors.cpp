@@ -47,7 +47,7 @@ PooledErrors pool_errors(std::size_t width, std::span<const float> values,
     parallel_for(height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
             const std::size_t pixel = y * width + x;
-            if (!(values[pixel] > 0)) continue;
+            if (!(values[pixel] > 0) || standard_errors[pixel] == 0) continue;
             double count = 0, sum = 0, squares = 0;
             for (std::size_t v = y - std::min(y, kReach); v <= std::min(height - 1, y + kReach); ++v) {
                 for (std::size_t u = x - std::min(x, kReach); u <= std::min(width - 1, x + kReach); ++u) {
@@ -57,7 +57,6 @@ PooledErrors pool_errors(std::size_t width, std::span<const float> values,
                     ++count, sum += variance, squares += variance * variance;
                 }
             }
-            if (!(sum > 0)) continue;
             const auto [variance, degrees] =
                 pooled(relative_variance(values[pixel], standard_errors[pixel]), sum / count,
                        squares * count / (sum * sum), degrees_of_freedom);
