@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/local_picture.h"
+#include "estimators/local/node_pool.h"
 #include "estimators/local/sub_points.h"
 
 namespace stilb::estimators {

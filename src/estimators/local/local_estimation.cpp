@@ -32,6 +32,7 @@
 #include "estimators/local/connection.h"
 #include "estimators/local/gather.h"
 #include "estimators/local/local_picture.h"
+#include "estimators/local/node_pool.h"
 #include "estimators/local/split_plan.h"
 
 namespace stilb::estimators {

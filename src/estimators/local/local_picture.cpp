@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/gather.h"
+#include "estimators/local/node_pool.h"
 #include "estimators/local/split_plan.h"
 #include "estimators/local/sub_points.h"
 
