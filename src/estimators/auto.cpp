@@ -40,7 +40,7 @@ constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
 
 // Pilots of pictures: some blocks of pixels in some passes, each with a key of its own.
 constexpr int kPilotBlock = 8, kPilotRows = 4;
-constexpr std::uint64_t kPilotPasses = 4;
+constexpr std::uint64_t kPilotPasses = 2;
 /// The processor time of a pass by the guess over that of one without (docs/performance.md).
 constexpr double kGuidedPassCost = 1.7;
 
