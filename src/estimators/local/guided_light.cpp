@@ -14,7 +14,7 @@ namespace {
 constexpr double kKernels = 5;
 /// Paths of the residual for each sample of readings, and the number of their vertices that are connected.
 constexpr std::uint64_t kPathsPerSample = 32;
-constexpr std::uint64_t kVerticesPerSample = 8;
+constexpr std::uint64_t kVerticesPerSample = 2;
 /// Samples whose vertices are selected together.
 constexpr std::uint64_t kSamplesTogether = 64;
 
