@@ -40,7 +40,8 @@ Scene glossy_room() {
 }
 
 Sensor camera() {
-    return {"camera", Camera{{1.5, 0.1, 1.6}, {0, 1, -0.15}, {0, 0, 1}, 80, {48, 48}, Projection::perspective}};
+    return {"camera",
+            Camera{{1.5, 0.1, 1.6}, {0, 1, -0.15}, {0, 0, 1}, 80, {48, 48}, Projection::perspective}};
 }
 
 struct Case {
@@ -114,7 +115,8 @@ bool verify(const Case& of, std::size_t seeds) {
     double rare = 0;
     for (const double of_pixel : held) rare += of_pixel < 90 ? 100 / static_cast<double>(held.size()) : 0;
     const bool good = all >= kLeast && all <= kMost && planted < kLeast;
-    fmt::print("{:30} {:6.2f} % {:10.2f} % {:10.2f} % {}\n", of.name, all, rare, planted, good ? "" : "WRONG");
+    fmt::print("{:30} {:6.2f} % {:10.2f} % {:10.2f} % {}\n", of.name, all, rare, planted,
+               good ? "" : "WRONG");
     std::fflush(stdout);
     return good;
 }
