@@ -16,7 +16,7 @@
 #include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "estimators/limits.h"
-#include "estimators/local/light_guess.h"
+#include "estimators/local/guess/light_guess.h"
 #include "estimators/local/split_plan.h"
 
 namespace stilb::estimators {

@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 #include "base/rgb.h"
 #include "statistics/interval.h"
-#include "statistics/pooled_errors.h"
 
 namespace stilb::run {
 
@@ -49,7 +48,7 @@ double PictureSums::own_standard_error_cd_m2(std::size_t pixel) const {
     return std::sqrt(variance * static_cast<double>(used) / static_cast<double>(used - 1));
 }
 
-auto PictureSums::errors() const -> PixelErrors {
+statistics::PixelErrors PictureSums::errors() const {
     const int degrees = static_cast<int>(replicates()) - 1;
     std::vector<float> values(rgb_.size()), own(rgb_.size());
     parallel_for_parts(rgb_.size(), [&](std::size_t first, std::size_t last) {
@@ -59,13 +58,12 @@ auto PictureSums::errors() const -> PixelErrors {
         }
     });
     if (errors_ == Errors::own) return {std::move(own), std::vector<int>(rgb_.size(), degrees)};
-    statistics::PooledErrors pooled = statistics::pool_errors(width_, values, own, degrees);
-    return {std::move(pooled.standard_errors), std::move(pooled.degrees_of_freedom)};
+    return statistics::pool_errors(width_, values, own, degrees);
 }
 
 double PictureSums::attained_error(const std::vector<bool>& blind) const {
     if (replicates() < 2) return std::numeric_limits<double>::infinity();
-    const PixelErrors errors = this->errors();
+    const statistics::PixelErrors errors = this->errors();
     const int most = *std::ranges::max_element(errors.degrees_of_freedom);
     std::vector<double> quantiles{0};
     for (int degrees = 1; degrees <= most; ++degrees)
@@ -75,7 +73,7 @@ double PictureSums::attained_error(const std::vector<bool>& blind) const {
     for (std::size_t i = 0; i < blind.size(); ++i) {
         if (blind[i]) continue;
         const auto degrees = static_cast<std::size_t>(errors.degrees_of_freedom[i]);
-        const double half_width = quantiles[degrees] * double{errors.standard_errors_cd_m2[i]};
+        const double half_width = quantiles[degrees] * double{errors.standard_errors[i]};
         half_widths.push_back(half_width > 0 ? half_width / luminance_cd_m2(i) : 0);
     }
     return statistics::attained_error_of(std::move(half_widths));
@@ -90,7 +88,7 @@ Pixels PictureSums::pixels() const {
             for (std::size_t b = 0; b < kBands; ++b) pixels.rgb_cd_m2[i][b] = rgb_[i][b] * per_pass;
         }
     });
-    if (replicates() > 1) pixels.standard_error_cd_m2 = errors().standard_errors_cd_m2;
+    if (replicates() > 1) pixels.standard_error_cd_m2 = errors().standard_errors;
     return pixels;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "run/result.h"
+#include "statistics/pooled_errors.h"
 
 namespace stilb::run {
 
@@ -32,17 +33,13 @@ class PictureSums {
     /// at most); infinite for a single replicate.
     double own_standard_error_cd_m2(std::size_t pixel) const;
 
-    /// What 95 % of the pixels keep, relative to their luminance; infinite for a single replicate. Those that
-    /// are blind are left out.
+    /// 95 % of the pixels that see anything have a 95 % interval whose half-width is at most this share of
+    /// their luminance. Infinite for a single replicate.
     double attained_error(const std::vector<bool>& blind) const;
     Pixels pixels() const;
 
   private:
-    struct PixelErrors {
-        std::vector<float> standard_errors_cd_m2;
-        std::vector<int> degrees_of_freedom;
-    };
-    PixelErrors errors() const;
+    statistics::PixelErrors errors() const;  ///< [cd/m2]
 
     std::size_t width_;
     std::uint64_t replicates_;

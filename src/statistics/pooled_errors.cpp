@@ -37,12 +37,12 @@ Pooled pooled(double own, double mean, double ratio, double degrees) {
 
 }  // namespace
 
-PooledErrors pool_errors(std::size_t width, std::span<const float> values,
-                         std::span<const float> standard_errors, int degrees_of_freedom) {
+PixelErrors pool_errors(std::size_t width, std::span<const float> values,
+                        std::span<const float> standard_errors, int degrees_of_freedom) {
     if (width == 0 || values.size() % width != 0 || values.size() != standard_errors.size())
         throw std::invalid_argument("pool_errors(): values and errors of all pixels are needed");
-    PooledErrors result{{standard_errors.begin(), standard_errors.end()},
-                        std::vector<int>(values.size(), degrees_of_freedom)};
+    PixelErrors result{{standard_errors.begin(), standard_errors.end()},
+                       std::vector<int>(values.size(), degrees_of_freedom)};
     const std::size_t height = values.size() / width;
     parallel_for(height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {

@@ -13,15 +13,15 @@
 
 namespace stilb::statistics {
 
-struct PooledErrors {
-    std::vector<float> standard_errors;
+struct PixelErrors {
+    std::vector<float> standard_errors;  ///< in the unit of the values
     std::vector<int> degrees_of_freedom;
 };
 
 /// `values`, `standard_errors`: of the pixels, row by row; the errors are those of independent replicates
 /// with so many degrees of freedom. Pixels of value 0 or error 0, which are known exactly, keep their own.
 /// Rows are divided between threads. Throws std::invalid_argument where the numbers of pixels do not match.
-PooledErrors pool_errors(std::size_t width, std::span<const float> values,
-                         std::span<const float> standard_errors, int degrees_of_freedom);
+PixelErrors pool_errors(std::size_t width, std::span<const float> values,
+                        std::span<const float> standard_errors, int degrees_of_freedom);
 
 }  // namespace stilb::statistics

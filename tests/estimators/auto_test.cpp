@@ -1,4 +1,4 @@
-// What method auto chooses. Each method makes batches of its own granularity: that tells them apart.
+// Which technique method auto chooses. The granularity of its batches tells which one it is.
 #include <gtest/gtest.h>
 
 #include <vector>

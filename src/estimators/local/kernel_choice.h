@@ -27,7 +27,8 @@ class KernelChoice {
 
     /// The running sums of the points' weights, for select().
     using Sums = std::vector<float>;
-    /// For receivers around the given ones, of which there may be none; `k_per_m2`: of the connections.
+    /// The weights for receivers near the given ones. Without any, light alone decides. `k_per_m2`: the k of
+    /// the connections.
     Sums sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const;
 
     /// Calls `visit(index, times, rest)` for `count` choices that lie evenly over the weights. `times` is 1 /

@@ -131,7 +131,7 @@ class LocalReadings {
     }
 
   private:
-    /// Of the whole problem.
+    /// The number of receivers of the whole problem, of which this may be a part.
     std::size_t all_receivers() const {
         return static_cast<std::size_t>(
             std::lround(stands_for_ * static_cast<double>(seen_.receivers.size())));
@@ -329,7 +329,7 @@ class LocalReadings {
     std::optional<GuidedReadings> guided_;
 };
 
-/// What estimators of several sets of readings share.
+/// A scene with its guess of the light, if it has one. Pilots and the run share it.
 struct LocalScene {
     LocalScene(const Problem& problem, Split split) : transport(problem, split) {}
     void make_guide(const Problem& problem) {

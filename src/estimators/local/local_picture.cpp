@@ -1,10 +1,8 @@
 #include "estimators/local/local_picture.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 
-#include "base/parallel.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/gather.h"
 #include "estimators/local/node_pool.h"
@@ -87,12 +85,7 @@ class LightPathPicture final : public LocalPicture {
                                transport_.max_reflections,
                                kPathsPerSelected};
         const Pass pass{key.derived(kPlan), 0};
-        std::atomic<std::size_t> done = 0;
-        parallel_for(k_per_m2.size(), [&](std::size_t c) {
-            const double share = static_cast<double>(done++) / static_cast<double>(k_per_m2.size());
-            problem.monitor.report("planning", share);
-            problem.monitor.require_time("planning", share);
-            const std::vector<transport::Receiver> receivers = sub_points_.of_cell(c, pass);
+        sub_points_.for_each_cell(pass, problem.monitor, [&](std::size_t c, const auto& receivers) {
             if (receivers.empty()) return;
             k_per_m2[c] = plan_constant(transport_.caster, transport_.tracer, receivers, pilot,
                                         kPathsPerPass / kPathsPerSelected, kPilotRays, pass.key.derived(c));

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "estimators/local/guided_light.h"
+#include "estimators/local/guess/guided_light.h"
 #include "estimators/local/local_transport.h"
 
 namespace stilb::estimators {

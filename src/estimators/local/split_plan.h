@@ -22,7 +22,8 @@ struct SplitPlan {
 
 struct SplitPlans {
     std::vector<SplitPlan> of_receivers;
-    /// Of a light path with its connections and its share of gathering, in units of a shadow ray.
+    /// The processor time of a light path, its connections and its share of the gathering rays. The unit is
+    /// the time of a shadow ray.
     double cost_per_path = 1;
 };
 

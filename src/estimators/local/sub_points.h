@@ -2,6 +2,8 @@
 // Each pass draws them anew.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "estimators/camera_paths.h"
@@ -38,12 +40,15 @@ class SubPoints {
 
     std::size_t cells() const { return cells_.size(); }
     std::size_t cell_of(const Pixel& pixel) const;
-    /// Receivers that are spread over a cell; none where no surface is seen.
-    std::vector<transport::Receiver> of_cell(std::size_t cell, const Pass& pass) const;
+    using CellVisit = std::function<void(std::size_t cell, std::span<const transport::Receiver>)>;
+    /// Calls `visit` for every cell with receivers that are spread over it, none where no surface is seen.
+    /// Calls may run in parallel. The monitor sees the progress.
+    void for_each_cell(const Pass& pass, const Monitor& monitor, const CellVisit& visit) const;
 
     const PictureTracing& tracing() const { return tracing_; }
 
   private:
+    std::vector<transport::Receiver> of_cell(std::size_t cell, const Pass& pass) const;
     SubPointPacket of_packet(const PixelBlock& block, int left, int top, const Pass& pass,
                              ReadingSums& sums) const;
     void add_direct(const SubPointPacket& packet, const Pass& pass, ReadingSums& sums) const;

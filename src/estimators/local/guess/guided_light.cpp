@@ -1,4 +1,4 @@
-#include "estimators/local/guided_light.h"
+#include "estimators/local/guess/guided_light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "base/monitor.h"
-#include "estimators/local/bounded_direct.h"
+#include "estimators/local/guess/bounded_direct.h"
 #include "materials/split_material.h"
 #include "math/random.h"
 #include "patches/patches.h"

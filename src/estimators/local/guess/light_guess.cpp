@@ -1,4 +1,4 @@
-#include "estimators/local/light_guess.h"
+#include "estimators/local/guess/light_guess.h"
 
 #include <algorithm>
 #include <bit>

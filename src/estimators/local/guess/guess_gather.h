@@ -9,10 +9,10 @@
 #include <span>
 
 #include "estimators/estimator.h"
-#include "estimators/local/light_guess.h"
-#include "estimators/local/part_reflection.h"
+#include "estimators/local/guess/light_guess.h"
+#include "estimators/local/guess/part_reflection.h"
+#include "estimators/local/guess/residual_light.h"
 #include "estimators/local/point_tile.h"
-#include "estimators/local/residual_light.h"
 #include "transport/path_tracer.h"
 
 namespace stilb::estimators {

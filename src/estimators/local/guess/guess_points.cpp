@@ -1,4 +1,4 @@
-#include "estimators/local/guess_points.h"
+#include "estimators/local/guess/guess_points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/local_picture.h"
 #include "estimators/local/node_pool.h"
@@ -47,13 +45,9 @@ class GuidedPicture final : public LocalPicture {
           sub_points_(transport, problem, kDirectSamples),
           points_of_(sub_points_.cells()) {
         const Pass pass{problem.preparation_key.derived(kPlan), 0};
-        std::atomic<std::size_t> done = 0;
-        parallel_for(points_of_.size(), [&](std::size_t c) {
-            const double share = static_cast<double>(done++) / static_cast<double>(points_of_.size());
-            problem.monitor.report("planning", share);
-            problem.monitor.require_time("planning", share);
-            // Also where no sub-point meets a surface: those of the pixels may.
-            points_of_[c] = guide_.points_for(sub_points_.of_cell(c, pass), kPoints);
+        // Also where no sub-point meets a surface: those of the pixels may.
+        sub_points_.for_each_cell(pass, problem.monitor, [&](std::size_t cell, const auto& receivers) {
+            points_of_[cell] = guide_.points_for(receivers, kPoints);
         });
     }
 

@@ -1,4 +1,4 @@
-#include "estimators/local/part_reflection.h"
+#include "estimators/local/guess/part_reflection.h"
 
 #include <algorithm>
 #include <numbers>

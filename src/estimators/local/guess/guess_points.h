@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "estimators/local/connection.h"
+#include "estimators/local/guess/light_guess.h"
 #include "estimators/local/kernel_choice.h"
-#include "estimators/local/light_guess.h"
 #include "rays/ray_caster.h"
 
 namespace stilb::estimators {
@@ -22,7 +22,8 @@ class GuessPoints {
   public:
     GuessPoints(const LightGuess& guess, const rays::RayCaster& caster);
 
-    /// For receivers around the given ones, of which there may be none; `k_per_m2`: of connections to points.
+    /// The weights of the sides for receivers near the given ones. Without any, light alone decides.
+    /// `k_per_m2`: the k of connections to points.
     KernelChoice::Sums sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const {
         return sides_.sums_for(receivers, k_per_m2);
     }

@@ -1,4 +1,4 @@
-#include "estimators/local/bounded_direct.h"
+#include "estimators/local/guess/bounded_direct.h"
 
 #include <algorithm>
 #include <numbers>

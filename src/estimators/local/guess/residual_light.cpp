@@ -1,4 +1,4 @@
-#include "estimators/local/residual_light.h"
+#include "estimators/local/guess/residual_light.h"
 
 #include <algorithm>
 #include <cmath>

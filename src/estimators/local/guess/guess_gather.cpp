@@ -1,10 +1,10 @@
-#include "estimators/local/guess_gather.h"
+#include "estimators/local/guess/guess_gather.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "estimators/local/guess_points.h"
+#include "estimators/local/guess/guess_points.h"
 #include "math/sampling.h"
 
 namespace stilb::estimators {

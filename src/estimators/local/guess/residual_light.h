@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "estimators/local/light_guess.h"
+#include "estimators/local/guess/light_guess.h"
 #include "math/sampling.h"
 #include "transport/light_path.h"
 #include "transport/path_tracer.h"

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "estimators/local/connection.h"
-#include "estimators/local/guess_gather.h"
-#include "estimators/local/guess_points.h"
-#include "estimators/local/light_guess.h"
-#include "estimators/local/residual_light.h"
+#include "estimators/local/guess/guess_gather.h"
+#include "estimators/local/guess/guess_points.h"
+#include "estimators/local/guess/light_guess.h"
+#include "estimators/local/guess/residual_light.h"
 
 namespace stilb::estimators {
 
@@ -72,8 +72,9 @@ class GuidedReadings {
                    const Monitor& monitor);
 
     void collect(const Batch& batch, ReadingSums& sums) const;
-    /// As Estimator's, where each receiver is one of so many.
+    /// As Estimator's.
     double rays_per_sample() const;
+    /// As Estimator's, where each receiver stands for so many.
     double cost_per_sample(double stands_for) const;
 
   private:
