@@ -15,8 +15,8 @@
 #include "base/parallel.h"
 #include "geometry/harmonics/surface.h"
 #include "geometry/mesh_topology.h"
+#include "patches/patch_collector.h"
 #include "patches/refinement.h"
-#include "patches/vertex_interpolation.h"
 #include "stilb/error.h"
 
 namespace stilb::patches {
@@ -97,58 +97,6 @@ void check_size(const Scene& scene, double longest_edge_m) {
     }
 }
 
-/// Adds one object after another.
-class Collector {
-  public:
-    explicit Collector(Patches& patches) : patches_(patches) {}
-
-    /// `parents` are those of the object's own triangles, or of its whole. Triangles without area are left
-    /// out: returns the numbers of the others.
-    std::vector<std::uint32_t> add(const Object& object, const RefinedMesh& fine) {
-        triangles_.clear();
-        normals_.clear();
-        std::vector<std::uint32_t> kept;
-        const std::size_t first = patches_.count();
-        for (std::uint32_t i = 0; i < fine.parents.size(); ++i) {
-            const std::size_t parent = object.materials.size() == 1 ? 0 : fine.parents[i];
-            if (add_triangle(fine.mesh, fine.mesh.triangles[i], object.materials[parent])) kept.push_back(i);
-        }
-        const auto smooth =
-            divide_at_creases(triangles_, normals_, std::span(patches_.materials).subspan(first));
-        const auto before = static_cast<std::uint32_t>(patches_.vertices.size());
-        for (const std::uint32_t vertex : smooth.original) {
-            patches_.vertices.push_back(in_floats(fine.mesh.vertices[vertex] - patches_.center));
-        }
-        for (const Triangle& t : smooth.triangles) {
-            patches_.corners.push_back({t[0] + before, t[1] + before, t[2] + before});
-        }
-        patches_.first_of_object.push_back(static_cast<std::uint32_t>(patches_.count()));
-        return kept;
-    }
-
-  private:
-    static Float3 in_floats(const Vec3& v) {
-        return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-    }
-
-    bool add_triangle(const Mesh& mesh, const Triangle& t, MaterialId material) {
-        const Vec3& a = mesh.vertices[t[0]];
-        const Vec3 doubled = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-        const double doubled_area = length(doubled);
-        if (!(static_cast<float>(doubled_area) > 0)) return false;
-        triangles_.push_back(t);
-        normals_.push_back(doubled / doubled_area);
-        patches_.normals.push_back(in_floats(normals_.back()));
-        patches_.areas_m2.push_back(static_cast<float>(doubled_area / 2));
-        patches_.materials.push_back(material);
-        return true;
-    }
-
-    Patches& patches_;
-    std::vector<Triangle> triangles_;  ///< of the object, by its own vertices
-    std::vector<Vec3> normals_;
-};
-
 }  // namespace
 
 ObjectId Patches::object_of(std::uint32_t patch) const {
@@ -199,10 +147,10 @@ Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& m
     const std::vector<Division> divisions = divisions_of(scene, longest_edge_m);
     Patches patches;
     patches.center = center_of(divisions);
-    Collector collector(patches);
+    PatchCollector collector(patches);
     Stage stage(monitor, "patches", divisions.size());
     for (std::size_t i = 0; i < divisions.size(); ++i) {
-        collector.add(scene.objects[i], refined(divisions[i]));
+        collector.add(refined(divisions[i]), scene.objects[i].materials);
         stage.advance();
     }
     return patches;
@@ -275,13 +223,13 @@ bool halve_once(RefinedObject& object, const LongestEdge& longest_edge_m) {
 std::vector<RefinedObject> objects_of(const Scene& scene, double longest_edge_m) {
     std::vector<RefinedObject> objects;
     Patches again;
-    Collector collector(again);
+    PatchCollector collector(again);
     for (Division& division : divisions_of(scene, longest_edge_m)) {
         RefinedMesh patches = refined(division);
         RefinedMesh fine = unrefined(patches.mesh);
         const auto first = static_cast<std::uint32_t>(again.count());
         std::vector<std::uint32_t> number_of(patches.parents.size(), first);
-        const auto kept = collector.add(scene.objects[objects.size()], patches);
+        const auto kept = collector.add(patches, scene.objects[objects.size()].materials);
         for (std::uint32_t i = 0; i < kept.size(); ++i) number_of[kept[i]] = first + i;
         objects.push_back({std::move(division), std::move(patches), std::move(number_of), std::move(fine)});
     }
@@ -313,13 +261,13 @@ FinePatches make_fine_patches(const Scene& scene, double size_m, const LongestEd
     std::vector<Division> divisions;
     for (const RefinedObject& object : objects) divisions.push_back(object.division);
     fine.patches.center = center_of(divisions);
-    Collector collector(fine.patches);
+    PatchCollector collector(fine.patches);
     for (std::size_t o = 0; o < objects.size(); ++o) {
         const RefinedObject& object = objects[o];
         RefinedMesh whole{object.fine.mesh, {}};
         for (const std::uint32_t parent : object.fine.parents)
             whole.parents.push_back(object.patches.parents[parent]);
-        for (const std::uint32_t i : collector.add(scene.objects[o], whole))
+        for (const std::uint32_t i : collector.add(whole, scene.objects[o].materials))
             fine.parents.push_back(object.number_of[object.fine.parents[i]]);
     }
     return fine;

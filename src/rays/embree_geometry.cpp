@@ -110,6 +110,8 @@ RTCGeometry new_mesh(RTCDevice device, const Mesh& mesh, const Vec3& origin, Emb
     if (parts.triangles.size() > mesh.triangles.size()) kept.parents = std::move(parts.parents);
     kept.vertices = vertices;
     kept.triangles = triangles;
+    kept.vertex_count = parts.vertices.size();
+    kept.triangle_count = parts.triangles.size();
     return handle;
 }
 

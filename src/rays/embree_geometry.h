@@ -53,6 +53,7 @@ std::unique_ptr<CurvedSurface> curved_surface(const Shape& shape, const Vec3& or
 struct EmbreeGeometry {
     const std::array<float, 3>* vertices = nullptr;  ///< owned by Embree, as are the triangles; or null
     const Triangle* triangles = nullptr;
+    std::size_t vertex_count = 0, triangle_count = 0;
     std::vector<std::uint32_t> parents;  ///< of triangles that are parts of larger ones; empty where none is
     const Mesh* smooth = nullptr;        ///< owned by the scene, where it has vertex normals; or null
     std::unique_ptr<CurvedSurface> curved;

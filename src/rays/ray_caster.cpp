@@ -423,6 +423,14 @@ void RayCaster::surfaces(const RayHitPacket& hits, SurfacePacket& surfaces) cons
     }
 }
 
+std::optional<TracedMesh> RayCaster::traced_mesh(ObjectId object) const {
+    const EmbreeGeometry& geometry = *implementation_->geometries[index_of(object)];
+    if (geometry.curved) return std::nullopt;
+    return TracedMesh{{geometry.vertices, geometry.vertex_count},
+                      {geometry.triangles, geometry.triangle_count},
+                      geometry.parents};
+}
+
 bool RayCaster::has_panes() const { return implementation_->has_panes; }
 
 bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {

@@ -54,6 +54,18 @@ struct Segment {
     Vec3 from, to;
 };
 
+/// The triangles by which rays meet an object: those of its mesh, or of the triangulated() rectangle or box,
+/// where large ones are cut into parts.
+struct TracedMesh {
+    std::span<const std::array<float, 3>> vertices;  ///< relative to RayCaster::center()
+    std::span<const Triangle> triangles;             ///< as RayHitPacket::primitive numbers them
+    std::span<const std::uint32_t> parents;          ///< the mesh's own triangles; empty where none is cut
+
+    std::uint32_t triangle_of(std::uint32_t primitive) const {
+        return parents.empty() ? primitive : parents[primitive];
+    }
+};
+
 /// Whether neighbouring rays of many have similar directions: then they are fastest together, else
 /// one by one.
 enum class Coherence { coherent, scattered };
@@ -102,6 +114,9 @@ class RayCaster {
 
     /// For lanes that are set: `end` becomes negative where a surface is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;
+
+    /// Nothing for curved surfaces.
+    std::optional<TracedMesh> traced_mesh(ObjectId object) const;
 
     /// The origin of packet coordinates: where single precision is best (scene::lift_of).
     const Vec3& center() const;

@@ -72,13 +72,10 @@ GatherLanes::GatherLanes(const PointTile& tile, std::span<const std::array<doubl
 
 void GuessGather::set_rays(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
                            RayPacket& packet, Floats& cosine) const {
-    const Vec3 offset = caster_.center() - guess_.patches().center;
-    for (std::size_t i = 0; i < kPacketWidth; ++i) {
-        packet.origin_x[i] = tile.lifted_x[i] + static_cast<float>(offset.x);
-        packet.origin_y[i] = tile.lifted_y[i] + static_cast<float>(offset.y);
-        packet.origin_z[i] = tile.lifted_z[i] + static_cast<float>(offset.z);
-        packet.end[i] = std::numeric_limits<float>::infinity();
-    }
+    packet.origin_x = tile.lifted_x;
+    packet.origin_y = tile.lifted_y;
+    packet.origin_z = tile.lifted_z;
+    packet.end.fill(std::numeric_limits<float>::infinity());
     const double azimuth = 2 * kPi * u[1];
     const DiskDirection disk{static_cast<float>(u[0]), static_cast<float>(std::cos(azimuth)),
                              static_cast<float>(std::sin(azimuth))};
@@ -88,25 +85,26 @@ void GuessGather::set_rays(const PointTile& tile, const GatherLanes& lanes, cons
 
 void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
                             math::RandomKey key, std::uint64_t round, Sums& sums) const {
-    RayPacket packet;
+    rays::RayHitPacket packet;
     alignas(64) Floats cosine;
-    set_rays(tile, lanes, u, packet, cosine);
+    set_rays(tile, lanes, u, packet.ray, cosine);
     LaneMask used{};
     std::fill_n(used.begin(), tile.receivers.size(), -1);
     GuessedLight light;
     guess_.look(packet, used, rays::Coherence::coherent, light);
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         // Infinite where a point lies in the surface that its ray meets.
-        const float g_over_k = light.cosine[i] > 0 ? cosine[i] * light.cosine[i] /
-                                                         (packet.end[i] * packet.end[i]) * tile.inverse_k[i]
-                                                   : 0;
+        const float g_over_k =
+            light.cosine[i] > 0
+                ? cosine[i] * light.cosine[i] / (packet.ray.end[i] * packet.ray.end[i]) * tile.inverse_k[i]
+                : 0;
         const float gathered = 1 - 1 / (1 + kResidualSplit * g_over_k);
         for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += gathered * light.luminance[b][i];
         double largest = double{gathered} * light.luminance_of(i).luminance();
         const Continuation continuation = continuation_of(light, i, double{g_over_k});
         if (fraction(u[2] + double{lanes.roulette[i]}) < continuation.probability) {
-            const Vec3 direction =
-                normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
+            const Vec3 direction = normalized(
+                Vec3{packet.ray.direction_x[i], packet.ray.direction_y[i], packet.ray.direction_z[i]});
             const Rgb found = missing(tile.receivers[i], direction, light, i, continuation,
                                       math::SampleStream(key.derived(i), round, 0));
             sums.found[i] += found;
@@ -128,7 +126,7 @@ void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, 
 
 void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
                                     ReadingSums& readings) const {
-    RayPacket packet;
+    rays::RayHitPacket packet;
     LaneMask used{};
     std::array<transport::Receiver::Sample, kPacketWidth> samples;
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
@@ -137,8 +135,8 @@ void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, 
         if (!sample) continue;
         used[i] = -1;
         samples[i] = *sample;
-        packet.set(i, tile.receivers[i].lifted() - guess_.patches().center, sample->direction,
-                   std::numeric_limits<float>::infinity());
+        packet.ray.set(i, tile.receivers[i].lifted() - caster_.center(), sample->direction,
+                       std::numeric_limits<float>::infinity());
     }
     GuessedLight light;
     guess_.look(packet, used, rays::Coherence::scattered, light);
@@ -146,7 +144,7 @@ void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, 
         if (used[i] == 0) continue;
         const transport::Receiver& receiver = tile.receivers[i];
         const Vec3& direction = samples[i].direction;
-        const double distance = packet.end[i];
+        const double distance = packet.ray.end[i];
         const double g_over_k = light.cosine[i] > 0
                                     ? receiver.sensitivity(direction) * double{light.cosine[i]} /
                                           (distance * distance) * double{tile.inverse_k[i]} *

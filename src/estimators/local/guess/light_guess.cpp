@@ -36,6 +36,25 @@ bool is_traced(const Material& material) {
                                      mean_concentration(*parts.gloss) > kSharp);
 }
 
+std::vector<materials::SplitMaterial> split_materials(const Scene& scene) {
+    std::vector<materials::SplitMaterial> split;
+    for (const auto& named : scene.materials) split.push_back(materials::split(named.material));
+    return split;
+}
+
+std::vector<std::uint8_t> traced_materials(const Scene& scene) {
+    std::vector<std::uint8_t> traced;
+    for (const auto& named : scene.materials) traced.push_back(is_traced(named.material) ? 1 : 0);
+    return traced;
+}
+
+std::vector<std::uint8_t> traced_objects(const Scene& scene) {
+    std::vector<std::uint8_t> traced;
+    for (const Object& object : scene.objects)
+        traced.push_back(geometry::is_exact(object.shape) || is_smooth(object.shape) ? 1 : 0);
+    return traced;
+}
+
 }  // namespace
 
 SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
@@ -91,7 +110,7 @@ struct LightGuess::Solver {
 
     void cast_packet(Rows& rows, std::size_t row, std::uint64_t number, std::uint64_t packets,
                      Purpose purpose) const {
-        const patches::Patches& patches = guess.patches_;
+        const patches::Patches& patches = guess.patches();
         const std::uint32_t side = rows.sides[row];
         math::SampleStream stream(key.derived(purpose).derived(side), number, 4);
         const auto [u1, u2] = stream.next_two();
@@ -105,19 +124,18 @@ struct LightGuess::Solver {
         }
         const std::array<Vec3, kPacketWidth> directions =
             spread_directions(point.normal, stream.next_two(), number, packets);
-        RayPacket packet;
+        rays::RayHitPacket packet;
         LaneMask lanes;
         lanes.fill(-1);
         for (std::size_t i = 0; i < kPacketWidth; ++i)
-            packet.set(i, point.lifted - patches.center, directions[i],
-                       std::numeric_limits<float>::infinity());
-        const patches::PatchHits hits =
-            guess.patch_caster_.closest(packet, lanes, rays::Coherence::scattered);
+            packet.ray.set(i, point.lifted - caster.center(), directions[i],
+                           std::numeric_limits<float>::infinity());
+        const patches::PatchHits hits = guess.patches_.closest(packet, lanes, rays::Coherence::scattered);
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
             const std::uint32_t met = hits.sides[i];
-            if (met != patches::kNoSide && !guess.is_traced(patches.patch_of(met))) {
+            if (met != patches::kNoSide) {
                 rows.seen[row * rows.width + number * kPacketWidth + i] = met;
-            } else if (met == patches::kNoSide && (hits.exact_lanes >> i & 1u) == 0) {
+            } else if ((hits.exact_lanes >> i & 1u) == 0) {
                 continue;
             } else if (const auto hit = caster.closest(point.lifted, directions[i])) {
                 source +=
@@ -146,7 +164,7 @@ struct LightGuess::Solver {
 
     /// The sides that any light reaches: those with a source, and those that see or are seen by a lit side.
     std::vector<std::uint32_t> lit(const Rows& rows) const {
-        std::vector<std::uint8_t> is_lit(2 * guess.patches_.count());
+        std::vector<std::uint8_t> is_lit(2 * guess.patches().count());
         const auto spread_light = [&](std::size_t row) {
             const auto seen = std::span(rows.seen).subspan(row * rows.width, rows.width);
             const bool was_lit = is_lit[rows.sides[row]] != 0;
@@ -177,7 +195,7 @@ struct LightGuess::Solver {
 
     /// The luminances of all sides [cd/m2], by Gauss-Seidel sweeps.
     std::vector<Rgb> solve(const Rows& rows) const {
-        std::vector<Rgb> luminance(2 * guess.patches_.count());
+        std::vector<Rgb> luminance(2 * guess.patches().count());
         const double per_ray = kPi / static_cast<double>(rows.width);
         for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
             double change = 0, total = 0;
@@ -201,13 +219,16 @@ struct LightGuess::Solver {
 
 LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const BoundedDirect& direct,
                        const transport::PathTracer& tracer, math::RandomKey key, const Monitor& monitor)
-    : patches_(patches::make_patches(scene, patches::patch_size_m(scene, kPatches), monitor)),
-      patch_caster_(patches_, scene) {
-    split_materials(scene);
+    : materials_(split_materials(scene)),
+      is_traced_material_(traced_materials(scene)),
+      is_traced_object_(traced_objects(scene)),
+      patches_(
+          scene, caster, kPatches,
+          [this](ObjectId object, MaterialId material) { return !is_traced(object, material); }, monitor) {
     std::vector<std::uint32_t> sides;
-    for (std::uint32_t p = 0; p < patches_.count(); ++p) {
-        if (!is_traced(p) && material(p).diffuse_reflectance().max() > 0)
-            sides.insert(sides.end(), {p, patches_.other_side(p)});
+    for (std::uint32_t p = 0; p < patches().count(); ++p) {
+        if (material(p).diffuse_reflectance().max() > 0)
+            sides.insert(sides.end(), {p, patches().other_side(p)});
     }
     const Solver solver{*this, caster, direct, tracer, key, monitor};
     lit_sides_ = solver.lit(solver.cast(std::move(sides), 1, Solver::kSurvey));
@@ -215,33 +236,18 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const 
     interpolate(solver.solve(solver.cast(lit_sides_, kSidePackets, Solver::kSolution)));
 }
 
-void LightGuess::split_materials(const Scene& scene) {
-    for (const auto& named : scene.materials) {
-        materials_.push_back(materials::split(named.material));
-        is_traced_material_.push_back(estimators::is_traced(named.material) ? 1 : 0);
-    }
-    for (const Object& object : scene.objects)
-        is_traced_object_.push_back(geometry::is_exact(object.shape) || is_smooth(object.shape) ? 1 : 0);
-    for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
-        for (std::uint32_t p = patches_.first_of_object[object]; p < patches_.first_of_object[object + 1];
-             ++p)
-            is_traced_.push_back(is_traced_object_[object] |
-                                 is_traced_material_[index_of(patches_.materials[p])]);
-    }
-}
-
 void LightGuess::interpolate(const std::vector<Rgb>& luminance_of_sides) {
-    const patches::VertexInterpolation interpolation(patches_);
+    const patches::VertexInterpolation interpolation(patches());
     corners_.resize(luminance_of_sides.size());
     std::vector<std::uint8_t> is_lit(luminance_of_sides.size());
     for (const std::uint32_t side : lit_sides_) is_lit[side] = 1;
-    for (const std::uint32_t first : {0u, static_cast<std::uint32_t>(patches_.count())}) {
+    for (const std::uint32_t first : {0u, static_cast<std::uint32_t>(patches().count())}) {
         const std::vector<Rgb> at_vertices =
-            interpolation.at_vertices(std::span(luminance_of_sides).subspan(first, patches_.count()));
-        for (std::uint32_t p = 0; p < patches_.count(); ++p) {
+            interpolation.at_vertices(std::span(luminance_of_sides).subspan(first, patches().count()));
+        for (std::uint32_t p = 0; p < patches().count(); ++p) {
             if (is_lit[first + p] == 0) continue;
             for (std::size_t c = 0; c < 3; ++c) {
-                const Rgb& value = at_vertices[patches_.corners[p][c]];
+                const Rgb& value = at_vertices[patches().corners[p][c]];
                 for (std::size_t b = 0; b < kBands; ++b)
                     corners_[first + p][c][b] = static_cast<float>(value[b]);
             }
@@ -258,9 +264,9 @@ Rgb LightGuess::luminance_cd_m2(std::uint32_t side, const math::Barycentric& at)
     return luminance;
 }
 
-void LightGuess::look(RayPacket& packet, const LaneMask& lanes, rays::Coherence coherence,
+void LightGuess::look(rays::RayHitPacket& packet, const LaneMask& lanes, rays::Coherence coherence,
                       GuessedLight& light) const {
-    const patches::PatchHits hits = patch_caster_.closest(packet, lanes, coherence);
+    const patches::PatchHits hits = patches_.closest(packet, lanes, coherence);
     light.traced_lanes = hits.exact_lanes;
     light.sides = hits.sides;
     light.b1 = hits.b1;
@@ -270,14 +276,11 @@ void LightGuess::look(RayPacket& packet, const LaneMask& lanes, rays::Coherence 
         light.cosine[i] = 0;
         const std::uint32_t side = hits.sides[i];
         if (side == patches::kNoSide) continue;
-        const std::uint32_t patch = patches_.patch_of(side);
-        if (is_traced_[patch] != 0) {
-            light.traced_lanes |= 1u << i;
-            continue;
-        }
-        const patches::Float3& normal = patches_.normals[patch];
-        light.cosine[i] = std::abs(normal.x * packet.direction_x[i] + normal.y * packet.direction_y[i] +
-                                   normal.z * packet.direction_z[i]);
+        const std::uint32_t patch = patches().patch_of(side);
+        const patches::Float3& normal = patches().normals[patch];
+        const RayPacket& ray = packet.ray;
+        light.cosine[i] = std::abs(normal.x * ray.direction_x[i] + normal.y * ray.direction_y[i] +
+                                   normal.z * ray.direction_z[i]);
         const CornerLuminances& corners = corners_[side];
         const float b1 = hits.b1[i], b2 = hits.b2[i], b0 = 1 - b1 - b2;
         for (std::size_t b = 0; b < kBands; ++b)

@@ -21,8 +21,7 @@
 #include "estimators/local/guess/bounded_direct.h"
 #include "materials/split_material.h"
 #include "math/random.h"
-#include "patches/patches.h"
-#include "patches/visibility/patch_caster.h"
+#include "patches/regular_patches.h"
 #include "rays/ray_caster.h"
 #include "transport/path_tracer.h"
 
@@ -55,18 +54,16 @@ class LightGuess {
                const transport::PathTracer& tracer, math::RandomKey key,
                const Monitor& monitor = Monitor::none());
 
-    const patches::Patches& patches() const { return patches_; }
+    const patches::Patches& patches() const { return patches_.patches(); }
     /// The sides that light reaches and that reflect it, ascending.
     const std::vector<std::uint32_t>& lit_sides() const { return lit_sides_; }
     const materials::SplitMaterial& material(std::uint32_t side) const {
-        return materials_[index_of(patches_.materials[patches_.patch_of(side)])];
+        return materials_[index_of(patches().materials[patches().patch_of(side)])];
     }
     const materials::SplitMaterial& material(MaterialId id) const { return materials_[index_of(id)]; }
-    bool is_traced(std::uint32_t patch) const { return is_traced_[patch] != 0; }
-    /// The same of a point that a ray has met in the scene.
+    /// Whether the surface that a ray has met is traced.
     bool is_traced(const rays::Hit& hit) const {
-        return is_traced_object_[index_of(hit.object)] != 0 ||
-               is_traced_material_[index_of(hit.material)] != 0;
+        return is_traced(hit.object, hit.material);
     }
 
     /// The guess at a point of a side: the diffuse part of the reflected light [cd/m2].
@@ -75,9 +72,9 @@ class LightGuess {
     double mean_cd_m2(std::uint32_t side) const {
         return luminance_cd_m2(side, {1. / 3, 1. / 3, 1. / 3}).luminance();
     }
-    /// The guess along rays, for lanes that are set. Origins are relative to patches().center; `end` becomes
-    /// the distance of the surface that is met.
-    void look(RayPacket& packet, const LaneMask& lanes, rays::Coherence coherence, GuessedLight& light) const;
+    /// The guess along rays, for lanes that are set; the packet as RayCaster::closest() takes and leaves it.
+    void look(rays::RayHitPacket& packet, const LaneMask& lanes, rays::Coherence coherence,
+              GuessedLight& light) const;
 
   private:
     /// Of a side, for three corners.
@@ -85,14 +82,14 @@ class LightGuess {
 
     struct Solver;
 
-    void split_materials(const Scene& scene);
+    bool is_traced(ObjectId object, MaterialId material) const {
+        return is_traced_object_[index_of(object)] != 0 || is_traced_material_[index_of(material)] != 0;
+    }
     void interpolate(const std::vector<Rgb>& luminance_of_sides);
 
-    patches::Patches patches_;
-    patches::PatchCaster patch_caster_;
     std::vector<materials::SplitMaterial> materials_;                  ///< per material of the scene
     std::vector<std::uint8_t> is_traced_material_, is_traced_object_;  ///< per material, per object
-    std::vector<std::uint8_t> is_traced_;                              ///< per patch
+    patches::RegularPatches patches_;                                  ///< of surfaces that are not traced
     std::vector<std::uint32_t> lit_sides_;
     std::vector<CornerLuminances> corners_;  ///< per side
 };

@@ -67,8 +67,7 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
       has_light_for_light_paths_only_(has_light_for_light_paths_only(scene)) {
     const patches::Patches& patches = guess.patches();
     for (std::uint32_t side = 0; side < 2 * patches.count(); ++side) {
-        if (!guess.is_traced(patches.patch_of(side)) && guess.material(side).reflects())
-            sides_.push_back(side);
+        if (guess.material(side).reflects()) sides_.push_back(side);
     }
     std::vector<double> weights(sides_.size());
     parallel_for_parts(
@@ -130,7 +129,7 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
     const auto [shift_1, shift_2] = stream.next_two();
     const auto rays = static_cast<std::uint32_t>(packets * kPacketWidth);
     const double per_ray = kPi / rays;
-    RayPacket packet;
+    rays::RayHitPacket packet;
     LaneMask lanes;
     lanes.fill(-1);
     GuessedLight light;
@@ -140,8 +139,8 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
             const double u1 = std::min((first + i + shift_1) / rays, math::kBelowOne);
             const double u2 = math::unit_interval(math::sobol(first + i, 0)) + shift_2;
             directions[i] = frame.to_world(math::sample_cosine_hemisphere(u1, u2 - std::floor(u2)).direction);
-            packet.set(i, start.point.lifted - patches.center, directions[i],
-                       std::numeric_limits<float>::infinity());
+            packet.ray.set(i, start.point.lifted - caster_.center(), directions[i],
+                           std::numeric_limits<float>::infinity());
         }
         guess_.look(packet, lanes, rays::Coherence::scattered, light);
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
@@ -178,10 +177,10 @@ Rgb ResidualLight::missing_around_lx(const SidePoint& point, math::SampleStream&
     const auto [u1, u2] = stream.next_two();
     const Vec3 direction =
         Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
-    RayPacket packet;
+    rays::RayHitPacket packet;
     LaneMask lanes{};
     lanes[0] = -1;
-    packet.set(0, point.lifted - guess_.patches().center, direction, std::numeric_limits<float>::infinity());
+    packet.ray.set(0, point.lifted - caster_.center(), direction, std::numeric_limits<float>::infinity());
     GuessedLight light;
     guess_.look(packet, lanes, rays::Coherence::scattered, light);
     const std::uint32_t side = light.sides[0];
