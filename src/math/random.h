@@ -53,6 +53,15 @@ constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
 }
 
+/// Point `index` of `count` (a power of two) that are spread evenly over the unit square and shifted
+/// together: Hammersley's.
+constexpr std::array<double, 2> even_point(std::uint32_t index, std::uint32_t count,
+                                           const std::array<double, 2>& shift) {
+    const double x = (index + shift[0]) / count;
+    const double y = unit_interval(reversed_bits(index)) + shift[1];
+    return {x < 1 ? x : 1 - 0x1p-53, y < 1 ? y : y - 1};
+}
+
 /// A random permutation in which a bit influences only higher bits: on reversed fractions that is Owen's
 /// nested scrambling. Multipliers: Vegdahl's, chosen there for small bias.
 constexpr std::uint32_t permuted_upwards(std::uint32_t x, std::uint32_t seed) {

@@ -21,8 +21,7 @@ std::vector<std::uint32_t> PatchCollector::add(const RefinedMesh& fine,
         const std::size_t parent = materials.size() == 1 ? 0 : fine.parents[i];
         if (add_triangle(fine.mesh, fine.mesh.triangles[i], materials[parent])) kept.push_back(i);
     }
-    const auto smooth =
-        divide_at_creases(triangles_, normals_, std::span(patches_.materials).subspan(first));
+    const auto smooth = divide_at_creases(triangles_, normals_, std::span(patches_.materials).subspan(first));
     const auto before = static_cast<std::uint32_t>(patches_.vertices.size());
     for (const std::uint32_t vertex : smooth.original)
         patches_.vertices.push_back(in_floats(fine.mesh.vertices[vertex] - patches_.center));

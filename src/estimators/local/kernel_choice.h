@@ -21,8 +21,9 @@ class KernelChoice {
   public:
     explicit KernelChoice(const Vec3& center) : center_(center) {}
 
-    /// `light`: at least 0, in any unit.
-    void add(const Vec3& position, const Vec3& normal, double light);
+    /// `light`: at least 0, in any unit. `radius_m`: of the surface that the point stands for. Part of it may
+    /// be above a receiver's horizon where its middle is below.
+    void add(const Vec3& position, const Vec3& normal, double light, double radius_m = 0);
     std::size_t size() const { return count_; }
 
     /// The running sums of the points' weights, for select().
@@ -44,7 +45,7 @@ class KernelChoice {
     Vec3 center_;
     std::size_t count_ = 0;
     std::array<Floats, 3> position_, normal_;  ///< as all arrays, filled with 0 to a multiple of 16
-    Floats light_;
+    Floats squared_radius_, light_;
     double all_light_ = 0;
 };
 

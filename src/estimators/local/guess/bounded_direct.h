@@ -30,13 +30,18 @@ class BoundedDirect {
     BoundedDirect(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights);
 
     enum class Part { bounded, all };
-    /// Calls `visit(arrival)` for one sample of the first part, or of all direct light: of every light or,
-    /// where they are many, of some.
+    /// Calls `visit(arrival)` for so many samples of the first part, or of all direct light, divided by their
+    /// number: of every light, spread evenly over it, or, where lights are many, of some. One sample only
+    /// where all would be the same.
     template <typename Visit>
-    void sample(const SidePoint& at, Part part, math::SampleStream& stream, const Visit& visit) const;
+    void sample(const SidePoint& at, Part part, std::uint32_t samples, math::SampleStream& stream,
+                const Visit& visit) const;
+
+  private:
     /// Whether several samples at one point differ.
     bool varies() const { return lights_.has_visible_lights() || lights_.count() > kEach; }
 
+  public:
     /// A particle of the second part: its flux, and the surface that it meets.
     struct Particle {
         rays::Hit hit;
@@ -62,16 +67,22 @@ class BoundedDirect {
 };
 
 template <typename Visit>
-void BoundedDirect::sample(const SidePoint& at, Part part, math::SampleStream& stream,
+void BoundedDirect::sample(const SidePoint& at, Part part, std::uint32_t samples, math::SampleStream& stream,
                            const Visit& visit) const {
+    if (!varies()) samples = 1;
+    const double weight = 1. / samples;
     if (lights_.count() <= kEach) {
-        for (std::size_t light = 0; light < lights_.count(); ++light)
-            add(lights_.sample_incident(light, {at.position, at.normal}, stream.next_two()), 1, at, part,
-                visit);
+        for (std::size_t light = 0; light < lights_.count(); ++light) {
+            const std::array<double, 2> shift = stream.next_two();
+            for (std::uint32_t i = 0; i < samples; ++i)
+                add(lights_.sample_incident(light, {at.position, at.normal},
+                                            math::even_point(i, samples, shift)),
+                    weight, at, part, visit);
+        }
         return;
     }
-    for (std::size_t i = 0; i < kEach; ++i)
-        add(lights_.sample_one_light(at.position, at.normal, stream), 1. / kEach, at, part, visit);
+    for (std::size_t i = 0; i < samples * kEach; ++i)
+        add(lights_.sample_one_light(at.position, at.normal, stream), weight / kEach, at, part, visit);
 }
 
 template <typename Visit>

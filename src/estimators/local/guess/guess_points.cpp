@@ -11,8 +11,12 @@ GuessPoints::GuessPoints(const LightGuess& guess, const rays::RayCaster& caster)
     const patches::Patches& patches = guess.patches();
     for (const std::uint32_t side : guess.lit_sides()) {
         const std::uint32_t patch = patches.patch_of(side);
-        sides_.add(patches.middle(patch), patches.normal_of(side),
-                   guess.mean_cd_m2(side) * double{patches.areas_m2[patch]});
+        const Vec3 middle = patches.middle(patch);
+        double radius_m = 0;
+        for (const std::uint32_t corner : patches.corners[patch])
+            radius_m = std::max(radius_m, length(patches.center + Vec3(patches.vertices[corner]) - middle));
+        sides_.add(middle, patches.normal_of(side), guess.mean_cd_m2(side) * double{patches.areas_m2[patch]},
+                   radius_m);
     }
 }
 

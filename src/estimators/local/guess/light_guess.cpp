@@ -18,7 +18,7 @@ constexpr double kPatches = 3000;
 constexpr std::uint64_t kSidePackets = 4;
 
 /// Samples of direct light at each of these points.
-constexpr int kSideDirect = 2;
+constexpr std::uint32_t kSideDirect = 2;
 /// The equations are solved to this relative change, in so many sweeps at most.
 constexpr double kChange = 1e-3;
 constexpr int kMostSweeps = 200;
@@ -116,12 +116,9 @@ struct LightGuess::Solver {
         const auto [u1, u2] = stream.next_two();
         const SidePoint point = side_point(patches, caster, side, math::sample_triangle(u1, u2));
         Rgb& source = rows.source_lx[row];
-        const int samples = direct.varies() ? kSideDirect : 1;
-        for (int k = 0; k < samples; ++k) {
-            direct.sample(point, BoundedDirect::Part::bounded, stream, [&](const Arrival& arrival) {
-                source += arrival.illuminance_lx * (1. / (samples * static_cast<double>(packets)));
-            });
-        }
+        direct.sample(point, BoundedDirect::Part::bounded, kSideDirect, stream, [&](const Arrival& arrival) {
+            source += arrival.illuminance_lx * (1. / static_cast<double>(packets));
+        });
         const std::array<Vec3, kPacketWidth> directions =
             spread_directions(point.normal, stream.next_two(), number, packets);
         rays::RayHitPacket packet;
@@ -152,11 +149,9 @@ struct LightGuess::Solver {
         const Frame frame = Frame::around(normal);
         std::array<Vec3, kPacketWidth> directions;
         for (std::uint32_t i = 0; i < kPacketWidth; ++i) {
-            const auto all = static_cast<double>(packets * kPacketWidth);
-            const std::uint64_t index = i * packets + number;
-            double u1 = (static_cast<double>(index) + shift[0]) / all;
-            double u2 = math::unit_interval(math::sobol(static_cast<std::uint32_t>(index), 0)) + shift[1];
-            u1 = std::min(u1, math::kBelowOne), u2 -= std::floor(u2);
+            const auto all = static_cast<std::uint32_t>(packets * kPacketWidth);
+            const auto [u1, u2] =
+                math::even_point(static_cast<std::uint32_t>(i * packets + number), all, shift);
             directions[i] = frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
         }
         return directions;

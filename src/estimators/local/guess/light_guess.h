@@ -62,9 +62,7 @@ class LightGuess {
     }
     const materials::SplitMaterial& material(MaterialId id) const { return materials_[index_of(id)]; }
     /// Whether the surface that a ray has met is traced.
-    bool is_traced(const rays::Hit& hit) const {
-        return is_traced(hit.object, hit.material);
-    }
+    bool is_traced(const rays::Hit& hit) const { return is_traced(hit.object, hit.material); }
 
     /// The guess at a point of a side: the diffuse part of the reflected light [cd/m2].
     Rgb luminance_cd_m2(std::uint32_t side, const math::Barycentric& at) const;

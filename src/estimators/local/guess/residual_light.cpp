@@ -16,7 +16,7 @@ namespace {
 /// Packets of rays on which a path's start spends its r: all receivers share it.
 constexpr std::uint64_t kResidualPackets = 2;
 /// Samples of direct light there, where they differ.
-constexpr int kResidualDirect = 4;
+constexpr std::uint32_t kResidualDirect = 8;
 /// Paths start with a density that is at least this share of what it would be if r were as large as the
 /// guess; and so many of them, beside the others, evenly over all sides: light that the pilot has missed must
 /// not be rare.
@@ -120,13 +120,8 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
         start.missing_lx += arrival.illuminance_lx;
         chosen.add(arrival);
     };
-    const int samples = direct_.varies() ? kResidualDirect : 1;
-    for (int i = 0; i < samples; ++i) {
-        direct_.sample(start.point, part, stream, [&](const Arrival& arrival) {
-            add({arrival.direction, arrival.illuminance_lx * (1. / samples)});
-        });
-    }
-    const auto [shift_1, shift_2] = stream.next_two();
+    direct_.sample(start.point, part, kResidualDirect, stream, add);
+    const std::array<double, 2> shift = stream.next_two();
     const auto rays = static_cast<std::uint32_t>(packets * kPacketWidth);
     const double per_ray = kPi / rays;
     rays::RayHitPacket packet;
@@ -136,9 +131,8 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
     for (std::uint32_t first = 0; first < rays; first += kPacketWidth) {
         std::array<Vec3, kPacketWidth> directions;
         for (std::uint32_t i = 0; i < kPacketWidth; ++i) {
-            const double u1 = std::min((first + i + shift_1) / rays, math::kBelowOne);
-            const double u2 = math::unit_interval(math::sobol(first + i, 0)) + shift_2;
-            directions[i] = frame.to_world(math::sample_cosine_hemisphere(u1, u2 - std::floor(u2)).direction);
+            const auto [u1, u2] = math::even_point(first + i, rays, shift);
+            directions[i] = frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
             packet.ray.set(i, start.point.lifted - caster_.center(), directions[i],
                            std::numeric_limits<float>::infinity());
         }
