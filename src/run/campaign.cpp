@@ -15,37 +15,55 @@ constexpr std::uint64_t kLongestBatch = 1 << 16;
 constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 /// Replicates that a result needs.
 constexpr std::size_t kLeastReplicates = 8;
+/// Replicates of large grids alone, and the least number of readings of such a grid.
+constexpr std::size_t kFewReplicates = 8, kLargeGrid = 64;
+/// Tasks that can run at the same time: strands of all replicates.
+constexpr std::size_t kStrands = 32;
 
 }  // namespace
 
+ReplicatePlan ReplicatePlan::of(std::span<const Sensor> sensors, const RunOptions& options,
+                                bool lights_patches) {
+    const bool are_large_grids = !lights_patches && std::ranges::all_of(sensors, [](const Sensor& sensor) {
+        return sensor.count() && sensor.size() >= kLargeGrid;
+    });
+    ReplicatePlan plan;
+    if (are_large_grids) plan = {kFewReplicates, true};
+    if (options.replicates) plan.replicates = static_cast<std::size_t>(*options.replicates);
+    return plan;
+}
+
 Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors,
-                   std::size_t readings, math::RandomKey key, const RunOptions& options,
+                   std::size_t readings, math::RandomKey key, const ReplicatePlan& plan,
                    std::uint64_t least_samples)
     : estimator_(estimator),
       sensors_(sensors),
-      granularity_(estimator.batch_granularity()),
-      expected_largest_(estimator.expected_largest()) {
-    const auto count = static_cast<std::size_t>(options.replicates);
-    replicates_.reserve(count);
-    for (std::size_t r = 0; r < count; ++r) {
-        replicates_.emplace_back(key.derived(r), readings);
-    }
-    first_check_ = std::max(estimator.first_check(), samples_for(least_samples));
-    const double per_batch = kRaysPerRound / (options.replicates * estimator.rays_per_sample());
+      expected_largest_(estimator.expected_largest()),
+      pools_errors_(plan.pools_errors) {
+    const std::size_t strands = std::max<std::size_t>(1, kStrands / plan.replicates);
+    unit_ = strands * estimator.batch_granularity();
+    for (std::size_t r = 0; r < plan.replicates; ++r)
+        replicates_.push_back({key.derived(r), std::vector<Strand>(strands, Strand(readings))});
+    first_check_ = in_units(std::max(estimator.first_check(), samples_for(least_samples)));
+    const double per_batch =
+        kRaysPerRound / (static_cast<double>(plan.replicates) * estimator.rays_per_sample());
     while (2 * batch_ <= kLongestBatch && static_cast<double>(2 * batch_) <= per_batch) batch_ *= 2;
-    batch_ = std::max(batch_ / granularity_, std::uint64_t{1}) * granularity_;
+    batch_ = std::max(batch_ / unit_, std::uint64_t{1}) * unit_;
+}
+
+std::uint64_t Campaign::in_units(std::uint64_t samples) const {
+    return (samples + unit_ - 1) / unit_ * unit_;
 }
 
 std::uint64_t Campaign::samples_in_all() const {
     std::uint64_t all = 0;
-    for (const Replicate& replicate : replicates_) all += replicate.samples;
+    for (const Replicate& replicate : replicates_) all += replicate.samples();
     return all;
 }
 
 std::uint64_t Campaign::samples_for(std::uint64_t paths) const {
-    const auto divided_up = [](std::uint64_t x, std::uint64_t y) { return (x + y - 1) / y; };
-    const std::uint64_t each = divided_up(paths, replicates_.size());
-    return std::min(divided_up(each, granularity_) * granularity_, kMostSamples);
+    const std::uint64_t each = (paths + replicates_.size() - 1) / replicates_.size();
+    return std::min(in_units(each), kMostSamples);
 }
 
 std::uint64_t Campaign::most_samples() const { return kMostSamples; }
@@ -55,18 +73,36 @@ bool Campaign::has_result() const {
     return static_cast<std::size_t>(begun) >= std::min(kLeastReplicates, replicates_.size());
 }
 
-void Campaign::Replicate::add(std::uint64_t count, const estimators::Estimator& estimator) {
-    estimators::ReadingSums batch(sums.sum.size());
-    estimator.run_batch({key, samples, count}, batch);
-    sums += batch;
-    samples += count;
+void Campaign::Strand::add(const estimators::Batch& batch, const estimators::Estimator& estimator) {
+    estimators::ReadingSums more(sums.sum.size());
+    estimator.run_batch(batch, more);
+    sums += more;
+    samples += batch.count;
+}
+
+std::uint64_t Campaign::Replicate::samples() const {
+    std::uint64_t all = 0;
+    for (const Strand& strand : strands) all += strand.samples;
+    return all;
+}
+
+Rgb Campaign::Replicate::sum(std::size_t reading) const {
+    Rgb all;
+    for (const Strand& strand : strands) all += strand.sums.sum[reading];
+    return all;
 }
 
 void Campaign::advance(std::uint64_t count) {
+    const std::size_t strands = replicates_[0].strands.size();
+    const std::uint64_t each = count / strands;
     try {
-        parallel_for(replicates_.size(), [&](std::size_t r) { replicates_[r].add(count, estimator_); });
+        parallel_for(replicates_.size() * strands, [&](std::size_t task) {
+            Replicate& replicate = replicates_[task / strands];
+            const std::size_t s = task % strands;
+            replicate.strands[s].add({replicate.key, samples_ + s * each, each}, estimator_);
+        });
     } catch (const Cancelled&) {
-        if (has_result()) std::erase_if(replicates_, [](const Replicate& r) { return r.samples == 0; });
+        if (has_result()) std::erase_if(replicates_, [](const Replicate& r) { return r.samples() == 0; });
         throw;
     }
     samples_ += count;
@@ -76,7 +112,7 @@ double Campaign::attained_error() const {
     double worst = 0;
     std::size_t first = 0;
     for (const Sensor& sensor : sensors_) {
-        const Estimates all = estimates(first, sensor.size(), statistics::kStoppedConfidence);
+        const Estimates all = estimates(sensor, first, statistics::kStoppedConfidence);
         worst = std::max(worst, statistics::attained_error(all.readings));
         first += sensor.size();
     }
@@ -86,7 +122,7 @@ double Campaign::attained_error() const {
 bool Campaign::is_beyond_reach(double error) const {
     std::size_t first = 0;
     for (const Sensor& sensor : sensors_) {
-        const auto bias = estimates(first, sensor.size(), statistics::kStoppedConfidence).bias;
+        const auto bias = estimates(sensor, first, statistics::kStoppedConfidence).bias;
         if (bias && bias->relative_at_least > error) return true;
         first += sensor.size();
     }
@@ -95,20 +131,26 @@ bool Campaign::is_beyond_reach(double error) const {
 
 std::uint64_t Campaign::rays() const {
     std::uint64_t rays = 0;
-    for (const Replicate& replicate : replicates_) rays += replicate.sums.rays;
+    for_each_strand([&](const Strand& strand) { rays += strand.sums.rays; });
     return rays;
 }
 
 void Campaign::require_valid() const {
     std::uint64_t invalid = 0;
-    for (const Replicate& replicate : replicates_) invalid += replicate.sums.invalid;
-    const double all =
-        static_cast<double>(samples_in_all()) * static_cast<double>(replicates_[0].sums.sum.size());
+    std::size_t readings = 0;
+    for_each_strand([&](const Strand& strand) {
+        invalid += strand.sums.invalid;
+        readings = strand.sums.sum.size();
+    });
+    const double all = static_cast<double>(samples_in_all()) * static_cast<double>(readings);
     require_mostly_finite(invalid, all);
 }
 
-Campaign::Estimates Campaign::estimates(std::size_t first, std::size_t count, double confidence) const {
+Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first, double confidence) const {
+    const std::size_t count = sensor.size();
     Estimates all;
+    if (const auto columns_and_rows = sensor.count(); pools_errors_ && columns_and_rows)
+        all.columns = static_cast<std::size_t>((*columns_and_rows)[0]);
     all.replicate_means = replicate_means(first, count);
     all.largest = largest(first, count);
     for (std::size_t j = 0; j < count; ++j) {
@@ -116,7 +158,8 @@ Campaign::Estimates Campaign::estimates(std::size_t first, std::size_t count, do
         if (!expected_largest_.empty()) known.overall = std::max(known.overall, expected_largest_[first + j]);
         all.rare_light.push_back(statistics::rare_light(known, samples_in_all()));
     }
-    all.readings = statistics::estimate_readings({all.replicate_means, count}, confidence, all.rare_light);
+    all.readings =
+        statistics::estimate_readings({all.replicate_means, count, all.columns}, confidence, all.rare_light);
     const std::vector<double> differences = lacking(first, count);
     if (differences.empty()) return all;
     std::vector<double> values;
@@ -139,14 +182,18 @@ std::vector<double> Campaign::replicate_means(std::size_t first, std::size_t cou
 }
 
 std::vector<double> Campaign::lacking(std::size_t first, std::size_t count) const {
-    const auto is_compared = [](const Replicate& replicate) { return replicate.sums.comparisons > 0; };
-    if (!std::ranges::all_of(replicates_, is_compared)) return {};
+    bool are_compared = true;
+    for_each_strand(
+        [&](const Strand& strand) { are_compared = are_compared && strand.sums.comparisons > 0; });
+    if (!are_compared) return {};
     std::vector<double> differences(replicates_.size() * count);
     parallel_for(replicates_.size(), [&](std::size_t r) {
-        const estimators::ReadingSums& sums = replicates_[r].sums;
-        for (std::size_t j = 0; j < count; ++j) {
-            differences[r * count + j] =
-                sums.lacking[first + j].luminance() / static_cast<double>(sums.comparisons);
+        double comparisons = 0;
+        for (const Strand& strand : replicates_[r].strands)
+            comparisons += static_cast<double>(strand.sums.comparisons);
+        for (const Strand& strand : replicates_[r].strands) {
+            for (std::size_t j = 0; j < count; ++j)
+                differences[r * count + j] += strand.sums.lacking[first + j].luminance() / comparisons;
         }
     });
     return differences;
@@ -167,16 +214,18 @@ std::vector<Rgb> Campaign::rgb(std::size_t first, std::size_t count) const {
 
 std::vector<statistics::LargestContributions> Campaign::largest(std::size_t first, std::size_t count) const {
     std::vector<statistics::LargestContributions> all(count);
-    const std::size_t width = replicates_.size();
+    const std::size_t width = replicates_.size() * replicates_[0].strands.size();
     parallel_for_parts(count, [&](std::size_t begin, std::size_t end) {
-        // Replicate by replicate, in the order of the memory.
-        std::vector<double> of_replicates((end - begin) * width);
-        for (std::size_t r = 0; r < width; ++r) {
-            const double* own = &replicates_[r].sums.largest[first];
-            for (std::size_t j = begin; j < end; ++j) of_replicates[(j - begin) * width + r] = own[j];
-        }
+        // Strand by strand, in the order of the memory.
+        std::vector<double> of_strands((end - begin) * width);
+        std::size_t s = 0;
+        for_each_strand([&](const Strand& strand) {
+            const double* own = &strand.sums.largest[first];
+            for (std::size_t j = begin; j < end; ++j) of_strands[(j - begin) * width + s] = own[j];
+            ++s;
+        });
         for (std::size_t j = begin; j < end; ++j)
-            all[j] = statistics::largest_contributions({&of_replicates[(j - begin) * width], width});
+            all[j] = statistics::largest_contributions({&of_strands[(j - begin) * width], width});
     });
     return all;
 }

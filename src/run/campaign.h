@@ -1,6 +1,7 @@
 // A run of readings: independent replicates that grow together.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,24 +17,36 @@
 
 namespace stilb::run {
 
+/// How many replicates a run has, and how their errors follow.
+struct ReplicatePlan {
+    std::size_t replicates = 32;
+    bool pools_errors = false;  ///< of readings side by side
+
+    /// Few replicates where all sensors are large grids: the points of a replicate then lie more evenly, and
+    /// neighbours help with the errors (statistics/pooled_errors.h).
+    static ReplicatePlan of(std::span<const Sensor> sensors, const RunOptions& options, bool lights_patches);
+};
+
 /// The sums of all replicates, and their progress. Keeps references to the estimator and the sensors.
 class Campaign final : public Work {
   public:
     /// `readings`: of all sensors. `key`: of all replicates. `least_samples`: of all replicates, before the
     /// first error estimate.
     Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, std::size_t readings,
-             math::RandomKey key, const RunOptions& options, std::uint64_t least_samples);
+             math::RandomKey key, const ReplicatePlan& plan, std::uint64_t least_samples);
 
     std::uint64_t samples() const override { return samples_; }
     std::uint64_t samples_in_all() const override;
     std::uint64_t samples_for(std::uint64_t paths) const override;
     std::uint64_t most_samples() const override;
-    std::uint64_t next_check() const override { return statistics::next_check(samples_, first_check_); }
+    std::uint64_t next_check() const override {
+        return in_units(statistics::next_check(samples_, first_check_));
+    }
     std::uint64_t most_at_once() const override { return batch_; }
     /// From some of the replicates on, where time does not suffice for all.
     bool has_result() const override;
 
-    /// The same next samples of every replicate. Each replicate's sums belong to one task: nothing depends on
+    /// The same next samples of every replicate. Each strand's sums belong to one task: nothing depends on
     /// threads. Where the run is ended, unfinished batches are left out. Replicates of different length have
     /// the same expectation, and their spread still gives the error of their mean.
     void advance(std::uint64_t count) override;
@@ -53,26 +66,41 @@ class Campaign final : public Work {
         std::vector<statistics::Estimate> readings;
         /// Replicates x readings, luminance-weighted [lx or cd/m2].
         std::vector<double> replicate_means;
+        std::size_t columns = 0;  ///< as statistics::ReplicateTable's
         std::vector<statistics::LargestContributions> largest;
         /// Light that the readings may lack because it is rare [lx or cd/m2].
         std::vector<double> rare_light;
         std::optional<statistics::BiasBounds> bias;  ///< of methods on patches; the intervals contain it
     };
-    Estimates estimates(std::size_t first, std::size_t count, double confidence) const;
+    Estimates estimates(const Sensor& sensor, std::size_t first, double confidence) const;
     std::vector<Rgb> rgb(std::size_t first, std::size_t count) const;
 
   private:
-    struct Replicate {
-        Replicate(math::RandomKey own_key, std::size_t readings) : key(own_key), sums(readings) {}
+    /// A part of a replicate's samples with sums of its own, so that there is work for many threads.
+    struct Strand {
+        explicit Strand(std::size_t readings) : sums(readings) {}
 
-        void add(std::uint64_t count, const estimators::Estimator& estimator);
-        Rgb mean(std::size_t reading) const { return sums.sum[reading] * (1 / static_cast<double>(samples)); }
+        void add(const estimators::Batch& batch, const estimators::Estimator& estimator);
 
-        math::RandomKey key;
         estimators::ReadingSums sums;
         std::uint64_t samples = 0;
     };
+    struct Replicate {
+        math::RandomKey key;
+        std::vector<Strand> strands;
 
+        std::uint64_t samples() const;
+        Rgb sum(std::size_t reading) const;
+        Rgb mean(std::size_t reading) const { return sum(reading) * (1 / static_cast<double>(samples())); }
+    };
+
+    /// Rounded up to a number of samples of a replicate that its strands can share.
+    std::uint64_t in_units(std::uint64_t samples) const;
+
+    template <typename Visit>
+    void for_each_strand(const Visit& visit) const {
+        for (const Replicate& replicate : replicates_) std::ranges::for_each(replicate.strands, visit);
+    }
     std::vector<double> replicate_means(std::size_t first, std::size_t count) const;
     std::vector<statistics::LargestContributions> largest(std::size_t first, std::size_t count) const;
     /// Replicates x readings: by how much path tracing finds more light, luminance-weighted.
@@ -80,8 +108,9 @@ class Campaign final : public Work {
 
     const estimators::Estimator& estimator_;
     std::span<const Sensor> sensors_;
-    std::uint64_t granularity_;
     std::vector<double> expected_largest_;
+    bool pools_errors_;
+    std::uint64_t unit_ = 1;  ///< samples of a replicate are a multiple of this
     std::vector<Replicate> replicates_;
     std::uint64_t first_check_ = 1;
     std::uint64_t batch_ = 1;

@@ -128,11 +128,11 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::
     const std::size_t count = sensor.size();
     SensorResult result;
     result.sensor = sensor;
-    Campaign::Estimates estimates = campaign.estimates(first, count, confidence);
+    Campaign::Estimates estimates = campaign.estimates(sensor, first, confidence);
     std::ranges::move(rarity_warnings(estimates, campaign.samples_in_all(), sensor),
                       std::back_inserter(warnings));
-    result.summary =
-        statistics::summarize_grid({estimates.replicate_means, count}, confidence, estimates.rare_light);
+    result.summary = statistics::summarize_grid({estimates.replicate_means, count, estimates.columns},
+                                                confidence, estimates.rare_light);
     result.replicate_means = std::move(estimates.replicate_means);
     result.attained_error = statistics::attained_error(estimates.readings);
     const std::vector<Rgb> rgb = campaign.rgb(first, count);
@@ -201,7 +201,8 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
                                             ? transport::SharpLight{}
                                             : transport::find_sharp_light(scene, session.caster());
     Campaign campaign(*estimator, sensors, wanted.measurands.size(),
-                      math::RandomKey{options.seed}.derived(kReadingReplicates), options,
+                      math::RandomKey{options.seed}.derived(kReadingReplicates),
+                      ReplicatePlan::of(sensors, options, method.lights_patches),
                       std::min(sharp.samples, kMostAwaited));
     RunResult result;
     session.on_threads([&] { session.run(campaign, result); });

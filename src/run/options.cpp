@@ -23,7 +23,7 @@ void require_valid(const RunOptions& options) {
     if (options.paths) positive("paths", static_cast<double>(*options.paths));
     if (options.bounces && *options.bounces < 0) throw InputError("bounces: expected 0 or more");
     if (options.threads < 0) throw InputError("threads: expected 0 (all) or more");
-    if (options.replicates < 2) throw InputError("replicates: expected 2 or more");
+    if (options.replicates && *options.replicates < 2) throw InputError("replicates: expected 2 or more");
 }
 
 std::optional<double> parse_relative_error(std::string_view text) {

@@ -28,8 +28,8 @@ struct RunOptions {
     /// The number of threads; 0: all that the machine has.
     int threads = 0;
     /// The number of independent repetitions, from which standard errors of readings are estimated (theory
-    /// 6).
-    int replicates = 32;
+    /// 6). Absent: 8 where readings lie side by side in large grids, else 32.
+    std::optional<int> replicates;
     estimators::PatchOptions patches;
 };
 

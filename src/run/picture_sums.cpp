@@ -48,7 +48,7 @@ double PictureSums::own_standard_error_cd_m2(std::size_t pixel) const {
     return std::sqrt(variance * static_cast<double>(used) / static_cast<double>(used - 1));
 }
 
-statistics::PixelErrors PictureSums::errors() const {
+statistics::PooledErrors<float> PictureSums::errors() const {
     const int degrees = static_cast<int>(replicates()) - 1;
     std::vector<float> values(rgb_.size()), own(rgb_.size());
     parallel_for_parts(rgb_.size(), [&](std::size_t first, std::size_t last) {
@@ -58,22 +58,18 @@ statistics::PixelErrors PictureSums::errors() const {
         }
     });
     if (errors_ == Errors::own) return {std::move(own), std::vector<int>(rgb_.size(), degrees)};
-    return statistics::pool_errors(width_, values, own, degrees);
+    return statistics::pool_errors<float>(width_, values, own, degrees);
 }
 
 double PictureSums::attained_error(const std::vector<bool>& blind) const {
     if (replicates() < 2) return std::numeric_limits<double>::infinity();
-    const statistics::PixelErrors errors = this->errors();
+    const statistics::PooledErrors<float> errors = this->errors();
     const int most = *std::ranges::max_element(errors.degrees_of_freedom);
-    std::vector<double> quantiles{0};
-    for (int degrees = 1; degrees <= most; ++degrees)
-        quantiles.push_back(
-            statistics::student_t_quantile((1 + statistics::kStoppedConfidence) / 2, degrees));
+    const statistics::StudentQuantiles quantiles((1 + statistics::kStoppedConfidence) / 2, most);
     std::vector<double> half_widths;
     for (std::size_t i = 0; i < blind.size(); ++i) {
         if (blind[i]) continue;
-        const auto degrees = static_cast<std::size_t>(errors.degrees_of_freedom[i]);
-        const double half_width = quantiles[degrees] * double{errors.standard_errors[i]};
+        const double half_width = quantiles(errors.degrees_of_freedom[i]) * double{errors.standard_errors[i]};
         half_widths.push_back(half_width > 0 ? half_width / luminance_cd_m2(i) : 0);
     }
     return statistics::attained_error_of(std::move(half_widths));

@@ -39,7 +39,7 @@ class PictureSums {
     Pixels pixels() const;
 
   private:
-    statistics::PixelErrors errors() const;  ///< [cd/m2]
+    statistics::PooledErrors<float> errors() const;  ///< [cd/m2]
 
     std::size_t width_;
     std::uint64_t replicates_;

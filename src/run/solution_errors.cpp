@@ -56,7 +56,8 @@ Noise noise_of(const patches::Patches& patches, std::span<const std::uint32_t> l
     const auto moments = statistics::compute_replicate_moments(illuminances);
     std::vector<double> variances;
     for (std::size_t i = 0; i < moments.means.size(); ++i) {
-        const double relative = moments.means[i] > 0 ? moments.standard_errors[i] / moments.means[i] : 0;
+        const double relative =
+            moments.means[i] > 0 ? moments.errors.standard_errors[i] / moments.means[i] : 0;
         variances.push_back(relative * relative);
     }
     const double quantile = statistics::student_t_quantile(

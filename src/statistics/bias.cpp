@@ -72,13 +72,13 @@ BiasBounds bias_bounds(const ReplicateTable& differences, std::span<const double
     const ReplicateMoments moments = compute_replicate_moments(differences);
     std::vector<double> relative_errors;
     for (std::size_t j = 0; j < values.size(); ++j)
-        relative_errors.push_back(moments.standard_errors[j] / values[j]);
+        relative_errors.push_back(moments.errors.standard_errors[j] / values[j]);
     BiasBounds bounds;
     const Range squared = mean_square(differences, values, weights_for(relative_errors));
     bounds.relative_at_least = std::sqrt(squared.least);
     bounds.relative = std::sqrt(squared.most);
     for (std::size_t j = 0; j < values.size(); ++j) {
-        const double own = std::abs(moments.means[j]), error = kErrors * moments.standard_errors[j];
+        const double own = std::abs(moments.means[j]), error = kErrors * moments.errors.standard_errors[j];
         const double of_all = bounds.relative * values[j];
         bounds.of_readings.push_back(own > error ? own + error : std::min(of_all, own + error));
     }

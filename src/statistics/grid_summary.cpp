@@ -38,19 +38,17 @@ class ExtremeFinder {
   public:
     ExtremeFinder(const ReplicateTable& table, const ReplicateMoments& moments, Extreme extreme,
                   double confidence)
-        : sign_(sign_of(extreme)),
-          error_rate_(1 - confidence),
-          degrees_of_freedom_(static_cast<int>(table.replicates()) - 1) {
+        : sign_(sign_of(extreme)), error_rate_(1 - confidence) {
         select(moments.means);
         screen(table, moments.means);
     }
 
     /// The interval of the extreme of quantities that are in the same order as the readings.
-    Estimate estimate(std::span<const double> values, std::span<const double> standard_errors,
+    Estimate estimate(std::span<const double> values, const PooledErrors<double>& errors,
                       std::span<const double> rare_light) const {
         const double contenders = static_cast<double>(contenders_.size());
-        const double outward = quantile(kSideShare * error_rate_);
-        const double inward = quantile(kSideShare * error_rate_ / contenders);
+        const StudentQuantiles outward = quantiles(kSideShare * error_rate_, errors);
+        const StudentQuantiles inward = quantiles(kSideShare * error_rate_ / contenders, errors);
         const bool is_minimum = sign_ > 0;
         double lower = sign_ * std::numeric_limits<double>::infinity();
         double upper = lower;
@@ -59,11 +57,12 @@ class ExtremeFinder {
         };
         for (const std::size_t j : contenders_) {
             const double missing = rare_light.empty() ? 0 : rare_light[j];
-            take(lower, values[j] - (is_minimum ? outward : inward) * standard_errors[j]);
-            take(upper,
-                 values[j] + std::hypot((is_minimum ? inward : outward) * standard_errors[j], missing));
+            const double error = errors.standard_errors[j];
+            const int degrees = errors.degrees_of_freedom[j];
+            take(lower, values[j] - (is_minimum ? outward : inward)(degrees)*error);
+            take(upper, values[j] + std::hypot((is_minimum ? inward : outward)(degrees)*error, missing));
         }
-        return {values[selected_], standard_errors[selected_], lower, upper};
+        return {values[selected_], errors.standard_errors[selected_], lower, upper};
     }
 
   private:
@@ -79,20 +78,22 @@ class ExtremeFinder {
             selected_residuals[r] = table.row(r)[selected_] - means[selected_];
         }
         const std::vector<double> slopes(table.readings, 1.0);
-        const std::vector<double> paired_errors =
-            residual_standard_errors(table, means, slopes, selected_residuals);
-        const double strict = quantile(kScreeningShare * error_rate_ / static_cast<double>(table.readings));
+        const PooledErrors<double> paired = residual_errors(table, means, slopes, selected_residuals);
+        const StudentQuantiles strict =
+            quantiles(kScreeningShare * error_rate_ / static_cast<double>(table.readings), paired);
         for (std::size_t j = 0; j < table.readings; ++j) {
             const double behind = sign_ * (means[j] - means[selected_]);
-            if (behind <= strict * paired_errors[j]) contenders_.push_back(j);
+            if (behind <= strict(paired.degrees_of_freedom[j]) * paired.standard_errors[j])
+                contenders_.push_back(j);
         }
     }
 
-    double quantile(double tail) const { return student_t_quantile(1 - tail, degrees_of_freedom_); }
+    static StudentQuantiles quantiles(double tail, const PooledErrors<double>& errors) {
+        return {1 - tail, *std::ranges::max_element(errors.degrees_of_freedom)};
+    }
 
     double sign_;
     double error_rate_;
-    int degrees_of_freedom_;
     std::size_t selected_ = 0;
     std::vector<std::size_t> contenders_;
 };
@@ -109,8 +110,8 @@ Estimate estimate_uniformity(const ReplicateTable& table, std::span<const double
     for (double& ratio : ratios) ratio /= mean.value;
     std::vector<double> mean_residuals(grid_means.begin(), grid_means.end());
     for (double& residual : mean_residuals) residual -= mean.value;
-    std::vector<double> errors = residual_standard_errors(table, means, ratios, mean_residuals);
-    for (double& error : errors) error /= mean.value;
+    PooledErrors<double> errors = residual_errors(table, means, ratios, mean_residuals);
+    for (double& error : errors.standard_errors) error /= mean.value;
     std::vector<double> missing(rare_light.begin(), rare_light.end());
     for (double& light : missing) light /= mean.value;
     Estimate uniformity = smallest.estimate(ratios, errors, missing);
@@ -142,8 +143,8 @@ GridSummary summarize_grid(const ReplicateTable& table, double confidence,
     const double missing = std::accumulate(rare_light.begin(), rare_light.end(), 0.0) /
                            static_cast<double>(std::max<std::size_t>(rare_light.size(), 1));
     summary.mean = estimate_from_replicates(grid_means, confidence, missing);
-    summary.minimum = smallest.estimate(moments.means, moments.standard_errors, rare_light);
-    summary.maximum = largest.estimate(moments.means, moments.standard_errors, rare_light);
+    summary.minimum = smallest.estimate(moments.means, moments.errors, rare_light);
+    summary.maximum = largest.estimate(moments.means, moments.errors, rare_light);
     summary.uniformity =
         estimate_uniformity(table, moments.means, grid_means, summary.mean, smallest, rare_light);
     return summary;

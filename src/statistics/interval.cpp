@@ -16,16 +16,22 @@ double student_t_quantile(double probability, int degrees_of_freedom) {
     return boost::math::quantile(boost::math::students_t(degrees_of_freedom), probability);
 }
 
+StudentQuantiles::StudentQuantiles(double probability, int most) {
+    for (int degrees = 1; degrees <= most; ++degrees)
+        quantiles_.push_back(student_t_quantile(probability, degrees));
+}
+
 std::vector<Estimate> estimate_readings(const ReplicateTable& table, double confidence,
                                         std::span<const double> rare_light) {
     const ReplicateMoments moments = compute_replicate_moments(table);
-    const double quantile =
-        student_t_quantile(1 - (1 - confidence) / 2, static_cast<int>(table.replicates()) - 1);
+    const auto& [standard_errors, degrees] = moments.errors;
     std::vector<Estimate> estimates(table.readings);
+    if (estimates.empty()) return estimates;
+    const StudentQuantiles quantiles((1 + confidence) / 2, *std::ranges::max_element(degrees));
     for (std::size_t j = 0; j < estimates.size(); ++j) {
-        const double half_width = quantile * moments.standard_errors[j];
+        const double half_width = quantiles(degrees[j]) * standard_errors[j];
         const double upper = rare_light.empty() ? half_width : std::hypot(half_width, rare_light[j]);
-        estimates[j] = {moments.means[j], moments.standard_errors[j], moments.means[j] - half_width,
+        estimates[j] = {moments.means[j], standard_errors[j], moments.means[j] - half_width,
                         moments.means[j] + upper};
     }
     return estimates;
@@ -61,12 +67,12 @@ ReplicateMoments compute_replicate_moments(const ReplicateTable& table) {
             means[j] = origin[j] + means[j] / static_cast<double>(replicates);
     });
     const std::vector<double> slopes(table.readings, 0.0), common(replicates, 0.0);
-    std::vector<double> errors = residual_standard_errors(table, means, slopes, common);
+    PooledErrors<double> errors = residual_errors(table, means, slopes, common);
     return {std::move(means), std::move(errors)};
 }
 
-std::vector<double> residual_standard_errors(const ReplicateTable& table, std::span<const double> means,
-                                             std::span<const double> slopes, std::span<const double> common) {
+PooledErrors<double> residual_errors(const ReplicateTable& table, std::span<const double> means,
+                                     std::span<const double> slopes, std::span<const double> common) {
     std::vector<double> errors(table.readings, 0.0);
     const double replicates = static_cast<double>(table.replicates());
     parallel_for_parts(errors.size(), [&](std::size_t first, std::size_t last) {
@@ -81,7 +87,9 @@ std::vector<double> residual_standard_errors(const ReplicateTable& table, std::s
         for (std::size_t j = first; j < last; ++j)
             errors[j] = std::sqrt(errors[j] / (replicates * (replicates - 1)));
     });
-    return errors;
+    const int degrees = static_cast<int>(table.replicates()) - 1;
+    if (table.columns > 0) return pool_errors<double>(table.columns, means, errors, degrees);
+    return {std::move(errors), std::vector<int>(table.readings, degrees)};
 }
 
 LargestContributions largest_contributions(std::span<double> of_replicates) {

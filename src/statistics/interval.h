@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "statistics/pooled_errors.h"
+
 namespace stilb::statistics {
 
 struct Estimate {
@@ -24,6 +26,8 @@ struct Estimate {
 struct ReplicateTable {
     std::span<const double> means;  ///< replicates x readings, row-major
     std::size_t readings = 0;
+    /// Where readings lie side by side in so many columns, their errors are pooled (pooled_errors.h); 0: not.
+    std::size_t columns = 0;
 
     std::size_t replicates() const { return readings == 0 ? 0 : means.size() / readings; }
     std::span<const double> row(std::size_t replicate) const {
@@ -34,6 +38,16 @@ struct ReplicateTable {
 /// The quantile of Student's t with these degrees of freedom for this probability (0 <
 /// probability < 1).
 double student_t_quantile(double probability, int degrees_of_freedom);
+
+/// The quantiles of one probability for 1 to `most` degrees of freedom.
+class StudentQuantiles {
+  public:
+    StudentQuantiles(double probability, int most);
+    double operator()(int degrees_of_freedom) const { return quantiles_[degrees_of_freedom - 1]; }
+
+  private:
+    std::vector<double> quantiles_;
+};
 
 /// Mean, standard error and two-sided Student-t interval, whose upper end allows for rare light (in
 /// quadrature). Throws std::invalid_argument for fewer than two replicates.
@@ -51,7 +65,8 @@ double relative_half_width(const Estimate& estimate);
 // Means and standard errors over a table's replicates, all readings at once.
 
 struct ReplicateMoments {
-    std::vector<double> means, standard_errors;  ///< one per reading
+    std::vector<double> means;  ///< one per reading
+    PooledErrors<double> errors;
 };
 
 /// Throws std::invalid_argument for fewer than two replicates or a table whose size is not a multiple of its
@@ -60,8 +75,8 @@ ReplicateMoments compute_replicate_moments(const ReplicateTable& table);
 
 /// Standard errors over the replicates r of the readings' mean residuals (x_rj - mean_j) - slope_j *
 /// common_r, where the residuals `common` have mean 0 over the replicates.
-std::vector<double> residual_standard_errors(const ReplicateTable& table, std::span<const double> means,
-                                             std::span<const double> slopes, std::span<const double> common);
+PooledErrors<double> residual_errors(const ReplicateTable& table, std::span<const double> means,
+                                     std::span<const double> slopes, std::span<const double> common);
 
 // Rare contributions: light that few samples find. Replicates tell little about it: those that contain no
 // such sample agree with each other, and their mean is too low. The largest contribution of each replicate

@@ -9,15 +9,14 @@
 namespace stilb::statistics {
 namespace {
 
-/// Pixels to each side of a pixel that help.
+/// Neighbours to each side that help.
 constexpr std::size_t kReach = 2;
 /// Degrees of freedom for which the neighbours count at most: their errors are not independent, because they
 /// share samples.
 constexpr double kMostPrior = 20;
 
-/// Squared relative errors.
-double relative_variance(float value, float standard_error) {
-    const double relative = double{standard_error} / double{value};
+double relative_variance(double value, double standard_error) {
+    const double relative = standard_error / value;
     return relative * relative;
 }
 
@@ -37,34 +36,39 @@ Pooled pooled(double own, double mean, double ratio, double degrees) {
 
 }  // namespace
 
-PixelErrors pool_errors(std::size_t width, std::span<const float> values,
-                        std::span<const float> standard_errors, int degrees_of_freedom) {
+template <typename Real>
+PooledErrors<Real> pool_errors(std::size_t width, std::span<const Real> values,
+                               std::span<const Real> standard_errors, int degrees_of_freedom) {
     if (width == 0 || values.size() % width != 0 || values.size() != standard_errors.size())
-        throw std::invalid_argument("pool_errors(): values and errors of all pixels are needed");
-    PixelErrors result{{standard_errors.begin(), standard_errors.end()},
-                       std::vector<int>(values.size(), degrees_of_freedom)};
+        throw std::invalid_argument("pool_errors(): whole rows of values and errors are needed");
+    PooledErrors<Real> result{{standard_errors.begin(), standard_errors.end()},
+                              std::vector<int>(values.size(), degrees_of_freedom)};
     const std::size_t height = values.size() / width;
     parallel_for(height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
-            const std::size_t pixel = y * width + x;
-            if (!(values[pixel] > 0) || standard_errors[pixel] == 0) continue;
+            const std::size_t own = y * width + x;
+            if (!(values[own] > 0) || standard_errors[own] == 0) continue;
             double count = 0, sum = 0, squares = 0;
             for (std::size_t v = y - std::min(y, kReach); v <= std::min(height - 1, y + kReach); ++v) {
                 for (std::size_t u = x - std::min(x, kReach); u <= std::min(width - 1, x + kReach); ++u) {
                     const std::size_t other = v * width + u;
                     if (!(values[other] > 0)) continue;
-                    const double variance = relative_variance(values[other], standard_errors[other]);
+                    const double variance =
+                        relative_variance(double{values[other]}, double{standard_errors[other]});
                     ++count, sum += variance, squares += variance * variance;
                 }
             }
             const auto [variance, degrees] =
-                pooled(relative_variance(values[pixel], standard_errors[pixel]), sum / count,
+                pooled(relative_variance(double{values[own]}, double{standard_errors[own]}), sum / count,
                        squares * count / (sum * sum), degrees_of_freedom);
-            result.standard_errors[pixel] = static_cast<float>(std::sqrt(variance)) * values[pixel];
-            result.degrees_of_freedom[pixel] = static_cast<int>(degrees);
+            result.standard_errors[own] = static_cast<Real>(std::sqrt(variance) * double{values[own]});
+            result.degrees_of_freedom[own] = static_cast<int>(degrees);
         }
     });
     return result;
 }
+
+template PooledErrors<float> pool_errors(std::size_t, std::span<const float>, std::span<const float>, int);
+template PooledErrors<double> pool_errors(std::size_t, std::span<const double>, std::span<const double>, int);
 
 }  // namespace stilb::statistics

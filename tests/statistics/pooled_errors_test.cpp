@@ -39,7 +39,8 @@ double coverage(const Sigma& sigma, const Counted& counted) {
     double held = 0, all = 0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const NoisyPicture picture(seed, sigma);
-        const PixelErrors pooled = pool_errors(kWidth, picture.values, picture.errors, kReplicates - 1);
+        const PooledErrors<float> pooled =
+            pool_errors<float>(kWidth, picture.values, picture.errors, kReplicates - 1);
         for (std::size_t i = 0; i < kPixels; ++i) {
             if (!counted(i % kWidth)) continue;
             const double t = student_t_quantile(0.975, pooled.degrees_of_freedom[i]);
@@ -71,7 +72,8 @@ TEST(PooledErrors, CoverAnEdgeNearly) {
 TEST(PooledErrors, HaveMoreDegreesOfFreedomThanAPixel) {
     const auto even = [](std::size_t, std::size_t) { return 0.01; };
     const NoisyPicture picture(1, even);
-    const PixelErrors pooled = pool_errors(kWidth, picture.values, picture.errors, kReplicates - 1);
+    const PooledErrors<float> pooled =
+        pool_errors<float>(kWidth, picture.values, picture.errors, kReplicates - 1);
     double degrees = 0, squared = 0;
     for (std::size_t i = 0; i < kPixels; ++i) {
         degrees += pooled.degrees_of_freedom[i] / static_cast<double>(kPixels);
@@ -84,7 +86,7 @@ TEST(PooledErrors, HaveMoreDegreesOfFreedomThanAPixel) {
 
 TEST(PooledErrors, LeavePixelsThatAreExactAsTheyAre) {
     const std::vector<float> values{0, 1, 1, 5, 1, 1}, errors{0, 0.1f, 0.1f, 0, 0.1f, 0.1f};
-    const PixelErrors pooled = pool_errors(3, values, errors, 3);
+    const PooledErrors<float> pooled = pool_errors<float>(3, values, errors, 3);
     EXPECT_EQ(pooled.standard_errors[0], 0);
     EXPECT_EQ(pooled.standard_errors[3], 0);
     EXPECT_EQ(pooled.degrees_of_freedom[0], 3);
@@ -93,9 +95,9 @@ TEST(PooledErrors, LeavePixelsThatAreExactAsTheyAre) {
 
 TEST(PooledErrors, NeedAllPixels) {
     const std::vector<float> three(3), four(4);
-    EXPECT_THROW(pool_errors(2, three, three, 3), std::invalid_argument);
-    EXPECT_THROW(pool_errors(2, four, three, 3), std::invalid_argument);
-    EXPECT_THROW(pool_errors(0, four, four, 3), std::invalid_argument);
+    EXPECT_THROW(pool_errors<float>(2, three, three, 3), std::invalid_argument);
+    EXPECT_THROW(pool_errors<float>(2, four, three, 3), std::invalid_argument);
+    EXPECT_THROW(pool_errors<float>(0, four, four, 3), std::invalid_argument);
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ class LocalReadings {
         return guided_ ? GuidedReadings::kGranularity : selected_per_ray_ * paths_per_selected_;
     }
     std::uint64_t first_check() const {
-        return guided_ ? GuidedReadings::kGranularity : kSelectedBeforeCheck * paths_per_selected_;
+        return guided_ ? 2 * GuidedReadings::kGranularity : kSelectedBeforeCheck * paths_per_selected_;
     }
     double rays_per_sample() const {
         if (guided_) return guided_->rays_per_sample();
