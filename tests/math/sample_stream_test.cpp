@@ -47,6 +47,23 @@ void expect_net(unsigned bits, const Coordinate& coordinate) {
     }
 }
 
+/// Without a shift the points are a net; with any shift they stay in the unit square, one to each strip.
+TEST(EvenPoints, LieEvenlyUnderAnyShift) {
+    constexpr std::uint32_t count = 64;
+    expect_net(6, [](std::uint32_t i, unsigned d) { return even_point(i, count, {0, 0})[d]; });
+    for (const std::array<double, 2> shift : {std::array{0.999999, 0.999999}, {0.3, 0.7}}) {
+        std::set<int> strips, turned;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const auto [x, y] = even_point(i, count, shift);
+            ASSERT_TRUE(x >= 0 && x < 1 && y >= 0 && y < 1) << x << ' ' << y;
+            strips.insert(static_cast<int>(x * count));
+            turned.insert(static_cast<int>((y + 1 - shift[1]) * count + 0.5) % static_cast<int>(count));
+        }
+        EXPECT_EQ(strips.size(), count);
+        EXPECT_EQ(turned.size(), count);
+    }
+}
+
 TEST(Sobol, ItsFirstTwoDimensionsAreANet) {
     for (const unsigned bits : {4u, 8u, 12u}) {
         expect_net(bits, [](std::uint32_t i, unsigned d) { return sobol(i, d) * 0x1p-32; });

@@ -7,24 +7,17 @@
 namespace stilb::run {
 namespace {
 
-class Threads : public testing::TestWithParam<const char*> {};
-
-TEST_P(Threads, ChangeNoBit) {
-    Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Phong{Rgb::grey(0.4), Rgb::grey(0.3), 10});
-    add_area_light(scene, Sphere{{2, 1, 2}, 0.2}, {{100, 200, 300}});
-    add_point_light(scene, {1, 1, 1}, {{10, 20, 30}});
-    const std::vector<Sensor> sensors{
-        Sensor{"plane", Grid{{0.1, 0.1, 0.8}, {3.8, 0, 0}, {0, 2.8, 0}, {7, 5}, Vec3{0, 0, 1}}},
-        point_sensor({{{0.01, 0.02, 0.03}, {1, 0, 0}}})};
+/// As measured by one thread and by others.
+void expect_same(const char* method, const Scene& scene, const std::vector<Sensor>& sensors, int replicates) {
     const auto measure = [&](int threads) {
         RunOptions options;
-        options.method = GetParam();
+        options.method = method;
         options.paths = 2048;
         options.threads = threads;
         return run::measure(scene, sensors, options);
     };
     const RunResult one = measure(1);
+    EXPECT_EQ(one.replicates, replicates);
     for (const int threads : {1, 2, 3}) {
         const RunResult other = measure(threads);
         EXPECT_EQ(other.samples, one.samples);
@@ -40,6 +33,20 @@ TEST_P(Threads, ChangeNoBit) {
             }
         }
     }
+}
+
+class Threads : public testing::TestWithParam<const char*> {};
+
+TEST_P(Threads, ChangeNoBit) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Phong{Rgb::grey(0.4), Rgb::grey(0.3), 10});
+    add_area_light(scene, Sphere{{2, 1, 2}, 0.2}, {{100, 200, 300}});
+    add_point_light(scene, {1, 1, 1}, {{10, 20, 30}});
+    const Sensor plane{"plane", Grid{{0.1, 0.1, 0.8}, {3.8, 0, 0}, {0, 2.8, 0}, {9, 8}, Vec3{0, 0, 1}}};
+    const Sensor point = point_sensor({{{0.01, 0.02, 0.03}, {1, 0, 0}}});
+    // A large grid alone has fewer replicates.
+    expect_same(GetParam(), scene, {plane, point}, 32);
+    expect_same(GetParam(), scene, {plane}, 8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Threads, testing::Values("auto", "local", "path"),

@@ -23,7 +23,15 @@ constexpr unsigned kPilotRays = 4;
 class LightPathPicture final : public LocalPicture {
   public:
     LightPathPicture(const LocalTransport& transport, const Problem& problem)
-        : transport_(transport), sub_points_(transport, problem, 1), k_per_m2_(plan(problem)) {}
+        : transport_(transport),
+          sub_points_(transport, problem, 1),
+          plan_{problem.preparation_key.derived(kPlan), 0},
+          area_m2_(surface_area_m2(transport.scene)),
+          k_per_m2_(sub_points_.cells()) {
+        if (transport.split != Split::none)
+            pilot_nodes_ =
+                transport.trace_light_paths(problem.preparation_key.derived(kPilot), 0, kPilotPaths);
+    }
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<LightPathPass>(*this, pass);
@@ -58,7 +66,7 @@ class LightPathPicture final : public LocalPicture {
     void receive(const SubPointPacket& packet, const NodePool& pool, const Pass& own,
                  ReadingSums& sums) const {
         std::vector<double> k_per_m2;
-        for (const Pixel& pixel : packet.pixels) k_per_m2.push_back(k_per_m2_[sub_points_.cell_of(pixel)]);
+        for (const Pixel& pixel : packet.pixels) k_per_m2.push_back(k_per_m2_of(sub_points_.cell_of(pixel)));
         const std::vector<PointTile> tiles =
             tiles_of(packet.receivers, k_per_m2, transport_.caster, transport_.max_reflections);
         const double u = math::SampleStream(own.key.derived(kSelection), own.index).next();
@@ -71,31 +79,24 @@ class LightPathPicture final : public LocalPicture {
             .collect({own.key.derived(kGather), own.index, 1}, sums);
     }
 
-    /// A k for each cell.
-    std::vector<double> plan(const Problem& problem) const {
-        std::vector<double> k_per_m2(sub_points_.cells(), std::numeric_limits<double>::infinity());
-        if (transport_.split == Split::none) return k_per_m2;
-        const math::RandomKey key = problem.preparation_key;
-        const std::vector<transport::LightVertex> nodes =
-            transport_.trace_light_paths(key.derived(kPilot), 0, kPilotPaths);
-        const PilotLight pilot{nodes,
-                               kPilotPaths,
-                               {},
-                               surface_area_m2(transport_.scene),
-                               transport_.max_reflections,
-                               kPathsPerSelected};
-        const Pass pass{key.derived(kPlan), 0};
-        sub_points_.for_each_cell(pass, problem.monitor, [&](std::size_t c, const auto& receivers) {
-            if (receivers.empty()) return;
-            k_per_m2[c] = plan_constant(transport_.caster, transport_.tracer, receivers, pilot,
-                                        kPathsPerPass / kPathsPerSelected, kPilotRays, pass.key.derived(c));
+    double k_per_m2_of(std::size_t cell) const {
+        return k_per_m2_.of(cell, [&] {
+            const std::vector<transport::Receiver> receivers = sub_points_.of_cell(cell, plan_);
+            if (transport_.split == Split::none || receivers.empty())
+                return std::numeric_limits<double>::infinity();
+            const PilotLight pilot{pilot_nodes_,     kPilotPaths, {}, area_m2_, transport_.max_reflections,
+                                   kPathsPerSelected};
+            return plan_constant(transport_.caster, transport_.tracer, receivers, pilot,
+                                 kPathsPerPass / kPathsPerSelected, kPilotRays, plan_.key.derived(cell));
         });
-        return k_per_m2;
     }
 
     const LocalTransport& transport_;
     SubPoints sub_points_;
-    std::vector<double> k_per_m2_;  ///< of each cell
+    Pass plan_;  ///< its sub-points represent the cells'
+    double area_m2_;
+    std::vector<transport::LightVertex> pilot_nodes_;
+    OfCells<double> k_per_m2_;
 };
 
 }  // namespace

@@ -1,9 +1,6 @@
 #include "estimators/local/sub_points.h"
 
 #include <algorithm>
-#include <atomic>
-
-#include "base/parallel.h"
 
 namespace stilb::estimators {
 namespace {
@@ -13,7 +10,7 @@ constexpr std::uint64_t kDirectOfPixels = 1u << 10;
 /// Sobol' dimensions of a sample of direct light.
 constexpr unsigned kDirectDimensions = 8;
 
-/// The edge of cells, in pixels: planning must not take long beside the first pass.
+/// The edge of cells, in pixels: their plans must not take much memory.
 int cell_edge_of(const std::array<int, 2>& resolution) {
     constexpr std::size_t most_cells = 4096;
     int edge = kBlockSize;
@@ -107,16 +104,6 @@ Rgb SubPoints::add(transport::Path& path, std::uint32_t reading,
 std::size_t SubPoints::cell_of(const Pixel& pixel) const {
     const int cells_per_row = (tracing_.camera.resolution[0] + cell_edge_ - 1) / cell_edge_;
     return static_cast<std::size_t>(pixel.y / cell_edge_ * cells_per_row + pixel.x / cell_edge_);
-}
-
-void SubPoints::for_each_cell(const Pass& pass, const Monitor& monitor, const CellVisit& visit) const {
-    std::atomic<std::size_t> done = 0;
-    parallel_for(cells_.size(), [&](std::size_t cell) {
-        const double share = static_cast<double>(done++) / static_cast<double>(cells_.size());
-        monitor.report("planning", share);
-        monitor.require_time("planning", share);
-        visit(cell, of_cell(cell, pass));
-    });
 }
 
 std::vector<transport::Receiver> SubPoints::of_cell(std::size_t cell, const Pass& pass) const {

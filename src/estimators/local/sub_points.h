@@ -2,7 +2,8 @@
 // Each pass draws them anew.
 #pragma once
 
-#include <functional>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -40,15 +41,12 @@ class SubPoints {
 
     std::size_t cells() const { return cells_.size(); }
     std::size_t cell_of(const Pixel& pixel) const;
-    using CellVisit = std::function<void(std::size_t cell, std::span<const transport::Receiver>)>;
-    /// Calls `visit` for every cell with receivers that are spread over it, none where no surface is seen.
-    /// Calls may run in parallel. The monitor sees the progress.
-    void for_each_cell(const Pass& pass, const Monitor& monitor, const CellVisit& visit) const;
+    /// Receivers that are spread over a cell, none where no surface is seen.
+    std::vector<transport::Receiver> of_cell(std::size_t cell, const Pass& pass) const;
 
     const PictureTracing& tracing() const { return tracing_; }
 
   private:
-    std::vector<transport::Receiver> of_cell(std::size_t cell, const Pass& pass) const;
     SubPointPacket of_packet(const PixelBlock& block, int left, int top, const Pass& pass,
                              ReadingSums& sums) const;
     void add_direct(const SubPointPacket& packet, const Pass& pass, ReadingSums& sums) const;
@@ -60,6 +58,26 @@ class SubPoints {
     std::uint64_t direct_samples_;
     int cell_edge_;
     std::vector<PixelBlock> cells_;
+};
+
+/// Values for the cells of a picture, each made when it is needed first: a method that is only tried needs
+/// few of them. All queries may run in parallel.
+template <typename Value>
+class OfCells {
+  public:
+    explicit OfCells(std::size_t cells)
+        : values_(cells), are_made_(std::make_unique<std::once_flag[]>(cells)) {}
+
+    /// `make` depends on the cell alone, and runs in one thread.
+    template <typename Make>
+    const Value& of(std::size_t cell, const Make& make) const {
+        std::call_once(are_made_[cell], [&] { values_[cell] = make(); });
+        return values_[cell];
+    }
+
+  private:
+    mutable std::vector<Value> values_;
+    std::unique_ptr<std::once_flag[]> are_made_;
 };
 
 }  // namespace stilb::estimators

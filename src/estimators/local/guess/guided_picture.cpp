@@ -43,13 +43,8 @@ class GuidedPicture final : public LocalPicture {
         : transport_(transport),
           guide_(guide),
           sub_points_(transport, problem, kDirectSamples),
-          points_of_(sub_points_.cells()) {
-        const Pass pass{problem.preparation_key.derived(kPlan), 0};
-        // Also where no sub-point meets a surface: those of the pixels may.
-        sub_points_.for_each_cell(pass, problem.monitor, [&](std::size_t cell, const auto& receivers) {
-            points_of_[cell] = guide_.points_for(receivers, kPoints);
-        });
-    }
+          plan_{problem.preparation_key.derived(kPlan), 0},
+          points_of_(sub_points_.cells()) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<GuidedPass>(*this, pass);
@@ -117,8 +112,7 @@ class GuidedPicture final : public LocalPicture {
             const GuidedLight& guide = picture_.guide_;
             std::vector<std::array<double, 2>> shifts;
             for (const Pixel& pixel : packet.pixels) shifts.push_back(shift_of(pixel, pass_));
-            const KernelChoice::Sums& near =
-                picture_.points_of_[picture_.sub_points_.cell_of(packet.pixels[0])];
+            const KernelChoice::Sums& near = picture_.points_of(packet.pixels[0]);
             std::vector<EmittingPoint> points;
             guide.points.select(
                 near, kPoints,
@@ -142,6 +136,13 @@ class GuidedPicture final : public LocalPicture {
         std::vector<std::array<double, 3>> gather_points_;  ///< of the rays
     };
 
+    /// The weights of the guess's points for the sub-points around a pixel.
+    const KernelChoice::Sums& points_of(const Pixel& pixel) const {
+        const std::size_t cell = sub_points_.cell_of(pixel);
+        return points_of_.of(cell,
+                             [&] { return guide_.points_for(sub_points_.of_cell(cell, plan_), kPoints); });
+    }
+
     std::vector<transport::LightVertex> trace_residual(const Pass& pass) const {
         const auto& [width, height] = sub_points_.tracing().camera.resolution;
         const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
@@ -164,7 +165,8 @@ class GuidedPicture final : public LocalPicture {
     const LocalTransport& transport_;
     const GuidedLight& guide_;
     SubPoints sub_points_;
-    std::vector<KernelChoice::Sums> points_of_;  ///< of each cell
+    Pass plan_;  ///< its sub-points represent the cells'
+    OfCells<KernelChoice::Sums> points_of_;
 };
 
 }  // namespace
