@@ -10,9 +10,7 @@ namespace {
 
 /// On a table at a height of 0.8 m, between two walls.
 struct Table {
-    Table() {
-        add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5));
-    }
+    Table() { add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5)); }
     KernelChoice::Sums sums_of(const KernelChoice& choice) const {
         const rays::RayCaster caster(scene);
         return choice.sums_for(receivers_of({{{0.1, 1.5, 0.8}, {0, 0, 1}}}, caster), 1);

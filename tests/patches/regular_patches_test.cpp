@@ -90,7 +90,7 @@ TEST(RegularPatches, CoverTheirSurfacesWithAboutTheWantedNumber) {
 /// (n + 1)^2 vertices.
 TEST(RegularPatches, ShareVerticesOnAFace) {
     Scene scene;
-    add_object(scene, Rectangle{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}}, diffuse(0.5));
+    add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, diffuse(0.5));
     const rays::RayCaster caster(scene);
     const RegularPatches regular(scene, caster, 800, kEverywhere, Monitor::none());
     const double parts = std::sqrt(static_cast<double>(regular.patches().count()) / 2);
@@ -106,7 +106,8 @@ TEST(RegularPatches, LeaveOutWhatShallHaveNone) {
     rays::RayHitPacket packet;
     LaneMask lanes{};
     lanes[0] = lanes[1] = -1;
-    const Vec3 above_cabinet = Vec3{1, 0.8, 2.5} - caster.center(), beside = Vec3{1.7, 0.8, 2.5} - caster.center();
+    const Vec3 above_cabinet = Vec3{1, 0.8, 2.5} - caster.center(),
+               beside = Vec3{1.7, 0.8, 2.5} - caster.center();
     packet.ray.set(0, above_cabinet, {0, 0, -1}, std::numeric_limits<float>::infinity());
     packet.ray.set(1, beside, {0, 0, -1}, std::numeric_limits<float>::infinity());
     const PatchHits hits = regular.closest(packet, lanes, rays::Coherence::scattered);

@@ -1,6 +1,6 @@
 #include "estimators/local/kernel_choice.h"
 
-#include <cmath>
+#include <algorithm>
 #include <numeric>
 
 #include "base/rays.h"
@@ -22,8 +22,9 @@ using Sixteen = std::array<float, kPacketWidth>;
 STILB_VECTORIZED void weigh(const FloatPoint& at, float k, std::size_t count, const float* __restrict x,
                             const float* __restrict y, const float* __restrict z, const float* __restrict nx,
                             const float* __restrict ny, const float* __restrict nz,
-                            const float* __restrict squared_radius, const float* __restrict light,
-                            float* __restrict weights, Sixteen& __restrict sums) {
+                            const float* __restrict radius, const float* __restrict per_four_radii,
+                            const float* __restrict light, float* __restrict weights,
+                            Sixteen& __restrict sums) {
     for (std::size_t first = 0; first < count; first += kPacketWidth) {
         for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
             const std::size_t i = first + lane;
@@ -31,9 +32,10 @@ STILB_VECTORIZED void weigh(const FloatPoint& at, float k, std::size_t count, co
             const float squared = dx * dx + dy * dy + dz * dz;
             const float here = at.normal_x * dx + at.normal_y * dy + at.normal_z * dz;
             const float there = -(nx[i] * dx + ny[i] * dy + nz[i] * dz);
-            // About the mean of max(0, n d) over the surface.
-            const float above = (here + std::sqrt(here * here + squared_radius[i])) / 2;
-            const float product = (above > 0 ? above : 0) * (there > 0 ? there : 0);
+            // The mean of max(0, h) over heights h that are uniform within the radius of the middle's.
+            const float near = std::min(std::max(here, -radius[i]), radius[i]) + radius[i];
+            const float above = near * near * per_four_radii[i] + std::max(here - radius[i], 0.0f);
+            const float product = above * (there > 0 ? there : 0);
             // k G / (k + G) with G = product / squared^2
             weights[i] = light[i] * (k * product / (k * squared * squared + product + 1e-30f));
             sums[lane] += weights[i];
@@ -51,7 +53,7 @@ STILB_VECTORIZED void add_multiple(const float* __restrict values, float factor,
 void KernelChoice::add(const Vec3& position, const Vec3& normal, double light, double radius_m) {
     if (count_ % kPacketWidth == 0) {
         for (Floats* values : {&position_[0], &position_[1], &position_[2], &normal_[0], &normal_[1],
-                               &normal_[2], &squared_radius_, &light_})
+                               &normal_[2], &radius_, &per_four_radii_, &light_})
             values->resize(count_ + kPacketWidth);
     }
     const Vec3 relative = position - center_;
@@ -59,7 +61,8 @@ void KernelChoice::add(const Vec3& position, const Vec3& normal, double light, d
         position_[axis][count_] = static_cast<float>(relative[axis]);
         normal_[axis][count_] = static_cast<float>(normal[axis]);
     }
-    squared_radius_[count_] = static_cast<float>(radius_m * radius_m);
+    radius_[count_] = static_cast<float>(radius_m);
+    per_four_radii_[count_] = radius_m > 0 ? static_cast<float>(1 / (4 * radius_m)) : 0;
     light_[count_++] = static_cast<float>(light);
     all_light_ += light;
 }
@@ -73,8 +76,8 @@ auto KernelChoice::sums_for(std::span<const transport::Receiver> receivers, doub
                             static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
         Sixteen parts{};
         weigh(at, static_cast<float>(k_per_m2), own.size(), position_[0].data(), position_[1].data(),
-              position_[2].data(), normal_[0].data(), normal_[1].data(), normal_[2].data(),
-              squared_radius_.data(), light_.data(), own.data(), parts);
+              position_[2].data(), normal_[0].data(), normal_[1].data(), normal_[2].data(), radius_.data(),
+              per_four_radii_.data(), light_.data(), own.data(), parts);
         const float sum = std::accumulate(parts.begin(), parts.end(), 0.0f);
         if (!(sum > 0)) continue;
         add_multiple(own.data(), 1 / sum, own.size(), all.data());

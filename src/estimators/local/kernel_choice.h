@@ -45,7 +45,7 @@ class KernelChoice {
     Vec3 center_;
     std::size_t count_ = 0;
     std::array<Floats, 3> position_, normal_;  ///< as all arrays, filled with 0 to a multiple of 16
-    Floats squared_radius_, light_;
+    Floats radius_, per_four_radii_, light_;   ///< per_four_radii: 1 / (4 radius), 0 for points
     double all_light_ = 0;
 };
 
