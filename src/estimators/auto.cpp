@@ -42,7 +42,7 @@ constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
 constexpr int kPilotBlock = 8, kPilotRows = 4;
 constexpr std::uint64_t kPilotPasses = 2;
 /// The processor time of a pass by the guess over that of one without (docs/performance.md).
-constexpr double kGuidedPassCost = 1.7;
+constexpr double kGuidedPassCost = 1.3;
 
 /// The readings of the parts of a pilot.
 struct Pilot {

@@ -17,6 +17,9 @@ namespace {
 /// picture's pass.
 constexpr std::uint64_t kPathsPerPass = 4096;
 constexpr std::uint64_t kPathsPerSelected = 256;
+/// The k of diffuse receivers, over that of a plan: plans expect vertices by their flux, but those near a
+/// receiver are chosen, so that connections cost less variance (docs/performance.md).
+constexpr double kDiffuseFactor = 8;
 /// Planning rays from each sub-point.
 constexpr unsigned kPilotRays = 4;
 
@@ -46,12 +49,18 @@ class LightPathPicture final : public LocalPicture {
             : picture_(picture),
               pass_(pass),
               pool_(picture.transport_.trace_light_paths(pass.key.derived(kWalks), pass.index * kPathsPerPass,
-                                                         (pass.index + 1) * kPathsPerPass)) {}
+                                                         (pass.index + 1) * kPathsPerPass),
+                    picture.transport_.caster.center()) {}
 
         std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
-            for (const SubPointPacket& packet : picture_.sub_points_.of_block(block, pass_, sums))
-                picture_.receive(packet, pool_, {packet.key(pass_, kPackets), pass_.index}, sums);
+            const std::vector<SubPointPacket> packets = picture_.sub_points_.of_block(block, pass_, sums);
+            const double k_per_m2 =
+                picture_.k_per_m2_of(picture_.sub_points_.cell_of({block.left, block.top}));
+            choose_near(
+                pool_, packets, k_per_m2, [&](const SubPointPacket& packet, const KernelChoice::Sums& near) {
+                    picture_.receive(packet, pool_, near, {packet.key(pass_, kPackets), pass_.index}, sums);
+                });
             std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
             return sums.invalid;
         }
@@ -59,18 +68,21 @@ class LightPathPicture final : public LocalPicture {
       private:
         const LightPathPicture& picture_;
         Pass pass_;
-        NodePool pool_;
+        NearNodePool pool_;
     };
 
     /// Adds a sample of a packet's indirect light.
-    void receive(const SubPointPacket& packet, const NodePool& pool, const Pass& own,
-                 ReadingSums& sums) const {
+    void receive(const SubPointPacket& packet, const NearNodePool& pool, const KernelChoice::Sums& near,
+                 const Pass& own, ReadingSums& sums) const {
         std::vector<double> k_per_m2;
-        for (const Pixel& pixel : packet.pixels) k_per_m2.push_back(k_per_m2_of(sub_points_.cell_of(pixel)));
+        for (std::size_t i = 0; i < packet.pixels.size(); ++i) {
+            const double factor = packet.receivers[i].constant_response() ? kDiffuseFactor : 1;
+            k_per_m2.push_back(factor * k_per_m2_of(sub_points_.cell_of(packet.pixels[i])));
+        }
         const std::vector<PointTile> tiles =
             tiles_of(packet.receivers, k_per_m2, transport_.caster, transport_.max_reflections);
         const double u = math::SampleStream(own.key.derived(kSelection), own.index).next();
-        std::vector<transport::LightVertex> nodes = pool.select(pool.size() / kPathsPerSelected + 1, u);
+        std::vector<transport::LightVertex> nodes = pool.select(near, near.size() / kPathsPerSelected + 1, u);
         for (transport::LightVertex& vertex : nodes) vertex.flux_lm *= 1.0 / kPathsPerPass;
         Connections(transport_.caster, tiles, transport_.monitor).collect(nodes, sums);
         if (!transport_.gathers) return;

@@ -1,6 +1,7 @@
 #include "estimators/local/sub_points.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace stilb::estimators {
 namespace {
@@ -18,7 +19,37 @@ int cell_edge_of(const std::array<int, 2>& resolution) {
     return edge;
 }
 
+const transport::Receiver& middle_of(const SubPointPacket& packet) {
+    return packet.receivers[packet.receivers.size() / 2];
+}
+
+/// Whether the sub-points lie in one plane: what is near to one of them is not far from the others, nor
+/// behind them.
+bool is_flat(const SubPointPacket& packet) {
+    const transport::Receiver& middle = middle_of(packet);
+    return std::ranges::all_of(packet.receivers, [&](const transport::Receiver& receiver) {
+        constexpr double parallel = 0.95, level = 0.05;
+        const Vec3 offset = receiver.position() - middle.position();
+        return dot(receiver.normal(), middle.normal()) > parallel &&
+               std::abs(dot(offset, middle.normal())) <= level * length(offset);
+    });
+}
+
 }  // namespace
+
+void choose_near(const NearNodePool& pool, std::span<const SubPointPacket> packets, double k_per_m2,
+                 const ReceiveNear& receive) {
+    std::vector<transport::Receiver> middles;
+    for (const SubPointPacket& packet : packets) middles.push_back(middle_of(packet));
+    const KernelChoice::Sums of_block = pool.sums_for(middles, k_per_m2);
+    for (const SubPointPacket& packet : packets) {
+        if (is_flat(packet)) {
+            receive(packet, of_block);
+        } else {
+            receive(packet, pool.sums_for(packet.receivers, k_per_m2));
+        }
+    }
+}
 
 math::RandomKey SubPointPacket::key(const Pass& pass, std::uint64_t purpose) const {
     return pass.key.derived(purpose).derived(static_cast<std::uint64_t>(first.x) << 32 |

@@ -2,6 +2,7 @@
 // Each pass draws them anew.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -10,6 +11,7 @@
 #include "estimators/camera_paths.h"
 #include "estimators/estimator.h"
 #include "estimators/local/local_transport.h"
+#include "estimators/local/node_pool.h"
 
 namespace stilb::estimators {
 
@@ -27,6 +29,12 @@ struct SubPointPacket {
     /// A key of the packet's position and the pass.
     math::RandomKey key(const Pass& pass, std::uint64_t purpose) const;
 };
+
+/// Calls `receive` for each packet of a block, with the weights of the vertices for it. Packets of one plane
+/// share the block's weights; others have their own.
+using ReceiveNear = std::function<void(const SubPointPacket&, const KernelChoice::Sums&)>;
+void choose_near(const NearNodePool& pool, std::span<const SubPointPacket> packets, double k_per_m2,
+                 const ReceiveNear& receive);
 
 /// Keeps references to the arguments' targets. Immutable.
 class SubPoints {

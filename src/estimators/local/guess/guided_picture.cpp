@@ -3,7 +3,6 @@
 
 #include "estimators/local/connection.h"
 #include "estimators/local/local_picture.h"
-#include "estimators/local/node_pool.h"
 #include "estimators/local/sub_points.h"
 
 namespace stilb::estimators {
@@ -20,22 +19,6 @@ constexpr std::size_t kVertices = 12;
 /// Pixels for each path of the residual, and the largest number of paths in a pass.
 constexpr std::uint64_t kPixelsPerPath = 64;
 constexpr std::uint64_t kMostPaths = 4096;
-
-const transport::Receiver& middle_of(const SubPointPacket& packet) {
-    return packet.receivers[packet.receivers.size() / 2];
-}
-
-/// Whether the sub-points lie in one plane: what is near to one of them is not far from the others, nor
-/// behind them.
-bool is_flat(const SubPointPacket& packet) {
-    const transport::Receiver& middle = middle_of(packet);
-    return std::ranges::all_of(packet.receivers, [&](const transport::Receiver& receiver) {
-        constexpr double parallel = 0.95, level = 0.05;
-        const Vec3 offset = receiver.position() - middle.position();
-        return dot(receiver.normal(), middle.normal()) > parallel &&
-               std::abs(dot(offset, middle.normal())) <= level * length(offset);
-    });
-}
 
 class GuidedPicture final : public LocalPicture {
   public:
@@ -77,16 +60,10 @@ class GuidedPicture final : public LocalPicture {
             ReadingSums sums(pixels.size());
             const std::vector<SubPointPacket> packets = picture_.sub_points_.of_block(block, pass_, sums);
             const double k_per_m2 = picture_.guide_.k_per_m2(kPoints);
-            std::vector<transport::Receiver> middles;
-            for (const SubPointPacket& packet : packets) middles.push_back(middle_of(packet));
-            const KernelChoice::Sums of_block = pool_.sums_for(middles, k_per_m2);
-            for (const SubPointPacket& packet : packets) {
-                if (is_flat(packet)) {
-                    receive(packet, of_block, sums);
-                } else {
-                    receive(packet, pool_.sums_for(packet.receivers, k_per_m2), sums);
-                }
-            }
+            choose_near(pool_, packets, k_per_m2,
+                        [&](const SubPointPacket& packet, const KernelChoice::Sums& near) {
+                            receive(packet, near, sums);
+                        });
             std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
             return sums.invalid;
         }
