@@ -15,6 +15,8 @@ constexpr double kKernels = 5;
 /// Paths of the residual for each sample of readings, and the number of their vertices that are connected.
 constexpr std::uint64_t kPathsPerSample = 32;
 constexpr std::uint64_t kVerticesPerSample = 2;
+/// The largest extent of tiles that share a choice of points and vertices, over half of the scene's.
+constexpr double kGroupExtent = 0.1;
 /// Samples whose vertices are selected together.
 constexpr std::uint64_t kSamplesTogether = 64;
 
@@ -77,8 +79,35 @@ GuidedReadings::GuidedReadings(const GuidedLight& light, std::span<const transpo
       receivers_(light.divide(receivers)),
       tiles_(light.tiles(receivers_.even, kPoints)),
       general_tiles_(light.tiles(receivers_.general, kPoints)),
+      groups_(groups_of(tiles_, kGroupExtent * light.caster.half_extent_m())),
+      general_groups_(groups_of(general_tiles_, kGroupExtent * light.caster.half_extent_m())),
       monitor_(monitor) {
-    for (const PointTile& tile : tiles_) points_of_.push_back(light.points_for(tile.receivers, kPoints));
+    for (const Group& group : groups_) points_of_.push_back(light.points_for(group.spread, kPoints));
+}
+
+auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_extent_m)
+    -> std::vector<Group> {
+    constexpr double parallel = 0.95;
+    std::vector<Group> groups;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        const bool is_near =
+            !groups.empty() && t - groups.back().first < kPacketWidth &&
+            std::ranges::all_of(tiles[t].receivers, [&](const transport::Receiver& receiver) {
+                const transport::Receiver& first = tiles[groups.back().first].receivers[0];
+                return dot(receiver.normal(), first.normal()) > parallel &&
+                       length(receiver.position() - first.position()) < largest_extent_m;
+            });
+        if (!is_near) groups.push_back({t, t, {}});
+        groups.back().last = t + 1;
+    }
+    for (Group& group : groups) {
+        const std::size_t count = group.last - group.first;
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            const auto& receivers = tiles[group.first + i * count / kPacketWidth].receivers;
+            if (i < receivers.size()) group.spread.push_back(receivers[i]);
+        }
+    }
+    return groups;
 }
 
 void GuidedReadings::collect(const Batch& batch, ReadingSums& sums) const {
@@ -116,8 +145,9 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
     std::vector<std::array<double, 3>> points;
     for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i)
         points.push_back(gather_point(batch.key.derived(kGather), i));
-    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    for (std::size_t t = 0, group = 0; t < tiles_.size(); ++t) {
         monitor_.require_more();
+        if (t == groups_[group].last) ++group;
         const PointTile& tile = tiles_[t];
         const auto random = math::SampleStream(batch.key.derived(kShift), t, 0).next_two();
         std::array<std::array<double, 2>, kPacketWidth> shifts;
@@ -128,7 +158,7 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
         for (std::uint64_t i = 0; i < batch.count; ++i) {
             light_.gather.add_round(tile, lanes, points[i], batch.key.derived(kPaths).derived(t),
                                     batch.first + i, tile_sums);
-            light_.points.select(points_of_[t], kPoints,
+            light_.points.select(points_of_[group], kPoints,
                                  {fraction(points[i][0] + random[0]), fraction(points[i][1] + random[1])},
                                  connected);
             connect_points(light_.caster, tile, connected, sums);
@@ -148,15 +178,18 @@ void GuidedReadings::connect_residual(const Batch& batch, ReadingSums& sums) con
         const NearNodePool pool(nodes, light_.caster.center());
         const math::RandomKey key = batch.key.derived(kSelection).derived(first);
         const std::size_t count = kVerticesPerSample * (last - first);
-        const auto connect_all = [&](std::span<const PointTile> tiles, math::RandomKey own) {
-            for (std::size_t t = 0; t < tiles.size(); ++t) {
-                const auto near = pool.sums_for(tiles[t].receivers, light_.k_per_m2(kPoints));
-                nodes = pool.select(near, count, math::SampleStream(own, t, 0).next());
-                Connections(light_.caster, tiles.subspan(t, 1), monitor_).collect(nodes, sums);
+        const auto connect_all = [&](std::span<const PointTile> tiles, std::span<const Group> groups,
+                                     math::RandomKey own) {
+            for (const Group& group : groups) {
+                const auto near = pool.sums_for(group.spread, light_.k_per_m2(kPoints));
+                for (std::size_t t = group.first; t < group.last; ++t) {
+                    nodes = pool.select(near, count, math::SampleStream(own, t, 0).next());
+                    Connections(light_.caster, tiles.subspan(t, 1), monitor_).collect(nodes, sums);
+                }
             }
         };
-        connect_all(tiles_, key.derived(0));
-        connect_all(general_tiles_, key.derived(1));
+        connect_all(tiles_, groups_, key.derived(0));
+        connect_all(general_tiles_, general_groups_, key.derived(1));
     }
 }
 

@@ -79,6 +79,12 @@ class GuidedReadings {
 
   private:
     enum Purpose : std::uint64_t { kResidual, kSelection, kGather, kShift, kPaths, kGeneral };
+    /// Tiles first ... last - 1, which lie so close together that the same is near to all of them.
+    struct Group {
+        std::size_t first = 0, last = 0;
+        std::vector<transport::Receiver> spread;  ///< some of their receivers
+    };
+    static std::vector<Group> groups_of(std::span<const PointTile> tiles, double largest_extent_m);
 
     void gather(const Batch& batch, ReadingSums& sums) const;
     void gather_general(const Batch& batch, ReadingSums& sums) const;
@@ -87,7 +93,8 @@ class GuidedReadings {
     const GuidedLight& light_;
     GuidedLight::Divided receivers_;
     std::vector<PointTile> tiles_, general_tiles_;
-    std::vector<KernelChoice::Sums> points_of_;  ///< per tile
+    std::vector<Group> groups_, general_groups_;
+    std::vector<KernelChoice::Sums> points_of_;  ///< per group of tiles_
     const Monitor& monitor_;
 };
 
