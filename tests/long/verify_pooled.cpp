@@ -1,0 +1,155 @@
+// How often 95 % intervals hold whose errors are pooled, those of pixels and of large grids: verify_pooled
+// [SEEDS]. Rooms with diffuse and glossy surfaces, by a number of passes or paths, and by error. The truth is
+// the mean of all seeds, which the error of one seed hardly moves. Fails where the mean coverage is not from
+// 92 to 98 %, or where intervals that are a third too narrow would not be found.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "agreement/scenes.h"
+#include "base/parallel.h"
+#include "run/run.h"
+#include "support/scene_builder.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kLeast = 92, kMost = 98;  // per cent
+/// Two-sided 95 % for the 23 degrees of freedom that most pixels have.
+constexpr double kQuantile = 2.07;
+/// Intervals of this share of their width must be found.
+constexpr double kPlanted = 0.67;
+
+Scene room_with_box() {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5));
+    add_object(scene, Box{{1.7, 0.6, 0.001}, {2.5, 1.4, 0.7}}, diffuse(0.5));
+    add_area_light(scene, Rectangle{{1.1, 1.1, 2.99}, {0, 0.8, 0}, {0.8, 0, 0}}, Rgb::grey(2500));
+    return scene;
+}
+
+Scene glossy_room() {
+    Scene scene = room_with_box();
+    add_object(scene, Rectangle{{0, 0, 0.0005}, {3, 0, 0}, {0, 3, 0}},
+               Phong{Rgb::grey(0.3), Rgb::grey(0.3), 30});
+    return scene;
+}
+
+Sensor camera() {
+    return {"camera",
+            Camera{{1.5, 0.1, 1.6}, {0, 1, -0.15}, {0, 0, 1}, 80, {48, 48}, Projection::perspective}};
+}
+
+Sensor grid() { return {"grid", Grid{{0, 0, 0.8}, {3, 0, 0}, {0, 3, 0}, {48, 48}, Vec3{0, 0, 1}}}; }
+
+struct Case {
+    std::string_view name;
+    Scene (*make)();
+    Sensor (*sensor)();
+    std::string_view method;
+    std::optional<std::uint64_t> paths;  ///< passes of pictures
+    std::optional<double> error;
+};
+
+const Case kCases[] = {
+    {"room, auto, 8 passes", room_with_box, camera, "auto", 8, {}},
+    {"room, auto, 10 %", room_with_box, camera, "auto", {}, 0.1},
+    {"room, path, 32 passes", room_with_box, camera, "path", 32, {}},
+    {"room, path, 20 %", room_with_box, camera, "path", {}, 0.2},
+    {"glossy room, auto, 8 passes", glossy_room, camera, "auto", 8, {}},
+    {"glossy room, auto, 20 %", glossy_room, camera, "auto", {}, 0.2},
+    {"point light, auto, 8 passes", closed_box, camera, "auto", 8, {}},
+    {"point light, auto, 10 %", closed_box, camera, "auto", {}, 0.1},
+    {"room, grid, auto, 64 paths", room_with_box, grid, "auto", 64, {}},
+    {"room, grid, auto, 2 %", room_with_box, grid, "auto", {}, 0.02},
+    {"room, grid, path, 10 %", room_with_box, grid, "path", {}, 0.1},
+    {"glossy room, grid, auto, 128", glossy_room, grid, "auto", 128, {}},
+    {"glossy room, grid, auto, 2 %", glossy_room, grid, "auto", {}, 0.02},
+    {"point light, grid, auto, 1 %", closed_box, grid, "auto", {}, 0.01},
+};
+
+struct Runs {
+    std::vector<std::vector<double>> values, half_widths;  ///< by seeds, then by pixels or readings
+
+    /// The share of all intervals, `width` times as wide as stated, that hold the truth [%]; for each
+    /// value.
+    std::vector<double> coverage(double width) const {
+        const std::size_t seeds = values.size(), count = values[0].size();
+        std::vector<double> held(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            double truth = 0;
+            for (const auto& of_seed : values) truth += of_seed[i] / static_cast<double>(seeds);
+            for (std::size_t s = 0; s < seeds; ++s) {
+                const bool holds = std::abs(values[s][i] - truth) <= width * half_widths[s][i];
+                held[i] += holds ? 100 / static_cast<double>(seeds) : 0;
+            }
+        }
+        return held;
+    }
+};
+
+double mean(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
+Runs runs_of(const Case& of, std::size_t seeds) {
+    const Scene scene = of.make();
+    const Sensor sensor = of.sensor();
+    Runs runs{std::vector<std::vector<double>>(seeds), std::vector<std::vector<double>>(seeds)};
+    parallel_for(seeds, [&](std::size_t s) {
+        RunOptions options;
+        options.method = of.method;
+        options.paths = of.paths;
+        options.error = of.error;
+        options.seed = s + 1;
+        options.threads = 1;
+        const auto add = [&](double value, double half_width) {
+            runs.values[s].push_back(value);
+            runs.half_widths[s].push_back(half_width);
+        };
+        if (sensor.camera() == nullptr) {
+            const RunResult result = run::measure(scene, {&sensor, 1}, options);
+            for (const Reading& reading : result.sensors[0].readings) {
+                const statistics::Estimate& estimate = reading.estimate;
+                add(estimate.value, (estimate.upper - estimate.lower) / 2);
+            }
+            return;
+        }
+        const RenderResult result = run::render(scene, sensor, options);
+        for (std::size_t i = 0; i < result.depth_m.size(); ++i) {
+            const auto& [r, g, b] = result.pixels.rgb_cd_m2[i];
+            add(Rgb{{r, g, b}}.luminance(), kQuantile * double{result.pixels.standard_error_cd_m2[i]});
+        }
+    });
+    return runs;
+}
+
+bool verify(const Case& of, std::size_t seeds) {
+    const Runs runs = runs_of(of, seeds);
+    const std::vector<double> held = runs.coverage(1);
+    const double all = mean(held), planted = mean(runs.coverage(kPlanted));
+    double rare = 0;
+    for (const double of_one : held) rare += of_one < 90 ? 100 / static_cast<double>(held.size()) : 0;
+    const bool good = all >= kLeast && all <= kMost && planted < kLeast;
+    fmt::print("{:30} {:6.2f} % {:10.2f} % {:10.2f} % {}\n", of.name, all, rare, planted,
+               good ? "" : "WRONG");
+    std::fflush(stdout);
+    return good;
+}
+
+}  // namespace
+}  // namespace stilb
+
+int main(int argc, char** argv) {
+    const std::size_t seeds = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 400;
+    fmt::print("{:30} {:>8} {:>12} {:>12}\n", "48 x 48 pixels or points", "holds", "some < 90", "planted");
+    bool good = true;
+    for (const stilb::Case& of : stilb::kCases) good = stilb::verify(of, seeds) && good;
+    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+}
