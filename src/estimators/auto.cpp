@@ -36,7 +36,9 @@ constexpr double kError = 0.005;
 /// Costs as Estimator's: of a planning ray with its path, and of a patch of a guess.
 constexpr double kPlanningRayCost = 30, kPatchCost = 250;
 /// A pilot's part by path tracing: so much work, but at least so many samples.
-constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
+constexpr double kPathPilotCost = 1000, kLeastPaths = 8;
+/// Samples of a pilot's part by the guess.
+constexpr std::uint64_t kGuidedSamples = 4;
 
 // Pilots of pictures: some blocks of pixels in some passes, each with a key of its own.
 constexpr int kPilotBlock = 8, kPilotRows = 4;
@@ -143,16 +145,14 @@ std::unique_ptr<Estimator> make_for_many(const Problem& problem) {
     if (problem.max_reflections != transport::kUnlimited) return make_balanced(problem);
     const Survey survey(problem);
     const Problem part = survey.part_of(problem);
-    const auto run = [](const Estimator& method, PilotPurpose purpose) {
-        return run_pilot(method, method.batch_granularity(), purpose);
-    };
-    const Pilot of_balanced = run(*make_balanced(part), kBalanced);
+    const std::unique_ptr<Estimator> balanced_part = make_balanced(part);
+    const Pilot of_balanced = run_pilot(*balanced_part, balanced_part->batch_granularity(), kBalanced);
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
     const double guess = kPatchCost * LightGuess::patch_count(problem.scene);
     if (planning + sampling_cost(of_balanced, of_balanced.means, part.weights) < guess)
         return make_balanced(problem);
     const EstimatorMaker make_guided_part = with_guess(part);
-    const Pilot of_guided = run(*make_guided_part(part), kGuided);
+    const Pilot of_guided = run_pilot(*make_guided_part(part), kGuidedSamples, kGuided);
     const std::vector<double> values = values_of(of_balanced, of_guided);
     const bool guess_pays = sampling_cost(of_guided, values, part.weights) <
                             planning + sampling_cost(of_balanced, values, part.weights);

@@ -113,9 +113,10 @@ RegularPatches::RegularPatches(const Scene& scene, const rays::RayCaster& caster
                                const HasPatches& has_patches, const Monitor& monitor)
     : caster_(caster) {
     patches_.center = caster.center();
+    const double patch_area_m2 = surface_area_m2(scene) / count;
     Stage stage(monitor, "patches", scene.objects.size());
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
-        add(scene.objects[i], ObjectId{i}, surface_area_m2(scene) / count, has_patches);
+        add(scene.objects[i], ObjectId{i}, patch_area_m2, has_patches);
         stage.advance();
     }
 }

@@ -1,6 +1,7 @@
 #include "estimators/local/kernel_choice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/rays.h"
@@ -70,6 +71,7 @@ void KernelChoice::add(const Vec3& position, const Vec3& normal, double light, d
 auto KernelChoice::sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const -> Sums {
     Floats all(light_.size()), own(light_.size());
     std::size_t reached = 0;
+    if (std::isinf(k_per_m2)) receivers = {};
     for (const transport::Receiver& receiver : receivers) {
         const Vec3 p = receiver.position() - center_, n = receiver.normal();
         const FloatPoint at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),

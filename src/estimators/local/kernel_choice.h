@@ -29,7 +29,7 @@ class KernelChoice {
     /// The running sums of the points' weights, for select().
     using Sums = std::vector<float>;
     /// The weights for receivers near the given ones. Without any, light alone decides. `k_per_m2`: the k of
-    /// the connections.
+    /// the connections; where it is infinite, their kernel has no bound, and light alone decides, too.
     Sums sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const;
 
     /// Calls `visit(index, times, rest)` for `count` choices that lie evenly over the weights. `times` is 1 /

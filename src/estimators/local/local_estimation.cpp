@@ -114,7 +114,7 @@ class LocalReadings {
         return guided_ ? GuidedReadings::kGranularity : selected_per_ray_ * paths_per_selected_;
     }
     std::uint64_t first_check() const {
-        return guided_ ? 2 * GuidedReadings::kGranularity : kSelectedBeforeCheck * paths_per_selected_;
+        return guided_ ? 4 * GuidedReadings::kGranularity : kSelectedBeforeCheck * paths_per_selected_;
     }
     double rays_per_sample() const {
         if (guided_) return guided_->rays_per_sample();
@@ -242,10 +242,13 @@ class LocalReadings {
         }
     }
 
-    /// These branches carry so little light that one path for each granule of light paths suffices.
+    /// These branches carry so little light that one path for each granule of light paths suffices, or for
+    /// some of the samples with a guess.
     void add_faint_branches(const Batch& batch, ReadingSums& sums) const {
         const math::RandomKey key = batch.key.derived(kFaint);
+        constexpr double guided_share = 0.25;
         const std::uint64_t light_paths = batch_granularity();
+        const double weight = static_cast<double>(light_paths) / (guided_ ? guided_share : 1);
         for (std::size_t j = 0; j < seen_.faint.size(); ++j) {
             transport_.monitor.require_more();
             const auto& [reading, branch] = seen_.faint[j];
@@ -254,9 +257,10 @@ class LocalReadings {
             for (std::uint64_t i = batch.first / light_paths; i < (batch.first + batch.count) / light_paths;
                  ++i) {
                 math::SampleStream stream(key.derived(j), i);
+                if (guided_ && stream.next() >= guided_share) continue;
                 const Rgb luminance = transport_.tracer.luminance(
                     *hit, branch.direction, transport_.max_reflections - branch.reflections, stream);
-                sums.add(reading, static_cast<double>(light_paths) * branch.transmission * luminance);
+                sums.add(reading, weight * branch.transmission * luminance);
             }
         }
     }

@@ -63,7 +63,7 @@ class GuidedReadings {
   public:
     /// Samples of a batch are a multiple of this. A sample is one gathering ray from every receiver, with its
     /// share of the residual.
-    static constexpr std::uint64_t kGranularity = 2;
+    static constexpr std::uint64_t kGranularity = 1;
 
     /// Points of the guess that are connected to a tile for each gathering ray of its receivers.
     static constexpr std::size_t kPoints = 8;
