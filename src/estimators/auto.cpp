@@ -36,7 +36,7 @@ constexpr double kError = 0.005;
 /// Costs as Estimator's: of a planning ray with its path, and of a patch of a guess.
 constexpr double kPlanningRayCost = 30, kPatchCost = 250;
 /// A pilot's part by path tracing: so much work, but at least so many samples.
-constexpr double kPathPilotCost = 1000, kLeastPaths = 8;
+constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
 /// Samples of a pilot's part by the guess.
 constexpr std::uint64_t kGuidedSamples = 4;
 
