@@ -86,6 +86,12 @@ std::uint64_t Campaign::Replicate::samples() const {
     return all;
 }
 
+std::uint64_t Campaign::Replicate::comparisons() const {
+    std::uint64_t all = 0;
+    for (const Strand& strand : strands) all += strand.sums.comparisons;
+    return all;
+}
+
 Rgb Campaign::Replicate::sum(std::size_t reading) const {
     Rgb all;
     for (const Strand& strand : strands) all += strand.sums.sum[reading];
@@ -182,16 +188,14 @@ std::vector<double> Campaign::replicate_means(std::size_t first, std::size_t cou
 }
 
 std::vector<double> Campaign::lacking(std::size_t first, std::size_t count) const {
-    bool are_compared = true;
-    for_each_strand(
-        [&](const Strand& strand) { are_compared = are_compared && strand.sums.comparisons > 0; });
-    if (!are_compared) return {};
+    const auto is_compared = [](const Replicate& replicate) { return replicate.comparisons() > 0; };
+    if (!std::ranges::all_of(replicates_, is_compared)) return {};
     std::vector<double> differences(replicates_.size() * count);
     parallel_for(replicates_.size(), [&](std::size_t r) {
-        double comparisons = 0;
-        for (const Strand& strand : replicates_[r].strands)
-            comparisons += static_cast<double>(strand.sums.comparisons);
+        const auto comparisons = static_cast<double>(replicates_[r].comparisons());
         for (const Strand& strand : replicates_[r].strands) {
+            // A cancelled batch may leave some without.
+            if (strand.sums.comparisons == 0) continue;
             for (std::size_t j = 0; j < count; ++j)
                 differences[r * count + j] += strand.sums.lacking[first + j].luminance() / comparisons;
         }

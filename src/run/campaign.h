@@ -90,6 +90,7 @@ class Campaign final : public Work {
         std::vector<Strand> strands;
 
         std::uint64_t samples() const;
+        std::uint64_t comparisons() const;  ///< as ReadingSums'
         Rgb sum(std::size_t reading) const;
         Rgb mean(std::size_t reading) const { return sum(reading) * (1 / static_cast<double>(samples())); }
     };

@@ -31,17 +31,12 @@ class BoundedDirect {
 
     enum class Part { bounded, all };
     /// Calls `visit(arrival)` for so many samples of the first part, or of all direct light, divided by their
-    /// number: of every light, spread evenly over it, or, where lights are many, of some. One sample only
-    /// where all would be the same.
+    /// number (a power of two): of every light, spread evenly over it, or, where lights are many, of some.
+    /// One sample only where all would be the same.
     template <typename Visit>
     void sample(const SidePoint& at, Part part, std::uint32_t samples, math::SampleStream& stream,
                 const Visit& visit) const;
 
-  private:
-    /// Whether several samples at one point differ.
-    bool varies() const { return lights_.has_visible_lights() || lights_.count() > kEach; }
-
-  public:
     /// A particle of the second part: its flux, and the surface that it meets.
     struct Particle {
         rays::Hit hit;
@@ -55,6 +50,8 @@ class BoundedDirect {
   private:
     static constexpr std::size_t kEach = 4;
 
+    /// Whether several samples at one point differ.
+    bool varies() const { return lights_.has_visible_lights() || lights_.count() > kEach; }
     double share(double squared_distance) const { return std::min(1.0, squared_distance / near_m2_); }
     template <typename Visit>
     void add(const std::optional<lights::IncidentLight>& light, double weight, const SidePoint& at, Part part,
