@@ -42,17 +42,36 @@ struct Problem {
     const Monitor& monitor = Monitor::none();
 };
 
+/// The samples that a packet of readings takes: the first `all`, and then one for each `every` samples.
+struct Pace {
+    std::uint64_t all = 0, every = 1;
+
+    /// How many it takes of the first `samples` ones.
+    std::uint64_t taken(std::uint64_t samples) const {
+        return samples <= all ? samples : all + (samples - all + every - 1) / every;
+    }
+};
+
 /// The unit of work for readings: samples first ... first + count - 1 of the replicate that `key` identifies.
-/// The contribution of a batch depends on these alone.
+/// The contribution of a batch depends on these and the paces alone.
 struct Batch {
     math::RandomKey key;
     std::uint64_t first = 0;
     std::uint64_t count = 0;
+    /// Of the packets of readings (Estimator::packets()). Empty: all readings take all samples.
+    std::span<const Pace> paces = {};
+
+    /// The samples that a packet takes, numbered without gaps: low-discrepancy points stay even.
+    Batch of_packet(std::size_t packet) const {
+        if (paces.empty()) return *this;
+        const std::uint64_t begin = paces[packet].taken(first);
+        return {key, begin, paces[packet].taken(first + count) - begin};
+    }
 };
 
-/// The sums of the batches of one replicate. The value of a reading is known part + sum / samples.
+/// The sums of the batches of one replicate. The value of a reading is known part + sum / samples taken.
 struct ReadingSums {
-    std::vector<Rgb> sum;         ///< one for each reading [lx or cd/m2, x samples]
+    std::vector<Rgb> sum;         ///< one for each reading [lx or cd/m2, x samples taken]
     std::vector<double> largest;  ///< largest single contribution to each reading, before division
     std::uint64_t rays = 0;
     std::uint64_t invalid = 0;  ///< non-finite contributions, which are left out
@@ -138,6 +157,8 @@ class Estimator {
     /// The largest single contribution to each reading that the set-up has met, as ReadingSums::largest: a
     /// short run may not meet such a one, and must allow for it. Empty where the set-up takes no samples.
     virtual std::vector<double> expected_largest() const { return {}; }
+    /// The packet of each reading, for batches in which packets have paces of their own. Empty: they cannot.
+    virtual std::vector<std::uint32_t> packets() const { return {}; }
     /// The number of samples of a batch is a multiple of this.
     virtual std::uint64_t batch_granularity() const = 0;
     /// The number of samples of a replicate before the first error estimate: one from fewer may be far too

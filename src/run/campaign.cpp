@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "run/paces.h"
 #include "stilb/error.h"
 
 namespace stilb::run {
@@ -17,6 +18,8 @@ constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 constexpr std::size_t kLeastReplicates = 8;
 /// Replicates of large grids alone, and the least number of readings of such a grid.
 constexpr std::size_t kFewReplicates = 8, kLargeGrid = 64;
+/// Samples of a replicate from which its packets' paces follow.
+constexpr std::uint64_t kSamplesBeforePaces = 16;
 /// Tasks that can run at the same time: strands of all replicates.
 constexpr std::size_t kStrands = 32;
 
@@ -28,7 +31,7 @@ ReplicatePlan ReplicatePlan::of(std::span<const Sensor> sensors, const RunOption
         return sensor.count() && sensor.size() >= kLargeGrid;
     });
     ReplicatePlan plan;
-    if (are_large_grids) plan = {kFewReplicates, true};
+    if (are_large_grids) plan = {kFewReplicates, true, options.error.has_value()};
     if (options.replicates) plan.replicates = static_cast<std::size_t>(*options.replicates);
     return plan;
 }
@@ -39,11 +42,18 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
     : estimator_(estimator),
       sensors_(sensors),
       expected_largest_(estimator.expected_largest()),
-      pools_errors_(plan.pools_errors) {
+      pools_errors_(plan.pools_errors),
+      has_paces_(plan.has_paces),
+      packets_(estimator.packets()) {
+    if (packets_.empty()) {
+        has_paces_ = false;
+        packets_.resize(readings);
+    }
+    const std::size_t packets = *std::ranges::max_element(packets_) + std::size_t{1};
     const std::size_t strands = std::max<std::size_t>(1, kStrands / plan.replicates);
     unit_ = strands * estimator.batch_granularity();
     for (std::size_t r = 0; r < plan.replicates; ++r)
-        replicates_.push_back({key.derived(r), std::vector<Strand>(strands, Strand(readings))});
+        replicates_.push_back({key.derived(r), std::vector<Strand>(strands, Strand(readings, packets)), {}});
     first_check_ = in_units(std::max(estimator.first_check(), samples_for(least_samples)));
     const double per_batch =
         kRaysPerRound / (static_cast<double>(plan.replicates) * estimator.rays_per_sample());
@@ -78,11 +88,19 @@ void Campaign::Strand::add(const estimators::Batch& batch, const estimators::Est
     estimator.run_batch(batch, more);
     sums += more;
     samples += batch.count;
+    for (std::size_t packet = 0; packet < taken.size(); ++packet)
+        taken[packet] += batch.of_packet(packet).count;
 }
 
 std::uint64_t Campaign::Replicate::samples() const {
     std::uint64_t all = 0;
     for (const Strand& strand : strands) all += strand.samples;
+    return all;
+}
+
+std::uint64_t Campaign::Replicate::taken(std::size_t packet) const {
+    std::uint64_t all = 0;
+    for (const Strand& strand : strands) all += strand.taken[packet];
     return all;
 }
 
@@ -101,17 +119,26 @@ Rgb Campaign::Replicate::sum(std::size_t reading) const {
 void Campaign::advance(std::uint64_t count) {
     const std::size_t strands = replicates_[0].strands.size();
     const std::uint64_t each = count / strands;
+    if (has_paces_ && replicates_[0].paces.empty() && samples_ >= kSamplesBeforePaces) set_paces();
     try {
         parallel_for(replicates_.size() * strands, [&](std::size_t task) {
             Replicate& replicate = replicates_[task / strands];
             const std::size_t s = task % strands;
-            replicate.strands[s].add({replicate.key, samples_ + s * each, each}, estimator_);
+            replicate.strands[s].add({replicate.key, samples_ + s * each, each, replicate.paces}, estimator_);
         });
     } catch (const Cancelled&) {
         if (has_result()) std::erase_if(replicates_, [](const Replicate& r) { return r.samples() == 0; });
         throw;
     }
     samples_ += count;
+}
+
+void Campaign::set_paces() {
+    std::vector<std::size_t> readings;
+    for (const Sensor& sensor : sensors_) readings.push_back(sensor.size());
+    const std::vector<double> means = replicate_means(0, packets_.size());
+    for (std::size_t r = 0; r < replicates_.size(); ++r)
+        replicates_[r].paces = paces_of(r, {means, packets_.size()}, packets_, readings, samples_);
 }
 
 double Campaign::attained_error() const {
@@ -162,7 +189,10 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
     for (std::size_t j = 0; j < count; ++j) {
         statistics::LargestContributions known = all.largest[j];
         if (!expected_largest_.empty()) known.overall = std::max(known.overall, expected_largest_[first + j]);
-        all.rare_light.push_back(statistics::rare_light(known, samples_in_all()));
+        std::uint64_t samples = 0;
+        for (const Replicate& replicate : replicates_) samples += replicate.taken(packets_[first + j]);
+        all.samples.push_back(samples);
+        all.rare_light.push_back(statistics::rare_light(known, samples));
     }
     all.readings =
         statistics::estimate_readings({all.replicate_means, count, all.columns}, confidence, all.rare_light);
@@ -181,7 +211,7 @@ std::vector<double> Campaign::replicate_means(std::size_t first, std::size_t cou
     const auto known = estimator_.known_part();
     parallel_for(replicates_.size(), [&](std::size_t r) {
         for (std::size_t j = 0; j < count; ++j) {
-            means[r * count + j] = known[first + j].luminance() + replicates_[r].mean(first + j).luminance();
+            means[r * count + j] = known[first + j].luminance() + mean(replicates_[r], first + j).luminance();
         }
     });
     return means;
@@ -208,7 +238,7 @@ std::vector<Rgb> Campaign::rgb(std::size_t first, std::size_t count) const {
     const auto known = estimator_.known_part();
     parallel_for_parts(count, [&](std::size_t begin, std::size_t end) {
         for (const Replicate& replicate : replicates_) {
-            for (std::size_t j = begin; j < end; ++j) all[j] += replicate.mean(first + j);
+            for (std::size_t j = begin; j < end; ++j) all[j] += mean(replicate, first + j);
         }
         for (std::size_t j = begin; j < end; ++j)
             all[j] = known[first + j] + all[j] * (1 / static_cast<double>(replicates_.size()));

@@ -21,6 +21,7 @@ namespace stilb::run {
 struct ReplicatePlan {
     std::size_t replicates = 32;
     bool pools_errors = false;  ///< of readings side by side
+    bool has_paces = false;     ///< packets that are sure enough take fewer samples (paces.h)
 
     /// Few replicates where all sensors are large grids: the points of a replicate then lie more evenly, and
     /// neighbours help with the errors (statistics/pooled_errors.h).
@@ -68,6 +69,7 @@ class Campaign final : public Work {
         std::vector<double> replicate_means;
         std::size_t columns = 0;  ///< as statistics::ReplicateTable's
         std::vector<statistics::LargestContributions> largest;
+        std::vector<std::uint64_t> samples;  ///< of all replicates
         /// Light that the readings may lack because it is rare [lx or cd/m2].
         std::vector<double> rare_light;
         std::optional<statistics::BiasBounds> bias;  ///< of methods on patches; the intervals contain it
@@ -78,21 +80,23 @@ class Campaign final : public Work {
   private:
     /// A part of a replicate's samples with sums of its own, so that there is work for many threads.
     struct Strand {
-        explicit Strand(std::size_t readings) : sums(readings) {}
+        Strand(std::size_t readings, std::size_t packets) : sums(readings), taken(packets) {}
 
         void add(const estimators::Batch& batch, const estimators::Estimator& estimator);
 
         estimators::ReadingSums sums;
+        std::vector<std::uint64_t> taken;  ///< samples, by packet
         std::uint64_t samples = 0;
     };
     struct Replicate {
         math::RandomKey key;
         std::vector<Strand> strands;
+        std::vector<estimators::Pace> paces;  ///< of the packets; empty: all take all samples
 
         std::uint64_t samples() const;
+        std::uint64_t taken(std::size_t packet) const;
         std::uint64_t comparisons() const;  ///< as ReadingSums'
         Rgb sum(std::size_t reading) const;
-        Rgb mean(std::size_t reading) const { return sum(reading) * (1 / static_cast<double>(samples())); }
     };
 
     /// Rounded up to a number of samples of a replicate that its strands can share.
@@ -102,6 +106,10 @@ class Campaign final : public Work {
     void for_each_strand(const Visit& visit) const {
         for (const Replicate& replicate : replicates_) std::ranges::for_each(replicate.strands, visit);
     }
+    void set_paces();
+    Rgb mean(const Replicate& replicate, std::size_t reading) const {
+        return replicate.sum(reading) * (1 / static_cast<double>(replicate.taken(packets_[reading])));
+    }
     std::vector<double> replicate_means(std::size_t first, std::size_t count) const;
     std::vector<statistics::LargestContributions> largest(std::size_t first, std::size_t count) const;
     /// Replicates x readings: by how much path tracing finds more light, luminance-weighted.
@@ -110,8 +118,9 @@ class Campaign final : public Work {
     const estimators::Estimator& estimator_;
     std::span<const Sensor> sensors_;
     std::vector<double> expected_largest_;
-    bool pools_errors_;
-    std::uint64_t unit_ = 1;  ///< samples of a replicate are a multiple of this
+    bool pools_errors_, has_paces_;
+    std::vector<std::uint32_t> packets_;  ///< of the readings; one packet where the method has none
+    std::uint64_t unit_ = 1;              ///< samples of a replicate are a multiple of this
     std::vector<Replicate> replicates_;
     std::uint64_t first_check_ = 1;
     std::uint64_t batch_ = 1;

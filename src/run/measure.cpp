@@ -100,7 +100,8 @@ std::vector<std::string> rarity_warnings(const Campaign::Estimates& estimates, s
     for (std::size_t j = 0; j < sensor.size(); ++j) {
         const bool is_dark = estimates.readings[j].value == 0;
         dark += is_dark;
-        uncertain += !is_dark && rests_on_few_samples(estimates.readings[j], estimates.largest[j], samples);
+        uncertain += !is_dark &&
+                     rests_on_few_samples(estimates.readings[j], estimates.largest[j], estimates.samples[j]);
     }
     std::vector<std::string> warnings;
     if (dark > 0) {

@@ -1,6 +1,8 @@
 // The number of threads changes no bit of a result.
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "run/run.h"
 #include "support/scene_builder.h"
 
@@ -8,11 +10,13 @@ namespace stilb::run {
 namespace {
 
 /// As measured by one thread and by others.
-void expect_same(const char* method, const Scene& scene, const std::vector<Sensor>& sensors, int replicates) {
+void expect_same(const char* method, const Scene& scene, const std::vector<Sensor>& sensors, int replicates,
+                 std::optional<double> error = {}) {
     const auto measure = [&](int threads) {
         RunOptions options;
         options.method = method;
         options.paths = 2048;
+        options.error = error;
         options.threads = threads;
         return run::measure(scene, sensors, options);
     };
@@ -47,6 +51,8 @@ TEST_P(Threads, ChangeNoBit) {
     // A large grid alone has fewer replicates.
     expect_same(GetParam(), scene, {plane, point}, 32);
     expect_same(GetParam(), scene, {plane}, 8);
+    // With paces.
+    expect_same(GetParam(), scene, {plane}, 8, 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Threads, testing::Values("auto", "local", "path"),

@@ -110,6 +110,20 @@ class LocalReadings {
         }
         return all;
     }
+    /// With a guess, for readings at points: packets of their receivers.
+    std::vector<std::uint32_t> packets() const {
+        const std::size_t count = seen_.known_part.size();
+        if (!guided_ || !guided_->can_have_paces() || !seen_.faint.empty() || seen_.receivers.size() != count)
+            return {};
+        constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+        std::vector<std::uint32_t> packets(count, none);
+        for (std::size_t j = 0; j < count; ++j) {
+            std::uint32_t& packet = packets[seen_.receivers[j].reading()];
+            if (packet != none) return {};
+            packet = static_cast<std::uint32_t>(j / kPacketWidth);
+        }
+        return packets;
+    }
     std::uint64_t batch_granularity() const {
         return guided_ ? GuidedReadings::kGranularity : selected_per_ray_ * paths_per_selected_;
     }
@@ -207,10 +221,11 @@ class LocalReadings {
     void add_direct_light(const Batch& batch, ReadingSums& sums) const {
         const math::RandomKey key = batch.key.derived(kDirect);
         const std::uint64_t light_paths = light_paths_per_direct_sample();
-        const std::uint64_t end = (batch.first + batch.count) / light_paths;
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
-            for (std::uint64_t i = batch.first / light_paths; i < end; ++i) {
+            const Batch own = batch.of_packet(t);
+            const std::uint64_t end = (own.first + own.count) / light_paths;
+            for (std::uint64_t i = own.first / light_paths; i < end; ++i) {
                 std::vector<math::SampleStream> streams = streams_of(key, t, tile.size(), i);
                 transport::DirectLight::TileLight light{};
                 transport_.direct.add_sample(tile, remainder, streams, light);
@@ -359,6 +374,7 @@ class LocalEstimation final : public Estimator {
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::vector<double> expected_largest() const override { return readings_.expected_largest(); }
+    std::vector<std::uint32_t> packets() const override { return readings_.packets(); }
     std::uint64_t batch_granularity() const override { return readings_.batch_granularity(); }
     std::uint64_t first_check() const override { return readings_.first_check(); }
     double rays_per_sample() const override { return readings_.rays_per_sample(); }

@@ -41,10 +41,15 @@ void avoid_tiny_components(RayPacket& packet) {
 
 }  // namespace
 
-std::array<double, 3> gather_point(math::RandomKey key, std::uint64_t index) {
-    math::SampleStream stream(key, index, 4);
-    const auto [u1, u2] = stream.next_two();
-    return {u1, u2, stream.next()};
+std::vector<GatherPoint> gather_points(math::RandomKey key, std::uint64_t first, std::uint64_t count) {
+    std::vector<GatherPoint> points;
+    points.reserve(count);
+    for (std::uint64_t index = first; index < first + count; ++index) {
+        math::SampleStream stream(key, index, 4);
+        const auto [u1, u2] = stream.next_two();
+        points.push_back({u1, u2, stream.next()});
+    }
+    return points;
 }
 
 std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::size_t lane) {
@@ -70,7 +75,7 @@ GatherLanes::GatherLanes(const PointTile& tile, std::span<const std::array<doubl
     }
 }
 
-void GuessGather::set_rays(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
+void GuessGather::set_rays(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u,
                            RayPacket& packet, Floats& cosine) const {
     packet.origin_x = tile.lifted_x;
     packet.origin_y = tile.lifted_y;
@@ -83,7 +88,7 @@ void GuessGather::set_rays(const PointTile& tile, const GatherLanes& lanes, cons
     avoid_tiny_components(packet);
 }
 
-void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
+void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u,
                             math::RandomKey key, std::uint64_t round, Sums& sums) const {
     rays::RayHitPacket packet;
     alignas(64) Floats cosine;

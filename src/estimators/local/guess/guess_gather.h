@@ -5,8 +5,11 @@
 // path tracing.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "estimators/estimator.h"
 #include "estimators/local/guess/light_guess.h"
@@ -28,8 +31,10 @@ struct alignas(64) GatherLanes {
     GatherLanes(const PointTile& tile, std::span<const std::array<double, 2>> shifts);
 };
 
-/// Random point `index` of the rays.
-std::array<double, 3> gather_point(math::RandomKey key, std::uint64_t index);
+/// A random point of rays: two numbers for the direction, one for roulette.
+using GatherPoint = std::array<double, 3>;
+/// Points number `first` ... `first` + `count` - 1.
+std::vector<GatherPoint> gather_points(math::RandomKey key, std::uint64_t first, std::uint64_t count);
 /// Lanes whose shifts differ by little: enough that neighbours do not have the same noise, little enough that
 /// the packet of rays stays together. `random`: in [0, 1), of the whole tile. `lane`: among neighbours.
 std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::size_t lane);
@@ -52,8 +57,8 @@ class GuessGather {
     /// Adds one ray from every receiver of a tile, whose responses must be constant and whose k is that of
     /// the residual. `u`: the random point of the rays. `key`, `round`: for the paths of rays that path
     /// tracing continues.
-    void add_round(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
-                   math::RandomKey key, std::uint64_t round, Sums& sums) const;
+    void add_round(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u, math::RandomKey key,
+                   std::uint64_t round, Sums& sums) const;
     /// The same with receivers of any response, by rays about in proportion to it: the rays bring all the
     /// light of the guess.
     void add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
@@ -62,8 +67,8 @@ class GuessGather {
     static void flush(const PointTile& tile, const Sums& sums, double weight, ReadingSums& readings);
 
   private:
-    void set_rays(const PointTile& tile, const GatherLanes& lanes, const std::array<double, 3>& u,
-                  RayPacket& packet, PointTile::Floats& cosine) const;
+    void set_rays(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u, RayPacket& packet,
+                  PointTile::Floats& cosine) const;
     /// How a ray is continued beyond the guess.
     struct Continuation {
         PartShares shares;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "estimators/limits.h"
-#include "estimators/local/node_pool.h"
 
 namespace stilb::estimators {
 namespace {
@@ -142,29 +142,29 @@ void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const
 }
 
 void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
-    std::vector<std::array<double, 3>> points;
-    for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i)
-        points.push_back(gather_point(batch.key.derived(kGather), i));
     for (std::size_t t = 0, group = 0; t < tiles_.size(); ++t) {
         monitor_.require_more();
         if (t == groups_[group].last) ++group;
         const PointTile& tile = tiles_[t];
+        const Batch own = batch.of_packet(t);
+        if (own.count == 0) continue;
         const auto random = math::SampleStream(batch.key.derived(kShift), t, 0).next_two();
         std::array<std::array<double, 2>, kPacketWidth> shifts;
         for (std::size_t i = 0; i < kPacketWidth; ++i) shifts[i] = gather_shift(random, i);
         const GatherLanes lanes(tile, shifts);
+        const auto points = gather_points(batch.key.derived(kGather), own.first, own.count);
         GuessGather::Sums tile_sums;
         std::vector<EmittingPoint> connected;
-        for (std::uint64_t i = 0; i < batch.count; ++i) {
+        for (std::uint64_t i = 0; i < own.count; ++i) {
             light_.gather.add_round(tile, lanes, points[i], batch.key.derived(kPaths).derived(t),
-                                    batch.first + i, tile_sums);
+                                    own.first + i, tile_sums);
             light_.points.select(points_of_[group], kPoints,
                                  {fraction(points[i][0] + random[0]), fraction(points[i][1] + random[1])},
                                  connected);
             connect_points(light_.caster, tile, connected, sums);
         }
         GuessGather::flush(tile, tile_sums, 1, sums);
-        sums.rays += batch.count * tile.receivers.size();
+        sums.rays += own.count * tile.receivers.size();
     }
 }
 
@@ -177,19 +177,26 @@ void GuidedReadings::connect_residual(const Batch& batch, ReadingSums& sums) con
         for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(kPathsPerSample);
         const NearNodePool pool(nodes, light_.caster.center());
         const math::RandomKey key = batch.key.derived(kSelection).derived(first);
-        const std::size_t count = kVerticesPerSample * (last - first);
-        const auto connect_all = [&](std::span<const PointTile> tiles, std::span<const Group> groups,
-                                     math::RandomKey own) {
-            for (const Group& group : groups) {
-                const auto near = pool.sums_for(group.spread, light_.k_per_m2(kPoints));
-                for (std::size_t t = group.first; t < group.last; ++t) {
-                    nodes = pool.select(near, count, math::SampleStream(own, t, 0).next());
-                    Connections(light_.caster, tiles.subspan(t, 1), monitor_).collect(nodes, sums);
-                }
-            }
-        };
-        connect_all(tiles_, groups_, key.derived(0));
-        connect_all(general_tiles_, general_groups_, key.derived(1));
+        const std::uint64_t part = last - first;
+        connect(pool, tiles_, groups_, {key.derived(0), first, part, batch.paces}, sums);
+        connect(pool, general_tiles_, general_groups_, {key.derived(1), first, part}, sums);
+    }
+}
+
+void GuidedReadings::connect(const NearNodePool& pool, std::span<const PointTile> tiles,
+                             std::span<const Group> groups, const Batch& batch, ReadingSums& sums) const {
+    for (const Group& group : groups) {
+        std::optional<KernelChoice::Sums> near;
+        for (std::size_t t = group.first; t < group.last; ++t) {
+            const std::uint64_t taken = batch.of_packet(t).count;
+            if (taken == 0) continue;
+            if (!near) near = pool.sums_for(group.spread, light_.k_per_m2(kPoints));
+            std::vector<transport::LightVertex> nodes =
+                pool.select(*near, kVerticesPerSample * taken, math::SampleStream(batch.key, t, 0).next());
+            const double share = static_cast<double>(taken) / static_cast<double>(batch.count);
+            for (transport::LightVertex& node : nodes) node.flux_lm *= share;
+            Connections(light_.caster, tiles.subspan(t, 1), monitor_).collect(nodes, sums);
+        }
     }
 }
 

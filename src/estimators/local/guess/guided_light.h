@@ -15,6 +15,7 @@
 #include "estimators/local/guess/guess_points.h"
 #include "estimators/local/guess/light_guess.h"
 #include "estimators/local/guess/residual_light.h"
+#include "estimators/local/node_pool.h"
 
 namespace stilb::estimators {
 
@@ -71,7 +72,10 @@ class GuidedReadings {
     GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers,
                    const Monitor& monitor);
 
+    /// A packet of readings with a pace of its own is a tile of the receivers, so there must be as many of
+    /// these as readings, all of constant response.
     void collect(const Batch& batch, ReadingSums& sums) const;
+    bool can_have_paces() const { return general_tiles_.empty(); }
     /// As Estimator's.
     double rays_per_sample() const;
     /// As Estimator's, where each receiver stands for so many.
@@ -89,6 +93,8 @@ class GuidedReadings {
     void gather(const Batch& batch, ReadingSums& sums) const;
     void gather_general(const Batch& batch, ReadingSums& sums) const;
     void connect_residual(const Batch& batch, ReadingSums& sums) const;
+    void connect(const NearNodePool& pool, std::span<const PointTile> tiles, std::span<const Group> groups,
+                 const Batch& batch, ReadingSums& sums) const;
 
     const GuidedLight& light_;
     GuidedLight::Divided receivers_;

@@ -51,10 +51,8 @@ class GuidedPicture final : public LocalPicture {
             : picture_(picture),
               pass_(pass),
               pool_(picture.trace_residual(pass), picture.guide_.caster.center()),
-              selection_point_(math::SampleStream(pass.key.derived(kSelection), pass.index, 4).next_two()) {
-            for (std::uint64_t i = 0; i < kRays; ++i)
-                gather_points_.push_back(gather_point(pass.key.derived(kGather), kRays * pass.index + i));
-        }
+              selection_point_(math::SampleStream(pass.key.derived(kSelection), pass.index, 4).next_two()),
+              gather_points_(gather_points(pass.key.derived(kGather), kRays * pass.index, kRays)) {}
 
         std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
@@ -110,7 +108,7 @@ class GuidedPicture final : public LocalPicture {
         Pass pass_;
         NearNodePool pool_;
         std::array<double, 2> selection_point_;
-        std::vector<std::array<double, 3>> gather_points_;  ///< of the rays
+        std::vector<GatherPoint> gather_points_;  ///< of the rays
     };
 
     /// The weights of the guess's points for the sub-points around a pixel.

@@ -1,0 +1,72 @@
+#include "run/paces.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace stilb::run {
+namespace {
+
+/// A packet takes so many times the samples that its error needs: the spread of few replicates says it
+/// roughly, and where it misses rare light, it says too little.
+constexpr double kReserve = 2;
+/// One of so many samples at least.
+constexpr double kMostEvery = 16;
+
+/// The squares of the relative standard deviations of all replicates but one; 0 where there is no light.
+std::vector<double> relative_variances(std::size_t left_out, const statistics::ReplicateTable& table) {
+    std::vector<double> sums(table.readings), squares(table.readings);
+    for (std::size_t r = 0; r < table.replicates(); ++r) {
+        if (r == left_out) continue;
+        const std::span<const double> row = table.row(r);
+        for (std::size_t j = 0; j < row.size(); ++j) sums[j] += row[j], squares[j] += row[j] * row[j];
+    }
+    const auto others = static_cast<double>(table.replicates() - 1);
+    std::vector<double> variances(table.readings);
+    for (std::size_t j = 0; j < table.readings; ++j) {
+        const double mean = sums[j] / others;
+        if (mean > 0) variances[j] = std::max(0.0, squares[j] / others / (mean * mean) - 1);
+    }
+    return variances;
+}
+
+/// The means over the packets.
+std::vector<double> means_of_packets(std::span<const double> values, std::span<const std::uint32_t> packets) {
+    std::vector<double> sums(*std::ranges::max_element(packets) + std::size_t{1}), counts(sums.size());
+    for (std::size_t j = 0; j < values.size(); ++j) sums[packets[j]] += values[j], ++counts[packets[j]];
+    for (std::size_t p = 0; p < sums.size(); ++p) sums[p] /= std::max(1.0, counts[p]);
+    return sums;
+}
+
+/// The variance that decides when a run ends: in the worst sensor, that which the share of readings that must
+/// meet the target does not exceed.
+double deciding_variance(std::span<const double> of_packets, std::span<const std::uint32_t> packets,
+                         std::span<const std::size_t> readings) {
+    double deciding = 0;
+    std::size_t first = 0;
+    for (const std::size_t count : readings) {
+        std::vector<double> variances;
+        for (std::size_t j = first; j < first + count; ++j) variances.push_back(of_packets[packets[j]]);
+        deciding = std::max(deciding, statistics::attained_error_of(variances));
+        first += count;
+    }
+    return deciding;
+}
+
+}  // namespace
+
+std::vector<estimators::Pace> paces_of(std::size_t replicate, const statistics::ReplicateTable& table,
+                                       std::span<const std::uint32_t> packets,
+                                       std::span<const std::size_t> readings, std::uint64_t samples) {
+    const std::vector<double> variances = means_of_packets(relative_variances(replicate, table), packets);
+    const double deciding = deciding_variance(variances, packets, readings);
+    std::vector<estimators::Pace> paces;
+    for (const double variance : variances) {
+        // Without a spread, light may be missing.
+        const double every = variance > 0 ? std::clamp(deciding / (kReserve * variance), 1.0, kMostEvery) : 1;
+        paces.push_back({samples, std::bit_floor(static_cast<std::uint64_t>(every))});
+    }
+    return paces;
+}
+
+}  // namespace stilb::run
