@@ -272,7 +272,7 @@ struct ReceiverModel {
 
 /// A constant number for all points together, except for very few or very many points.
 unsigned planning_rays_per_point(double points) {
-    constexpr double rays = 1u << 14;
+    constexpr double rays = 1u << 13;
     return static_cast<unsigned>(std::clamp(rays / points, 16., 1024.));
 }
 
