@@ -1,5 +1,5 @@
-// Pictures by method path against their bound: Embree's packets on the rays of such paths, which are ready in
-// memory and of which nothing is made. One thread, processor time.
+// Pictures by method path against their bound: the ray caster's packets on the rays of such paths, which are
+// ready in memory and of which nothing is made. One thread, processor time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "estimators/estimator_list.h"
+#include "rooms.h"
 #include "transport/light_sampler.h"
 #include "transport/weights.h"
 
@@ -78,7 +79,7 @@ PreparedRays prepare_rays(const Scene& scene, const rays::RayCaster& caster) {
     };
     const transport::LightSampler lights(scene, caster);
     const sensors::CameraView view(make_camera());
-    const Rgb reflectance = Rgb::grey(0.5);
+    const Rgb reflectance = std::get<Diffuse>(scene.materials.front().material).reflectance;
     math::SampleStream stream(math::RandomKey{5}, 0, 0);
     PreparedRays prepared;
     std::size_t camera = 0, reflected = 0, first_segments = 0, segments = 0;
@@ -176,4 +177,5 @@ int main() {
     fmt::print("Pictures by path, one thread, best of 7   [million samples / s]\n{:18} {:>10} {:>10} {:>8}\n",
                "", "path", "bare", "ratio");
     stilb::compare(stilb::make_boxes());
+    stilb::compare(stilb::make_room(30));
 }

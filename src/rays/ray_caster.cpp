@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "base/vec.h"
 #include "rays/embree_geometry.h"
+#include "rays/few_triangles.h"
 #include "rays/surface_packet.h"
 #include "stilb/error.h"
 
@@ -179,6 +181,7 @@ struct RayCaster::Implementation {
     int packet_width = 4;                                     ///< widest that the processor takes natively
     std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
     std::vector<MetObject> met_objects;
+    std::optional<FewTriangles> few_triangles;  ///< all of the scene, if it has few and nothing curved
 
     explicit Implementation(const Scene& s) : scene(s), lift_rule(scene::lift_of(s)) {
         require_within_reach(s);
@@ -196,6 +199,7 @@ struct RayCaster::Implementation {
         rtcSetSceneBuildQuality(embree_scene, RTC_BUILD_QUALITY_HIGH);
         for (const Object& object : scene.objects) add(object);
         rtcCommitScene(embree_scene);
+        add_few_triangles();
     }
 
     ~Implementation() {
@@ -213,6 +217,28 @@ struct RayCaster::Implementation {
         rtcAttachGeometryByID(embree_scene, embree_geometry, static_cast<unsigned>(geometries.size() - 1));
         met_objects.emplace_back(*geometries.back(), object.materials);
         rtcReleaseGeometry(embree_geometry);
+    }
+
+    void add_few_triangles() {
+        std::size_t count = 0;
+        for (const auto& geometry : geometries) {
+            if (geometry->curved) return;
+            count += geometry->triangle_count;
+        }
+        if (count > FewTriangles::kMost) return;
+        few_triangles.emplace(lift_rule.half_extent_m());
+        for (std::uint32_t object = 0; object < geometries.size(); ++object) {
+            const EmbreeGeometry& geometry = *geometries[object];
+            for (std::uint32_t i = 0; i < geometry.triangle_count; ++i) {
+                const auto& [a, b, c] = geometry.triangles[i];
+                few_triangles->add(object, i,
+                                   {geometry.vertices[a], geometry.vertices[b], geometry.vertices[c]});
+            }
+        }
+    }
+
+    bool takes_few_triangles(const LaneMask& lanes, Coherence coherence) const {
+        return few_triangles && coherence == Coherence::scattered && few_triangles->are_faster(lanes);
     }
 
     Hit hit_of(const RTCRayHit& found) const {
@@ -372,6 +398,8 @@ void RayCaster::closest(std::span<const Ray> rays, Coherence coherence,
 }
 
 void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence coherence) const {
+    if (implementation_->takes_few_triangles(lanes, coherence))
+        return implementation_->few_triangles->closest(packet, lanes);
     RTCIntersectContext context = context_for(coherence);
     const RTCScene embree_scene = implementation_->embree_scene;
     packet.object.fill(kNothing);
@@ -491,6 +519,8 @@ RayCaster::FirstHit RayCaster::seen(const Ray& ray) const {
 }
 
 void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
+    if (implementation_->takes_few_triangles(lanes, coherence))
+        return implementation_->few_triangles->occlude(packet, lanes);
     RTCIntersectContext context = context_for(coherence);
     const RTCScene embree_scene = implementation_->embree_scene;
     switch (implementation_->packet_width) {
