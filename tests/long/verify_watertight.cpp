@@ -16,14 +16,18 @@ int main(int count, char** arguments) {
     for (const ClosedMeshEntry& entry : kClosedMeshes) {
         for (const double size_m : {1e-3, 1.0, 1e4}) {
             const ClosedMesh closed = entry.make(size_m);
-            std::atomic<std::uint64_t> lost = 0;
-            std::vector<std::jthread> workers;
-            for (unsigned t = 0; t < threads; ++t) {
-                workers.emplace_back([&, t] { lost += lost_rays(closed, rays / threads + 1, 100 + t); });
+            for (const Queries queries : {Queries::single, Queries::packets}) {
+                std::atomic<std::uint64_t> lost = 0;
+                std::vector<std::jthread> workers;
+                for (unsigned t = 0; t < threads; ++t) {
+                    workers.emplace_back(
+                        [&, t] { lost += lost_rays(closed, queries, rays / threads + 1, 100 + t); });
+                }
+                workers.clear();
+                fmt::print("{:12} {:>7} m, {}: {} of {} rays lost\n", entry.name, size_m,
+                           queries == Queries::single ? "single" : "packets", lost.load(), rays);
+                all_held = all_held && lost == 0;
             }
-            workers.clear();
-            fmt::print("{:12} {:>7} m: {} of {} rays lost\n", entry.name, size_m, lost.load(), rays);
-            all_held = all_held && lost == 0;
         }
     }
     return all_held ? 0 : 1;

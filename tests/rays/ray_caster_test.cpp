@@ -202,7 +202,8 @@ class ClosedMeshes : public testing::TestWithParam<std::tuple<std::size_t, doubl
 
 TEST_P(ClosedMeshes, LoseNoRay) {
     const auto [place, size_m] = GetParam();
-    EXPECT_EQ(lost_rays(kClosedMeshes[place].make(size_m), 1'000'000, 5), 0u);
+    for (const Queries queries : {Queries::single, Queries::packets})
+        EXPECT_EQ(lost_rays(kClosedMeshes[place].make(size_m), queries, 500'000, 5), 0u);
 }
 
 std::string name_of(const testing::TestParamInfo<std::tuple<std::size_t, double>>& parameter) {

@@ -1,10 +1,12 @@
 // Closed meshes, and whether they lose rays.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -65,27 +67,43 @@ inline constexpr std::array kClosedMeshes{
     ClosedMeshEntry{"PlainBox", plain_box}, ClosedMeshEntry{"RoughSphere", rough_sphere},
     ClosedMeshEntry{"DistantBox", distant_box}, ClosedMeshEntry{"AcuteWedge", acute_wedge}};
 
-/// How many of `rays` rays find no surface, of a walk by diffuse reflection that begins inside and begins
-/// anew where a ray is lost. Convex meshes lose every walk that gets outside.
-inline std::uint64_t lost_rays(const ClosedMesh& closed, std::uint64_t rays, std::uint64_t seed) {
+/// How rays look for surfaces: scattered packets take another way than single rays.
+enum class Queries { single, packets };
+
+/// How many of about `rays` rays find no surface, of sixteen walks by diffuse reflection that begin inside
+/// and begin anew where a ray is lost. Convex meshes lose every walk that gets outside.
+inline std::uint64_t lost_rays(const ClosedMesh& closed, Queries queries, std::uint64_t rays,
+                               std::uint64_t seed) {
     Scene scene;
     add_object(scene, closed.mesh, diffuse(0.5));
     const rays::RayCaster caster(scene);
     RandomPairs random(seed);
-    const auto [first_u1, first_u2] = random.next_pair();
-    Vec3 origin = closed.inside;
-    Vec3 direction = math::sample_sphere(first_u1, first_u2).direction;
-    std::uint64_t lost = 0;
-    for (std::uint64_t i = 0; i < rays; ++i) {
-        const auto hit = caster.closest(origin, direction);
+    const auto from_inside = [&] {
         const auto [u1, u2] = random.next_pair();
-        if (hit) {
-            origin = hit->lifted;
-            direction = Frame::around(hit->normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
+        return rays::Ray{closed.inside, math::sample_sphere(u1, u2).direction};
+    };
+    std::vector<rays::Ray> walks;
+    for (std::size_t i = 0; i < kPacketWidth; ++i) walks.push_back(from_inside());
+    std::vector<std::optional<rays::Hit>> hits(walks.size());
+    std::uint64_t lost = 0;
+    for (std::uint64_t done = 0; done < rays; done += walks.size()) {
+        if (queries == Queries::packets) {
+            caster.closest(walks, rays::Coherence::scattered, hits);
         } else {
-            ++lost;
-            origin = closed.inside;
-            direction = math::sample_sphere(u1, u2).direction;
+            std::ranges::transform(walks, hits.begin(), [&](const rays::Ray& ray) {
+                return caster.closest(ray.origin, ray.direction);
+            });
+        }
+        for (std::size_t i = 0; i < walks.size(); ++i) {
+            if (!hits[i]) {
+                ++lost;
+                walks[i] = from_inside();
+                continue;
+            }
+            const auto [u1, u2] = random.next_pair();
+            walks[i] = {
+                hits[i]->lifted,
+                Frame::around(hits[i]->normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction)};
         }
     }
     return lost;
