@@ -58,7 +58,8 @@ struct Batch {
     math::RandomKey key;
     std::uint64_t first = 0;
     std::uint64_t count = 0;
-    /// Of the packets of readings (Estimator::packets()). Empty: all readings take all samples.
+    /// The pace of each packet of readings (Estimator::packets()). If there are none, all readings take all
+    /// samples.
     std::span<const Pace> paces = {};
 
     /// The samples that a packet takes, numbered without gaps: low-discrepancy points stay even.
@@ -157,7 +158,7 @@ class Estimator {
     /// The largest single contribution to each reading that the set-up has met, as ReadingSums::largest: a
     /// short run may not meet such a one, and must allow for it. Empty where the set-up takes no samples.
     virtual std::vector<double> expected_largest() const { return {}; }
-    /// The packet of each reading, for batches in which packets have paces of their own. Empty: they cannot.
+    /// The packet of each reading. Empty where the method has no packets with paces of their own.
     virtual std::vector<std::uint32_t> packets() const { return {}; }
     /// The number of samples of a batch is a multiple of this.
     virtual std::uint64_t batch_granularity() const = 0;

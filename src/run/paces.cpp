@@ -15,17 +15,23 @@ constexpr double kMostEvery = 16;
 
 /// The squares of the relative standard deviations of all replicates but one; 0 where there is no light.
 std::vector<double> relative_variances(std::size_t left_out, const statistics::ReplicateTable& table) {
+    // Of differences from one of the replicates: so equal values have the variance 0, without rounding
+    // errors.
+    const std::span<const double> first = table.row(left_out == 0 ? 1 : 0);
     std::vector<double> sums(table.readings), squares(table.readings);
     for (std::size_t r = 0; r < table.replicates(); ++r) {
         if (r == left_out) continue;
         const std::span<const double> row = table.row(r);
-        for (std::size_t j = 0; j < row.size(); ++j) sums[j] += row[j], squares[j] += row[j] * row[j];
+        for (std::size_t j = 0; j < row.size(); ++j) {
+            const double difference = row[j] - first[j];
+            sums[j] += difference, squares[j] += difference * difference;
+        }
     }
     const auto others = static_cast<double>(table.replicates() - 1);
     std::vector<double> variances(table.readings);
     for (std::size_t j = 0; j < table.readings; ++j) {
-        const double mean = sums[j] / others;
-        if (mean > 0) variances[j] = std::max(0.0, squares[j] / others / (mean * mean) - 1);
+        const double shift = sums[j] / others, mean = first[j] + shift;
+        if (mean > 0) variances[j] = std::max(0.0, squares[j] / others - shift * shift) / (mean * mean);
     }
     return variances;
 }

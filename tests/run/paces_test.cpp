@@ -52,6 +52,11 @@ TEST(Paces, TakeAllWhereNothingHasBeenFound) {
     for (const estimators::Pace& pace : paces(0, means)) EXPECT_EQ(pace.every, 1u);
 }
 
+TEST(Paces, AreOneWhereTheOthersAreEqual) {
+    const std::vector<double> means(kReplicates * kReadings, 0.1);
+    for (const estimators::Pace& pace : paces(0, means)) EXPECT_EQ(pace.every, 1u);
+}
+
 TEST(Paces, DoNotDependOnTheReplicateItself) {
     const std::vector<double> means = table_of({8, 4, 2, 1});
     for (std::size_t r = 0; r < kReplicates; ++r) {
