@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include "support/closed_meshes.h"
@@ -110,33 +112,6 @@ TEST(FewTriangles, LoseNoRays) {
             for (std::size_t i = 0; i < kPacketWidth; ++i) {
                 EXPECT_NE(packet.object[i], kNothing) << entry.name;
                 EXPECT_LT(segments.end[i], 0) << entry.name;
-            }
-        }
-    }
-}
-
-/// Walks by diffuse reflection, sixteen at a time: convex meshes lose every walk that gets outside.
-TEST(FewTriangles, LoseNoWalks) {
-    for (const ClosedMeshEntry& entry : kClosedMeshes) {
-        const ClosedMesh closed = entry.make(3);
-        if (closed.mesh.triangles.size() > FewTriangles::kMost) continue;
-        Scene scene;
-        add_object(scene, closed.mesh, diffuse(0.5));
-        const RayCaster caster(scene);
-        RandomPairs random(8);
-        std::vector<Ray> rays;
-        for (int i = 0; i < kPacketWidth; ++i) {
-            const auto [u1, u2] = random.next_pair();
-            rays.push_back({closed.inside, math::sample_sphere(u1, u2).direction});
-        }
-        std::vector<std::optional<Hit>> hits(rays.size());
-        for (int round = 0; round < 20'000; ++round) {
-            caster.closest(rays, Coherence::scattered, hits);
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                ASSERT_TRUE(hits[i]) << entry.name;
-                const auto [u1, u2] = random.next_pair();
-                const Frame frame = Frame::around(hits[i]->normal);
-                rays[i] = {hits[i]->lifted, frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction)};
             }
         }
     }
