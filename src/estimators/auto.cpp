@@ -18,6 +18,7 @@
 #include "estimators/limits.h"
 #include "estimators/local/guess/light_guess.h"
 #include "estimators/local/split_plan.h"
+#include "materials/split_material.h"
 
 namespace stilb::estimators {
 namespace {
@@ -43,8 +44,11 @@ constexpr std::uint64_t kGuidedSamples = 4;
 // Pilots of pictures: some blocks of pixels in some passes, each with a key of its own.
 constexpr int kPilotBlock = 8, kPilotRows = 4;
 constexpr std::uint64_t kPilotPasses = 2;
-/// The processor time of a pass by the guess over that of one without (docs/performance.md).
-constexpr double kGuidedPassCost = 1.3;
+/// The processor time of a pass by the guess over that of one without, where all is diffuse, and with gloss,
+/// whose light comes by light paths in both (docs/performance.md).
+constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.7;
+/// Errors of pixels are relative to their values, but to no less than this share of the mean.
+constexpr double kDark = 0.1;
 
 /// The readings of the parts of a pilot.
 struct Pilot {
@@ -208,15 +212,33 @@ Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resol
     return pilot;
 }
 
+/// The work to some mean square of the errors.
+double picture_cost(const Pilot& pilot, std::span<const double> values) {
+    double mean = 0, squares = 0;
+    for (const double value : values) mean += value / static_cast<double>(values.size());
+    for (std::size_t j = 0; j < values.size(); ++j) {
+        const double value = std::max(values[j], kDark * mean);
+        if (value > 0) squares += pilot.deviations[j] * pilot.deviations[j] / (value * value);
+    }
+    return pilot.cost * squares;
+}
+
+bool has_gloss(const Scene& scene) {
+    return std::ranges::any_of(scene.materials, [](const auto& named) {
+        return materials::split(named.material).gloss.has_value();
+    });
+}
+
 std::unique_ptr<Estimator> make_for_picture(const Problem& problem) {
     std::unique_ptr<Estimator> balanced = make_balanced(problem);
     if (problem.max_reflections != transport::kUnlimited) return balanced;
     std::unique_ptr<Estimator> guided = make_guided(problem);
     const auto& resolution = problem.camera->resolution;
     const Pilot of_balanced = run_picture_pilot(*balanced, resolution, 1, kBalanced);
-    const Pilot of_guided = run_picture_pilot(*guided, resolution, kGuidedPassCost, kGuided);
+    const double pass_cost = has_gloss(problem.scene) ? kGlossyPassCost : kGuidedPassCost;
+    const Pilot of_guided = run_picture_pilot(*guided, resolution, pass_cost, kGuided);
     const std::vector<double> values = values_of(of_balanced, of_guided);
-    const bool guess_pays = sampling_cost(of_guided, values, {}) < sampling_cost(of_balanced, values, {});
+    const bool guess_pays = picture_cost(of_guided, values) < picture_cost(of_balanced, values);
     return guess_pays ? std::move(guided) : std::move(balanced);
 }
 

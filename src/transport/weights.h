@@ -23,6 +23,17 @@ inline double relative_brdf(const Material& material, const Rgb& brdf_per_sr) {
     return albedo > 0 ? std::numbers::pi * brdf_per_sr.luminance() / albedo : 0;
 }
 
+/// How light vertices are chosen for connections to a receiver: by their flux alone, or also by the kernel
+/// and the lobe of their reflection towards the receiver.
+enum class VertexChoice { by_flux, by_kernel };
+
+/// The factor s_y that bounds connections. Vertices that are chosen by their lobes contribute evenly,
+/// whatever their BRDF towards the receiver is: only very large values need a bound.
+inline double bounding_brdf(double relative, VertexChoice choice) {
+    constexpr double share = 0.01;
+    return choice == VertexChoice::by_flux || relative <= 1 ? relative : 1 + share * (relative - 1);
+}
+
 /// The weight 1 - w of gathering rays, for a surface seen under a given G / k.
 struct GatheredShare {
     double g_over_k = INFINITY;  ///< infinity: everything is gathered

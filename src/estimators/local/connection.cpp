@@ -63,7 +63,9 @@ void add_visible_directional(const ConnectedVertex& node, const PointTile& tile,
             normalized(Vec3{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]});
         const Rgb brdf = surface.brdf_per_sr(in, frame.to_local(to_point));
         const transport::Receiver::Response response = tile.receivers[i].response(-to_point);
-        const double relative = transport::relative_brdf(*vertex.material, brdf) * response.relative;
+        const double relative =
+            transport::bounding_brdf(transport::relative_brdf(*vertex.material, brdf), tile.choice) *
+            response.relative;
         const double g = g_per_m2[i];
         const double connected_share = vertex.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
         Rgb added = vertex.flux_lm * brdf * (g * connected_share);

@@ -100,7 +100,8 @@ class SharedPoint {
         const Vec3 in = surface_.frame().to_local(direction);
         for_each_lane([&](std::size_t i) {
             const Rgb brdf = surface_.brdf_per_sr(in, out_[i]);
-            const double gathered = share_at(i)(transport::relative_brdf(surface_.material(), brdf));
+            const double gathered = share_at(i)(
+                transport::bounding_brdf(transport::relative_brdf(surface_.material(), brdf), tile_.choice));
             sums.add(tile_.receivers[i].reading(),
                      normal_illuminance * brdf * response_[i] * (in.z * double{g_per_m2_[i]} * gathered));
         });

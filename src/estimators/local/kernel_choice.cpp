@@ -44,6 +44,22 @@ STILB_VECTORIZED void weigh(const FloatPoint& at, float k, std::size_t count, co
     }
 }
 
+/// Multiplies `light` by what lobes reflect towards a position.
+STILB_VECTORIZED void reflect(const FloatPoint& at, std::size_t count, const float* __restrict x,
+                              const float* __restrict y, const float* __restrict z,
+                              const float* __restrict lobe_x, const float* __restrict lobe_y,
+                              const float* __restrict lobe_z, const float* __restrict base,
+                              const float* __restrict peak, const float* __restrict sharpness,
+                              float* __restrict light) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float dx = at.x - x[i], dy = at.y - y[i], dz = at.z - z[i];
+        const float along = lobe_x[i] * dx + lobe_y[i] * dy + lobe_z[i] * dz;
+        const float cosine = along / std::sqrt(dx * dx + dy * dy + dz * dz + 1e-30f);
+        const float beside = 1 + sharpness[i] * (1 - cosine), squared = beside * beside;
+        light[i] *= base[i] + peak[i] / (squared * squared);
+    }
+}
+
 STILB_VECTORIZED void add_multiple(const float* __restrict values, float factor, std::size_t count,
                                    float* __restrict sums) {
     for (std::size_t i = 0; i < count; ++i) sums[i] += values[i] * factor;
@@ -68,18 +84,49 @@ void KernelChoice::add(const Vec3& position, const Vec3& normal, double light, d
     all_light_ += light;
 }
 
+void KernelChoice::add(const Vec3& position, const Vec3& normal, double light, const Lobe& lobe) {
+    if (lobes_.base.empty()) first_lobe_ = count_ / kPacketWidth * kPacketWidth;
+    add(position, normal, light);
+    for (Floats* values :
+         {&lobes_.direction[0], &lobes_.direction[1], &lobes_.direction[2], &lobes_.peak, &lobes_.sharpness})
+        values->resize(light_.size() - first_lobe_);
+    lobes_.base.resize(light_.size() - first_lobe_, 1);
+    const std::size_t i = count_ - 1 - first_lobe_;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        lobes_.direction[axis][i] = static_cast<float>(lobe.direction[axis]);
+    lobes_.base[i] = static_cast<float>(lobe.base);
+    lobes_.peak[i] = static_cast<float>(lobe.peak);
+    lobes_.sharpness[i] = static_cast<float>(lobe.sharpness);
+}
+
+void KernelChoice::reflect_towards(const Vec3& position, Floats& light) const {
+    std::ranges::copy(light_, light.begin());
+    if (lobes_.base.empty()) return;
+    const auto from = [&](const Floats& values) { return values.data() + first_lobe_; };
+    const FloatPoint at{static_cast<float>(position.x),
+                        static_cast<float>(position.y),
+                        static_cast<float>(position.z),
+                        0,
+                        0,
+                        0};
+    reflect(at, lobes_.base.size(), from(position_[0]), from(position_[1]), from(position_[2]),
+            lobes_.direction[0].data(), lobes_.direction[1].data(), lobes_.direction[2].data(),
+            lobes_.base.data(), lobes_.peak.data(), lobes_.sharpness.data(), light.data() + first_lobe_);
+}
+
 auto KernelChoice::sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const -> Sums {
-    Floats all(light_.size()), own(light_.size());
+    Floats all(light_.size()), own(light_.size()), light(light_.size());
     std::size_t reached = 0;
     if (std::isinf(k_per_m2)) receivers = {};
     for (const transport::Receiver& receiver : receivers) {
         const Vec3 p = receiver.position() - center_, n = receiver.normal();
         const FloatPoint at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
                             static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
+        reflect_towards(p, light);
         Sixteen parts{};
         weigh(at, static_cast<float>(k_per_m2), own.size(), position_[0].data(), position_[1].data(),
               position_[2].data(), normal_[0].data(), normal_[1].data(), normal_[2].data(), radius_.data(),
-              per_four_radii_.data(), light_.data(), own.data(), parts);
+              per_four_radii_.data(), light.data(), own.data(), parts);
         const float sum = std::accumulate(parts.begin(), parts.end(), 0.0f);
         if (!(sum > 0)) continue;
         add_multiple(own.data(), 1 / sum, own.size(), all.data());

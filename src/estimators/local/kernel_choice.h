@@ -1,7 +1,8 @@
 // Choice of points on surfaces for connections to a group of receivers. For each of some receivers of the
 // group there is a density that is proportional to the light a point reflects and to the kernel w G of the
-// bounded connection, shadows ignored. Points are chosen by the mean of these densities, so that no
-// receiver's points are rare, and some by light alone, for the other receivers.
+// bounded connection, shadows ignored; a glossy point reflects more towards some receivers. Points are chosen
+// by the mean of these densities, so that no receiver's points are rare, and some by light alone, for the
+// other receivers.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +25,14 @@ class KernelChoice {
     /// `light`: at least 0, in any unit. `radius_m`: of the surface that the point stands for. Part of it may
     /// be above a receiver's horizon where its middle is below.
     void add(const Vec3& position, const Vec3& normal, double light, double radius_m = 0);
+    /// A reflection that is not equal in all directions: relative to that, `base` plus a lobe about a unit
+    /// direction, `peak` in its middle and less by (1 + sharpness (1 - cosine))^-4 beside it.
+    struct Lobe {
+        Vec3 direction;
+        double base = 1, peak = 0, sharpness = 0;
+    };
+    /// A point with a lobe. Quickest where these are added after all others.
+    void add(const Vec3& position, const Vec3& normal, double light, const Lobe& lobe);
     std::size_t size() const { return count_; }
 
     /// The running sums of the points' weights, for select().
@@ -42,10 +51,20 @@ class KernelChoice {
   private:
     using Floats = std::vector<float>;
 
+    /// Sets `light` to what the points reflect towards a receiver at a position relative to the centre.
+    void reflect_towards(const Vec3& position, Floats& light) const;
+
     Vec3 center_;
     std::size_t count_ = 0;
     std::array<Floats, 3> position_, normal_;  ///< as all arrays, filled with 0 to a multiple of 16
     Floats radius_, per_four_radii_, light_;   ///< per_four_radii: 1 / (4 radius), 0 for points
+    /// Of points from number `first_lobe_` on, a multiple of 16.
+    struct Lobes {
+        std::array<Floats, 3> direction;
+        Floats base, peak, sharpness;
+    };
+    Lobes lobes_;
+    std::size_t first_lobe_ = 0;
     double all_light_ = 0;
 };
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
-#include "materials/material.h"
+#include "materials/shaded_surface.h"
 #include "math/morton.h"
+#include "transport/weights.h"
 
 namespace stilb::estimators {
 namespace {
@@ -33,12 +35,38 @@ std::vector<std::size_t> order_over_surfaces(const std::vector<transport::LightV
     return order;
 }
 
-/// The importance of a vertex: the reflected flux, times the root mean square of the relative BRDF. Residual
-/// light may be negative, in one band or in all.
-double importance_of(const transport::LightVertex& node) {
+/// Residual light may be negative, in one band or in all.
+double reflected_flux(const transport::LightVertex& node) {
     const Rgb reflected = node.flux_lm * reflectance_bound(*node.material);
-    return Rgb{{std::abs(reflected[0]), std::abs(reflected[1]), std::abs(reflected[2])}}.luminance() *
-           std::sqrt(mean_concentration(*node.material));
+    return Rgb{{std::abs(reflected[0]), std::abs(reflected[1]), std::abs(reflected[2])}}.luminance();
+}
+
+/// The importance of a vertex: the reflected flux, times the root mean square of the relative BRDF.
+double importance_of(const transport::LightVertex& node) {
+    return reflected_flux(node) * std::sqrt(mean_concentration(*node.material));
+}
+
+/// The lobe in which a vertex reflects, from two values of its BRDF: in the middle of the lobe, and far from
+/// it. Nothing where there is no distinct lobe.
+std::optional<KernelChoice::Lobe> lobe_of(const transport::LightVertex& node) {
+    if (std::holds_alternative<Diffuse>(*node.material)) return std::nullopt;
+    const materials::ShadedSurface surface(*node.material, node.normal, node.shading_normal);
+    const Vec3 in = surface.frame().to_local(node.incoming);
+    const Vec3 normal = surface.frame().to_local(node.shading_normal);
+    const Vec3 mirror = 2 * dot(in, normal) * normal - in;
+    const Vec3 aside = cross(normal, in);
+    const double sine = length(aside);
+    constexpr double polar_sine = 0.8, polar_cosine = 0.6;
+    const Vec3 far = polar_sine * (sine > 0 ? aside / sine : Frame::around(normal).u) + polar_cosine * normal;
+    const auto relative = [&](const Vec3& out) {
+        return transport::relative_brdf(*node.material, surface.brdf_per_sr(in, out));
+    };
+    constexpr double least_base = 0.01, most_base = 0.98, least_peak = 2;
+    const double base = std::clamp(relative(far), least_base, most_base), peak = relative(mirror) - base;
+    if (peak < least_peak) return std::nullopt;
+    // So the lobe has the rest of the light: 2 pi peak / (3 sharpness) in steradians, times the cosine.
+    const double sharpness = 2 * peak * std::max(in.z, 0.1) / (3 * (1 - base));
+    return KernelChoice::Lobe{surface.frame().to_world(mirror), base, peak, sharpness};
 }
 
 }  // namespace
@@ -74,9 +102,18 @@ std::vector<transport::LightVertex> NodePool::select(std::size_t count, double u
 NearNodePool::NearNodePool(const std::vector<transport::LightVertex>& nodes, const Vec3& center)
     : choice_(center) {
     nodes_.reserve(nodes.size());
+    std::vector<std::pair<std::size_t, KernelChoice::Lobe>> with_lobes;
     for (const std::size_t n : order_over_surfaces(nodes)) {
+        if (const auto lobe = lobe_of(nodes[n])) {
+            with_lobes.emplace_back(n, *lobe);
+        } else {
+            nodes_.push_back(nodes[n]);
+            choice_.add(nodes[n].position, nodes[n].normal, reflected_flux(nodes[n]));
+        }
+    }
+    for (const auto& [n, lobe] : with_lobes) {
         nodes_.push_back(nodes[n]);
-        choice_.add(nodes[n].position, nodes[n].normal, importance_of(nodes[n]));
+        choice_.add(nodes[n].position, nodes[n].normal, reflected_flux(nodes[n]), lobe);
     }
 }
 

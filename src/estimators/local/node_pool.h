@@ -33,7 +33,8 @@ class NodePool {
     std::vector<double> passed_;  ///< importance up to each vertex, its own included
 };
 
-/// Vertices that are chosen for groups of receivers, by their importance as in NodePool and by the kernel.
+/// Vertices that are chosen for groups of receivers: by their reflected flux, the kernel, and the lobe of a
+/// glossy vertex.
 class NearNodePool {
   public:
     NearNodePool(const std::vector<transport::LightVertex>& nodes, const Vec3& center);

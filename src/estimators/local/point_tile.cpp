@@ -56,7 +56,7 @@ bool connect_bodies(const SegmentOrigin& origin, std::int32_t reflections, const
 
 std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
                                 std::span<const double> k_per_m2, const rays::RayCaster& caster,
-                                int max_reflections) {
+                                int max_reflections, transport::VertexChoice choice) {
     std::vector<PointTile> tiles((receivers.size() + kPacketWidth - 1) / kPacketWidth);
     for (std::size_t j = 0; j < receivers.size(); ++j) {
         const transport::Receiver& receiver = receivers[j];
@@ -75,6 +75,7 @@ std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
         tile.normal_z[i] = static_cast<float>(normal.z);
         tile.inverse_k[i] = static_cast<float>(1 / k_per_m2[j]);
         tile.reflections_left[i] = receiver.reflections_left(max_reflections);
+        tile.choice = choice;
         tile.receivers = receivers.subspan(first, i + 1);
         tile.directional = tile.directional || !receiver.constant_response();
         tile.has_bodies = tile.has_bodies || receiver.is_body();

@@ -8,6 +8,7 @@
 
 #include "rays/ray_caster.h"
 #include "transport/receiver.h"
+#include "transport/weights.h"
 
 namespace stilb::estimators {
 
@@ -23,13 +24,15 @@ struct alignas(64) PointTile {
     std::span<const transport::Receiver> receivers;  ///< of the first lanes
     bool directional = false;                        ///< the response of one of them depends on direction
     bool has_bodies = false;                         ///< one of them is on no surface; its normal is 0
+    transport::VertexChoice choice{};                ///< of vertices that are connected
 };
 
 /// Receivers in packets, in their order; keeps references to them. `k_per_m2`: of each receiver; may be
 /// infinite.
 std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
                                 std::span<const double> k_per_m2, const rays::RayCaster& caster,
-                                int max_reflections);
+                                int max_reflections,
+                                transport::VertexChoice choice = transport::VertexChoice::by_flux);
 
 /// A point on a surface in single precision, relative to the ray caster's centre.
 struct SegmentOrigin {

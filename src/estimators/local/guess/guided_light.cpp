@@ -70,7 +70,7 @@ auto GuidedLight::divide(std::span<const transport::Receiver> receivers) const -
 std::vector<PointTile> GuidedLight::tiles(std::span<const transport::Receiver> receivers,
                                           std::size_t points_at_once) const {
     return tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2(points_at_once)), caster,
-                    transport::kUnlimited);
+                    transport::kUnlimited, transport::VertexChoice::by_kernel);
 }
 
 GuidedReadings::GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers,

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <optional>
 
 #include "estimators/local/connection.h"
+#include "estimators/local/light_path_reception.h"
 #include "estimators/local/local_picture.h"
 #include "estimators/local/sub_points.h"
 
@@ -26,6 +29,7 @@ class GuidedPicture final : public LocalPicture {
         : transport_(transport),
           guide_(guide),
           sub_points_(transport, problem, kDirectSamples),
+          reception_(transport, problem, sub_points_),
           plan_{problem.preparation_key.derived(kPlan), 0},
           points_of_(sub_points_.cells()) {}
 
@@ -56,30 +60,32 @@ class GuidedPicture final : public LocalPicture {
 
         std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
-            const std::vector<SubPointPacket> packets = picture_.sub_points_.of_block(block, pass_, sums);
-            const double k_per_m2 = picture_.guide_.k_per_m2(kPoints);
-            choose_near(pool_, packets, k_per_m2,
+            const auto [even, glossy] = picture_.divide(picture_.sub_points_.of_block(block, pass_, sums));
+            choose_near(pool_, even, picture_.guide_.k_per_m2(kPoints),
                         [&](const SubPointPacket& packet, const KernelChoice::Sums& near) {
                             receive(packet, near, sums);
                         });
+            if (!glossy.empty())
+                picture_.reception_.receive(glossy, {block.left, block.top}, light_paths(), pass_, sums);
             std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
             return sums.invalid;
         }
 
       private:
-        /// Adds a sample of a packet's indirect light.
+        /// Vertices of light paths, traced when they are needed.
+        const NearNodePool& light_paths() const {
+            std::call_once(are_traced_, [&] { light_paths_.emplace(picture_.reception_.trace(pass_)); });
+            return *light_paths_;
+        }
+
+        /// Adds a sample of the indirect light of a packet whose receivers have a constant response.
         void receive(const SubPointPacket& packet, const KernelChoice::Sums& near, ReadingSums& sums) const {
             const GuidedLight& guide = picture_.guide_;
-            const GuidedLight::Divided divided = guide.divide(packet.receivers);
-            const std::vector<PointTile> even = guide.tiles(divided.even, kPoints);
-            const std::vector<PointTile> general = guide.tiles(divided.general, kPoints);
+            const std::vector<PointTile> tiles = guide.tiles(packet.receivers, kPoints);
             const double u = math::SampleStream(packet.key(pass_, kVertex), pass_.index).next();
-            const std::vector<transport::LightVertex> nodes = pool_.select(near, kVertices, u);
-            Connections(guide.caster, even, picture_.transport_.monitor).collect(nodes, sums);
-            Connections(guide.caster, general, picture_.transport_.monitor).collect(nodes, sums);
-            gather(packet, even, sums);
-            for (const PointTile& tile : general)
-                guide.gather.add_general_round(tile, packet.key(pass_, kGeneral), pass_.index, sums);
+            Connections(guide.caster, tiles, picture_.transport_.monitor)
+                .collect(pool_.select(near, kVertices, u), sums);
+            gather(packet, tiles, sums);
         }
 
         /// Light of the guess for receivers of constant response.
@@ -109,7 +115,30 @@ class GuidedPicture final : public LocalPicture {
         NearNodePool pool_;
         std::array<double, 2> selection_point_;
         std::vector<GatherPoint> gather_points_;  ///< of the rays
+        mutable std::once_flag are_traced_;
+        mutable std::optional<NearNodePool> light_paths_;
     };
+
+    /// The parts of sub-points that receive light by the guess, and those that do so by light paths.
+    struct Divided {
+        std::vector<SubPointPacket> even, glossy;
+    };
+    Divided divide(std::span<const SubPointPacket> packets) const {
+        Divided divided;
+        for (const SubPointPacket& packet : packets) {
+            SubPointPacket even{packet.first, {}, {}, {}}, glossy = even;
+            for (std::size_t i = 0; i < packet.receivers.size(); ++i) {
+                const GuidedLight::Divided parts = guide_.divide({&packet.receivers[i], 1});
+                for (const transport::Receiver& part : parts.even)
+                    even.receivers.push_back(part), even.pixels.push_back(packet.pixels[i]);
+                for (const transport::Receiver& part : parts.general)
+                    glossy.receivers.push_back(part), glossy.pixels.push_back(packet.pixels[i]);
+            }
+            if (!even.receivers.empty()) divided.even.push_back(std::move(even));
+            if (!glossy.receivers.empty()) divided.glossy.push_back(std::move(glossy));
+        }
+        return divided;
+    }
 
     /// The weights of the guess's points for the sub-points around a pixel.
     const KernelChoice::Sums& points_of(const Pixel& pixel) const {
@@ -140,6 +169,7 @@ class GuidedPicture final : public LocalPicture {
     const LocalTransport& transport_;
     const GuidedLight& guide_;
     SubPoints sub_points_;
+    LightPathReception reception_;
     Pass plan_;  ///< its sub-points represent the cells'
     OfCells<KernelChoice::Sums> points_of_;
 };

@@ -35,7 +35,7 @@ class SharedReflection {
             diffuse_probability_ * math::cosine_hemisphere_pdf_per_sr(in.z)};
         if (material_.gloss) {
             const auto [brdf, pdf] = gloss_.evaluate(in, outgoing_);
-            value.brdf_per_sr += brdf * shares_.by_relative(transport::relative_brdf(*material_.gloss, brdf));
+            value.brdf_per_sr += brdf * shares_.of_gloss(transport::relative_brdf(*material_.gloss, brdf));
             value.pdf_per_sr += (1 - diffuse_probability_) * pdf;
         }
         return value;

@@ -14,6 +14,9 @@ struct PartShares {
     explicit PartShares(double g_over_k) : by_relative{g_over_k} {}
 
     double diffuse() const { return by_relative(1); }
+    double of_gloss(double relative) const {
+        return by_relative(transport::bounding_brdf(relative, transport::VertexChoice::by_kernel));
+    }
     transport::GatheredShare by_relative;
 };
 
