@@ -68,19 +68,30 @@ void KernelChoice::add(const Vec3& position, const Vec3& normal, double light, d
     all_light_ += light;
 }
 
+float KernelChoice::weigh_for(const transport::Receiver& receiver, double k_per_m2, Floats& weights) const {
+    const Vec3 p = receiver.position() - center_, n = receiver.normal();
+    const FloatPoint at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
+                        static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
+    Sixteen parts{};
+    weigh(at, static_cast<float>(k_per_m2), weights.size(), position_[0].data(), position_[1].data(),
+          position_[2].data(), normal_[0].data(), normal_[1].data(), normal_[2].data(), radius_.data(),
+          per_four_radii_.data(), light_.data(), weights.data(), parts);
+    return std::accumulate(parts.begin(), parts.end(), 0.0f);
+}
+
+double KernelChoice::mean_light(std::span<const transport::Receiver> receivers, double k_per_m2) const {
+    Floats own(light_.size());
+    double sum = 0;
+    for (const transport::Receiver& receiver : receivers) sum += double{weigh_for(receiver, k_per_m2, own)};
+    return receivers.empty() ? 0 : sum / static_cast<double>(receivers.size());
+}
+
 auto KernelChoice::sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const -> Sums {
     Floats all(light_.size()), own(light_.size());
     std::size_t reached = 0;
     if (std::isinf(k_per_m2)) receivers = {};
     for (const transport::Receiver& receiver : receivers) {
-        const Vec3 p = receiver.position() - center_, n = receiver.normal();
-        const FloatPoint at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
-                            static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-        Sixteen parts{};
-        weigh(at, static_cast<float>(k_per_m2), own.size(), position_[0].data(), position_[1].data(),
-              position_[2].data(), normal_[0].data(), normal_[1].data(), normal_[2].data(), radius_.data(),
-              per_four_radii_.data(), light_.data(), own.data(), parts);
-        const float sum = std::accumulate(parts.begin(), parts.end(), 0.0f);
+        const float sum = weigh_for(receiver, k_per_m2, own);
         if (!(sum > 0)) continue;
         add_multiple(own.data(), 1 / sum, own.size(), all.data());
         ++reached;

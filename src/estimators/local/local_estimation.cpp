@@ -79,7 +79,9 @@ class LocalReadings {
                           transport_.max_reflections)),
           connections_(transport_.caster, tiles_, transport_.monitor),
           gather_(transport_.caster, transport_.tracer, tiles_, plans_.of_receivers, transport_.monitor) {
-        if (is_guided_) guided_.emplace(*guide, seen_.receivers, transport_.monitor);
+        if (!is_guided_) return;
+        guided_.emplace(*guide, seen_.receivers, transport_.monitor);
+        guided_->add_known(seen_.known_part);
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const {
