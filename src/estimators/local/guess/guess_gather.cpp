@@ -69,8 +69,9 @@ GatherLanes::GatherLanes(const PointTile& tile, std::span<const std::array<doubl
             w[axis][i] = static_cast<float>(frame.w[axis]);
         }
         shift[i] = static_cast<float>(shifts[i][0]);
-        turn_cos[i] = static_cast<float>(std::cos(2 * kPi * shifts[i][1]));
-        turn_sin[i] = static_cast<float>(std::sin(2 * kPi * shifts[i][1]));
+        const auto turn = static_cast<float>(2 * kPi * shifts[i][1]);
+        turn_cos[i] = std::cos(turn);
+        turn_sin[i] = std::sin(turn);
         roulette[i] = static_cast<float>(fraction(16 * (shifts[i][0] + shifts[i][1])));
     }
 }

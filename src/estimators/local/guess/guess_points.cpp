@@ -62,11 +62,11 @@ auto GuessPoints::uncertain_sides(std::span<const transport::Receiver> receivers
 
 void GuessPoints::select(const Choice& choice, const std::array<double, 2>& u,
                          std::vector<EmittingPoint>& points) const {
-    points.clear();
+    const std::size_t before = points.size();
     const patches::Patches& patches = guess_.patches();
     const std::vector<std::uint32_t>& sides = choice.sides.empty() ? guess_.lit_sides() : choice.sides;
     KernelChoice::select(choice.sums, choice.count, u[0], [&](std::size_t i, double times, double rest) {
-        const double across = u[1] + 0.6180339887498949 * static_cast<double>(points.size());
+        const double across = u[1] + 0.6180339887498949 * static_cast<double>(points.size() - before);
         const std::uint32_t side = sides[i];
         const math::Barycentric at_side = math::sample_triangle(rest, across - std::floor(across));
         const SidePoint point = side_point(patches, caster_, side, at_side);

@@ -41,7 +41,7 @@ class GuessPoints {
     /// Of connections to so many points at once, of all lit sides.
     double k_per_m2(std::size_t count) const;
 
-    /// Points that lie evenly over the weights; the expectation over `u` of their light is that of all the
+    /// Adds points that lie evenly over the weights; the expectation over `u` of their light is that of all the
     /// sides.
     void select(const Choice& choice, const std::array<double, 2>& u,
                 std::vector<EmittingPoint>& points) const;

@@ -185,8 +185,8 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
             light_.points.select(sources.points,
                                  {fraction(points[i][0] + random[0]), fraction(points[i][1] + random[1])},
                                  connected);
-            connect_points(light_.caster, tile, connected, sums);
         }
+        connect_points(light_.caster, tile, connected, sums);
         GuessGather::flush(tile, tile_sums, 1, sums);
         sums.rays += own.count * tile.receivers.size();
     }
