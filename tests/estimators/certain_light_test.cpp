@@ -30,8 +30,8 @@ class Furniture : public testing::Test {
         add_area_light(scene, Rectangle{{1.1, 1.1, 2.99}, {0, 0.8, 0}, {0.8, 0, 0}}, Rgb::grey(2000));
         return scene;
     }
-    /// Blocks of sixteen points: beside a wall, below the cupboard, behind the pane, in the middle; the last
-    /// points are tilted.
+    /// Blocks of sixteen points: beside a wall, below the cupboard, behind the pane, in the middle; tilted
+    /// points; points on the floor, and on floor and wall about a corner.
     static std::vector<MeasuringPoint> points() {
         std::vector<MeasuringPoint> all;
         for (const Vec3 corner : {Vec3{0.02, 0.02, 0.8}, Vec3{0.1, 1.4, 0.8}, Vec3{2.4, 2, 0.8},
@@ -42,6 +42,12 @@ class Furniture : public testing::Test {
         for (int i = 0; i < 16; ++i)
             all.push_back({{1 + 0.05 * (i % 4), 0.3, 1 + 0.05 * (i / 4)},
                            normalized(Vec3{-1, 0.1 * (i % 3), 0.05 * (i % 2)})});
+        for (int i = 0; i < 16; ++i)
+            all.push_back({{0.3 + 0.1 * (i % 4), 2.5 + 0.1 * (i / 4), 0}, {0, 0, 1}});
+        for (int i = 0; i < 8; ++i) {
+            all.push_back({{0.02 * i, 0.5, 0}, {0, 0, 1}});
+            all.push_back({{0, 0.5, 0.01 + 0.02 * i}, {1, 0, 0}});
+        }
         return all;
     }
     std::vector<Sights> sights() const {

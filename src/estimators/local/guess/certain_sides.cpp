@@ -204,17 +204,20 @@ class CertainSides::Search {
 
     Sight sight_of(const Block& block, const Cluster& cluster) {
         ++queries_;
-        // What is so far behind a plane gets no light across it in single precision, either.
-        const double behind_m = 4 * sides_.lift_m_;
+        // Receivers in the plane, too: they get nothing, and the closed form does not hold there.
+        const double near_m = 4 * sides_.lift_m_;
         const Vec3 normal = sides_.guess_.patches().normal_of(sides_.sides_[cluster.first]);
         const std::span<const Vec3> polygon = cluster.polygon();
-        const bool is_behind = std::ranges::all_of(
-            block.corners, [&](const Vec3& corner) { return dot(normal, corner - polygon[0]) < -behind_m; });
+        const auto is_in_front = [&](const Vec3& corner) {
+            return dot(normal, corner - polygon[0]) > near_m;
+        };
+        const bool is_behind = std::ranges::none_of(block.corners, is_in_front);
         const bool is_below = std::ranges::all_of(polygon, [&](const Vec3& corner) {
             return largest_dot(block.normals, {corner - block.lifted.max, corner - block.lifted.min}) <
-                   -behind_m;
+                   -near_m;
         });
         if (is_behind || is_below) return Sight::none;
+        if (!std::ranges::all_of(block.corners, is_in_front)) return Sight::uncertain;
         const bool is_empty = block.has_one_normal() ? is_empty_above_horizons(block, polygon)
                                                      : sides_.shafts_.is_empty(block.corners, polygon, {});
         return is_empty ? Sight::certain : Sight::uncertain;

@@ -22,7 +22,8 @@ namespace stilb::estimators {
 enum class Sight : std::uint8_t {
     uncertain,
     certain,  ///< all receivers see all of it that is above their horizons
-    none,     ///< all receivers are behind it, or all of it is below their horizons
+    /// All receivers are behind it or, but for rounding, in its plane, or all of it is below their horizons.
+    none,
 };
 using Sights = std::vector<Sight>;  ///< by sides
 
