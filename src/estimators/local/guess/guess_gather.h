@@ -1,8 +1,8 @@
 // Gathering rays to a guess of the light. The light that receivers get from surfaces which reflect as guessed
 // is shared between connections to points of these surfaces (guess_points.h) and gathering rays, by the
-// weights w and 1 - w of bounded connections (theory T.1b). What the guess lacks comes from connections with
-// the vertices of its residual (residual_light.h), bounded by a larger k; some rays find the rest of that by
-// path tracing.
+// weights w and 1 - w of bounded connections (theory T.1b); where a surface is seen for certain, between
+// closed forms and rays (certain_light.h). What the guess lacks comes from connections with the vertices of
+// its residual (residual_light.h), bounded by a larger k; some rays find the rest of that by path tracing.
 #pragma once
 
 #include <array>
