@@ -50,8 +50,8 @@ auto GuessPoints::uncertain_sides(std::span<const transport::Receiver> receivers
     }
     if (choice.sides.empty()) return choice;
     const double uncertain_lx = sides.mean_light(receivers, k_per_m2(most));
-    if (!(uncertain_lx > 0)) return choice;
-    const double share = uncertain_lx / (uncertain_lx + certain_lx);
+    // Without any points other receivers of the group would lack what connections share with rays.
+    const double share = uncertain_lx > 0 ? uncertain_lx / (uncertain_lx + certain_lx) : 0;
     choice.count = static_cast<std::size_t>(std::clamp(
         std::ceil(kMorePoints * share * static_cast<double>(most)), 1.0, static_cast<double>(most)));
     const double k = kKernels * static_cast<double>(choice.count) / area_m2;

@@ -47,9 +47,10 @@ class GuessPoints {
                 std::vector<EmittingPoint>& points) const;
 
   private:
+    void add(std::uint32_t side, KernelChoice& sides) const;
+
     const LightGuess& guess_;
     const rays::RayCaster& caster_;
-    void add(std::uint32_t side, KernelChoice& sides) const;
     KernelChoice all_;  ///< the guess's lit sides
 };
 
