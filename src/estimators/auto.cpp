@@ -38,6 +38,9 @@ constexpr double kError = 0.005;
 constexpr double kPlanningRayCost = 30, kPatchCost = 250;
 /// A pilot's part by path tracing: so much work, but at least so many samples.
 constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
+/// With many Sobol' points light paths have less noise than their pilots promise: under point lights, where
+/// the pilots of both were equal, a run with the guess took 1.3 times the time to the usual error.
+constexpr double kSobolGain = 1.5;
 /// Samples of a pilot's part by the guess.
 constexpr std::uint64_t kGuidedSamples = 4;
 
@@ -158,7 +161,7 @@ std::unique_ptr<Estimator> make_for_many(const Problem& problem) {
     const EstimatorMaker make_guided_part = with_guess(part);
     const Pilot of_guided = run_pilot(*make_guided_part(part), kGuidedSamples, kGuided);
     const std::vector<double> values = values_of(of_balanced, of_guided);
-    const bool guess_pays = sampling_cost(of_guided, values, part.weights) <
+    const bool guess_pays = kSobolGain * sampling_cost(of_guided, values, part.weights) <
                             planning + sampling_cost(of_balanced, values, part.weights);
     return guess_pays ? make_guided_part(problem) : make_balanced(problem);
 }

@@ -138,11 +138,13 @@ void connect_points(const rays::RayCaster& caster, const PointTile& tile,
     LaneMask lanes;
     alignas(64) Floats g_per_m2;
     TileSums tile_sums;
-    for (const EmittingPoint& point : points) {
-        if (!connect(point.origin, 1, tile, packet, lanes, g_per_m2)) continue;
-        sums.rays += static_cast<std::uint64_t>(-std::accumulate(lanes.begin(), lanes.end(), 0));
-        caster.occlude(packet, lanes);
-        add_visible(point, tile, packet, lanes, g_per_m2, tile_sums);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        if (connect(points[n].origin, 1, tile, packet, lanes, g_per_m2)) {
+            sums.rays += static_cast<std::uint64_t>(-std::accumulate(lanes.begin(), lanes.end(), 0));
+            caster.occlude(packet, lanes);
+            add_visible(points[n], tile, packet, lanes, g_per_m2, tile_sums);
+        }
+        if (n % kBlock == kBlock - 1) flush(tile, tile_sums, sums);
     }
     flush(tile, tile_sums, sums);
 }

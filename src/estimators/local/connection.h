@@ -42,7 +42,7 @@ struct EmittingPoint {
     float split = 1;
     std::array<float, kBands> coefficient{};  ///< luminance over density: receivers get it times w G
 };
-/// Adds the light of few points to the receivers of a tile, whose responses must be constant. Counts rays.
+/// Adds the light of points to the receivers of a tile, whose responses must be constant. Counts rays.
 void connect_points(const rays::RayCaster& caster, const PointTile& tile,
                     std::span<const EmittingPoint> points, ReadingSums& sums);
 

@@ -13,6 +13,14 @@ namespace {
 constexpr double kDefensive = 0.1;
 
 struct FloatPoint {
+    FloatPoint(const Vec3& position, const Vec3& normal)
+        : x(static_cast<float>(position.x)),
+          y(static_cast<float>(position.y)),
+          z(static_cast<float>(position.z)),
+          normal_x(static_cast<float>(normal.x)),
+          normal_y(static_cast<float>(normal.y)),
+          normal_z(static_cast<float>(normal.z)) {}
+
     float x, y, z, normal_x, normal_y, normal_z;
 };
 
@@ -99,35 +107,40 @@ void KernelChoice::add(const Vec3& position, const Vec3& normal, double light, c
     lobes_.sharpness[i] = static_cast<float>(lobe.sharpness);
 }
 
-void KernelChoice::reflect_towards(const Vec3& position, Floats& light) const {
-    std::ranges::copy(light_, light.begin());
-    if (lobes_.base.empty()) return;
+auto KernelChoice::reflected_towards(const Vec3& position) const -> Floats {
+    Floats light = light_;
+    if (lobes_.base.empty()) return light;
     const auto from = [&](const Floats& values) { return values.data() + first_lobe_; };
-    const FloatPoint at{static_cast<float>(position.x),
-                        static_cast<float>(position.y),
-                        static_cast<float>(position.z),
-                        0,
-                        0,
-                        0};
-    reflect(at, lobes_.base.size(), from(position_[0]), from(position_[1]), from(position_[2]),
-            lobes_.direction[0].data(), lobes_.direction[1].data(), lobes_.direction[2].data(),
-            lobes_.base.data(), lobes_.peak.data(), lobes_.sharpness.data(), light.data() + first_lobe_);
+    reflect(FloatPoint(position, {}), lobes_.base.size(), from(position_[0]), from(position_[1]),
+            from(position_[2]), lobes_.direction[0].data(), lobes_.direction[1].data(),
+            lobes_.direction[2].data(), lobes_.base.data(), lobes_.peak.data(), lobes_.sharpness.data(),
+            light.data() + first_lobe_);
+    return light;
+}
+
+float KernelChoice::weigh_for(const transport::Receiver& receiver, double k_per_m2, Floats& weights) const {
+    const Vec3 position = receiver.position() - center_;
+    const Floats light = reflected_towards(position);
+    Sixteen parts{};
+    weigh(FloatPoint(position, receiver.normal()), static_cast<float>(k_per_m2), weights.size(),
+          position_[0].data(), position_[1].data(), position_[2].data(), normal_[0].data(), normal_[1].data(),
+          normal_[2].data(), radius_.data(), per_four_radii_.data(), light.data(), weights.data(), parts);
+    return std::accumulate(parts.begin(), parts.end(), 0.0f);
+}
+
+double KernelChoice::mean_light(std::span<const transport::Receiver> receivers, double k_per_m2) const {
+    Floats own(light_.size());
+    double sum = 0;
+    for (const transport::Receiver& receiver : receivers) sum += double{weigh_for(receiver, k_per_m2, own)};
+    return receivers.empty() ? 0 : sum / static_cast<double>(receivers.size());
 }
 
 auto KernelChoice::sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const -> Sums {
-    Floats all(light_.size()), own(light_.size()), light(light_.size());
+    Floats all(light_.size()), own(light_.size());
     std::size_t reached = 0;
     if (std::isinf(k_per_m2)) receivers = {};
     for (const transport::Receiver& receiver : receivers) {
-        const Vec3 p = receiver.position() - center_, n = receiver.normal();
-        const FloatPoint at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
-                            static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-        reflect_towards(p, light);
-        Sixteen parts{};
-        weigh(at, static_cast<float>(k_per_m2), own.size(), position_[0].data(), position_[1].data(),
-              position_[2].data(), normal_[0].data(), normal_[1].data(), normal_[2].data(), radius_.data(),
-              per_four_radii_.data(), light.data(), own.data(), parts);
-        const float sum = std::accumulate(parts.begin(), parts.end(), 0.0f);
+        const float sum = weigh_for(receiver, k_per_m2, own);
         if (!(sum > 0)) continue;
         add_multiple(own.data(), 1 / sum, own.size(), all.data());
         ++reached;

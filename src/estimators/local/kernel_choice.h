@@ -40,6 +40,8 @@ class KernelChoice {
     /// The weights for receivers near the given ones. Without any, light alone decides. `k_per_m2`: the k of
     /// the connections; where it is infinite, their kernel has no bound, and light alone decides, too.
     Sums sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const;
+    /// What the receivers get on average: the sum of light x w G.
+    double mean_light(std::span<const transport::Receiver> receivers, double k_per_m2) const;
 
     /// Calls `visit(index, times, rest)` for `count` choices that lie evenly over the weights. `times` is 1 /
     /// (probability x count): for every function of a point the expectation over `u` (uniform in [0, 1)) of
@@ -51,8 +53,10 @@ class KernelChoice {
   private:
     using Floats = std::vector<float>;
 
-    /// Sets `light` to what the points reflect towards a receiver at a position relative to the centre.
-    void reflect_towards(const Vec3& position, Floats& light) const;
+    /// What the points reflect towards a position relative to the centre.
+    Floats reflected_towards(const Vec3& position) const;
+    /// Sets light x w G of all points for a receiver. Returns the sum.
+    float weigh_for(const transport::Receiver& receiver, double k_per_m2, Floats& weights) const;
 
     Vec3 center_;
     std::size_t count_ = 0;

@@ -42,6 +42,8 @@ namespace {
 constexpr std::uint64_t kPathBlock = 512;
 /// Light paths (divided by the selection's share) for each sample of direct light from area lights.
 constexpr std::uint64_t kPathsPerDirectSample = 2;
+/// Samples of direct light for each sample with a guess: in penumbrae the rest has less noise.
+constexpr std::uint64_t kDirectWithGuess = 2;
 /// Light paths for each ray that `local` sends out where there are mirrors or glass.
 constexpr std::uint64_t kPathsPerSpecularRay = 4;
 /// Selected light paths of a replicate before the first error estimate: few of them may all miss rare light.
@@ -79,7 +81,9 @@ class LocalReadings {
                           transport_.max_reflections)),
           connections_(transport_.caster, tiles_, transport_.monitor),
           gather_(transport_.caster, transport_.tracer, tiles_, plans_.of_receivers, transport_.monitor) {
-        if (is_guided_) guided_.emplace(*guide, seen_.receivers, transport_.monitor);
+        if (!is_guided_) return;
+        guided_.emplace(*guide, seen_.receivers, transport_.monitor);
+        guided_->add_known(seen_.known_part);
     }
 
     void run_batch(const Batch& batch, ReadingSums& sums) const {
@@ -140,7 +144,8 @@ class LocalReadings {
         constexpr double of_shadow_ray = 1. / 3, of_direct = 3;
         const double direct =
             of_direct * stands_for_ * open_receivers() / static_cast<double>(light_paths_per_direct_sample());
-        if (guided_) return direct + guided_->cost_per_sample(stands_for_);
+        if (guided_)
+            return static_cast<double>(kDirectWithGuess) * direct + guided_->cost_per_sample(stands_for_);
         return direct + of_shadow_ray * plans_.cost_per_path;
     }
 
@@ -224,13 +229,14 @@ class LocalReadings {
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
             const Batch own = batch.of_packet(t);
-            const std::uint64_t end = (own.first + own.count) / light_paths;
-            for (std::uint64_t i = own.first / light_paths; i < end; ++i) {
+            const std::uint64_t repeated = guided_ ? kDirectWithGuess : 1;
+            const double weight = static_cast<double>(light_paths) / static_cast<double>(repeated);
+            const std::uint64_t end = repeated * ((own.first + own.count) / light_paths);
+            for (std::uint64_t i = repeated * (own.first / light_paths); i < end; ++i) {
                 std::vector<math::SampleStream> streams = streams_of(key, t, tile.size(), i);
                 transport::DirectLight::TileLight light{};
                 transport_.direct.add_sample(tile, remainder, streams, light);
-                for (std::size_t j = 0; j < tile.size(); ++j)
-                    sums.add(tile[j].reading(), static_cast<double>(light_paths) * light[j]);
+                for (std::size_t j = 0; j < tile.size(); ++j) sums.add(tile[j].reading(), weight * light[j]);
             }
         });
     }

@@ -69,8 +69,9 @@ GatherLanes::GatherLanes(const PointTile& tile, std::span<const std::array<doubl
             w[axis][i] = static_cast<float>(frame.w[axis]);
         }
         shift[i] = static_cast<float>(shifts[i][0]);
-        turn_cos[i] = static_cast<float>(std::cos(2 * kPi * shifts[i][1]));
-        turn_sin[i] = static_cast<float>(std::sin(2 * kPi * shifts[i][1]));
+        const auto turn = static_cast<float>(2 * kPi * shifts[i][1]);
+        turn_cos[i] = std::cos(turn);
+        turn_sin[i] = std::sin(turn);
         roulette[i] = static_cast<float>(fraction(16 * (shifts[i][0] + shifts[i][1])));
     }
 }
@@ -89,7 +90,8 @@ void GuessGather::set_rays(const PointTile& tile, const GatherLanes& lanes, cons
 }
 
 void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u,
-                            math::RandomKey key, std::uint64_t round, Sums& sums) const {
+                            math::RandomKey key, std::uint64_t round, const Shares& shares,
+                            Sums& sums) const {
     rays::RayHitPacket packet;
     alignas(64) Floats cosine;
     set_rays(tile, lanes, u, packet.ray, cosine);
@@ -103,9 +105,9 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
             light.cosine[i] > 0
                 ? cosine[i] * light.cosine[i] / (packet.ray.end[i] * packet.ray.end[i]) * tile.inverse_k[i]
                 : 0;
-        const float gathered = 1 - 1 / (1 + kResidualSplit * g_over_k);
-        for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += gathered * light.luminance[b][i];
-        double largest = double{gathered} * light.luminance_of(i).luminance();
+        const Rgb gathered = gathered_cd_m2(light, i, g_over_k, shares);
+        for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += static_cast<float>(gathered[b]);
+        double largest = std::abs(gathered.luminance());
         const Continuation continuation = continuation_of(light, i, double{g_over_k});
         if (fraction(u[2] + double{lanes.roulette[i]}) < continuation.probability) {
             const Vec3 direction = normalized(
@@ -117,6 +119,22 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
         }
         sums.largest[i] = std::max(sums.largest[i], largest);
     }
+}
+
+Rgb GuessGather::gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k,
+                                const Shares& shares) const {
+    const std::uint32_t side = light.sides[lane];
+    const Rgb luminance = light.luminance_of(lane);
+    if (side == patches::kNoSide) return luminance;
+    switch (shares.sights.empty() ? Sight::uncertain : shares.sights[side]) {
+        case Sight::uncertain:
+            return luminance * double{1 - 1 / (1 + shares.split * g_over_k)};
+        case Sight::certain:
+            return luminance + guess_.mean_cd_m2(side) * -1;
+        case Sight::none:
+            break;
+    }
+    return luminance;
 }
 
 void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, ReadingSums& readings) {

@@ -1,8 +1,8 @@
 // Gathering rays to a guess of the light. The light that receivers get from surfaces which reflect as guessed
 // is shared between connections to points of these surfaces (guess_points.h) and gathering rays, by the
-// weights w and 1 - w of bounded connections (theory T.1b). What the guess lacks comes from connections with
-// the vertices of its residual (residual_light.h), bounded by a larger k; some rays find the rest of that by
-// path tracing.
+// weights w and 1 - w of bounded connections (theory T.1b); where a surface is seen for certain, between
+// closed forms and rays (certain_light.h). What the guess lacks comes from connections with the vertices of
+// its residual (residual_light.h), bounded by a larger k; some rays find the rest of that by path tracing.
 #pragma once
 
 #include <array>
@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "estimators/estimator.h"
+#include "estimators/local/guess/certain_sides.h"
+#include "estimators/local/guess/guess_points.h"
 #include "estimators/local/guess/light_guess.h"
 #include "estimators/local/guess/part_reflection.h"
 #include "estimators/local/guess/residual_light.h"
@@ -54,11 +56,18 @@ class GuessGather {
         std::array<Rgb, kPacketWidth> found{};  ///< by path tracing beyond the guess
         std::array<double, kPacketWidth> largest{};
     };
+    /// What the rays of a group of receivers bring of the guess.
+    struct Shares {
+        /// By sides. Connections share the light of uncertain ones; closed forms have the mean luminance of
+        /// certain ones. Empty: all are uncertain.
+        std::span<const Sight> sights;
+        float split = kResidualSplit;  ///< as that of the points of the guess
+    };
     /// Adds one ray from every receiver of a tile, whose responses must be constant and whose k is that of
     /// the residual. `u`: the random point of the rays. `key`, `round`: for the paths of rays that path
     /// tracing continues.
     void add_round(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u, math::RandomKey key,
-                   std::uint64_t round, Sums& sums) const;
+                   std::uint64_t round, const Shares& shares, Sums& sums) const;
     /// The same with receivers of any response, by rays about in proportion to it: the rays bring all the
     /// light of the guess.
     void add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
@@ -69,6 +78,9 @@ class GuessGather {
   private:
     void set_rays(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u, RayPacket& packet,
                   PointTile::Floats& cosine) const;
+    /// The guessed light that the ray of a lane brings [cd/m2]. `g_over_k`: with the k of the residual.
+    Rgb gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k,
+                       const Shares& shares) const;
     /// How a ray is continued beyond the guess.
     struct Continuation {
         PartShares shares;

@@ -6,34 +6,75 @@
 #include "math/sampling.h"
 
 namespace stilb::estimators {
+namespace {
+
+/// Connections to points of the guess share light with gathering rays by k = kKernels x points / area: about
+/// the density at which points lie as far from each other as from the receiver.
+constexpr double kKernels = 5;
+/// Points, over those in proportion to the light that they bring.
+constexpr double kMorePoints = 1.5;
+
+}  // namespace
+
 GuessPoints::GuessPoints(const LightGuess& guess, const rays::RayCaster& caster)
-    : guess_(guess), caster_(caster), sides_(guess.patches().center) {
-    const patches::Patches& patches = guess.patches();
-    for (const std::uint32_t side : guess.lit_sides()) {
-        const std::uint32_t patch = patches.patch_of(side);
-        const Vec3 middle = patches.middle(patch);
-        double radius_m = 0;
-        for (const std::uint32_t corner : patches.corners[patch])
-            radius_m = std::max(radius_m, length(patches.center + Vec3(patches.vertices[corner]) - middle));
-        sides_.add(middle, patches.normal_of(side), guess.mean_cd_m2(side) * double{patches.areas_m2[patch]},
-                   radius_m);
-    }
+    : guess_(guess), caster_(caster), all_(guess.patches().center) {
+    for (const std::uint32_t side : guess.lit_sides()) add(side, all_);
 }
 
-void GuessPoints::select(const KernelChoice::Sums& sums, std::size_t count, const std::array<double, 2>& u,
-                         std::vector<EmittingPoint>& points) const {
-    points.clear();
+void GuessPoints::add(std::uint32_t side, KernelChoice& sides) const {
     const patches::Patches& patches = guess_.patches();
-    KernelChoice::select(sums, count, u[0], [&](std::size_t i, double times, double rest) {
-        const double across = u[1] + 0.6180339887498949 * static_cast<double>(points.size());
-        const std::uint32_t side = guess_.lit_sides()[i];
+    const std::uint32_t patch = patches.patch_of(side);
+    const Vec3 middle = patches.middle(patch);
+    double radius_m = 0;
+    for (const std::uint32_t corner : patches.corners[patch])
+        radius_m = std::max(radius_m, length(patches.center + Vec3(patches.vertices[corner]) - middle));
+    sides.add(middle, patches.normal_of(side),
+              guess_.mean_cd_m2(side).luminance() * double{patches.areas_m2[patch]}, radius_m);
+}
+
+double GuessPoints::k_per_m2(std::size_t count) const {
+    return guess_.lit_area_m2() > 0 ? kKernels * static_cast<double>(count) / guess_.lit_area_m2() : 1;
+}
+
+auto GuessPoints::uncertain_sides(std::span<const transport::Receiver> receivers, const Sights& sights,
+                                  double certain_lx, std::size_t most) const -> Choice {
+    Choice choice;
+    const patches::Patches& patches = guess_.patches();
+    KernelChoice sides(patches.center);
+    double area_m2 = 0;
+    for (const std::uint32_t side : guess_.lit_sides()) {
+        if (sights[side] != Sight::uncertain) continue;
+        choice.sides.push_back(side);
+        add(side, sides);
+        area_m2 += double{patches.areas_m2[patches.patch_of(side)]};
+    }
+    if (choice.sides.empty()) return choice;
+    const double uncertain_lx = sides.mean_light(receivers, k_per_m2(most));
+    // Without any points other receivers of the group would lack what connections share with rays.
+    const double share = uncertain_lx > 0 ? uncertain_lx / (uncertain_lx + certain_lx) : 0;
+    choice.count = static_cast<std::size_t>(std::clamp(
+        std::ceil(kMorePoints * share * static_cast<double>(most)), 1.0, static_cast<double>(most)));
+    const double k = kKernels * static_cast<double>(choice.count) / area_m2;
+    choice.sums = sides.sums_for(receivers, k);
+    choice.split = static_cast<float>(kResidualSplit * k_per_m2(most) / k);
+    return choice;
+}
+
+void GuessPoints::select(const Choice& choice, const std::array<double, 2>& u,
+                         std::vector<EmittingPoint>& points) const {
+    const std::size_t before = points.size();
+    const patches::Patches& patches = guess_.patches();
+    const std::vector<std::uint32_t>& sides = choice.sides.empty() ? guess_.lit_sides() : choice.sides;
+    KernelChoice::select(choice.sums, choice.count, u[0], [&](std::size_t i, double times, double rest) {
+        const double across = u[1] + 0.6180339887498949 * static_cast<double>(points.size() - before);
+        const std::uint32_t side = sides[i];
         const math::Barycentric at_side = math::sample_triangle(rest, across - std::floor(across));
         const SidePoint point = side_point(patches, caster_, side, at_side);
         const Rgb light = guess_.luminance_cd_m2(side, at_side) *
                           (double{patches.areas_m2[patches.patch_of(side)]} * times);
         points.push_back(
             {SegmentOrigin(point.position, point.lifted, point.normal, caster_.center()),
-             kResidualSplit,
+             choice.split,
              {static_cast<float>(light[0]), static_cast<float>(light[1]), static_cast<float>(light[2])}});
     });
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "estimators/local/connection.h"
+#include "estimators/local/guess/certain_sides.h"
 #include "estimators/local/guess/light_guess.h"
 #include "estimators/local/kernel_choice.h"
 #include "rays/ray_caster.h"
@@ -22,21 +23,35 @@ class GuessPoints {
   public:
     GuessPoints(const LightGuess& guess, const rays::RayCaster& caster);
 
-    /// The weights of the sides for receivers near the given ones. Without any, light alone decides.
-    /// `k_per_m2`: the k of connections to points.
-    KernelChoice::Sums sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const {
-        return sides_.sums_for(receivers, k_per_m2);
+    /// The weights of sides for the receivers of a group.
+    struct Choice {
+        KernelChoice::Sums sums;
+        std::vector<std::uint32_t> sides;  ///< that these belong to; empty: all lit ones
+        float split = kResidualSplit;      ///< the k of the residual over that of connections to the points
+        std::size_t count = 0;             ///< of points that the group takes at once
+    };
+    /// All lit sides, for receivers near the given ones. Without any, light alone decides.
+    Choice all_sides(std::span<const transport::Receiver> receivers, std::size_t count) const {
+        return {all_.sums_for(receivers, k_per_m2(count)), {}, kResidualSplit, count};
     }
+    /// The sides whose sight is uncertain, and as many of the points as is their share of the light.
+    /// `certain_lx`: what the receivers get from the others.
+    Choice uncertain_sides(std::span<const transport::Receiver> receivers, const Sights& sights,
+                           double certain_lx, std::size_t most) const;
+    /// Of connections to so many points at once, of all lit sides.
+    double k_per_m2(std::size_t count) const;
 
-    /// `count` points that lie evenly over the weights; the expectation over `u` of their light is that of
-    /// all surfaces.
-    void select(const KernelChoice::Sums& sums, std::size_t count, const std::array<double, 2>& u,
+    /// Adds points that lie evenly over the weights; the expectation over `u` of their light is that of all
+    /// the sides.
+    void select(const Choice& choice, const std::array<double, 2>& u,
                 std::vector<EmittingPoint>& points) const;
 
   private:
+    void add(std::uint32_t side, KernelChoice& sides) const;
+
     const LightGuess& guess_;
     const rays::RayCaster& caster_;
-    KernelChoice sides_;  ///< the guess's lit sides
+    KernelChoice all_;  ///< the guess's lit sides
 };
 
 }  // namespace stilb::estimators

@@ -9,14 +9,13 @@
 namespace stilb::estimators {
 namespace {
 
-/// Connections to points of the guess share light with gathering rays by k = kKernels x points / area: about
-/// the density at which points lie as far from each other as from the receiver.
-constexpr double kKernels = 5;
 /// Paths of the residual for each sample of readings, and the number of their vertices that are connected.
 constexpr std::uint64_t kPathsPerSample = 32;
-constexpr std::uint64_t kVerticesPerSample = 2;
+constexpr std::uint64_t kVerticesPerSample = 4;
 /// The largest extent of tiles that share a choice of points and vertices, over half of the scene's.
 constexpr double kGroupExtent = 0.1;
+/// Receivers of a group for which points and vertices are chosen, at least.
+constexpr std::size_t kSpread = 4;
 /// Samples whose vertices are selected together.
 constexpr std::uint64_t kSamplesTogether = 64;
 
@@ -37,16 +36,8 @@ GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
       guess(scene, all, direct, tracer, key.derived(kGuess), monitor),
       residual(scene, all, lights, direct, tracer, guess, key.derived(kPilot), monitor),
       points(guess, all),
-      gather(all, tracer, guess, residual) {
-    const patches::Patches& patches = guess.patches();
-    for (const std::uint32_t side : guess.lit_sides())
-        lit_area_m2_ += double{patches.areas_m2[patches.patch_of(side)]};
-}
-
-double GuidedLight::k_per_m2(std::size_t points_at_once) const {
-    if (!(lit_area_m2_ > 0)) return 1;
-    return kResidualSplit * kKernels * static_cast<double>(points_at_once) / lit_area_m2_;
-}
+      gather(all, tracer, guess, residual),
+      sides(scene, guess, all) {}
 
 auto GuidedLight::divide(std::span<const transport::Receiver> receivers) const -> Divided {
     Divided divided;
@@ -82,7 +73,38 @@ GuidedReadings::GuidedReadings(const GuidedLight& light, std::span<const transpo
       groups_(groups_of(tiles_, kGroupExtent * light.caster.half_extent_m())),
       general_groups_(groups_of(general_tiles_, kGroupExtent * light.caster.half_extent_m())),
       monitor_(monitor) {
-    for (const Group& group : groups_) points_of_.push_back(light.points_for(group.spread, kPoints));
+    make_sources();
+}
+
+void GuidedReadings::make_sources() {
+    std::vector<CertainSides::Group> receivers;
+    for (const Group& group : groups_) {
+        const std::size_t first = group.first * kPacketWidth,
+                          last = std::min(group.last * kPacketWidth, receivers_.even.size());
+        receivers.push_back(std::span(receivers_.even).subspan(first, last - first));
+    }
+    std::vector<Sights> sights = light_.sides.find(receivers);
+    known_.resize(receivers_.even.size());
+    sources_.reserve(groups_.size());
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        monitor_.require_more();
+        const CertainLight certain(light_.guess, sights[g]);
+        double certain_lx = 0;
+        for (std::size_t t = groups_[g].first; t < groups_[g].last; ++t) {
+            const auto lx = certain.illuminances_lx(tiles_[t]);
+            for (std::size_t i = 0; i < tiles_[t].receivers.size(); ++i) {
+                const Rgb received{{lx[0][i], lx[1][i], lx[2][i]}};
+                certain_lx += received.luminance() / static_cast<double>(receivers[g].size());
+                known_[t * kPacketWidth + i] = received * *tiles_[t].receivers[i].constant_response();
+            }
+        }
+        sources_.push_back({light_.points.uncertain_sides(groups_[g].spread, sights[g], certain_lx, kPoints),
+                            std::move(sights[g])});
+    }
+}
+
+void GuidedReadings::add_known(std::span<Rgb> readings) const {
+    for (std::size_t j = 0; j < known_.size(); ++j) readings[receivers_.even[j].reading()] += known_[j];
 }
 
 auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_extent_m)
@@ -102,9 +124,10 @@ auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_
     }
     for (Group& group : groups) {
         const std::size_t count = group.last - group.first;
-        for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            const auto& receivers = tiles[group.first + i * count / kPacketWidth].receivers;
-            if (i < receivers.size()) group.spread.push_back(receivers[i]);
+        const std::size_t spread = std::clamp(count, kSpread, std::size_t{kPacketWidth});
+        for (std::size_t i = 0; i < spread; ++i) {
+            const auto& receivers = tiles[group.first + i * count / spread].receivers;
+            group.spread.push_back(receivers[(2 * i + 1) * receivers.size() / (2 * spread)]);
         }
     }
     return groups;
@@ -153,16 +176,17 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
         for (std::size_t i = 0; i < kPacketWidth; ++i) shifts[i] = gather_shift(random, i);
         const GatherLanes lanes(tile, shifts);
         const auto points = gather_points(batch.key.derived(kGather), own.first, own.count);
+        const Sources& sources = sources_[group];
         GuessGather::Sums tile_sums;
         std::vector<EmittingPoint> connected;
         for (std::uint64_t i = 0; i < own.count; ++i) {
             light_.gather.add_round(tile, lanes, points[i], batch.key.derived(kPaths).derived(t),
-                                    own.first + i, tile_sums);
-            light_.points.select(points_of_[group], kPoints,
+                                    own.first + i, {sources.sights, sources.points.split}, tile_sums);
+            light_.points.select(sources.points,
                                  {fraction(points[i][0] + random[0]), fraction(points[i][1] + random[1])},
                                  connected);
-            connect_points(light_.caster, tile, connected, sums);
         }
+        connect_points(light_.caster, tile, connected, sums);
         GuessGather::flush(tile, tile_sums, 1, sums);
         sums.rays += own.count * tile.receivers.size();
     }

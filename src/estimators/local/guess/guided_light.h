@@ -1,6 +1,7 @@
 // Indirect light by a guess as control variate (theory T.8b):
 //
-//     light of the guess: connections to points of it (guess_points.h), and gathering rays (guess_gather.h)
+//     light of the guess: closed forms (certain_light.h), connections to points of it (guess_points.h), and
+//     gathering rays (guess_gather.h)
 //     + connections with the vertices of the residual (residual_light.h)
 //
 // Direct light is added elsewhere. The receivers' k bounds the connections.
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include "estimators/local/connection.h"
+#include "estimators/local/guess/certain_light.h"
+#include "estimators/local/guess/certain_sides.h"
 #include "estimators/local/guess/guess_gather.h"
 #include "estimators/local/guess/guess_points.h"
 #include "estimators/local/guess/light_guess.h"
@@ -29,11 +32,8 @@ struct GuidedLight {
                 const transport::PathTracer& tracer, math::RandomKey key, const Monitor& monitor);
 
     /// Of connections to the residual, where so many points of the guess are connected at once.
-    double k_per_m2(std::size_t points_at_once) const;
-    /// The points that a group of receivers takes.
-    KernelChoice::Sums points_for(std::span<const transport::Receiver> receivers,
-                                  std::size_t points_at_once) const {
-        return points.sums_for(receivers, k_per_m2(points_at_once) / kResidualSplit);
+    double k_per_m2(std::size_t points_at_once) const {
+        return kResidualSplit * points.k_per_m2(points_at_once);
     }
 
     /// Sorts receivers by what brings light to them, and divides glossy ones into the parts of their
@@ -54,9 +54,7 @@ struct GuidedLight {
     ResidualLight residual;
     GuessPoints points;
     GuessGather gather;
-
-  private:
-    double lit_area_m2_ = 0;
+    CertainSides sides;
 };
 
 /// Light of readings. Keeps references to its arguments' targets. Immutable.
@@ -66,7 +64,8 @@ class GuidedReadings {
     /// share of the residual.
     static constexpr std::uint64_t kGranularity = 1;
 
-    /// Points of the guess that are connected to a tile for each gathering ray of its receivers.
+    /// Points of the guess that are connected to a tile for each gathering ray of its receivers; fewer where
+    /// closed forms bring much of the light.
     static constexpr std::size_t kPoints = 8;
 
     GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers,
@@ -76,6 +75,8 @@ class GuidedReadings {
     /// these as readings, all of constant response.
     void collect(const Batch& batch, ReadingSums& sums) const;
     bool can_have_paces() const { return general_tiles_.empty(); }
+    /// Adds the light that needs no samples.
+    void add_known(std::span<Rgb> readings) const;
     /// As Estimator's.
     double rays_per_sample() const;
     /// As Estimator's, where each receiver stands for so many.
@@ -88,8 +89,15 @@ class GuidedReadings {
         std::size_t first = 0, last = 0;
         std::vector<transport::Receiver> spread;  ///< some of their receivers
     };
+    /// How a group of even receivers gets the light of the guess.
+    struct Sources {
+        GuessPoints::Choice points;
+        Sights sights;
+    };
     static std::vector<Group> groups_of(std::span<const PointTile> tiles, double largest_extent_m);
 
+    /// Sets also the known light of the groups' receivers.
+    void make_sources();
     void gather(const Batch& batch, ReadingSums& sums) const;
     void gather_general(const Batch& batch, ReadingSums& sums) const;
     void connect_residual(const Batch& batch, ReadingSums& sums) const;
@@ -100,7 +108,8 @@ class GuidedReadings {
     GuidedLight::Divided receivers_;
     std::vector<PointTile> tiles_, general_tiles_;
     std::vector<Group> groups_, general_groups_;
-    std::vector<KernelChoice::Sums> points_of_;  ///< per group of tiles_
+    std::vector<Sources> sources_;  ///< per group of tiles_
+    std::vector<Rgb> known_;        ///< per even receiver
     const Monitor& monitor_;
 };
 

@@ -93,10 +93,10 @@ class GuidedPicture final : public LocalPicture {
             const GuidedLight& guide = picture_.guide_;
             std::vector<std::array<double, 2>> shifts;
             for (const Pixel& pixel : packet.pixels) shifts.push_back(shift_of(pixel, pass_));
-            const KernelChoice::Sums& near = picture_.points_of(packet.pixels[0]);
+            const GuessPoints::Choice& near = picture_.points_of(packet.pixels[0]);
             std::vector<EmittingPoint> points;
             guide.points.select(
-                near, kPoints,
+                near,
                 {fraction(selection_point_[0] + shifts[0][0]), fraction(selection_point_[1] + shifts[0][1])},
                 points);
             for (const PointTile& tile : tiles) {
@@ -105,7 +105,7 @@ class GuidedPicture final : public LocalPicture {
                 GuessGather::Sums gathered;
                 for (std::uint64_t i = 0; i < kRays; ++i)
                     guide.gather.add_round(tile, lanes, gather_points_[i], packet.key(pass_, kPaths),
-                                           kRays * pass_.index + i, gathered);
+                                           kRays * pass_.index + i, {}, gathered);
                 GuessGather::flush(tile, gathered, 1. / kRays, sums);
             }
         }
@@ -141,10 +141,10 @@ class GuidedPicture final : public LocalPicture {
     }
 
     /// The weights of the guess's points for the sub-points around a pixel.
-    const KernelChoice::Sums& points_of(const Pixel& pixel) const {
+    const GuessPoints::Choice& points_of(const Pixel& pixel) const {
         const std::size_t cell = sub_points_.cell_of(pixel);
-        return points_of_.of(cell,
-                             [&] { return guide_.points_for(sub_points_.of_cell(cell, plan_), kPoints); });
+        return points_of_.of(
+            cell, [&] { return guide_.points.all_sides(sub_points_.of_cell(cell, plan_), kPoints); });
     }
 
     std::vector<transport::LightVertex> trace_residual(const Pass& pass) const {
@@ -171,7 +171,7 @@ class GuidedPicture final : public LocalPicture {
     SubPoints sub_points_;
     LightPathReception reception_;
     Pass plan_;  ///< its sub-points represent the cells'
-    OfCells<KernelChoice::Sums> points_of_;
+    OfCells<GuessPoints::Choice> points_of_;
 };
 
 }  // namespace

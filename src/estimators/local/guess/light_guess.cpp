@@ -229,6 +229,8 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const 
     lit_sides_ = solver.lit(solver.cast(std::move(sides), 1, Solver::kSurvey));
     std::ranges::sort(lit_sides_);
     interpolate(solver.solve(solver.cast(lit_sides_, kSidePackets, Solver::kSolution)));
+    for (const std::uint32_t side : lit_sides_)
+        lit_area_m2_ += double{patches().areas_m2[patches().patch_of(side)]};
 }
 
 void LightGuess::interpolate(const std::vector<Rgb>& luminance_of_sides) {

@@ -66,10 +66,9 @@ class LightGuess {
 
     /// The guess at a point of a side: the diffuse part of the reflected light [cd/m2].
     Rgb luminance_cd_m2(std::uint32_t side, const math::Barycentric& at) const;
-    /// In the middle of a side.
-    double mean_cd_m2(std::uint32_t side) const {
-        return luminance_cd_m2(side, {1. / 3, 1. / 3, 1. / 3}).luminance();
-    }
+    /// The mean over a side.
+    Rgb mean_cd_m2(std::uint32_t side) const { return luminance_cd_m2(side, {1. / 3, 1. / 3, 1. / 3}); }
+    double lit_area_m2() const { return lit_area_m2_; }
     /// The guess along rays, for lanes that are set; the packet as RayCaster::closest() takes and leaves it.
     void look(rays::RayHitPacket& packet, const LaneMask& lanes, rays::Coherence coherence,
               GuessedLight& light) const;
@@ -90,6 +89,7 @@ class LightGuess {
     patches::RegularPatches patches_;                                  ///< of surfaces that are not traced
     std::vector<std::uint32_t> lit_sides_;
     std::vector<CornerLuminances> corners_;  ///< per side
+    double lit_area_m2_ = 0;
 };
 
 SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
