@@ -1,5 +1,5 @@
 // Work where it is needed: in a run that stops by its error, packets of readings that are sure enough take
-// fewer samples than others.
+// fewer samples than others. Cells of a picture (picture_paces.h) are packets of pixels.
 #pragma once
 
 #include <cstdint>
