@@ -8,6 +8,8 @@
 namespace stilb::run {
 namespace {
 
+/// paces.h; more than packets of readings take: the pixels of a cell differ more.
+constexpr double kPixelReserve = 3;
 constexpr auto kEdge = std::size_t{estimators::kBlockSize};
 
 /// The size of the first cell, of whole packets, so that these are full.
@@ -41,7 +43,7 @@ void PicturePaces::decide(std::span<const double> means, std::span<const std::si
     const std::size_t seen = pixels.size();
     paces_.resize(means.size() / seen);
     parallel_for(paces_.size(), [&](std::size_t r) {
-        paces_[r] = paces_of(r, {means, seen}, cells, {&seen, 1}, samples);
+        paces_[r] = paces_of(r, {means, seen}, cells, {&seen, 1}, samples, kPixelReserve);
         // The last cells may see nothing.
         paces_[r].resize(cells_.size(), {samples, 1});
     });

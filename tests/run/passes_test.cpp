@@ -97,7 +97,7 @@ TEST(Passes, TakeFewerSamplesWhereTheErrorIsSmall) {
     for (std::uint64_t r = 0; r < 4; ++r) {
         EXPECT_EQ(all.picture.numbers(r, 0, 5).size(), 32u);
         EXPECT_EQ(all.picture.numbers(r, 63, 5).size(),
-                  4u);  // a 25th of the variance, a twelfth with reserve
+                  4u);  // a 25th of the variance, an eighth with reserve
     }
     const double mean = all.passes.sums().samples_per_pixel(all.blind);
     EXPECT_GT(mean, 4 * 8);
