@@ -42,14 +42,15 @@ struct Problem {
     const Monitor& monitor = Monitor::none();
 };
 
-/// The samples that a packet of readings, or a cell of a picture, takes: one for each `every` samples, and
-/// the first `all` in any case.
+/// The samples that a packet of readings, or a cell of a picture, takes: the first `all`, none of the next
+/// `pause`, and then one for each `every` samples.
 struct Pace {
-    std::uint64_t all = 0, every = 1;
+    std::uint64_t all = 0, every = 1, pause = 0;
 
     /// How many it takes of the first `samples` ones.
     std::uint64_t taken(std::uint64_t samples) const {
-        return std::max(std::min(samples, all), (samples + every - 1) / every);
+        const std::uint64_t begin = all + pause;
+        return std::min(samples, all) + (samples > begin ? (samples - begin + every - 1) / every : 0);
     }
 };
 

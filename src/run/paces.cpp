@@ -68,7 +68,7 @@ std::vector<estimators::Pace> paces_of(std::size_t replicate, const statistics::
     for (const double variance : variances) {
         // Without a spread, light may be missing.
         const double every = variance > 0 ? std::clamp(deciding / (reserve * variance), 1.0, kMostEvery) : 1;
-        paces.push_back({samples, std::bit_floor(static_cast<std::uint64_t>(every))});
+        paces.push_back({samples, std::bit_floor(static_cast<std::uint64_t>(every)), 0});
     }
     return paces;
 }

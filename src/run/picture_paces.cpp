@@ -44,8 +44,10 @@ void PicturePaces::decide(std::span<const double> means, std::span<const std::si
     paces_.resize(means.size() / seen);
     parallel_for(paces_.size(), [&](std::size_t r) {
         paces_[r] = paces_of(r, {means, seen}, cells, {&seen, 1}, samples, kPixelReserve);
+        // The first passes count, too: a cell waits until they are no more than its share of all.
+        for (estimators::Pace& pace : paces_[r]) pace.pause = pace.all * (pace.every - 1);
         // The last cells may see nothing.
-        paces_[r].resize(cells_.size(), {samples, 1});
+        paces_[r].resize(cells_.size(), {samples, 1, 0});
     });
 }
 
