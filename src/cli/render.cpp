@@ -68,6 +68,14 @@ class RenderProgress final : public TerminalProgress {
     double elapsed_s_ = 0, shown_s_ = 0;
 };
 
+/// "24 passes (a pixel takes part in 16.3 on average)", where some pixels take part in fewer.
+std::string passes_text(const RenderResult& result) {
+    std::string text = fmt::format("{} passes", result.samples);
+    if (result.samples_per_pixel < static_cast<double>(result.samples))
+        text += fmt::format(" (a pixel takes part in {:.3g} on average)", result.samples_per_pixel);
+    return text;
+}
+
 void print_summary(const RenderResult& result, const Sensor& sensor, const std::string& output) {
     std::FILE* const stream = messages_beside(output);
     const auto& [width, height] = sensor.camera()->resolution;
@@ -80,7 +88,7 @@ void print_summary(const RenderResult& result, const Sensor& sensor, const std::
         fmt::print(stream, "95 % of the pixels have a 95 % interval within {} of their value\n",
                    percent(result.attained_error));
     }
-    fmt::print(stream, "{}, {} passes in {:.1f} s: {}\n", result.method, result.samples, result.elapsed_s,
+    fmt::print(stream, "{}, {} in {:.1f} s: {}\n", result.method, passes_text(result), result.elapsed_s,
                ending(result.stop_reason, "passes"));
     fmt::print(stream, "{}", shortfall_text(result, output));
     fmt::print(stream, "{}", detail_text(result.levels_of_detail));

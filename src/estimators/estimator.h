@@ -42,13 +42,15 @@ struct Problem {
     const Monitor& monitor = Monitor::none();
 };
 
-/// The samples that a packet of readings takes: the first `all`, and then one for each `every` samples.
+/// The samples that a packet of readings, or a cell of a picture, takes: the first `all`, none of the next
+/// `pause`, and then one for each `every` samples.
 struct Pace {
-    std::uint64_t all = 0, every = 1;
+    std::uint64_t all = 0, every = 1, pause = 0;
 
     /// How many it takes of the first `samples` ones.
     std::uint64_t taken(std::uint64_t samples) const {
-        return samples <= all ? samples : all + (samples - all + every - 1) / every;
+        const std::uint64_t begin = all + pause;
+        return std::min(samples, all) + (samples > begin ? (samples - begin + every - 1) / every : 0);
     }
 };
 
@@ -118,6 +120,8 @@ struct PixelBlock {
 
 /// Edge of the largest blocks.
 inline constexpr int kBlockSize = 16;
+/// Methods compute a block in packets of so many pixels to a side, from its top left corner.
+inline constexpr int kPacketSide = 4;
 
 /// The blocks of a picture, row by row, with `edge` pixels to a side; the first one extends to `offset` (each
 /// from 1 to `edge`).

@@ -20,6 +20,7 @@ constexpr std::size_t kLeastReplicates = 8;
 constexpr std::size_t kFewReplicates = 8, kLargeGrid = 64;
 /// Samples of a replicate from which its packets' paces follow.
 constexpr std::uint64_t kSamplesBeforePaces = 16;
+constexpr double kReadingReserve = 2;  ///< paces.h
 /// Tasks that can run at the same time: strands of all replicates.
 constexpr std::size_t kStrands = 32;
 
@@ -138,7 +139,8 @@ void Campaign::set_paces() {
     for (const Sensor& sensor : sensors_) readings.push_back(sensor.size());
     const std::vector<double> means = replicate_means(0, packets_.size());
     for (std::size_t r = 0; r < replicates_.size(); ++r)
-        replicates_[r].paces = paces_of(r, {means, packets_.size()}, packets_, readings, samples_);
+        replicates_[r].paces =
+            paces_of(r, {means, packets_.size()}, packets_, readings, samples_, kReadingReserve);
 }
 
 double Campaign::attained_error() const {

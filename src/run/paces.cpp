@@ -7,9 +7,6 @@
 namespace stilb::run {
 namespace {
 
-/// A packet takes so many times the samples that its error needs: the spread of few replicates says it
-/// roughly, and where it misses rare light, it says too little.
-constexpr double kReserve = 2;
 /// One of so many samples at least.
 constexpr double kMostEvery = 16;
 
@@ -63,14 +60,15 @@ double deciding_variance(std::span<const double> of_packets, std::span<const std
 
 std::vector<estimators::Pace> paces_of(std::size_t replicate, const statistics::ReplicateTable& table,
                                        std::span<const std::uint32_t> packets,
-                                       std::span<const std::size_t> readings, std::uint64_t samples) {
+                                       std::span<const std::size_t> readings, std::uint64_t samples,
+                                       double reserve) {
     const std::vector<double> variances = means_of_packets(relative_variances(replicate, table), packets);
     const double deciding = deciding_variance(variances, packets, readings);
     std::vector<estimators::Pace> paces;
     for (const double variance : variances) {
         // Without a spread, light may be missing.
-        const double every = variance > 0 ? std::clamp(deciding / (kReserve * variance), 1.0, kMostEvery) : 1;
-        paces.push_back({samples, std::bit_floor(static_cast<std::uint64_t>(every))});
+        const double every = variance > 0 ? std::clamp(deciding / (reserve * variance), 1.0, kMostEvery) : 1;
+        paces.push_back({samples, std::bit_floor(static_cast<std::uint64_t>(every)), 0});
     }
     return paces;
 }

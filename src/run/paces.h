@@ -1,5 +1,5 @@
 // Work where it is needed: in a run that stops by its error, packets of readings that are sure enough take
-// fewer samples than others.
+// fewer samples than others. Cells of a picture (picture_paces.h) are packets of pixels.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,15 @@
 namespace stilb::run {
 
 /// Paces of the packets for one replicate, from a number of samples on that all have taken. `packets`: the
-/// packet of each reading. `readings`: of each sensor, in order.
+/// packet of each reading. `readings`: of each sensor, in order. A packet takes `reserve` times the samples
+/// that its error needs: the spread of few replicates says it roughly, and where it misses rare light, it
+/// says too little.
 ///
 /// The pace follows from the spread of the other replicates alone. So it is independent of the replicate's
 /// own samples, and the replicate's means keep their expectation.
 std::vector<estimators::Pace> paces_of(std::size_t replicate, const statistics::ReplicateTable& table,
                                        std::span<const std::uint32_t> packets,
-                                       std::span<const std::size_t> readings, std::uint64_t samples);
+                                       std::span<const std::size_t> readings, std::uint64_t samples,
+                                       double reserve);
 
 }  // namespace stilb::run

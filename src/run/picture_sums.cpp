@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/rgb.h"
@@ -9,56 +10,111 @@
 
 namespace stilb::run {
 
-PictureSums::PictureSums(const std::array<int, 2>& resolution, std::uint64_t replicates, Errors errors)
+PictureSums::PictureSums(const std::array<int, 2>& resolution, const PicturePlan& plan)
     : width_(static_cast<std::size_t>(resolution[0])),
-      replicates_(replicates),
-      errors_(errors),
-      rgb_(width_ * static_cast<std::size_t>(resolution[1])),
-      luminance_(rgb_.size() * replicates) {}
+      pixels_(width_ * static_cast<std::size_t>(resolution[1])),
+      plan_(plan),
+      colours_(plan.has_paces ? plan.replicates : 1),
+      rgb_(pixels_ * colours_),
+      luminance_(pixels_ * plan.replicates) {}
 
 void PictureSums::add(const std::vector<std::array<float, 3>>& pass) {
-    const std::size_t replicate = passes_ % replicates_;
-    parallel_for_parts(rgb_.size(), [&](std::size_t first, std::size_t last) {
+    const std::size_t replicate = passes_ % plan_.replicates, colour = passes_ % colours_;
+    parallel_for_parts(pixels_, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            for (std::size_t b = 0; b < kBands; ++b) rgb_[i][b] += pass[i][b];
-            luminance_[i * replicates_ + replicate] +=
+            for (std::size_t b = 0; b < kBands; ++b) rgb_[i * colours_ + colour][b] += pass[i][b];
+            luminance_[i * plan_.replicates + replicate] +=
                 static_cast<float>(Rgb{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
         }
     });
     ++passes_;
 }
 
+void PictureSums::set_paces(PicturePaces paces, const std::vector<bool>& blind) {
+    std::vector<std::size_t> seen;
+    for (std::size_t i = 0; i < pixels_; ++i) {
+        if (!blind[i]) seen.push_back(i);
+    }
+    const std::uint64_t samples = passes_ / plan_.replicates;
+    std::vector<double> means;
+    for (std::uint64_t r = 0; r < plan_.replicates; ++r) {
+        for (const std::size_t i : seen)
+            means.push_back(double{luminance_[i * plan_.replicates + r]} / static_cast<double>(samples));
+    }
+    paces.decide(means, seen, samples);
+    paces_ = std::move(paces);
+}
+
+std::uint64_t PictureSums::taken(std::uint64_t replicate, std::size_t pixel) const {
+    const std::uint64_t rounds =
+        passes_ / plan_.replicates + (replicate < passes_ % plan_.replicates ? 1 : 0);
+    return paces_ ? paces_->taken(replicate, pixel, rounds) : rounds;
+}
+
+PictureSums::Share PictureSums::share_of(std::uint64_t replicate, std::size_t pixel) const {
+    const auto samples = static_cast<double>(taken(replicate, pixel));
+    return plan_.has_paces ? Share{1 / samples, 1} : Share{1, samples};
+}
+
+double PictureSums::weights() const { return static_cast<double>(plan_.has_paces ? replicates() : passes_); }
+
 double PictureSums::luminance_cd_m2(std::size_t pixel) const {
     double sum = 0;
-    for (std::size_t r = 0; r < replicates_; ++r) sum += double{luminance_[pixel * replicates_ + r]};
-    return sum / static_cast<double>(passes_);
+    for (std::uint64_t r = 0; r < replicates(); ++r)
+        sum += double{luminance_[pixel * plan_.replicates + r]} * share_of(r, pixel).scale;
+    return sum / weights();
+}
+
+std::array<float, 3> PictureSums::rgb_cd_m2(std::size_t pixel) const {
+    std::array<float, 3> sum{};
+    for (std::uint64_t c = 0; c < std::min(colours_, replicates()); ++c) {
+        const auto scale = static_cast<float>(share_of(c, pixel).scale);
+        for (std::size_t b = 0; b < kBands; ++b) sum[b] += rgb_[pixel * colours_ + c][b] * scale;
+    }
+    const float per_weight = 1 / static_cast<float>(weights());
+    for (float& band : sum) band *= per_weight;
+    return sum;
 }
 
 double PictureSums::own_standard_error_cd_m2(std::size_t pixel) const {
     const std::uint64_t used = replicates();
     if (used < 2) return std::numeric_limits<double>::infinity();
-    const double all = static_cast<double>(passes_), mean = luminance_cd_m2(pixel);
+    const double mean = luminance_cd_m2(pixel);
     double variance = 0;
     for (std::uint64_t r = 0; r < used; ++r) {
-        const std::uint64_t passes = passes_ / replicates_ + (r < passes_ % replicates_ ? 1 : 0);
-        const double own = static_cast<double>(passes);
-        const double deviation = (double{luminance_[pixel * replicates_ + r]} - own * mean) / all;
+        const auto [scale, weight] = share_of(r, pixel);
+        const double sum = double{luminance_[pixel * plan_.replicates + r]};
+        const double deviation = (sum * scale - weight * mean) / weights();
         variance += deviation * deviation;
     }
     return std::sqrt(variance * static_cast<double>(used) / static_cast<double>(used - 1));
 }
 
+double PictureSums::variance_per_sample(std::size_t pixel) const {
+    const std::uint64_t used = replicates();
+    double sum = 0;
+    for (std::uint64_t r = 0; r < used; ++r) sum += 1 / static_cast<double>(taken(r, pixel));
+    return sum / static_cast<double>(used * used);
+}
+
 statistics::PooledErrors<float> PictureSums::errors() const {
     const int degrees = static_cast<int>(replicates()) - 1;
-    std::vector<float> values(rgb_.size()), own(rgb_.size());
-    parallel_for_parts(rgb_.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<float> values(pixels_), own(pixels_), scales(paces_ ? pixels_ : 0);
+    parallel_for_parts(pixels_, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             values[i] = static_cast<float>(luminance_cd_m2(i));
             own[i] = static_cast<float>(own_standard_error_cd_m2(i));
+            if (!paces_) continue;
+            scales[i] = static_cast<float>(std::sqrt(variance_per_sample(i)));
+            own[i] /= scales[i];
         }
     });
-    if (errors_ == Errors::own) return {std::move(own), std::vector<int>(rgb_.size(), degrees)};
-    return statistics::pool_errors<float>(width_, values, own, degrees);
+    if (plan_.errors == PicturePlan::Errors::own) return {std::move(own), std::vector<int>(pixels_, degrees)};
+    // Neighbours of other cells may have other numbers of samples: what they share is the error of one
+    // sample.
+    statistics::PooledErrors<float> pooled = statistics::pool_errors<float>(width_, values, own, degrees);
+    for (std::size_t i = 0; i < scales.size(); ++i) pooled.standard_errors[i] *= scales[i];
+    return pooled;
 }
 
 double PictureSums::attained_error(const std::vector<bool>& blind) const {
@@ -77,15 +133,22 @@ double PictureSums::attained_error(const std::vector<bool>& blind) const {
 
 Pixels PictureSums::pixels() const {
     Pixels pixels;
-    pixels.rgb_cd_m2.resize(rgb_.size());
-    const float per_pass = 1 / static_cast<float>(passes_);
-    parallel_for_parts(rgb_.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            for (std::size_t b = 0; b < kBands; ++b) pixels.rgb_cd_m2[i][b] = rgb_[i][b] * per_pass;
-        }
+    pixels.rgb_cd_m2.resize(pixels_);
+    parallel_for_parts(pixels_, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) pixels.rgb_cd_m2[i] = rgb_cd_m2(i);
     });
     if (replicates() > 1) pixels.standard_error_cd_m2 = errors().standard_errors;
     return pixels;
+}
+
+double PictureSums::samples_per_pixel(const std::vector<bool>& blind) const {
+    double samples = 0, seen = 0;
+    for (std::size_t i = 0; i < pixels_; ++i) {
+        if (blind[i]) continue;
+        for (std::uint64_t r = 0; r < replicates(); ++r) samples += static_cast<double>(taken(r, i));
+        ++seen;
+    }
+    return samples / seen;
 }
 
 }  // namespace stilb::run

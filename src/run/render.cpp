@@ -13,10 +13,9 @@
 #include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "estimators/patch_light/solution/solution_picture.h"
-#include "math/random.h"
 #include "run/level_of_detail.h"
+#include "run/passes.h"
 #include "run/picture_comparison.h"
-#include "run/picture_sums.h"
 #include "run/run.h"
 #include "run/schedule.h"
 #include "statistics/interval.h"
@@ -29,17 +28,8 @@ namespace {
 /// suffice where neighbours help to estimate the errors.
 constexpr std::uint64_t kPictureReplicates = 4, kPatchPictureReplicates = 8;
 constexpr double kDefaultTime_s = 60;
-/// 95 % of the pixels have a bias of less than about twice the root mean square.
-constexpr double kBiasesOfMostPixels = 2;
 /// Passes for smooth edges.
 constexpr std::uint64_t kSmoothingPasses = 16;
-enum PicturePurpose : std::uint64_t {
-    kPicturePreparation,
-    kPictureSamples,
-    kPictureOffset,
-    kPictureComparison
-};
-
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 /// The number of pixels outside of the camera's field.
@@ -51,107 +41,6 @@ std::vector<bool> blind_pixels(const Camera& camera) {
     }
     return blind;
 }
-
-/// A picture that accumulates one pass after another over all blocks.
-class Passes final : public Work {
-  public:
-    /// `sink` may be null, and `comparison`, for methods without patches.
-    Passes(const estimators::Estimator& estimator, const Camera& camera, const std::vector<bool>& blind,
-           PictureSums sums, std::uint64_t seed, PictureSink* sink, const Monitor& monitor,
-           const PictureComparison* comparison)
-        : estimator_(estimator),
-          comparison_(comparison),
-          monitor_(monitor),
-          blind_(blind),
-          sink_(sink),
-          resolution_(camera.resolution),
-          width_(static_cast<std::size_t>(camera.resolution[0])),
-          key_(math::RandomKey{seed}.derived(kPictureSamples)),
-          offset_key_(math::RandomKey{seed}.derived(kPictureOffset)),
-          pixels_(width_ * static_cast<std::size_t>(camera.resolution[1])),
-          sums_(std::move(sums)) {}
-
-    const PictureSums& sums() const { return sums_; }
-    std::uint64_t samples() const override { return sums_.passes(); }
-    std::uint64_t samples_in_all() const override { return sums_.passes(); }
-    std::uint64_t samples_for(std::uint64_t paths) const override { return paths; }
-    std::uint64_t most_samples() const override { return std::numeric_limits<std::uint64_t>::max(); }
-    /// There is no error without two replicates.
-    bool has_result() const override { return sums_.passes() >= 2; }
-    /// After 1, 2, 3, 4, 6, 8, 12 ... passes of each replicate.
-    std::uint64_t next_check() const override {
-        const std::uint64_t replicates = sums_.all_replicates();
-        return replicates * statistics::next_check(sums_.passes() / replicates, 1);
-    }
-    std::uint64_t most_at_once() const override { return 1; }
-    double attained_error() const override {
-        return sums_.attained_error(blind_) + kBiasesOfMostPixels * bias().at_most;
-    }
-    bool is_beyond_reach(double error) const override {
-        return kBiasesOfMostPixels * bias().at_least > error;
-    }
-    /// That of the patches; 0 for other methods.
-    PictureComparison::Bias bias() const {
-        if (!comparison_) return {};
-        return comparison_->bias_of([&](std::size_t pixel) {
-            return PictureComparison::Shown{sums_.luminance_cd_m2(pixel),
-                                            sums_.own_standard_error_cd_m2(pixel)};
-        });
-    }
-    void show() override {
-        if (sink_ && sink_->wants_picture()) sink_->show(sums_.pixels());
-    }
-
-    void advance(std::uint64_t) override {
-        const std::uint64_t p = sums_.passes(), replicates = sums_.all_replicates();
-        const estimators::Pass pass{key_.derived(p % replicates), p / replicates, p % replicates};
-        const std::vector<estimators::PixelBlock> blocks = estimators::blocks_of(resolution_, offset_of(p));
-        const auto started = estimator_.start(pass);
-        parallel_for(blocks.size(), [&](std::size_t b) {
-            monitor_.require_more();
-            sample(blocks[b], *started);
-        });
-        sums_.add(pixels_);
-        const double all = static_cast<double>(sums_.passes()) * static_cast<double>(pixels_.size());
-        require_mostly_finite(invalid_, all);
-    }
-
-  private:
-    /// Blocks have another offset in every pass, so that their edges do not show.
-    std::array<int, 2> offset_of(std::uint64_t pass) const {
-        const auto [u, v] = math::SampleStream(offset_key_, pass).next_two();
-        return {1 + static_cast<int>(u * estimators::kBlockSize),
-                1 + static_cast<int>(v * estimators::kBlockSize)};
-    }
-
-    void sample(const estimators::PixelBlock& block, const estimators::PicturePass& pass) {
-        std::array<Rgb, std::size_t{estimators::kBlockSize} * estimators::kBlockSize> samples;
-        const std::size_t count =
-            static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height);
-        invalid_ += pass.sample(block, {samples.data(), count});
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t x =
-                static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);
-            const std::size_t y =
-                static_cast<std::size_t>(block.top) + i / static_cast<std::size_t>(block.width);
-            for (std::size_t b = 0; b < kBands; ++b) {
-                pixels_[y * width_ + x][b] = static_cast<float>(samples[i][b]);
-            }
-        }
-    }
-
-    const estimators::Estimator& estimator_;
-    const PictureComparison* comparison_;
-    const Monitor& monitor_;
-    const std::vector<bool>& blind_;
-    PictureSink* sink_;
-    std::array<int, 2> resolution_;
-    std::size_t width_;
-    math::RandomKey key_, offset_key_;
-    std::vector<std::array<float, 3>> pixels_;  ///< of the last pass
-    PictureSums sums_;
-    std::atomic<std::uint64_t> invalid_ = 0;
-};
 
 void add_geometry(const Camera& camera, const rays::RayCaster& caster, RenderResult& result) {
     const sensors::CameraView view(camera);
@@ -204,6 +93,11 @@ struct PictureMethod {
     std::function<std::unique_ptr<estimators::Estimator>(const estimators::Problem&)> make;
     std::uint64_t replicates = kPictureReplicates;
     bool lights_patches = false;
+
+    PicturePlan plan(const RunOptions& options) const {
+        if (lights_patches) return {replicates, PicturePlan::Errors::own};
+        return {replicates, PicturePlan::Errors::pooled, options.error.has_value()};
+    }
 };
 
 /// Warns where the patches' error is much of the whole.
@@ -236,13 +130,13 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
         std::optional<PictureComparison> comparison;
         if (method.lights_patches)
             comparison.emplace(problem, blind, math::RandomKey{options.seed}.derived(kPictureComparison));
-        const auto errors = method.lights_patches ? PictureSums::Errors::own : PictureSums::Errors::pooled;
-        Passes passes(*estimator, camera, blind, PictureSums(camera.resolution, method.replicates, errors),
-                      options.seed, sink, session.monitor(), comparison ? &*comparison : nullptr);
+        Passes passes(*estimator, camera.resolution, blind, method.plan(options), options.seed, sink,
+                      session.monitor(), comparison ? &*comparison : nullptr);
         session.run(passes, result);
         session.describe(*estimator, result);
         result.replicates = static_cast<int>(passes.sums().replicates());
         result.pixels = passes.sums().pixels();
+        result.samples_per_pixel = passes.sums().samples_per_pixel(blind);
         add_means(blind, result);
         if (comparison) add_patch_error(passes.bias(), result);
     });

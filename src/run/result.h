@@ -32,7 +32,8 @@ struct RunSummary {
     std::string method;
     std::uint64_t seed = 0;
     /// The total number of samples: light paths; for method `path` paths per reading; for pictures passes
-    /// (samples of each pixel); for solutions steps of all walks, without the first ones of each.
+    /// (samples of a pixel; by error, some pixels take fewer); for solutions steps of all walks, without the
+    /// first ones of each.
     std::uint64_t samples = 0;
     /// Independent repetitions that the errors come from; fewer than asked for where the run ended before all
     /// of them had begun. 1 where there are no errors: after a single pass.
@@ -87,6 +88,8 @@ struct RenderResult : RunSummary {
     Pixels pixels;
     std::vector<std::array<float, 3>> normals;  ///< of the surface in the pixel's middle; NaN where none is
     std::vector<float> depth_m;                 ///< its distance; NaN likewise
+    /// The mean over the pixels: fewer than `samples` where some of them take fewer.
+    double samples_per_pixel = 0;
     double mean_luminance_cd_m2 = 0;
     double mean_standard_error_cd_m2 = 0;  ///< of single pixels
     /// Methods on patches: the root mean square of the patches' errors in the pixels, relative, at most. Part

@@ -28,7 +28,7 @@ std::vector<estimators::Pace> paces(std::size_t replicate, const std::vector<dou
                                     std::vector<std::size_t> sensors = {kReadings}) {
     std::vector<std::uint32_t> packets(kReadings);
     for (std::size_t j = 0; j < kReadings; ++j) packets[j] = static_cast<std::uint32_t>(j / 10);
-    return paces_of(replicate, {means, kReadings}, packets, sensors, kSamples);
+    return paces_of(replicate, {means, kReadings}, packets, sensors, kSamples, 2);
 }
 
 TEST(Paces, FollowTheVariances) {

@@ -134,6 +134,39 @@ TEST(Render, DoesNotDependOnThreads) {
     }
 }
 
+/// With cells that take part in fewer passes than others.
+TEST(Render, ByErrorDoesNotDependOnThreads) {
+    const Scene scene = furnished_room();
+    RunOptions options;
+    options.error = 0.0001;
+    options.paths = 42;
+    const Sensor sensor = camera(Projection::panorama, 64, 32);
+    options.threads = 1;
+    const RenderResult one = render(scene, sensor, options);
+    options.threads = 3;
+    const RenderResult three = render(scene, sensor, options);
+    EXPECT_EQ(one.pixels.rgb_cd_m2, three.pixels.rgb_cd_m2);
+    EXPECT_EQ(one.pixels.standard_error_cd_m2, three.pixels.standard_error_cd_m2);
+    EXPECT_EQ(one.samples, 42u);
+    EXPECT_EQ(one.samples_per_pixel, three.samples_per_pixel);
+    EXPECT_LT(one.samples_per_pixel, 40);
+}
+
+TEST(Render, ByErrorTakesSmallPicturesAndFisheyes) {
+    const Scene scene = plain_room();
+    RunOptions options;
+    options.error = 0.1;
+    for (const Sensor& sensor :
+         {camera(Projection::perspective, 3, 2), camera(Projection::fisheye, 41, 41)}) {
+        const RenderResult picture = render(scene, sensor, options);
+        EXPECT_TRUE(picture.converged);
+        EXPECT_LE(picture.attained_error, 0.1);
+        EXPECT_GT(picture.mean_luminance_cd_m2, 0);
+        const bool sees_corner = sensor.camera()->projection == Projection::perspective;
+        EXPECT_EQ(std::isnan(picture.pixels.standard_error_cd_m2[0]), !sees_corner);
+    }
+}
+
 TEST(Render, SeesALampAsItIsAndNothingBesideAFisheye) {
     Scene scene;
     add_area_light(scene, Sphere{{2.5, 2, 0.8}, 0.5}, Rgb::grey(250), Black{});

@@ -15,8 +15,6 @@
 
 namespace stilb::estimators {
 
-/// Edge of a packet in pixels.
-inline constexpr int kPacketSide = 4;
 static_assert(kPacketSide * kPacketSide == kPacketWidth);
 
 /// The sub-points of a packet.

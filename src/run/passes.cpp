@@ -1,0 +1,98 @@
+#include "run/passes.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "base/parallel.h"
+
+namespace stilb::run {
+namespace {
+
+/// Passes of a replicate from which its cells' paces follow: after one, the spread says too little; after
+/// four, most runs have ended or take as many everywhere.
+constexpr std::uint64_t kPassesBeforePaces = 2;
+
+}  // namespace
+
+Passes::Passes(const estimators::Estimator& estimator, const std::array<int, 2>& resolution,
+               const std::vector<bool>& blind, const PicturePlan& plan, std::uint64_t seed, PictureSink* sink,
+               const Monitor& monitor, const PictureComparison* comparison)
+    : estimator_(estimator),
+      comparison_(comparison),
+      monitor_(monitor),
+      blind_(blind),
+      sink_(sink),
+      resolution_(resolution),
+      width_(static_cast<std::size_t>(resolution[0])),
+      has_paces_(plan.has_paces),
+      key_(math::RandomKey{seed}.derived(kPictureSamples)),
+      offset_key_(math::RandomKey{seed}.derived(kPictureOffset)),
+      cells_key_(math::RandomKey{seed}.derived(kPictureCells)),
+      pixels_(width_ * static_cast<std::size_t>(resolution[1])),
+      sums_(resolution, plan) {}
+
+double Passes::attained_error() const {
+    return sums_.attained_error(blind_) + kBiasesOfMostPixels * bias().at_most;
+}
+
+bool Passes::is_beyond_reach(double error) const { return kBiasesOfMostPixels * bias().at_least > error; }
+
+PictureComparison::Bias Passes::bias() const {
+    if (!comparison_) return {};
+    return comparison_->bias_of([&](std::size_t pixel) {
+        return PictureComparison::Shown{sums_.luminance_cd_m2(pixel), sums_.own_standard_error_cd_m2(pixel)};
+    });
+}
+
+void Passes::advance(std::uint64_t) {
+    const std::uint64_t p = sums_.passes(), replicate = p % sums_.all_replicates();
+    if (has_paces_ && p == kPassesBeforePaces * sums_.all_replicates())
+        sums_.set_paces({resolution_, cells_key_}, blind_);
+    const std::vector<PicturePaces::Part> parts = parts_of_pass();
+    std::vector<std::unique_ptr<const estimators::PicturePass>> started(parts.size());
+    parallel_for(parts.size(), [&](std::size_t i) {
+        started[i] = estimator_.start({key_.derived(replicate), parts[i].sample, replicate});
+    });
+    struct Task {
+        const estimators::PixelBlock& block;
+        const estimators::PicturePass& pass;
+    };
+    std::vector<Task> tasks;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (const estimators::PixelBlock& block : parts[i].blocks) tasks.push_back({block, *started[i]});
+    }
+    if (sums_.paces()) std::ranges::fill(pixels_, std::array<float, 3>{});
+    parallel_for(tasks.size(), [&](std::size_t i) {
+        monitor_.require_more();
+        sample(tasks[i].block, tasks[i].pass);
+    });
+    sums_.add(pixels_);
+    for (const auto& [block, pass] : tasks) samples_ += static_cast<double>(block.width) * block.height;
+    require_mostly_finite(invalid_, samples_);
+}
+
+std::vector<PicturePaces::Part> Passes::parts_of_pass() const {
+    const std::uint64_t p = sums_.passes(), replicates = sums_.all_replicates();
+    if (sums_.paces()) return sums_.paces()->parts_of(p % replicates, p / replicates);
+    // Blocks have another offset in every pass, so that their edges do not show.
+    const auto [u, v] = math::SampleStream(offset_key_, p).next_two();
+    return {{p / replicates,
+             estimators::blocks_of(resolution_, {1 + static_cast<int>(u * estimators::kBlockSize),
+                                                 1 + static_cast<int>(v * estimators::kBlockSize)})}};
+}
+
+void Passes::sample(const estimators::PixelBlock& block, const estimators::PicturePass& pass) {
+    std::array<Rgb, std::size_t{estimators::kBlockSize} * estimators::kBlockSize> samples;
+    const std::size_t count = static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height);
+    invalid_ += pass.sample(block, {samples.data(), count});
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t x =
+            static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);
+        const std::size_t y = static_cast<std::size_t>(block.top) + i / static_cast<std::size_t>(block.width);
+        for (std::size_t b = 0; b < kBands; ++b) {
+            pixels_[y * width_ + x][b] = static_cast<float>(samples[i][b]);
+        }
+    }
+}
+
+}  // namespace stilb::run

@@ -1,0 +1,86 @@
+// The work of a picture: one pass after another over its pixels.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "base/monitor.h"
+#include "estimators/estimator.h"
+#include "math/random.h"
+#include "run/picture_comparison.h"
+#include "run/picture_sums.h"
+#include "run/run.h"
+#include "run/schedule.h"
+#include "statistics/interval.h"
+
+namespace stilb::run {
+
+/// Purposes of a picture's random numbers.
+enum PicturePurpose : std::uint64_t {
+    kPicturePreparation,
+    kPictureSamples,
+    kPictureOffset,
+    kPictureComparison,
+    kPictureCells
+};
+
+/// 95 % of the pixels have a bias of less than about twice the root mean square.
+inline constexpr double kBiasesOfMostPixels = 2;
+
+/// A picture that accumulates one pass after another over all blocks or, once its cells have paces, over
+/// those cells that take part. Keeps references to the arguments' targets.
+class Passes final : public Work {
+  public:
+    /// `blind`: the pixels outside of the camera's field. `sink` may be null, and `comparison`, for methods
+    /// without patches.
+    Passes(const estimators::Estimator& estimator, const std::array<int, 2>& resolution,
+           const std::vector<bool>& blind, const PicturePlan& plan, std::uint64_t seed, PictureSink* sink,
+           const Monitor& monitor, const PictureComparison* comparison);
+
+    const PictureSums& sums() const { return sums_; }
+    /// The passes of the pixels that take part in all.
+    std::uint64_t samples() const override { return sums_.passes(); }
+    std::uint64_t samples_in_all() const override { return sums_.passes(); }
+    std::uint64_t samples_for(std::uint64_t paths) const override { return paths; }
+    std::uint64_t most_samples() const override { return std::numeric_limits<std::uint64_t>::max(); }
+    /// There is no error without two replicates.
+    bool has_result() const override { return sums_.passes() >= 2; }
+    /// After 1, 2, 3, 4, 6, 8, 12 ... passes of each replicate.
+    std::uint64_t next_check() const override {
+        const std::uint64_t replicates = sums_.all_replicates();
+        return replicates * statistics::next_check(sums_.passes() / replicates, 1);
+    }
+    std::uint64_t most_at_once() const override { return 1; }
+    double attained_error() const override;
+    bool is_beyond_reach(double error) const override;
+    /// That of the patches; 0 for other methods.
+    PictureComparison::Bias bias() const;
+    void show() override {
+        if (sink_ && sink_->wants_picture()) sink_->show(sums_.pixels());
+    }
+    /// An unfinished pass is left out.
+    void advance(std::uint64_t) override;
+
+  private:
+    std::vector<PicturePaces::Part> parts_of_pass() const;
+    void sample(const estimators::PixelBlock& block, const estimators::PicturePass& pass);
+
+    const estimators::Estimator& estimator_;
+    const PictureComparison* comparison_;
+    const Monitor& monitor_;
+    const std::vector<bool>& blind_;
+    PictureSink* sink_;
+    std::array<int, 2> resolution_;
+    std::size_t width_;
+    bool has_paces_;
+    math::RandomKey key_, offset_key_, cells_key_;
+    std::vector<std::array<float, 3>> pixels_;  ///< of the last pass
+    PictureSums sums_;
+    double samples_ = 0;  ///< of all pixels
+    std::atomic<std::uint64_t> invalid_ = 0;
+};
+
+}  // namespace stilb::run
