@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "base/parallel.h"
@@ -36,6 +36,10 @@ constexpr std::size_t kPilots = 16;
 constexpr double kError = 0.005;
 /// Costs as Estimator's: of a planning ray with its path, and of a patch of a guess.
 constexpr double kPlanningRayCost = 30, kPatchCost = 250;
+/// So few readings are planned only where path tracing takes more than kWorthPlanning times the work of
+/// planning: they may gain nothing by light paths.
+constexpr std::size_t kVeryFew = 16;
+constexpr double kWorthPlanning = 2;
 /// A pilot's part by path tracing: so much work, but at least so many samples.
 constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
 /// With many Sobol' points light paths have less noise than their pilots promise: under point lights, where
@@ -44,14 +48,13 @@ constexpr double kSobolGain = 2;
 /// Samples of a pilot's part by the guess.
 constexpr std::uint64_t kGuidedSamples = 4;
 
-// Pilots of pictures: some blocks of pixels in some passes, each with a key of its own.
+// Pilots of pictures: some blocks of pixels, in some passes of two replicates. Single passes would say
+// little: the more even the samples of a method are, the more its error falls over several passes.
 constexpr int kPilotBlock = 8, kPilotRows = 4;
-constexpr std::uint64_t kPilotPasses = 2;
+constexpr std::uint64_t kPilotPasses = 4, kPilotReplicates = 2;
 /// The processor time of a pass by the guess over that of one without, where all is diffuse, and with gloss,
 /// whose light comes by light paths in both (docs/performance.md).
-constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.7;
-/// Errors of pixels are relative to their values, but to no less than this share of the mean.
-constexpr double kDark = 0.1;
+constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.6;
 
 /// The readings of the parts of a pilot.
 struct Pilot {
@@ -111,7 +114,8 @@ std::unique_ptr<Estimator> make_for_few(Problem problem) {
     // Where path tracing has found nothing, its variance says nothing.
     const bool is_path_possible = std::ranges::all_of(of_path.means, [](double mean) { return mean > 0; });
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
-    if (is_path_possible && sampling_cost(of_path, of_path.means, problem.weights) < planning) return path;
+    const double worth = planning * (problem.measurands.size() <= kVeryFew ? kWorthPlanning : 1);
+    if (is_path_possible && sampling_cost(of_path, of_path.means, problem.weights) < worth) return path;
     std::unique_ptr<Estimator> balanced = make_balanced(problem);
     if (!is_path_possible) return balanced;
     const Pilot of_balanced = run_pilot(*balanced, balanced->batch_granularity(), kBalanced);
@@ -181,49 +185,33 @@ std::vector<PixelBlock> pilot_blocks(const std::array<int, 2>& resolution) {
     return blocks;
 }
 
-/// The luminances of the blocks' pixels in each pass; the cost is that of a pass, in passes without a guess.
+/// The luminances of the blocks' pixels in each replicate; the cost is that of a pass, in passes without a
+/// guess.
 Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resolution, double cost,
                         PilotPurpose purpose) {
     const std::vector<PixelBlock> blocks = pilot_blocks(resolution);
-    std::vector<std::unique_ptr<const PicturePass>> passes(kPilotPasses);
-    parallel_for(kPilotPasses, [&](std::size_t pass) {
-        passes[pass] = method.start({kPilotKey.derived(purpose).derived(pass), 0});
+    std::vector<std::unique_ptr<const PicturePass>> passes(kPilotReplicates * kPilotPasses);
+    parallel_for(passes.size(), [&](std::size_t i) {
+        passes[i] = method.start({kPilotKey.derived(purpose).derived(i / kPilotPasses), i % kPilotPasses});
     });
-    std::vector<std::vector<double>> means(blocks.size()), deviations(blocks.size());
+    std::vector<std::array<std::vector<double>, kPilotReplicates>> luminances(blocks.size());
     parallel_for(blocks.size(), [&](std::size_t b) {
-        const auto pixels = static_cast<std::size_t>(blocks[b].width * blocks[b].height);
-        std::vector<double> sums(pixels), squares(pixels);
-        std::vector<Rgb> samples(pixels);
-        for (const auto& pass : passes) {
-            pass->sample(blocks[b], samples);
-            for (std::size_t i = 0; i < pixels; ++i) {
-                const double value = samples[i].luminance();
-                sums[i] += value, squares[i] += value * value;
-            }
-        }
-        for (std::size_t i = 0; i < pixels; ++i) {
-            const double mean = sums[i] / kPilotPasses;
-            means[b].push_back(mean);
-            deviations[b].push_back(std::sqrt(std::max(0.0, squares[i] / kPilotPasses - mean * mean)));
+        std::vector<Rgb> samples(static_cast<std::size_t>(blocks[b].width * blocks[b].height));
+        for (std::size_t i = 0; i < passes.size(); ++i) {
+            std::vector<double>& sums = luminances[b][i / kPilotPasses];
+            sums.resize(samples.size());
+            passes[i]->sample(blocks[b], samples);
+            for (std::size_t j = 0; j < samples.size(); ++j) sums[j] += samples[j].luminance() / kPilotPasses;
         }
     });
     Pilot pilot{{}, {}, cost};
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-        pilot.means.insert(pilot.means.end(), means[b].begin(), means[b].end());
-        pilot.deviations.insert(pilot.deviations.end(), deviations[b].begin(), deviations[b].end());
+    for (const auto& [first, second] : luminances) {
+        for (std::size_t j = 0; j < first.size(); ++j) {
+            pilot.means.push_back((first[j] + second[j]) / 2);
+            pilot.deviations.push_back(std::abs(first[j] - second[j]) / std::numbers::sqrt2);
+        }
     }
     return pilot;
-}
-
-/// The work to some mean square of the errors.
-double picture_cost(const Pilot& pilot, std::span<const double> values) {
-    double mean = 0, squares = 0;
-    for (const double value : values) mean += value / static_cast<double>(values.size());
-    for (std::size_t j = 0; j < values.size(); ++j) {
-        const double value = std::max(values[j], kDark * mean);
-        if (value > 0) squares += pilot.deviations[j] * pilot.deviations[j] / (value * value);
-    }
-    return pilot.cost * squares;
 }
 
 bool has_gloss(const Scene& scene) {
@@ -241,7 +229,7 @@ std::unique_ptr<Estimator> make_for_picture(const Problem& problem) {
     const double pass_cost = has_gloss(problem.scene) ? kGlossyPassCost : kGuidedPassCost;
     const Pilot of_guided = run_picture_pilot(*guided, resolution, pass_cost, kGuided);
     const std::vector<double> values = values_of(of_balanced, of_guided);
-    const bool guess_pays = picture_cost(of_guided, values) < picture_cost(of_balanced, values);
+    const bool guess_pays = sampling_cost(of_guided, values, {}) < sampling_cost(of_balanced, values, {});
     return guess_pays ? std::move(guided) : std::move(balanced);
 }
 
