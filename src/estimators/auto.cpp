@@ -42,6 +42,8 @@ constexpr std::size_t kVeryFew = 16;
 constexpr double kWorthPlanning = 2;
 /// A pilot's part by path tracing: so much work, but at least so many samples.
 constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
+/// A shorter pilot before that suffices where it promises less than this share of the work of planning.
+constexpr double kQuickPilotCost = 250, kClearly = 1. / 8;
 /// With many Sobol' points light paths have less noise than their pilots promise: under point lights, where
 /// the guess promised 1.5 times less work, both took equal time to the usual error.
 constexpr double kSobolGain = 2;
@@ -105,19 +107,29 @@ std::vector<double> values_of(const Pilot& a, const Pilot& b) {
     return values;
 }
 
+/// Where path tracing has found nothing, its variance says nothing.
+bool finds_light(const Pilot& pilot) {
+    return std::ranges::all_of(pilot.means, [](double mean) { return mean > 0; });
+}
+
 std::unique_ptr<Estimator> make_for_few(Problem problem) {
     if (has_light_for_light_paths_only(problem.scene)) return make_balanced(problem);
     problem.preparation_key = kPilotKey;
     std::unique_ptr<Estimator> path = make_path(problem);
-    const double paths = std::max(kLeastPaths, kPathPilotCost / path->cost_per_sample());
-    const Pilot of_path = run_pilot(*path, static_cast<std::uint64_t>(paths), kPath);
-    // Where path tracing has found nothing, its variance says nothing.
-    const bool is_path_possible = std::ranges::all_of(of_path.means, [](double mean) { return mean > 0; });
+    const auto path_pilot = [&](double cost) {
+        const double paths = std::max(kLeastPaths, cost / path->cost_per_sample());
+        return run_pilot(*path, static_cast<std::uint64_t>(paths), kPath);
+    };
+    const auto is_path_cheaper = [&](const Pilot& of_path, double work) {
+        return finds_light(of_path) && sampling_cost(of_path, of_path.means, problem.weights) < work;
+    };
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
-    const double worth = planning * (problem.measurands.size() <= kVeryFew ? kWorthPlanning : 1);
-    if (is_path_possible && sampling_cost(of_path, of_path.means, problem.weights) < worth) return path;
+    if (is_path_cheaper(path_pilot(kQuickPilotCost), kClearly * planning)) return path;
+    const Pilot of_path = path_pilot(kPathPilotCost);
+    const double worth = problem.measurands.size() <= kVeryFew ? kWorthPlanning : 1;
+    if (is_path_cheaper(of_path, worth * planning)) return path;
     std::unique_ptr<Estimator> balanced = make_balanced(problem);
-    if (!is_path_possible) return balanced;
+    if (!finds_light(of_path)) return balanced;
     const Pilot of_balanced = run_pilot(*balanced, balanced->batch_granularity(), kBalanced);
     const std::vector<double> values = values_of(of_path, of_balanced);
     const bool path_pays =
