@@ -46,5 +46,24 @@ TEST(KernelChoice, ASmallSurfaceCountsAsItsMiddle) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(about[i] / about[2], exact[i] / exact[2], 0.01);
 }
 
+/// A point whose lobe points to the receiver has the light of its peak, one whose lobe points elsewhere that
+/// of its base. Points without lobes beside them, in the same packet of sixteen, keep theirs.
+TEST(KernelChoice, GlossyPointsAreChosenByTheirLobes) {
+    const Table table;
+    KernelChoice choice(Vec3{});
+    const Vec3 position{3, 1.5, 2}, normal{-1, 0, 0}, to_table = normalized(Vec3{0.1, 1.5, 0.8} - position);
+    for (int i = 0; i < 17; ++i) choice.add(position, normal, 1);
+    choice.add(position, normal, 1, {to_table, 0.5, 20, 100});
+    choice.add(position, normal, 1, {Vec3{0, 0, 1}, 0.5, 20, 100});
+    const KernelChoice::Sums sums = table.sums_of(choice);
+    const auto weight = [&](std::size_t i) { return double{sums[i]} - (i > 0 ? double{sums[i - 1]} : 0); };
+    // A tenth of the weights is by light alone: 1 / 190 each.
+    const double plain = weight(3) - 0.1 / 19;
+    EXPECT_NEAR(plain, 0.9 / (17 + 20.5 + 0.5), 1e-4);
+    EXPECT_NEAR(weight(16) - 0.1 / 19, plain, 1e-5);
+    EXPECT_NEAR((weight(17) - 0.1 / 19) / plain, 20.5, 0.05);
+    EXPECT_NEAR((weight(18) - 0.1 / 19) / plain, 0.5, 0.01);
+}
+
 }  // namespace
 }  // namespace stilb::estimators

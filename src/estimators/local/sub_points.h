@@ -22,7 +22,6 @@ struct SubPointPacket {
     Pixel first;                                 ///< top left
     std::vector<transport::Receiver> receivers;  ///< `reading`: the pixel's number in its block
     std::vector<Pixel> pixels;                   ///< of each receiver
-    std::vector<math::SampleStream> streams;     ///< of each receiver, after the numbers of its camera path
 
     /// A key of the packet's position and the pass.
     math::RandomKey key(const Pass& pass, std::uint64_t purpose) const;

@@ -119,14 +119,15 @@ class GuidedPicture final : public LocalPicture {
         mutable std::optional<NearNodePool> light_paths_;
     };
 
-    /// The parts of sub-points that receive light by the guess, and those that do so by light paths.
+    /// The parts of sub-points that receive light by the guess, and those that do so by light paths: gloss,
+    /// and bent surfaces.
     struct Divided {
         std::vector<SubPointPacket> even, glossy;
     };
     Divided divide(std::span<const SubPointPacket> packets) const {
         Divided divided;
         for (const SubPointPacket& packet : packets) {
-            SubPointPacket even{packet.first, {}, {}, {}}, glossy = even;
+            SubPointPacket even{packet.first, {}, {}}, glossy = even;
             for (std::size_t i = 0; i < packet.receivers.size(); ++i) {
                 const GuidedLight::Divided parts = guide_.divide({&packet.receivers[i], 1});
                 for (const transport::Receiver& part : parts.even)
