@@ -55,7 +55,7 @@ class PictureSums {
     double samples_per_pixel(const std::vector<bool>& blind) const;
 
   private:
-    /// What a replicate's sum counts in a pixel: the value is the sum over the replicates of sum * scale,
+    /// The share of a replicate's sum in a pixel: the value is the sum over the replicates of sum * scale,
     /// over the sum of their weights.
     struct Share {
         double scale = 0, weight = 0;

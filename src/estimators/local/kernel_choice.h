@@ -40,7 +40,7 @@ class KernelChoice {
     /// The weights for receivers near the given ones. Without any, light alone decides. `k_per_m2`: the k of
     /// the connections; where it is infinite, their kernel has no bound, and light alone decides, too.
     Sums sums_for(std::span<const transport::Receiver> receivers, double k_per_m2) const;
-    /// What the receivers get on average: the sum of light x w G.
+    /// The sum of light x w G, averaged over the receivers.
     double mean_light(std::span<const transport::Receiver> receivers, double k_per_m2) const;
 
     /// Calls `visit(index, times, rest)` for `count` choices that lie evenly over the weights. `times` is 1 /
@@ -53,7 +53,7 @@ class KernelChoice {
   private:
     using Floats = std::vector<float>;
 
-    /// What the points reflect towards a position relative to the centre.
+    /// The light that the points reflect towards a position relative to the centre.
     Floats reflected_towards(const Vec3& position) const;
     /// Sets light x w G of all points for a receiver. Returns the sum.
     float weigh_for(const transport::Receiver& receiver, double k_per_m2, Floats& weights) const;
@@ -62,7 +62,7 @@ class KernelChoice {
     std::size_t count_ = 0;
     std::array<Floats, 3> position_, normal_;  ///< as all arrays, filled with 0 to a multiple of 16
     Floats radius_, per_four_radii_, light_;   ///< per_four_radii: 1 / (4 radius), 0 for points
-    /// Of points from number `first_lobe_` on, a multiple of 16.
+    /// The lobes of points from number `first_lobe_` on, a multiple of 16.
     struct Lobes {
         std::array<Floats, 3> direction;
         Floats base, peak, sharpness;

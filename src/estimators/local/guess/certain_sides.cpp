@@ -223,7 +223,7 @@ class CertainSides::Search {
         return is_empty ? Sight::certain : Sight::uncertain;
     }
 
-    /// What is below the horizons does not matter.
+    /// Surfaces below the horizons are ignored: they hide nothing that the receivers see.
     bool is_empty_above_horizons(const Block& block, std::span<const Vec3> polygon) const {
         const Vec3& up = block.normals.min;
         double lowest = dot(up, block.corners[0]);

@@ -34,7 +34,8 @@ class CertainSides {
 
     CertainSides(const Scene& scene, const LightGuess& guess, const rays::RayCaster& caster);
 
-    /// Of receivers on surfaces. Groups that lie close together should follow each other.
+    /// The sights of groups, whose receivers must lie on surfaces. Groups that lie close together should
+    /// follow each other.
     std::vector<Sights> find(std::span<const Group> groups) const;
 
   private:
@@ -42,8 +43,8 @@ class CertainSides {
     struct Cluster {
         std::uint32_t first = 0, last = 0;
         std::uint32_t children = 0;  ///< the first of two; 0: none
-        /// Of a polygon around them, in its order: lifted off the plane, as points of connections are, and
-        /// drawn in as far at its edges, which may touch other surfaces.
+        /// The corners of a polygon around them, in order: lifted off the plane, as points of connections
+        /// are, and drawn in as far at its edges, which may touch other surfaces.
         std::array<Vec3, 4> corners{};
         std::uint32_t corner_count = 4;
 
