@@ -12,8 +12,8 @@ constexpr double kMostEvery = 16;
 
 /// The squares of the relative standard deviations of all replicates but one; 0 where there is no light.
 std::vector<double> relative_variances(std::size_t left_out, const statistics::ReplicateTable& table) {
-    // Of differences from one of the replicates: so equal values have the variance 0, without rounding
-    // errors.
+    // The sums are over differences from one of the replicates: equal values have the variance 0, without
+    // rounding errors.
     const std::span<const double> first = table.row(left_out == 0 ? 1 : 0);
     std::vector<double> sums(table.readings), squares(table.readings);
     for (std::size_t r = 0; r < table.replicates(); ++r) {

@@ -56,7 +56,7 @@ class GuessGather {
         std::array<Rgb, kPacketWidth> found{};  ///< by path tracing beyond the guess
         std::array<double, kPacketWidth> largest{};
     };
-    /// What the rays of a group of receivers bring of the guess.
+    /// The shares of the guess that rays from a group of receivers bring.
     struct Shares {
         /// By sides. Connections share the light of uncertain ones; closed forms have the mean luminance of
         /// certain ones. Empty: all are uncertain.

@@ -38,7 +38,7 @@ class GuessPoints {
     /// `certain_lx`: what the receivers get from the others.
     Choice uncertain_sides(std::span<const transport::Receiver> receivers, const Sights& sights,
                            double certain_lx, std::size_t most) const;
-    /// Of connections to so many points at once, of all lit sides.
+    /// The k of connections to so many points of all lit sides at once.
     double k_per_m2(std::size_t count) const;
 
     /// Adds points that lie evenly over the weights; the expectation over `u` of their light is that of all

@@ -44,7 +44,6 @@ class GuidedPicture final : public LocalPicture {
         kVertex,
         kGather,
         kPaths,
-        kGeneral,
         kShift,
         kPlan
     };
