@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "materials/shaded_surface.h"
+#include "materials/split_material.h"
 #include "transport/light_sampler.h"
 #include "transport/line_of_sight.h"
 
@@ -24,6 +25,10 @@ struct Highlight {
     double flux_lm = 0;
     ObjectId object{};
 };
+
+bool may_be_smooth(const Material& material) {
+    return is_specular(material) || materials::split(material).gloss;
+}
 
 /// The area of a lamp as its light sees it [m2]; 0 for points and for light from infinity.
 double visible_area_m2(const Light& light, const Scene& scene) {
@@ -73,6 +78,7 @@ class SharpParticle {
     /// Follows the lobe of a material, where it has one, with all the flux that the lobe reflects. The lobe
     /// blurs the lamp as if it were larger, by its solid angle.
     bool reflect(const Material& material, const rays::Hit& hit, math::SampleStream& stream) {
+        if (std::holds_alternative<Diffuse>(material)) return false;
         const materials::ShadedSurface surface(material, hit.normal, hit.shading_normal);
         const Vec3 in = surface.frame().to_local(-direction_);
         Rgb albedo;
@@ -105,6 +111,7 @@ class SharpParticle {
 
 SharpLight find_sharp_light(const Scene& scene, const rays::RayCaster& caster) {
     constexpr double kLeastShare = 0.005, kTimesFound = 40;
+    if (std::ranges::none_of(scene.materials, may_be_smooth, &NamedMaterial::material)) return {};
     const LightSampler lights(scene, caster);
     if (lights.count() == 0) return {};
     std::vector<double> areas_m2;
