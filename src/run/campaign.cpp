@@ -23,6 +23,13 @@ constexpr std::uint64_t kSamplesBeforePaces = 16;
 constexpr double kReadingReserve = 2;  ///< paces.h
 /// Tasks that can run at the same time: strands of all replicates.
 constexpr std::size_t kStrands = 32;
+/// Readings times strands: with more of them, sums take gigabytes and much of the time.
+constexpr std::size_t kMostSums = std::size_t{1} << 22;
+
+std::size_t strands_of_replicate(std::size_t replicates, std::size_t readings) {
+    const std::size_t wanted = std::max<std::size_t>(1, kStrands / replicates);
+    return std::clamp<std::size_t>(kMostSums / std::max<std::size_t>(1, readings * replicates), 1, wanted);
+}
 
 }  // namespace
 
@@ -51,7 +58,7 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
         packets_.resize(readings);
     }
     const std::size_t packets = *std::ranges::max_element(packets_) + std::size_t{1};
-    const std::size_t strands = std::max<std::size_t>(1, kStrands / plan.replicates);
+    const std::size_t strands = strands_of_replicate(plan.replicates, readings);
     unit_ = strands * estimator.batch_granularity();
     for (std::size_t r = 0; r < plan.replicates; ++r)
         replicates_.push_back({key.derived(r), std::vector<Strand>(strands, Strand(readings, packets)), {}});

@@ -35,7 +35,7 @@ struct ShadowRays {
 }  // namespace
 
 DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights)
-    : caster_(caster), lights_(lights) {
+    : scene_(scene), caster_(caster), lights_(lights) {
     std::vector<LightTree::Light> leaves;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
@@ -121,6 +121,8 @@ void DirectLight::add_seen_by_one(std::span<const Receiver> tile, Remainder& rem
     for (std::size_t i = 0; i < tile.size(); ++i) {
         for (std::size_t l = 0; l < lamps_.size(); ++l) {
             const std::uint32_t bit = 1u << l;
+            if ((remainder.lamps[i] & bit) == 0) continue;
+            if (lamps_[l].is_hidden_from(tile[i].lifted(), scene_, caster_)) remainder.lamps[i] &= ~bit;
             if ((remainder.lamps[i] & bit) == 0) continue;
             if (!lamps_[l].is_seen_from(std::span(&tile[i].lifted(), 1), *shafts_)) continue;
             remainder.lamps[i] &= ~bit;

@@ -83,6 +83,7 @@ class DirectLight {
                       std::span<math::SampleStream> streams, TileLight& light) const;
     Rgb sampled_by_directions(const Receiver& receiver, math::SampleStream& stream) const;
 
+    const Scene& scene_;
     const rays::RayCaster& caster_;
     const LightSampler& lights_;
     std::vector<UniformLamp> lamps_;

@@ -54,6 +54,11 @@ LiftRange lifts_of(const lights::EmitterElement& element, const std::vector<Vec3
     return {Lift::relative_offset_m(nearest, element.size_m), most_m};
 }
 
+bool has_convex_faces(const Shape& shape) {
+    return std::holds_alternative<Box>(shape) || std::holds_alternative<Rectangle>(shape) ||
+           std::holds_alternative<Disk>(shape);
+}
+
 }  // namespace
 
 std::optional<UniformLamp> UniformLamp::of(const Scene& scene, const Light& light, Lift lift) {
@@ -106,6 +111,23 @@ void UniformLamp::add_to_hull(const lights::EmitterElement& element) {
         hull_.push_back(corner + lifts.least_m * *element.normal);
         hull_.push_back(corner + lifts.most_m * *element.normal);
     }
+}
+
+bool UniformLamp::is_hidden_from(const Vec3& point, const Scene& scene, const rays::RayCaster& caster) const {
+    std::optional<rays::Hit> face;
+    for (const Vec3& corner : hull_) {
+        const double distance_m = length(corner - point);
+        const auto hit = caster.closest(point, (corner - point) / distance_m);
+        if (!hit || !(hit->distance_m < distance_m)) return false;
+        if (!face) {
+            const bool hides = has_convex_faces(scene.object(hit->object).shape) &&
+                               !passes_straight(scene.material(hit->material));
+            if (!hides) return false;
+            face = hit;
+        }
+        if (hit->object != face->object || !(hit->normal == face->normal)) return false;
+    }
+    return face.has_value();
 }
 
 double UniformLamp::projected_solid_angle_sr(const lights::LitPoint& at) const {

@@ -34,6 +34,9 @@ class UniformLamp {
     bool is_seen_from(std::span<const Vec3> points, const rays::ShaftQuery& shafts) const {
         return is_convex_ && shafts.is_empty(points, hull_, object_);
     }
+    /// Whether it is certain that one face of a box, a rectangle or a disk hides all of the front from the
+    /// (lifted) point: such a face is convex, so that it hides what lies between points that it hides.
+    bool is_hidden_from(const Vec3& point, const Scene& scene, const rays::RayCaster& caster) const;
 
   private:
     UniformLamp(ObjectId object, const Rgb& luminance_cd_m2, std::vector<lights::EmitterElement> elements,

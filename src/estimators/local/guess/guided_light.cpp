@@ -113,7 +113,7 @@ auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_
     std::vector<Group> groups;
     for (std::size_t t = 0; t < tiles.size(); ++t) {
         const bool is_near =
-            !groups.empty() && t - groups.back().first < kPacketWidth &&
+            !groups.empty() &&
             std::ranges::all_of(tiles[t].receivers, [&](const transport::Receiver& receiver) {
                 const transport::Receiver& first = tiles[groups.back().first].receivers[0];
                 return dot(receiver.normal(), first.normal()) > parallel &&
