@@ -68,7 +68,7 @@ DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
             receivers.subspan(first, std::min<std::size_t>(kPacketWidth, receivers.size() - first));
         TileLight light{};
         prepared.remainders[t] = add_known(tile, light);
-        add_seen_by_one(tile, prepared.remainders[t], light);
+        settle_one_by_one(tile, prepared.remainders[t], light);
         // The tree chooses for surfaces.
         prepared.remainders[t].points = !exact_points && std::ranges::none_of(tile, &Receiver::is_body);
         if (!prepared.remainders[t].points) add_points(tile, light);
@@ -115,17 +115,17 @@ DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, Ti
     return remainder;
 }
 
-/// From one receiver the shaft to a lamp is narrower than from all of them.
-void DirectLight::add_seen_by_one(std::span<const Receiver> tile, Remainder& remainder,
-                                  TileLight& light) const {
+/// From one receiver the shaft to a lamp is narrower than from all of them, and one face may hide the lamp.
+void DirectLight::settle_one_by_one(std::span<const Receiver> tile, Remainder& remainder,
+                                    TileLight& light) const {
     for (std::size_t i = 0; i < tile.size(); ++i) {
         for (std::size_t l = 0; l < lamps_.size(); ++l) {
             const std::uint32_t bit = 1u << l;
             if ((remainder.lamps[i] & bit) == 0) continue;
-            if (lamps_[l].is_hidden_from(tile[i].lifted(), scene_, caster_)) remainder.lamps[i] &= ~bit;
-            if ((remainder.lamps[i] & bit) == 0) continue;
-            if (!lamps_[l].is_seen_from(std::span(&tile[i].lifted(), 1), *shafts_)) continue;
+            const bool is_hidden = lamps_[l].is_hidden_from(tile[i].lifted(), scene_, caster_);
+            if (!is_hidden && !lamps_[l].is_seen_from(std::span(&tile[i].lifted(), 1), *shafts_)) continue;
             remainder.lamps[i] &= ~bit;
+            if (is_hidden) continue;
             light[i] += lamps_[l].projected_solid_angle_sr(lit_point(tile[i])) * lamps_[l].luminance_cd_m2() *
                         *tile[i].constant_response();
         }

@@ -197,13 +197,53 @@ TEST(DirectLight, ReceiversOfATileAreProvedApart) {
     Scene scene = room(kPanel);
     add_object(scene, Rectangle{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, diffuse(0.5));
     Setting s(std::move(scene));
-    for (const Vec3& at : {Vec3{0.1, 0.1, 0.9}, {2.5, 2.5, 0.1}, {0.5, 0.5, 1.1}}) s.add(at, {0, 0, 1});
+    // In the shelf's shadow, in its penumbra, beside it, and above it.
+    for (const Vec3& at : {Vec3{0.1, 0.1, 0.9}, {0.6, 0.6, 0.1}, {2.5, 2.5, 0.1}, {0.5, 0.5, 1.1}})
+        s.add(at, {0, 0, 1});
     const auto prepared = s.direct.prepare(s.receivers, Monitor::none());
     const auto& lamps = prepared.remainders[0].lamps;
-    EXPECT_EQ(lamps[0], 1u);
-    EXPECT_EQ(lamps[1], 0u);
+    EXPECT_EQ(lamps[0], 0u);
+    EXPECT_EQ(lamps[1], 1u);
     EXPECT_EQ(lamps[2], 0u);
+    EXPECT_EQ(lamps[3], 0u);
+    EXPECT_EQ(prepared.known[0].max(), 0);
     expect_agreement(s, 1000);
+}
+
+/// Shadow rays confirm it, and few points remain that no shadow ray passes.
+TEST(DirectLight, LampsBehindOneFaceAreHidden) {
+    for (const Shape& lamp : {Shape{kPanel}, Shape{Sphere{{2, 2, 2.5}, 0.2}}}) {
+        Scene scene = room(lamp);
+        add_object(scene, Box{{0.5, 0.5, 0.6}, {1.7, 1.5, 1.2}}, diffuse(0.5));
+        add_object(scene, Disk{{3, 1, 1}, {0, 0, 1}, 0.5}, diffuse(0.5));
+        add_object(scene, Rectangle{{2.5, 2.5, 1}, {1, 0, 0}, {0, 1, 0}}, ThinDielectric{});
+        Setting s(std::move(scene));
+        for (int row = 0; row < 8; ++row) s.add_tile(0.05, 0.02 + 0.5 * row, 0.2, 0.25);
+        for (int row = 0; row < 8; ++row) s.add_tile(2.05, 0.02 + 0.5 * row, 0.2, 0.25);
+        const auto prepared = s.direct.prepare(s.receivers, Monitor::none());
+        DirectLight::Remainder all;
+        all.lamps.fill(1);
+        int hidden = 0, dark = 0;
+        for (std::size_t t = 0; t < prepared.remainders.size(); ++t) {
+            const auto tile = std::span(s.receivers).subspan(t * kPacketWidth, kPacketWidth);
+            DirectLight::TileLight light{};
+            for (std::uint64_t i = 0; i < 200; ++i) {
+                auto own = streams(5, i);
+                s.direct.add_sample(tile, all, own, light);
+            }
+            for (std::size_t i = 0; i < kPacketWidth; ++i) {
+                const bool is_hidden =
+                    prepared.remainders[t].lamps[i] == 0 && prepared.known[t * kPacketWidth + i].max() == 0;
+                if (is_hidden) {
+                    EXPECT_EQ(light[i].max(), 0) << t << " " << i;
+                }
+                hidden += is_hidden;
+                dark += light[i].max() == 0;
+            }
+        }
+        EXPECT_GT(hidden, 10);
+        EXPECT_GT(hidden, dark / 2);
+    }
 }
 
 TEST(DirectLight, BodiesAndLightFromOutsideAreSampledByDirections) {
