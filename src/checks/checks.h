@@ -39,8 +39,9 @@ class Enclosures {
   public:
     Enclosures(const Scene& scene, const rays::RayCaster& caster);
 
-    /// The enclosure of a light that the point sees; else by the parity of the hits along three rays into the
-    /// hemisphere of the probe's direction, by majority.
+    /// The enclosure of a light that the point sees. Else boxes by the point's coordinates, because rays meet
+    /// only one of two boxes that share a wall, and other objects by the parity of the hits along three rays
+    /// into the hemisphere of the probe's direction, by majority.
     Enclosure enclosure_of(const ProbeRay& probe_ray) const;
     /// The enclosures where each light's rays start: one for points, one for every component of an emitting
     /// object, the outside of all components for light from infinity.
@@ -59,6 +60,7 @@ class Enclosures {
 
     std::vector<ProbeRay> probe_rays_of(const Light& light) const;
     Enclosure voted_enclosure(const ProbeRay& probe_ray) const;
+    Enclosure boxes_around(const Vec3& point) const;
     Enclosure crossed_an_odd_number_of_times(const Vec3& origin, const Vec3& direction) const;
 
     const Scene& scene_;

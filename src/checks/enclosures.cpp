@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <variant>
 
 #include "checks/checks.h"
 #include "checks/walks.h"
@@ -93,7 +94,8 @@ Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const V
         const geometry::ConnectedComponents& components = components_[index_of(hit->object)];
         const std::uint32_t component = components.of_triangle[hit->triangle];
         // Glass encloses nothing.
-        if (components.is_closed(component) && !transmits(scene_.material(hit->material)))
+        const bool encloses = components.is_closed(component) && !transmits(scene_.material(hit->material));
+        if (encloses && !std::holds_alternative<Box>(scene_.object(hit->object).shape))
             crossed.push_back({hit->object, component});
         from = hit->position - (hit->lifted - hit->position);  // just behind the surface
     }
@@ -107,6 +109,19 @@ Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const V
     return odd;
 }
 
+Enclosure Enclosures::boxes_around(const Vec3& point) const {
+    Enclosure around;
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+        const Object& object = scene_.objects[i];
+        const auto* box = std::get_if<Box>(&object.shape);
+        if (!box || transmits(scene_.material(object.materials[0]))) continue;
+        const Vec3 above = point - box->min, below = box->max - point;
+        if (std::min({above.x, above.y, above.z, below.x, below.y, below.z}) > 0)
+            around.push_back({static_cast<ObjectId>(i), 0});
+    }
+    return around;
+}
+
 Enclosure Enclosures::voted_enclosure(const ProbeRay& probe_ray) const {
     std::array<Enclosure, 3> votes;
     for (std::size_t i = 0; i < votes.size(); ++i) {
@@ -114,7 +129,7 @@ Enclosure Enclosures::voted_enclosure(const ProbeRay& probe_ray) const {
         const bool is_outwards = dot(d, probe_ray.direction) > 0;
         votes[i] = crossed_an_odd_number_of_times(probe_ray.position, is_outwards ? d : -d);
     }
-    Enclosure enclosure;
+    Enclosure enclosure = boxes_around(probe_ray.position);
     const auto add_common = [&](const Enclosure& a, const Enclosure& b) {
         std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(enclosure));
     };
