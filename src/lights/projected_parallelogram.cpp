@@ -6,8 +6,8 @@
 namespace stilb::lights {
 namespace {
 
-/// Newton's method ends with a step whose square, about the remaining error, is below this.
-constexpr double kAccuracy = 1e-9;
+/// Newton's method ends with a step from an error below this, in shares of the whole: each step squares it.
+constexpr double kLastError = 1e-6;
 
 Vec3 normal_of(const Vec3& from, const Vec3& edge) {
     const Vec3 across = cross(from, edge);
@@ -21,7 +21,7 @@ double angle_between(const Vec3& from, const Vec3& edge) {
 
 /// The x from 0 to 1 with value(x) = part, for an increasing function; slope(x) is its derivative.
 template <typename Value, typename Slope>
-double inverse(double start, double part, const Value& value, const Slope& slope) {
+double inverse(double start, double part, double whole, const Value& value, const Slope& slope) {
     double low = 0, high = 1, x = std::clamp(start, 0.0, 1.0);
     constexpr int most_steps = 60;
     for (int i = 0; i < most_steps; ++i) {
@@ -30,7 +30,7 @@ double inverse(double start, double part, const Value& value, const Slope& slope
         const double step = -excess / slope(x);
         if (x + step >= low && x + step <= high) {
             x += step;
-            if (step * step <= kAccuracy) break;
+            if (std::abs(excess) <= kLastError * whole) break;
         } else {
             x = (low + high) / 2;
         }
@@ -102,12 +102,12 @@ ProjectedParallelogram::Shares ProjectedParallelogram::sample(double u1, double 
     const auto line_at = [&](double u) { return Line(start(u), edge_v_, factor); };
     const auto density_at = [&](double u) { return line_at(u).integral(1); };
     const double u = inverse(
-        inverse_of_linear(density_at(0), density_at(1), u1), u1 * whole_sr_,
+        inverse_of_linear(density_at(0), density_at(1), u1), u1 * whole_sr_, whole_sr_,
         [&](double x) { return strip_sr(x); }, density_at);
     const Line line = line_at(u);
     const double whole = line.integral(1);
     const double v = inverse(
-        inverse_of_linear(line.density(0), line.density(1), u2), u2 * whole,
+        inverse_of_linear(line.density(0), line.density(1), u2), u2 * whole, whole,
         [&](double x) { return line.integral(x); }, [&](double x) { return line.density(x); });
     return {u, v};
 }

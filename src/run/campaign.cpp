@@ -28,7 +28,7 @@ constexpr std::size_t kMostSums = std::size_t{1} << 22;
 
 std::size_t strands_of_replicate(std::size_t replicates, std::size_t readings) {
     const std::size_t wanted = std::max<std::size_t>(1, kStrands / replicates);
-    return std::clamp<std::size_t>(kMostSums / std::max<std::size_t>(1, readings * replicates), 1, wanted);
+    return std::clamp<std::size_t>(kMostSums / (readings * replicates), 1, wanted);
 }
 
 }  // namespace

@@ -210,7 +210,7 @@ TEST(DirectLight, ReceiversOfATileAreProvedApart) {
     expect_agreement(s, 1000);
 }
 
-/// Shadow rays confirm it, and few points remain that no shadow ray passes.
+/// Shadow rays confirm it; it is known at most of the points that no shadow ray reaches.
 TEST(DirectLight, LampsBehindOneFaceAreHidden) {
     for (const Shape& lamp : {Shape{kPanel}, Shape{Sphere{{2, 2, 2.5}, 0.2}}}) {
         Scene scene = room(lamp);
