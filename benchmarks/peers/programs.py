@@ -23,6 +23,7 @@ mi.set_variant("scalar_rgb")  # to read pictures
 
 STILB = Path(os.environ.get("STILB", ROOT / "build/release/stilb"))
 EXPORTS = ROOT / "build/peers/exports"
+SHORT_S, SHORT_RUNS = 0.5, 9
 LLVM = "/usr/lib/x86_64-linux-gnu/libLLVM.so.19.1"
 
 
@@ -89,8 +90,15 @@ class StilbSession:
     def __init__(self, task: Task, method: str, threads: int):
         self.task, self.method, self.threads = task, method, threads
         self.memory_mb = 0.0
-        self.smallest = self._measured(1, 1)
+        self.smallest = self._smallest()
         self.per_sample_s = 0.0
+
+    def _smallest(self) -> tuple[np.ndarray, float, int]:
+        """The smallest run; where it is short, the median of several, the first of which only fills caches."""
+        first = self._measured(1, 1)
+        if first[1] > SHORT_S:
+            return first
+        return sorted((self._measured(1, 1) for _ in range(SHORT_RUNS)), key=lambda run: run[1])[SHORT_RUNS // 2]
 
     def _command(self, size: int, seed: int) -> list:
         command = ["--method", self.method, "--paths", size, "--seed", seed, "--threads", self.threads, "--quiet"]
