@@ -63,8 +63,7 @@ std::vector<std::string> hole_warnings(const Scene& scene,
             "light \"{}\": at {} edges of object \"{}\" the front changes sides, but only fronts emit light. "
             "Turn "
             "its triangles to one side.",
-            light.name, components[index_of(*surface)].turned_edges,
-            scene.object(*surface).name));
+            light.name, components[index_of(*surface)].turned_edges, scene.object(*surface).name));
     }
     return warnings;
 }

@@ -76,8 +76,7 @@ math::DiscreteChoice EmitterSurface::choose(const Vec3& from, double u) const {
     if (!chooses_facing()) return by_area_.choose(u);
     std::array<double, kFew> sums;
     double total = 0;
-    for (std::size_t i = 0; i < elements_.size(); ++i)
-        sums[i] = total += facing_area_m2(elements_[i], from);
+    for (std::size_t i = 0; i < elements_.size(); ++i) sums[i] = total += facing_area_m2(elements_[i], from);
     if (!(total > 0)) return {0, 0, 0};
     return math::choose_by_sums({sums.data(), elements_.size()}, u);
 }
@@ -107,8 +106,7 @@ auto EmitterSurface::sample_seen(const Vec3& from, const std::array<double, 2>& 
 double EmitterSurface::pdf_per_sr(std::uint32_t triangle, const Vec3& position, const Vec3& normal,
                                   const Vec3& from) const {
     const std::size_t element = elements_.size() == 1 ? 0 : triangle;
-    return probability(element, from) *
-           lights::rough_pdf_per_sr(elements_[element], position, normal, from);
+    return probability(element, from) * lights::rough_pdf_per_sr(elements_[element], position, normal, from);
 }
 
 }  // namespace stilb::lights

@@ -48,7 +48,7 @@ class EmitterSurface {
 
   private:
     /// Of this many elements or fewer, only those whose fronts face the receiver are sampled.
-    static constexpr std::size_t kFew = 32;
+    static constexpr std::size_t kFew = 64;
 
     bool chooses_facing() const { return elements_.size() > 1 && elements_.size() <= kFew; }
     math::DiscreteChoice choose(const Vec3& from, double u) const;

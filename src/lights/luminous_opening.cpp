@@ -45,8 +45,8 @@ double OpeningEmitter::rough_illuminance_lx(const Vec3& from, const Vec3&) const
     const Vec3 towards = from - surface_.middle();
     const double squared_m2 = squared_length(towards), radius_m2 = surface_.radius_m() * surface_.radius_m();
     const double far_cd =
-        squared_m2 > 0 ? luminaire_.factor.luminance() * solid_->intensity_bound_cd(luminaire_.in_solid(
-                                                             towards / std::sqrt(squared_m2)))
+        squared_m2 > 0 ? luminaire_.factor.luminance() *
+                             solid_->intensity_bound_cd(luminaire_.in_solid(towards / std::sqrt(squared_m2)))
                        : 0;
     // Never zero: nearby, parts of the opening send light from other directions than its middle.
     const double near_share = radius_m2 / (squared_m2 + radius_m2);

@@ -5,13 +5,15 @@
 #include <cmath>
 #include <vector>
 
+#include "math/random.h"
+
 namespace stilb::lights {
 namespace {
 
-constexpr double kThinShare = 1e-2;    ///< of the largest extent: the width of a line
-constexpr double kPlateShare = 1e-3;   ///< of the smaller extent: the thickness of a plate
-constexpr double kEqualShare = 1e-2;   ///< relative difference of the diameters of a circle
-constexpr std::uint32_t kCorners = 24;
+constexpr double kThinShare = 1e-2;   ///< of the largest extent: the width of a line
+constexpr double kPlateShare = 1e-3;  ///< of the smaller extent: the thickness of a plate
+constexpr double kEqualShare = 1e-2;  ///< relative difference of the diameters of a circle
+constexpr std::uint32_t kCorners = 16;
 
 struct Axes {
     Vec3 u, v, w;  ///< u and v span the outline, w is the axis of the prism; of the lengths of the extents
@@ -50,7 +52,10 @@ class ConvexMesh {
     Mesh mesh_;
 };
 
-Mesh prism(const Vec3& middle, const Axes& axes, bool is_round) {
+enum class Sides { all, none };
+
+/// Without sides it is a plate: two faces back to back.
+Mesh prism(const Vec3& middle, const Axes& axes, bool is_round, Sides sides) {
     std::vector<Vec3> lower, upper;
     for (const auto& [s, t] : outline(is_round)) {
         const Vec3 corner = middle + s * axes.u + t * axes.v;
@@ -60,7 +65,7 @@ Mesh prism(const Vec3& middle, const Axes& axes, bool is_round) {
     ConvexMesh mesh(middle);
     mesh.add(lower);
     mesh.add(upper);
-    for (std::size_t i = 0; i < lower.size(); ++i) {
+    for (std::size_t i = 0; sides == Sides::all && i < lower.size(); ++i) {
         const std::size_t next = (i + 1) % lower.size();
         mesh.add({lower[i], lower[next], upper[next], upper[i]});
     }
@@ -69,13 +74,11 @@ Mesh prism(const Vec3& middle, const Axes& axes, bool is_round) {
 
 /// The share of the flux that leaves into the half space below (gamma < 90 degrees).
 double share_below(const PhotometricSolid& solid) {
-    constexpr int kEach = 256;
-    int below = 0;
-    for (int i = 0; i < kEach; ++i) {
-        for (int j = 0; j < kEach; ++j)
-            below += solid.sample_direction((i + 0.5) / kEach, (j + 0.5) / kEach).z > 0;
-    }
-    return double{1} * below / (kEach * kEach);
+    constexpr std::uint32_t kDirections = 1 << 16;
+    std::uint32_t below = 0;
+    for (std::uint32_t i = 0; i < kDirections; ++i)
+        below += solid.sample_direction((i + 0.5) / kDirections, math::sobol(i, 0) * 0x1p-32).z > 0;
+    return double{1} * below / kDirections;
 }
 
 bool is_circle(const Vec3& extent_m) {
@@ -134,13 +137,12 @@ OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const 
     if (is_flat) {
         const double below = share_below(solid);
         const double hidden = std::min(below, 1 - below);
-        if (hidden < kLeastShare)
-            return {one_side({opening.form, size}, luminaire, below > 0.5), hidden};
+        if (hidden < kLeastShare) return {one_side({opening.form, size}, luminaire, below > 0.5), hidden};
         size.z = kPlateShare * std::min(size.x, size.y);
     }
     const Vec3 middle = luminaire.position + (is_flat ? size.z / 2 : 0) * luminaire.nadir;
     const Axes axes = axes_of(opening.form, size, luminaire);
-    return {prism(middle, axes, opening.form != Opening::Form::box), 0};
+    return {prism(middle, axes, opening.form != Opening::Form::box, is_flat ? Sides::none : Sides::all), 0};
 }
 
 }  // namespace stilb::lights

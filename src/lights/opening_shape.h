@@ -25,11 +25,11 @@ struct OpeningShape {
     /// The share of the luminaire's flux whose directions see nothing of the surface: less than kLeastShare.
     double hidden_share = 0;
 };
-/// A flat opening that sends all but this share of its flux to one side is one-sided, else a thin plate, whose
-/// upper side is in the plane of the luminaire.
+/// A flat opening that sends all but this share of its flux to one side is one-sided, else a thin plate of
+/// two faces, the upper one in the plane of the luminaire.
 inline constexpr double kLeastShare = 1e-3;
 
-/// Ellipses have 24 corners and their right area, and ellipsoids become balls of the same volume. Lines get a
+/// Ellipses have 16 corners and their right area, and ellipsoids become balls of the same volume. Lines get a
 /// hundredth of their length as width. The opening must not be a point.
 OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const PhotometricSolid& solid);
 

@@ -141,8 +141,7 @@ class OverlapSearch {
         : of_(of), most_(most), largest_gap_m_(kLargestGap * offset_m(scene)), shapes_(scene.objects.size()) {
         std::vector<bool> is_lamp(scene.objects.size());
         for (const Light& light : scene.lights) {
-            if (const auto surface = lights::emitting_object(light))
-                is_lamp[index_of(*surface)] = true;
+            if (const auto surface = lights::emitting_object(light)) is_lamp[index_of(*surface)] = true;
         }
         const double margin_m = largest_gap_m_ / 2;
         margin_ = {margin_m, margin_m, margin_m};

@@ -46,9 +46,8 @@ bool contains_light(const Scene& scene, ObjectId object) {
         if (const auto origin = lights::point_origin(light))
             return overlap(bounds, {origin->position, origin->position});
         const auto surface = lights::emitting_object(light);
-        return surface &&
-               (*surface == object ? inside_is_front(scene.object(object).shape).value_or(true)
-                                          : overlap(bounds, bounds_of(scene.object(*surface).shape)));
+        return surface && (*surface == object ? inside_is_front(scene.object(object).shape).value_or(true)
+                                              : overlap(bounds, bounds_of(scene.object(*surface).shape)));
     });
 }
 

@@ -159,8 +159,7 @@ void DirectLight::add_shadowed(std::span<const Receiver> tile, std::size_t lamp,
 void DirectLight::add_by_directions(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
                                     TileLight& light) const {
     for (std::size_t i = 0; i < tile.size(); ++i) {
-        if (samples_all(tile[i]))
-            light[i] += sample_direct_from_areas(tile[i], caster_, lights_, streams[i]);
+        if (samples_all(tile[i])) light[i] += sample_direct_from_areas(tile[i], caster_, lights_, streams[i]);
     }
     if (chooses_lamps_) return;
     for (const std::size_t other : others_) {

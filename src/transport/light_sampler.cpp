@@ -15,8 +15,7 @@ namespace stilb::transport {
 
 LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
                            std::vector<bool> made_elsewhere)
-    : light_of_object_(scene.objects.size(), kNoLight),
-      made_elsewhere_(std::move(made_elsewhere)) {
+    : light_of_object_(scene.objects.size(), kNoLight), made_elsewhere_(std::move(made_elsewhere)) {
     std::vector<double> weights;
     double others_lm = 0;
     for (const Light& light : scene.lights) {

@@ -146,7 +146,8 @@ Scene luminous_openings() {
     add_opening(scene, {1.2, 1, 2.8}, luminaire(80), {Form::box, {0.6, 0.3, 0}}, kDown, 20);
     add_opening(scene, {3.2, 2, 1.8}, luminaire(150), {Form::box, {0.3, 0.2, 0.1}},
                 normalized(Vec3{-1, -0.4, 0.5}), 70, 0.5 * kWhite);
-    add_opening(scene, {0.8, 2.4, 1.2}, luminaire(120), {Form::ball, {0.2, 0.2, 0.2}}, kDown, 0, 0.3 * kWhite);
+    add_opening(scene, {0.4, 0.5, 1.9}, luminaire(120), {Form::ball, {0.2, 0.2, 0.2}}, kDown, 0,
+                0.3 * kWhite);
     add_opening(scene, {2.6, 0.6, 2.2}, luminaire(140), {Form::vertical_cylinder, {0.4, 0.4, 0}}, kDown, 0,
                 rgb(0.5, 0.4, 0.2));
     return scene;

@@ -25,8 +25,8 @@ struct NotChosen : PointLight {
 struct OnNoSurface : PointLight {
     static constexpr LightLocation kLocation = LightLocation::surface;
 };
-static_assert(LightKind<PointLight> && LightKind<Luminaire> && LightKind<LuminousOpening> && LightKind<AreaLight> &&
-              LightKind<EnvironmentLight>);
+static_assert(LightKind<PointLight> && LightKind<Luminaire> && LightKind<LuminousOpening> &&
+              LightKind<AreaLight> && LightKind<EnvironmentLight>);
 static_assert(!LightKind<NotChosen> && !LightKind<OnNoSurface>);
 
 /// One light of each place.

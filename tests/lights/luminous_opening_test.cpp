@@ -106,14 +106,14 @@ TEST(LuminousOpening, HasTheLuminanceOfItsIntensityOverTheProjectedOpening) {
     EXPECT_EQ(emitter_of(scene).luminance_cd_m2(-luminaire.nadir), Rgb{});
 }
 
-/// Particles leave with the directions of the file, from points that these directions see, evenly by projected
-/// area: the mean of the points' offsets across the direction is 0.
+/// Particles leave with the directions of the file, from points that these directions see, evenly by
+/// projected area: the mean of the points' offsets across the direction is 0.
 TEST(LuminousOpening, EmitsWhatDirectionsSee) {
     constexpr std::uint64_t kParticles = 20'000;
     for (const Case& c : cases()) {
         const Scene scene = scene_of(c);
         const LuminousOpening& light = light_of(scene);
-        const EmitterSurface surface(scene.object(light.object).shape, scene::lift_of(scene));
+        const Bounds bounds = bounds_of(scene.object(light.object).shape);
         const PhotometricSolid& solid = scene.solid(light.luminaire.solid);
         double moment = 0, exact_moment = 0, share = 0;
         Vec3 across;
@@ -124,10 +124,9 @@ TEST(LuminousOpening, EmitsWhatDirectionsSee) {
             share += particle.share.luminance() / kParticles;
             moment += dot(direction, light.luminaire.nadir) / kParticles;
             if (!(particle.share.luminance() > 0)) continue;
-            const Vec3 offset = particle.origin - surface.middle();
+            const Vec3 offset = particle.origin - bounds.middle();
             across += (offset - dot(offset, direction) * direction) / kParticles;
         }
-        math::SampleStream stream(math::RandomKey{}.derived(1), 0);
         for (std::uint64_t i = 0; i < kParticles; ++i) {
             math::SampleStream own(math::RandomKey{}.derived(1), i);
             const auto [u1, u2] = own.next_two();
@@ -135,7 +134,8 @@ TEST(LuminousOpening, EmitsWhatDirectionsSee) {
         }
         EXPECT_NEAR(share, 1, kLeastShare) << c.name;
         EXPECT_NEAR(moment, exact_moment, 2e-3) << c.name;
-        EXPECT_LT(length(across), 5e-3 * surface.radius_m()) << c.name;
+        // Five standard errors of independent points at most.
+        EXPECT_LT(length(across), 5 * length(bounds.max - bounds.min) / 2 / std::sqrt(kParticles)) << c.name;
     }
 }
 
@@ -214,7 +214,7 @@ TEST(LuminousOpening, HasTheNearFieldOfThousandsOfPoints) {
         if (const auto* box = std::get_if<Mesh>(&shape)) {
             for (std::size_t face = 0; face < 6; ++face) {
                 const Vec3* v = &box->vertices[4 * face];
-                std::vector<Piece> own = pieces_of(Rectangle{v[0], v[1] - v[0], v[3] - v[0]}, 30);
+                std::vector<Piece> own = pieces_of(Rectangle{v[0], v[1] - v[0], v[3] - v[0]}, 200);
                 const Vec3 outward = own[0].position - light.luminaire.position;
                 for (Piece& piece : own) {
                     if (dot(piece.normal, outward) < 0) piece.normal = -piece.normal;
@@ -271,11 +271,12 @@ TEST(Opening, HasItsAreaAndItsFrontsOutside) {
     EXPECT_NEAR(area_of({Form::vertical_cylinder, {0.4, 0.4, 0.2}}), kPi * 0.4 * (0.2 + 0.2), 4e-3);
     for (const Case& c : cases()) {
         const Scene scene = scene_of(c);
-        const EmitterSurface surface(scene.object(light_of(scene).object).shape, scene::lift_of(scene));
+        const Shape& shape = scene.object(light_of(scene).object).shape;
+        const EmitterSurface surface(shape, scene::lift_of(scene));
+        if (c.last_deg < 180) continue;  // flat: the middle is in their plane
         for (std::uint32_t i = 0; i < 64; ++i) {
             const auto point = surface.sample_by_area({(i + 0.5) / 64, math::sobol(i, 0) * 0x1p-32});
-            if (c.last_deg > 150)
-                EXPECT_GT(dot(point.normal, point.lifted - surface.middle()), 0) << c.name;
+            EXPECT_GT(dot(point.normal, point.lifted - bounds_of(shape).middle()), 0) << c.name;
         }
     }
 }
@@ -284,7 +285,7 @@ TEST(Opening, HasItsAreaAndItsFrontsOutside) {
 TEST(Opening, OfOneSideKeepsTheFlux) {
     PhotometricSolid::Grid grid;
     grid.planes_deg = {0};
-    grid.polar_deg = {0, 90, 90.05, 180};
+    grid.polar_deg = {0, 90, 90.4, 180};
     grid.intensity_cd = {100, 10, 0, 0};
     const PhotometricSolid solid(grid);
     Scene scene;
@@ -294,10 +295,10 @@ TEST(Opening, OfOneSideKeepsTheFlux) {
     constexpr std::uint64_t kParticles = 100'000;
     for (std::uint64_t i = 0; i < kParticles; ++i) {
         math::SampleStream stream(math::RandomKey{}, i);
-        flux += emitter_of(scene).emit(stream).share.luminance() * light_of(scene).luminaire.factor.luminance() /
-                kParticles;
+        flux += emitter_of(scene).emit(stream).share.luminance() *
+                light_of(scene).luminaire.factor.luminance() / kParticles;
     }
-    EXPECT_NEAR(flux, 1, 1e-4);
+    EXPECT_NEAR(flux, 1, 3e-4);  // without the share that is hidden it were 9e-4 less
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ struct RadianceLight {
         const double factor = luminaire.factor.luminance();
         const std::string table = id + ".dat";
         output.write(table, photometric_table([&](const Vec3& w) {
-                         const Vec3 leaving = w.x * luminaire.c0 + w.y * luminaire.c90 + w.z * luminaire.nadir;
+                         const Vec3 leaving =
+                             w.x * luminaire.c0 + w.y * luminaire.c90 + w.z * luminaire.nadir;
                          return emitter.luminance_cd_m2(leaving).luminance() / factor;
                      }));
         const Rgb radiance = luminaire.factor * (1 / kRadianceEfficacy_lm_w);

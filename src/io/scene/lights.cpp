@@ -143,10 +143,11 @@ lights::Opening read_opening(const TomlItem& item) {
     using Form = lights::Opening::Form;
     if (item.is_text()) {
         if (item.text() != "point") {
-            item.fail(fmt::format(
-                "{} is no opening. Allowed: \"point\", a diameter, [length, width] or [length, width, height] "
-                "in metres.",
-                in_quotes(item.text())));
+            item.fail(
+                fmt::format("{} is no opening. Allowed: \"point\", a diameter, [length, width] or [length, "
+                            "width, height] "
+                            "in metres.",
+                            in_quotes(item.text())));
         }
         return {};
     }
@@ -161,8 +162,7 @@ lights::Opening read_opening(const TomlItem& item) {
 
 lights::LightSource read_photometry(TomlTable& table, const Context& context) {
     expect_light_keys(
-        table,
-        {"type", "file", "opening", "position", "aim", "spin", "dimming", "flux", "cct", "color"},
+        table, {"type", "file", "opening", "position", "aim", "spin", "dimming", "flux", "cct", "color"},
         "type \"photometry\"");
     const Vec3 position = table.at("position").vector();
     const auto aim = table.find("aim"), spin = table.find("spin"), dimming = table.find("dimming"),
@@ -176,8 +176,7 @@ lights::LightSource read_photometry(TomlTable& table, const Context& context) {
     if (flux) factor *= flux->number(kLightQuantity) / scene.solid(solid).flux_lm();
     Luminaire luminaire{position, solid, c0, c90, nadir, factor};
     const auto opening = table.find("opening");
-    const lights::Opening of_light =
-        opening ? read_opening(*opening) : scene.solids[index_of(solid)].opening;
+    const lights::Opening of_light = opening ? read_opening(*opening) : scene.solids[index_of(solid)].opening;
     if (of_light.is_point()) return luminaire;
     auto [shape, hidden_share] = lights::shape_of(of_light, luminaire, scene.solid(solid));
     luminaire.scale(Rgb::grey(1 / (1 - hidden_share)));

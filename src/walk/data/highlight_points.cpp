@@ -78,8 +78,7 @@ std::vector<HighlightPoint> highlight_points(const Scene& scene, const Light& li
     if (const auto origin = lights::point_origin(light)) return {{origin->position, Vec3{}, 1}};
     std::vector<HighlightPoint> points;
     if (const auto surface = lights::emitting_object(light)) {
-        points = std::visit([](const auto& shape) { return points_on(shape); },
-                            scene.object(*surface).shape);
+        points = std::visit([](const auto& shape) { return points_on(shape); }, scene.object(*surface).shape);
     } else if (const auto* environment = std::get_if<EnvironmentLight>(&light.source)) {
         points = points_around(scene, *environment);
     }
