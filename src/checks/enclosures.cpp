@@ -78,9 +78,9 @@ std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
         if (!origin->axis) return {{origin->position, kDirections[0]}};
         return {probe_ray_off(origin->position, *origin->axis, caster_.half_extent_m(), caster_)};
     }
-    if (const auto surface = lights::surface_emission(light)) {
-        return std::visit(ProbeRaysOfShape{components_[index_of(surface->object)], caster_},
-                          scene_.object(surface->object).shape);
+    if (const auto surface = lights::emitting_object(light)) {
+        return std::visit(ProbeRaysOfShape{components_[index_of(*surface)], caster_},
+                          scene_.object(*surface).shape);
     }
     return {};
 }

@@ -37,10 +37,10 @@ struct Facing {
 
 /// The object close to the front of a lamp that stops almost all of its light, if there is one.
 std::optional<Facing> faced_by(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
-    const auto surface = lights::surface_emission(light);
+    const auto surface = lights::emitting_object(light);
     if (!surface) return std::nullopt;
     const auto emitter = lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift());
-    const double size_m = std::sqrt(area_m2(scene.object(surface->object).shape));
+    const double size_m = std::sqrt(area_m2(scene.object(*surface).shape));
     const double narrow_m = std::min(kNarrowGap_m, kNarrowShare * size_m);
     Facing facing{{}, narrow_m};
     int escaped = 0;

@@ -57,14 +57,13 @@ std::vector<std::string> hole_warnings(const Scene& scene,
             object.name, which, hole.edges));
     }
     for (const Light& light : scene.lights) {
-        const auto surface = lights::surface_emission(light);
-        if (!surface || components[index_of(surface->object)].turned_edges == 0) continue;
+        const auto surface = lights::emitting_object(light);
+        if (!surface || components[index_of(*surface)].turned_edges == 0) continue;
         warnings.push_back(fmt::format(
             "light \"{}\": at {} edges of object \"{}\" the front changes sides, but only fronts emit light. "
             "Turn "
             "its triangles to one side.",
-            light.name, components[index_of(surface->object)].turned_edges,
-            scene.object(surface->object).name));
+            light.name, components[index_of(*surface)].turned_edges, scene.object(*surface).name));
     }
     return warnings;
 }

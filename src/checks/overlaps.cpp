@@ -49,8 +49,7 @@ class OverlapLight {
           lit_(lit_places(scene, caster)),
           is_lamp_(scene.objects.size()) {
         for (const Light& light : scene.lights) {
-            if (const auto surface = lights::surface_emission(light))
-                is_lamp_[index_of(surface->object)] = true;
+            if (const auto surface = lights::emitting_object(light)) is_lamp_[index_of(*surface)] = true;
         }
     }
 

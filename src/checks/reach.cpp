@@ -89,7 +89,7 @@ struct Shining {
         : emitter(lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift())),
           is_outside(location_of(light) == stilb::LightLocation::infinity),
           trail(scene) {
-        if (const auto surface = lights::surface_emission(light)) object = surface->object;
+        if (const auto surface = lights::emitting_object(light)) object = *surface;
     }
 
     lights::Emission emit(math::SampleStream& stream) const {

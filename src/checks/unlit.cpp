@@ -27,8 +27,8 @@ Trail trace_particles(const Scene& scene, const rays::RayCaster& caster) {
     const transport::LightSampler lights(scene, caster);
     Trail trail(scene);
     for (const Light& light : scene.lights) {
-        if (const auto surface = lights::surface_emission(light))
-            trail.is_object_met[index_of(surface->object)] = true;
+        if (const auto surface = lights::emitting_object(light))
+            trail.is_object_met[index_of(*surface)] = true;
     }
     for (std::uint64_t i = 0; i < kParticles; ++i) {
         if (i % kParticlesAtOnce == 0 && std::ranges::all_of(trail.is_object_met, std::identity{})) break;

@@ -96,7 +96,7 @@ CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pas
             continue;
         }
         transport::Path path{*hits[i], -rays[i].direction, streams[i], max_reflections};
-        path.luminance_cd_m2 = lights.emitted_luminance(path.hit);
+        path.luminance_cd_m2 = lights.emitted_luminance(path.hit, path.outgoing);
         started.paths.push_back(path);
         started.pixels.push_back(pixel_of_ray[i]);
     }

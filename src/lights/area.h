@@ -2,9 +2,8 @@
 // sphere.
 #pragma once
 
-#include "lights/emitter_elements.h"
+#include "lights/emitter_surface.h"
 #include "lights/light_kind.h"
-#include "math/sampling.h"
 
 namespace stilb::lights {
 
@@ -20,6 +19,7 @@ struct AreaLight {
     void scale(const Rgb& by) { luminance_cd_m2 *= by; }
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
+    const Rgb& mean_luminance_cd_m2(const Surroundings&) const { return luminance_cd_m2; }
 };
 
 class AreaEmitter {
@@ -31,17 +31,16 @@ class AreaEmitter {
                                                  const std::array<double, 2>& u) const;
     double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
 
+    const Rgb& luminance_cd_m2(const Vec3&) const { return luminance_cd_m2_; }
     double pdf_per_sr(std::uint32_t triangle, const Vec3& position, const Vec3& normal,
-                      const Vec3& from) const;
+                      const Vec3& from) const {
+        return surface_.pdf_per_sr(triangle, position, normal, from);
+    }
 
   private:
     Rgb luminance_cd_m2_;
     double flux_lm_;  ///< luminous
-    Lift lift_;
-    std::vector<EmitterElement> elements_;
-    math::DiscreteDistribution by_area_;
-    Vec3 middle_;
-    double radius_m_ = 0;
+    EmitterSurface surface_;
 };
 
 }  // namespace stilb::lights

@@ -26,12 +26,30 @@ std::vector<LightDetail> details_of(const Light& light, const Surroundings& surr
     return std::visit([&](const auto& source) { return source.details(surroundings); }, light.source);
 }
 
-std::optional<SurfaceEmission> surface_emission(const Light& light) {
+std::optional<ObjectId> emitting_object(const Light& light) {
     return std::visit(
-        []<LightKind L>(const L& source) -> std::optional<SurfaceEmission> {
-            if constexpr (L::kLocation == LightLocation::surface) {
-                return SurfaceEmission{source.object, source.luminance_cd_m2};
-            }
+        []<LightKind L>(const L& source) -> std::optional<ObjectId> {
+            if constexpr (L::kLocation == LightLocation::surface) return source.object;
+            return std::nullopt;
+        },
+        light.source);
+}
+
+std::optional<Rgb> mean_luminance_cd_m2(const Light& light, const Surroundings& surroundings) {
+    return std::visit(
+        [&]<LightKind L>(const L& source) -> std::optional<Rgb> {
+            if constexpr (L::kLocation == LightLocation::surface)
+                return source.mean_luminance_cd_m2(surroundings);
+            return std::nullopt;
+        },
+        light.source);
+}
+
+std::optional<UniformEmission> uniform_emission(const Light& light) {
+    return std::visit(
+        []<LightKind L>(const L& source) -> std::optional<UniformEmission> {
+            if constexpr (L::kLocation == LightLocation::surface && requires { source.luminance_cd_m2; })
+                return UniformEmission{source.object, source.luminance_cd_m2};
             return std::nullopt;
         },
         light.source);

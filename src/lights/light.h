@@ -9,12 +9,13 @@
 #include "lights/environment.h"
 #include "lights/light_kind.h"
 #include "lights/luminaire.h"
+#include "lights/luminous_opening.h"
 #include "lights/point.h"
 
 namespace stilb::lights {
 
 /// All kinds of light: a new kind is added here.
-using LightSource = std::variant<PointLight, Luminaire, AreaLight, EnvironmentLight>;
+using LightSource = std::variant<PointLight, Luminaire, LuminousOpening, AreaLight, EnvironmentLight>;
 
 struct Light {
     std::string name;
@@ -38,12 +39,17 @@ std::string_view type_of(const Light& light);
 Rgb flux_lm(const Light& light, const Surroundings& surroundings);
 std::vector<LightDetail> details_of(const Light& light, const Surroundings& surroundings);
 
-/// The emission of a light on a surface; nothing for other lights.
-struct SurfaceEmission {
+/// The object whose front emits the light of a light on a surface; nothing for other lights.
+std::optional<ObjectId> emitting_object(const Light& light);
+/// Its luminance over all points and directions.
+std::optional<Rgb> mean_luminance_cd_m2(const Light& light, const Surroundings& surroundings);
+/// The emission of a surface with the same luminance everywhere and in all directions; nothing for other
+/// lights.
+struct UniformEmission {
     ObjectId object{};
     Rgb luminance_cd_m2;
 };
-std::optional<SurfaceEmission> surface_emission(const Light& light);
+std::optional<UniformEmission> uniform_emission(const Light& light);
 /// The same light, its emission multiplied by a factor, band by band.
 LightSource scaled(const LightSource& source, const Rgb& factor);
 /// The emitter of a point light; nothing for other lights.

@@ -104,10 +104,11 @@ concept PointEmitterKind = requires(const E& emitter, const Vec3& v, const Frame
     { emitter.luminous_intensity_cd(v) } -> std::same_as<double>;
 };
 
-/// For lights on surfaces: the density of the direction to a point of one of the object's triangles (0 for
-/// objects without triangles).
+/// For lights on surfaces: the luminance of the front for a unit direction that leaves it, and the density of
+/// the direction to a point of one of the object's triangles (0 for objects without triangles).
 template <typename E>
 concept SurfaceEmitterKind = requires(const E& emitter, std::uint32_t triangle, const Vec3& v) {
+    { emitter.luminance_cd_m2(v) } -> std::convertible_to<Rgb>;
     { emitter.pdf_per_sr(triangle, v, v, v) } -> std::same_as<double>;
 };
 
@@ -136,9 +137,11 @@ concept LightKind = EmitterKind<typename L::Emitter> &&
                                                   { light.origin() } -> std::same_as<LightOrigin>;
                                               })) &&
     (L::kLocation != LightLocation::surface || (SurfaceEmitterKind<typename L::Emitter> &&
-                                                requires(const L& light) {
+                                                requires(const L& light, const Surroundings& surroundings) {
                                                     { light.object } -> std::convertible_to<ObjectId>;
-                                                    { light.luminance_cd_m2 } -> std::convertible_to<Rgb>;
+                                                    {
+                                                        light.mean_luminance_cd_m2(surroundings)
+                                                        } -> std::convertible_to<Rgb>;
                                                 })) &&
     (L::kLocation != LightLocation::infinity || InfiniteEmitterKind<typename L::Emitter>);
 

@@ -8,15 +8,6 @@
 
 namespace stilb::lights {
 
-namespace {
-
-/// The direction of light that leaves the luminaire opposite to `direction`, in the frame of its solid.
-Vec3 in_solid(const Luminaire& luminaire, const Vec3& direction) {
-    return {-dot(direction, luminaire.c0), -dot(direction, luminaire.c90), -dot(direction, luminaire.nadir)};
-}
-
-}  // namespace
-
 Rgb Luminaire::flux_lm(const Surroundings& surroundings) const {
     return surroundings.solid(solid).flux_lm() * factor;
 }
@@ -40,13 +31,13 @@ Emission LuminaireEmitter::emit(math::SampleStream& stream) const {
 std::optional<IncidentLight> LuminaireEmitter::sample_incident(const ReceivingPoint& at,
                                                                const std::array<double, 2>&) const {
     return incident_from_point(light_.position, lifted_, at.position, [&](const Vec3& direction) {
-        return solid_->intensity_cd(in_solid(light_, direction)) * light_.factor;
+        return solid_->intensity_cd(light_.in_solid(-direction)) * light_.factor;
     });
 }
 
 double LuminaireEmitter::rough_illuminance_lx(const Vec3& from, const Vec3& normal) const {
     return illuminance_by_point_lx(light_.position, from, normal, [&](const Vec3& direction) {
-        const double bound_cd = solid_->intensity_bound_cd(in_solid(light_, direction));
+        const double bound_cd = solid_->intensity_bound_cd(light_.in_solid(-direction));
         return bound_cd * light_.factor.luminance();
     });
 }
@@ -60,9 +51,7 @@ LuminaireEmitter LuminaireEmitter::turned_into(const Frame& frame) const {
 }
 
 double LuminaireEmitter::luminous_intensity_cd(const Vec3& direction) const {
-    return light_.factor.luminance() *
-           solid_->intensity_cd(
-               {dot(direction, light_.c0), dot(direction, light_.c90), dot(direction, light_.nadir)});
+    return light_.factor.luminance() * solid_->intensity_cd(light_.in_solid(direction));
 }
 
 namespace {

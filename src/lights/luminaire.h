@@ -24,6 +24,10 @@ struct Luminaire {
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
     void scale(const Rgb& by) { factor *= by; }
     LightOrigin origin() const { return {position, nadir}; }
+    /// A direction in the frame of its solid.
+    Vec3 in_solid(const Vec3& direction) const {
+        return {dot(direction, c0), dot(direction, c90), dot(direction, nadir)};
+    }
 };
 
 /// Keeps a reference to the solid. Its rays start and end lifted along the nadir, so that a luminaire may be

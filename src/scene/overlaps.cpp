@@ -141,8 +141,7 @@ class OverlapSearch {
         : of_(of), most_(most), largest_gap_m_(kLargestGap * offset_m(scene)), shapes_(scene.objects.size()) {
         std::vector<bool> is_lamp(scene.objects.size());
         for (const Light& light : scene.lights) {
-            if (const auto surface = lights::surface_emission(light))
-                is_lamp[index_of(surface->object)] = true;
+            if (const auto surface = lights::emitting_object(light)) is_lamp[index_of(*surface)] = true;
         }
         const double margin_m = largest_gap_m_ / 2;
         margin_ = {margin_m, margin_m, margin_m};
@@ -367,7 +366,7 @@ struct Mover {
 
 std::vector<Overlap> find_overlaps(const Scene& scene, OverlapsOf of, std::size_t most) {
     const bool has_lamps = std::ranges::any_of(
-        scene.lights, [](const Light& light) { return lights::surface_emission(light).has_value(); });
+        scene.lights, [](const Light& light) { return lights::emitting_object(light).has_value(); });
     if (of == OverlapsOf::lamps && !has_lamps) return {};
     return OverlapSearch(scene, of, most).run();
 }

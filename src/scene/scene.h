@@ -10,6 +10,7 @@
 #include "base/vec.h"
 #include "geometry/shape.h"
 #include "lights/light.h"
+#include "lights/opening_shape.h"
 #include "materials/material.h"
 
 namespace stilb::scene {
@@ -33,6 +34,7 @@ struct NamedSolid {
     PhotometricSolid solid;
     std::string format = {};          ///< "EULUMDAT", "IES LM-63-2002"
     std::string flux_statement = {};  ///< comparison of the file's stated flux with the integral, as text
+    lights::Opening opening = {};     ///< as the file states it; a point where it states none
 };
 
 struct Scene {

@@ -45,10 +45,9 @@ bool contains_light(const Scene& scene, ObjectId object) {
     return std::ranges::any_of(scene.lights, [&](const Light& light) {
         if (const auto origin = lights::point_origin(light))
             return overlap(bounds, {origin->position, origin->position});
-        const auto surface = lights::surface_emission(light);
-        return surface &&
-               (surface->object == object ? inside_is_front(scene.object(object).shape).value_or(true)
-                                          : overlap(bounds, bounds_of(scene.object(surface->object).shape)));
+        const auto surface = lights::emitting_object(light);
+        return surface && (*surface == object ? inside_is_front(scene.object(object).shape).value_or(true)
+                                              : overlap(bounds, bounds_of(scene.object(*surface).shape)));
     });
 }
 

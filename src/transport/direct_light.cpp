@@ -11,8 +11,10 @@ namespace {
 
 lights::LitPoint lit_point(const Receiver& receiver) { return {receiver.position(), receiver.normal()}; }
 
+}  // namespace
+
 /// Light that shadow rays of a tile bring in.
-struct ShadowRays {
+struct DirectLight::ShadowRays {
     std::array<rays::Segment, kPacketWidth> segments;
     std::array<Rgb, kPacketWidth> received;  ///< without shadows
     std::array<std::size_t, kPacketWidth> lanes;
@@ -23,7 +25,7 @@ struct ShadowRays {
         received[count] = unshadowed;
         lanes[count++] = lane;
     }
-    void trace(const rays::RayCaster& caster, DirectLight::TileLight& light) const {
+    void trace(const rays::RayCaster& caster, TileLight& light) const {
         if (count == 0) return;
         std::array<Rgb, kPacketWidth> transmittances;
         caster.transmittances(std::span(segments).first(count), rays::Coherence::coherent,
@@ -31,8 +33,6 @@ struct ShadowRays {
         for (std::size_t i = 0; i < count; ++i) light[lanes[i]] += received[i] * transmittances[i];
     }
 };
-
-}  // namespace
 
 DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights)
     : scene_(scene), caster_(caster), lights_(lights) {
@@ -137,9 +137,7 @@ void DirectLight::add_sample(std::span<const Receiver> tile, const Remainder& re
     if (remainder.has_lamps()) {
         for (std::size_t l = 0; l < lamps_.size(); ++l) add_shadowed(tile, l, remainder, streams, light);
     }
-    if (remainder.by_directions) {
-        for (std::size_t i = 0; i < tile.size(); ++i) light[i] += sampled_by_directions(tile[i], streams[i]);
-    }
+    if (remainder.by_directions) add_by_directions(tile, streams, light);
     if (remainder.points) add_chosen_points(tile, streams[0], light);
 }
 
@@ -158,15 +156,19 @@ void DirectLight::add_shadowed(std::span<const Receiver> tile, std::size_t lamp,
 }
 
 /// Lights that add_known() leaves out.
-Rgb DirectLight::sampled_by_directions(const Receiver& receiver, math::SampleStream& stream) const {
-    if (!has_closed_form(receiver) || chooses_lamps_)
-        return sample_direct_from_areas(receiver, caster_, lights_, stream);
-    Rgb sum;
-    for (const std::size_t other : others_) {
-        const auto incident = lights_.sample_incident(other, receiving_point(receiver), stream.next_two());
-        if (incident) sum += illuminance_lx(*incident, receiver, caster_) * *receiver.constant_response();
+void DirectLight::add_by_directions(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
+                                    TileLight& light) const {
+    for (std::size_t i = 0; i < tile.size(); ++i) {
+        if (samples_all(tile[i])) light[i] += sample_direct_from_areas(tile[i], caster_, lights_, streams[i]);
     }
-    return sum;
+    if (chooses_lamps_) return;
+    for (const std::size_t other : others_) {
+        ShadowRays shadow_rays;
+        for (std::size_t i = 0; i < tile.size(); ++i) {
+            if (!samples_all(tile[i])) add_ray(tile, i, other, streams[i].next_two(), 1, shadow_rays);
+        }
+        shadow_rays.trace(caster_, light);
+    }
 }
 
 void DirectLight::add_points(std::span<const Receiver> tile, TileLight& light) const {
@@ -176,17 +178,21 @@ void DirectLight::add_points(std::span<const Receiver> tile, TileLight& light) c
 void DirectLight::add_point(std::span<const Receiver> tile, std::size_t point, double factor,
                             TileLight& light) const {
     ShadowRays shadow_rays;
-    for (std::size_t i = 0; i < tile.size(); ++i) {
-        const Receiver& receiver = tile[i];
-        const auto incident = lights_.sample_incident(point, receiving_point(receiver), {});
-        if (!incident) continue;
-        const double sensitivity = receiver.sensitivity(incident->direction);
-        if (!(sensitivity > 0) || !(incident->normal_illuminance_lx.max() > 0)) continue;
-        shadow_rays.add(i, {receiver.lifted(), incident->source_point},
-                        factor * sensitivity * incident->normal_illuminance_lx *
-                            receiver.response(incident->direction).value);
-    }
+    for (std::size_t i = 0; i < tile.size(); ++i) add_ray(tile, i, point, {}, factor, shadow_rays);
     shadow_rays.trace(caster_, light);
+}
+
+/// A sample of a light at the receiver of a lane.
+void DirectLight::add_ray(std::span<const Receiver> tile, std::size_t lane, std::size_t light,
+                          const std::array<double, 2>& u, double factor, ShadowRays& shadow_rays) const {
+    const Receiver& receiver = tile[lane];
+    const auto incident = lights_.sample_incident(light, receiving_point(receiver), u);
+    if (!incident) return;
+    const double sensitivity = receiver.sensitivity(incident->direction);
+    if (!(sensitivity > 0) || !(incident->normal_illuminance_lx.max() > 0)) return;
+    shadow_rays.add(lane, {receiver.lifted(), incident->source_point},
+                    factor * sensitivity * incident->normal_illuminance_lx *
+                        receiver.response(incident->direction).value);
 }
 
 /// Neighbouring choices often are the same light.

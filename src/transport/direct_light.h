@@ -67,12 +67,16 @@ class DirectLight {
     static constexpr std::size_t kChosen = 16;
 
   private:
+    struct ShadowRays;
+
     /// Point lights times receivers up to which readings take all of them once: seconds.
     static constexpr std::size_t kMostExact = 100'000'000;
 
     bool has_closed_form(const Receiver& receiver) const {
         return receiver.constant_response() && !receiver.is_body();
     }
+    /// Whether samples of all lights and of the response are weighted together.
+    bool samples_all(const Receiver& receiver) const { return !has_closed_form(receiver) || chooses_lamps_; }
     Remainder add_known(std::span<const Receiver> tile, TileLight& light) const;
     void settle_one_by_one(std::span<const Receiver> tile, Remainder& remainder, TileLight& light) const;
     void add_points(std::span<const Receiver> tile, TileLight& light) const;
@@ -81,7 +85,10 @@ class DirectLight {
                            TileLight& light) const;
     void add_shadowed(std::span<const Receiver> tile, std::size_t lamp, const Remainder& remainder,
                       std::span<math::SampleStream> streams, TileLight& light) const;
-    Rgb sampled_by_directions(const Receiver& receiver, math::SampleStream& stream) const;
+    void add_by_directions(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
+                           TileLight& light) const;
+    void add_ray(std::span<const Receiver> tile, std::size_t lane, std::size_t light,
+                 const std::array<double, 2>& u, double factor, ShadowRays& shadow_rays) const;
 
     const Scene& scene_;
     const rays::RayCaster& caster_;

@@ -70,7 +70,7 @@ std::optional<LaneLights> LaneLights::of(const Scene& scene, const Vec3& center)
             lane.rectangle.corner = lane_point(point->position - center);
             lane.emission = lane_rgb(point->intensity_cd);
             lane.is_point = true;
-        } else if (const auto surface = lights::surface_emission(light)) {
+        } else if (const auto surface = lights::uniform_emission(light)) {
             const auto rectangle = lane_rectangle(scene.object(surface->object).shape, center);
             if (!rectangle) return std::nullopt;
             lane.rectangle = *rectangle;

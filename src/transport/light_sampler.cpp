@@ -15,9 +15,7 @@ namespace stilb::transport {
 
 LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
                            std::vector<bool> made_elsewhere)
-    : luminance_of_object_(scene.objects.size()),
-      light_of_object_(scene.objects.size(), kNoLight),
-      made_elsewhere_(std::move(made_elsewhere)) {
+    : light_of_object_(scene.objects.size(), kNoLight), made_elsewhere_(std::move(made_elsewhere)) {
     std::vector<double> weights;
     double others_lm = 0;
     for (const Light& light : scene.lights) {
@@ -38,10 +36,7 @@ void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCa
     flux_lm_.push_back(scene::flux_lm(scene, light));
     locations_.push_back(location_of(light));
     emitters_.push_back(lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift()));
-    if (const auto surface = lights::surface_emission(light)) {
-        luminance_of_object_[index_of(surface->object)] = surface->luminance_cd_m2;
-        light_of_object_[index_of(surface->object)] = number;
-    }
+    if (const auto object = lights::emitting_object(light)) light_of_object_[index_of(*object)] = number;
     if (locations_[number] == LightLocation::infinity) {
         if (outside_ != kNoLight) {
             throw InputError(
@@ -121,8 +116,8 @@ LightTree LightSampler::planted_tree(const Scene& scene, const Condition& condit
             leaf.bounds.include(origin->position);
             leaf.intensity_cd /= 2;
         }
-        if (const auto surface = lights::surface_emission(scene.lights[i]))
-            leaf.bounds = bounds_of(scene.object(surface->object).shape);
+        if (const auto object = lights::emitting_object(scene.lights[i]))
+            leaf.bounds = bounds_of(scene.object(*object).shape);
         if (!leaf.bounds.is_empty()) leaves.push_back(leaf);
     }
     return LightTree(std::move(leaves));
@@ -212,8 +207,15 @@ double LightSampler::outside_pdf_per_sr(const Vec3& direction, const Vec3& from,
     return times_choice(pdf_of_outside_light_per_sr(direction, {from, normal}), outside_, from, normal);
 }
 
-Rgb LightSampler::emitted_luminance(const rays::Hit& hit) const {
-    return hit.on_front ? luminance_of_object_[index_of(hit.object)] : Rgb{};
+Rgb LightSampler::emitted_luminance(const rays::Hit& hit, const Vec3& leaving) const {
+    const std::uint32_t light = light_of_object_[index_of(hit.object)];
+    if (!hit.on_front || light == kNoLight) return {};
+    return std::visit(
+        [&]<typename Emitter>(const Emitter& emitter) -> Rgb {
+            if constexpr (lights::SurfaceEmitterKind<Emitter>) return emitter.luminance_cd_m2(leaving);
+            return {};
+        },
+        emitters_[light]);
 }
 
 }  // namespace stilb::transport

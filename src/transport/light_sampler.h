@@ -77,8 +77,8 @@ class LightSampler {
     /// The same for sample_incident() with the light that `hit` is on.
     double pdf_of_its_light_per_sr(const rays::Hit& hit, const Vec3& from) const;
 
-    /// Luminance that leaves `hit`, on an emitter, against the ray; zero elsewhere.
-    Rgb emitted_luminance(const rays::Hit& hit) const;
+    /// Luminance that leaves `hit`, on an emitter, in a unit direction; zero elsewhere.
+    Rgb emitted_luminance(const rays::Hit& hit, const Vec3& leaving) const;
     /// Luminance from outside of the scene along a ray that leaves it in a unit direction.
     Rgb outside_luminance(const Vec3& direction) const;
     /// As pdf_per_sr() and pdf_of_its_light_per_sr(), for such a ray.
@@ -118,7 +118,6 @@ class LightSampler {
     std::vector<LightLocation> locations_;
     std::vector<Rgb> flux_lm_;
     math::DiscreteDistribution by_flux_;
-    std::vector<Rgb> luminance_of_object_;
     std::vector<std::uint32_t> light_of_object_;  ///< kNoLight for objects without a light
     std::vector<bool> made_elsewhere_;
     LightTree tree_;                    ///< of the lights at finite distance that are not made elsewhere

@@ -20,7 +20,7 @@ class LineOfSightFollower {
 
     /// `hit` is seen along `direction`.
     void follow(const rays::Hit& hit, const Vec3& direction, const Rgb& transmission, int reflections) {
-        sight.emission_cd_m2 += transmission * lights_.emitted_luminance(hit);
+        sight.emission_cd_m2 += transmission * lights_.emitted_luminance(hit, -direction);
         const Material& material = scene_.material(hit.material);
         if (!is_specular(material)) {
             sight.sub_points.push_back({hit, -direction, transmission, reflections});

@@ -30,7 +30,7 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
       plain_materials_(scene.materials.size()),
       may_emit_(scene.objects.size()) {
     for (const Light& light : scene.lights) {
-        if (const auto surface = lights::surface_emission(light)) may_emit_[index_of(surface->object)] = true;
+        if (const auto surface = lights::emitting_object(light)) may_emit_[index_of(*surface)] = true;
     }
     if (stored_) return;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -149,8 +149,9 @@ double PathTracer::pdf_per_sr(const PreviousVertex& previous_vertex, const rays:
         lane_lights_->pdf_per_sr(emitter.object, emitter.position - center, position - center, normal)};
 }
 
-Rgb PathTracer::emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const {
-    const Rgb emission = lights_.emitted_luminance(emitter);
+Rgb PathTracer::emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter,
+                                 const Vec3& leaving) const {
+    const Rgb emission = lights_.emitted_luminance(emitter, leaving);
     if (!(emission.max() > 0)) return {};
     return emission * share_of(previous_vertex, [&] { return pdf_per_sr(previous_vertex, emitter); });
 }
@@ -168,7 +169,7 @@ void PathTracer::leave(Path& path, const Vec3& direction) const {
 }
 
 void PathTracer::arrive(Path& path, const Vec3& direction, const rays::Hit& next) const {
-    path.luminance_cd_m2 += path.throughput * emission_towards(path.previous_vertex, next);
+    path.luminance_cd_m2 += path.throughput * emission_towards(path.previous_vertex, next, -direction);
     path.hit = next;
     path.outgoing = -direction;
 }
@@ -196,7 +197,7 @@ Rgb PathTracer::incoming_luminance(const rays::Ray& ray, const PreviousVertex& p
                                    int max_reflections, math::SampleStream& stream) const {
     const auto hit = caster_.closest(ray.origin, ray.direction);
     if (!hit) return outside_light_towards(previous_vertex, ray.direction);
-    return emission_towards(previous_vertex, *hit) +
+    return emission_towards(previous_vertex, *hit, -ray.direction) +
            luminance_behind(*hit, ray.direction, previous_vertex, max_reflections, stream);
 }
 

@@ -91,7 +91,8 @@ class PathTracer {
     /// All the light along a ray.
     Rgb luminance(const rays::Hit& hit, const Vec3& direction, int max_reflections,
                   math::SampleStream& stream) const {
-        return lights_.emitted_luminance(hit) + luminance_behind(hit, direction, {}, max_reflections, stream);
+        return lights_.emitted_luminance(hit, -direction) +
+               luminance_behind(hit, direction, {}, max_reflections, stream);
     }
     /// The same, where emission directly visible from `previous_vertex` is weighted against next-event
     /// estimation there.
@@ -132,7 +133,8 @@ class PathTracer {
     /// Continues where the step's ray leaves the scene.
     void leave(Path& path, const Vec3& direction) const;
     /// Emission that a path finds, by its MIS weight; likewise light from outside.
-    Rgb emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const;
+    Rgb emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter,
+                         const Vec3& leaving) const;
     Rgb outside_light_towards(const PreviousVertex& previous_vertex, const Vec3& direction) const;
     /// The density of next-event estimation at the previous vertex.
     double pdf_per_sr(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const;

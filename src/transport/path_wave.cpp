@@ -194,7 +194,8 @@ void PathWave::arrive(PathPacket& paths, LaneMask& lanes, rays::Coherence cohere
         paths.general[i] = PathPacket::kPlain;
         if (is_plain && !emits) continue;
         const rays::Hit hit = tracer_.caster_.hit(hits_, i);
-        if (emits) add(paths, i, tracer_.emission_towards(previous_vertex(paths, i), hit));
+        if (emits)
+            add(paths, i, tracer_.emission_towards(previous_vertex(paths, i), hit, -paths.direction.at(i)));
         if (!is_plain) make_general(paths, i, hit);
     }
 }

@@ -165,8 +165,9 @@ Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, 
     const auto sample = receiver.sample(u1, u2);
     if (!sample) return {};
     const auto seen = caster.seen({receiver.lifted(), sample->direction});
-    const Rgb emission = seen.transmittance * (seen.hit ? lights.emitted_luminance(*seen.hit)
-                                                        : lights.outside_luminance(sample->direction));
+    const Rgb emission =
+        seen.transmittance * (seen.hit ? lights.emitted_luminance(*seen.hit, -sample->direction)
+                                       : lights.outside_luminance(sample->direction));
     if (!(emission.max() > 0)) return {};
     const double light_pdf =
         seen.hit ? lights.extended_pdf_per_sr(*seen.hit, receiving_point(receiver))

@@ -32,9 +32,9 @@ bool may_be_smooth(const Material& material) {
 
 /// The area of a lamp as its light sees it [m2]; 0 for points and for light from infinity.
 double visible_area_m2(const Light& light, const Scene& scene) {
-    const auto emission = lights::surface_emission(light);
+    const auto emission = lights::emitting_object(light);
     if (!emission) return 0;
-    const Shape& shape = scene.object(emission->object).shape;
+    const Shape& shape = scene.object(*emission).shape;
     return std::holds_alternative<Sphere>(shape) ? area_m2(shape) / 4 : area_m2(shape);
 }
 

@@ -62,7 +62,7 @@ bool has_convex_faces(const Shape& shape) {
 }  // namespace
 
 std::optional<UniformLamp> UniformLamp::of(const Scene& scene, const Light& light, Lift lift) {
-    const auto emission = lights::surface_emission(light);
+    const auto emission = lights::uniform_emission(light);
     if (!emission) return std::nullopt;
     std::vector<lights::EmitterElement> elements =
         lights::emitter_elements(scene.object(emission->object).shape);

@@ -138,6 +138,21 @@ Scene photometry_luminaires() {
     return scene;
 }
 
+/// A panel in the plane of the ceiling, a tilted box that shines all around, a ball and a plate.
+Scene luminous_openings() {
+    using Form = lights::Opening::Form;
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_opening(scene, {1.2, 1, 2.8}, luminaire(80), {Form::box, {0.6, 0.3, 0}}, kDown, 20);
+    add_opening(scene, {3.2, 2, 1.8}, luminaire(150), {Form::box, {0.3, 0.2, 0.1}},
+                normalized(Vec3{-1, -0.4, 0.5}), 70, 0.5 * kWhite);
+    add_opening(scene, {0.4, 0.5, 1.9}, luminaire(120), {Form::ball, {0.2, 0.2, 0.2}}, kDown, 0,
+                0.3 * kWhite);
+    add_opening(scene, {2.6, 0.6, 2.2}, luminaire(140), {Form::vertical_cylinder, {0.4, 0.4, 0}}, kDown, 0,
+                rgb(0.5, 0.4, 0.2));
+    return scene;
+}
+
 Scene black_objects() {
     Scene scene;
     add_object(scene, kRoom, diffuse(0.75));
@@ -453,6 +468,7 @@ std::span<const AgreementScene> agreement_scenes() {
         {"MeshLight", nothing, {}, mesh_light, inside, {}},
         {"FlatLights", nothing, {}, flat_lights, inside, {}},
         {"PhotometryLuminaires", nothing, {}, photometry_luminaires, inside, {}},
+        {"LuminousOpenings", nothing, {}, luminous_openings, inside, {}},
         {"BlackObjects", nothing, {}, black_objects, inside, {}},
         {"ManyLights", nothing, {}, many_lights, inside, {}},
         {"NoReflection", nothing, 0, mixed_room, inside, {}},
@@ -487,6 +503,7 @@ std::span<const AgreementScene> agreement_scenes() {
         {"LampBehindPanesOneReflection", nothing, 1, lamp_behind_panes, inside, around},
         {"LuminanceThroughASlit", nothing, {}, rooms_with_slit, {}, both_sides_of_the_slit},
         {"LuminanceUnderLuminaires", nothing, {}, photometry_luminaires, {}, around},
+        {"LuminanceUnderOpenings", nothing, {}, luminous_openings, {}, around},
         {"LuminanceOfEmission", nothing, 0, mixed_room, {}, around},
         {"LuminanceOfOneReflection", nothing, 1, mixed_room, inside, around},
         {"LuminanceOfTwoReflections", nothing, 2, mixed_room, inside, around},
@@ -504,6 +521,7 @@ std::span<const AgreementScene> agreement_scenes() {
         {"BodiesBesidePhong", nothing, {}, broad_phong_box, inside, {}, bodies, 4},
         {"BodiesAndMirrors", nothing, {}, mirror_and_panel, {}, {}, bodies},
         {"BodiesUnderLuminaires", nothing, {}, photometry_luminaires, {}, {}, bodies},
+        {"BodiesUnderOpenings", nothing, {}, luminous_openings, {}, {}, bodies},
         {"BodiesOneReflection", nothing, 1, mixed_room, {}, {}, bodies},
         {"SmoothMeshes", nothing, {}, smooth_meshes, inside, at_bodies},
         {"SmoothMeshesOneReflection", nothing, 1, smooth_meshes, inside, at_bodies},

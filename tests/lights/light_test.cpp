@@ -25,8 +25,8 @@ struct NotChosen : PointLight {
 struct OnNoSurface : PointLight {
     static constexpr LightLocation kLocation = LightLocation::surface;
 };
-static_assert(LightKind<PointLight> && LightKind<Luminaire> && LightKind<AreaLight> &&
-              LightKind<EnvironmentLight>);
+static_assert(LightKind<PointLight> && LightKind<Luminaire> && LightKind<LuminousOpening> &&
+              LightKind<AreaLight> && LightKind<EnvironmentLight>);
 static_assert(!LightKind<NotChosen> && !LightKind<OnNoSurface>);
 
 /// One light of each place.
@@ -54,10 +54,10 @@ TEST(Light, IsAtOnePlace) {
     ASSERT_TRUE(point_origin(point));
     EXPECT_EQ(point_origin(point)->position, (Vec3{1, 2, 3}));
     EXPECT_FALSE(point_origin(area) || point_origin(environment));
-    ASSERT_TRUE(surface_emission(area));
-    EXPECT_EQ(surface_emission(area)->object, ObjectId{0});
-    EXPECT_EQ(surface_emission(area)->luminance_cd_m2, Rgb::grey(5));
-    EXPECT_FALSE(surface_emission(point) || surface_emission(environment));
+    ASSERT_TRUE(uniform_emission(area));
+    EXPECT_EQ(uniform_emission(area)->object, ObjectId{0});
+    EXPECT_EQ(uniform_emission(area)->luminance_cd_m2, Rgb::grey(5));
+    EXPECT_FALSE(uniform_emission(point) || uniform_emission(environment));
 }
 
 TEST(Light, SaysWhatItIs) {

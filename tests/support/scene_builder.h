@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lights/luminaire.h"
+#include "lights/opening_shape.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
@@ -68,6 +68,17 @@ inline void add_luminaire(Scene& scene, const Vec3& position, const PhotometricS
     scene.solids.push_back({.file = "solid", .luminaire = "", .solid = solid});
     scene.lights.push_back({std::to_string(scene.lights.size()),
                             Luminaire{position, id, frame.c0, frame.c90, frame.nadir, factor}});
+}
+
+/// A luminaire that shines from an opening.
+inline void add_opening(Scene& scene, const Vec3& position, const PhotometricSolid& solid,
+                        const lights::Opening& opening, const Vec3& unit_aim = {0, 0, -1},
+                        double spin_deg = 0, const Rgb& factor = Rgb::grey(1)) {
+    add_luminaire(scene, position, solid, unit_aim, spin_deg, factor);
+    Luminaire luminaire = std::get<Luminaire>(scene.lights.back().source);
+    const lights::OpeningShape shape = lights::shape_of(opening, luminaire, solid);
+    luminaire.scale(Rgb::grey(1 / (1 - shape.hidden_share)));
+    scene.lights.back().source = LuminousOpening{add_object(scene, shape.shape, Black{}), luminaire};
 }
 
 /// A box that is seen from inside: fronts inwards.

@@ -202,7 +202,8 @@ TEST(IncidentLight, DensityIsAboutThatOfRaysThatMeetTheEmitter) {
         const double pdf = lights.pdf_per_sr(*hit, from, normal);
         EXPECT_NEAR(pdf, light->pdf_per_sr, 1e-6 * pdf) << index_of(hit->object);
         // Light times the true density is the luminance; this one is about the truth.
-        const double ratio = light->normal_illuminance_lx[0] * pdf / lights.emitted_luminance(*hit)[0];
+        const double ratio =
+            light->normal_illuminance_lx[0] * pdf / lights.emitted_luminance(*hit, -light->direction)[0];
         EXPECT_GT(ratio, 0.7) << index_of(hit->object);
         EXPECT_LT(ratio, 1.4) << index_of(hit->object);
     }

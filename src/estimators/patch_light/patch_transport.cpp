@@ -60,7 +60,7 @@ void PatchTransport::add_reflection(std::uint32_t patch) {
 }
 
 void PatchTransport::add_emission(std::size_t light) {
-    const auto surface = lights::surface_emission(scene.lights[light]);
+    const auto surface = lights::uniform_emission(scene.lights[light]);
     if (!surface || first_shot.replaces(light)) return;
     const std::size_t object = index_of(surface->object);
     for (std::uint32_t p = patches.first_of_object[object]; p < patches.first_of_object[object + 1]; ++p) {

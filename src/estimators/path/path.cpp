@@ -182,8 +182,9 @@ class PathEstimator final : public Estimator {
             known_part_[reading] = paths_.lights.outside_luminance(transport::viewing_direction(measurand));
             return;
         }
-        sights_.push_back({reading, *seen.first, transport::viewing_direction(measurand)});
-        known_part_[reading] = paths_.lights.emitted_luminance(*seen.first);
+        const Vec3 direction = transport::viewing_direction(measurand);
+        sights_.push_back({reading, *seen.first, direction});
+        known_part_[reading] = paths_.lights.emitted_luminance(*seen.first, -direction);
     }
 
     /// Calls `sample(first, end)` for parts of all readings' samples: number n is sample n % count of reading

@@ -22,17 +22,21 @@ std::optional<std::string> line_of(const Measurand& measurand) {
 
 }  // namespace
 
-std::string photometric_table(const PhotometricSolid& solid) {
+std::string photometric_table(const std::function<double(const Vec3&)>& of_direction) {
     std::string text = fmt::format("2\n0 360 {}\n0 180 {}\n", kPlanes, kRings);
     for (int plane = 0; plane < kPlanes; ++plane) {
         for (int ring = 0; ring < kRings; ++ring) {
             const double c = 2 * kPi * plane / (kPlanes - 1), gamma = kPi * ring / (kRings - 1);
             const Vec3 direction{std::sin(gamma) * std::cos(c), std::sin(gamma) * std::sin(c),
                                  std::cos(gamma)};
-            text += fmt::format("{:.7g}{}", solid.intensity_cd(direction), ring + 1 < kRings ? ' ' : '\n');
+            text += fmt::format("{:.7g}{}", of_direction(direction), ring + 1 < kRings ? ' ' : '\n');
         }
     }
     return text;
+}
+
+std::string photometric_table(const PhotometricSolid& solid) {
+    return photometric_table([&](const Vec3& direction) { return solid.intensity_cd(direction); });
 }
 
 void write_points(const std::vector<Sensor>& sensors, Output& output) {

@@ -43,6 +43,12 @@ struct MitsubaLight {
                 axis("position", light.position) + axis("c0", light.c0) + axis("c90", light.c90) +
                 axis("nadir", light.nadir) + light_rgb("factor", light.factor));
     }
+    std::string operator()(const LuminousOpening& light) const {
+        output.warn("light", name,
+                    "Mitsuba has no surfaces whose luminance depends on direction: the luminaire becomes a "
+                    "point, invisible, whose light close by is not that of its opening.");
+        return (*this)(light.luminaire);
+    }
     std::string operator()(const AreaLight&) const { return ""; }
     std::string operator()(const EnvironmentLight& light) const {
         if (!light.panorama) return light_of("constant", light_rgb("radiance", light.luminance_cd_m2));

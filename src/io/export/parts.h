@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -52,6 +53,7 @@ struct Surface {
     std::optional<Rgb> luminance_cd_m2;  ///< of its front
 };
 
+/// Of all objects but the openings of luminaires.
 std::vector<Surface> surfaces_of(const Scene& scene, Identifiers& identifiers, Output& output);
 
 /// Binary PLY; with normals where the mesh has them.
@@ -60,6 +62,8 @@ std::string to_ply(const Mesh& mesh);
 /// The intensity of a solid by C plane and gamma, in Radiance's format of data files: every 2.5 degrees of C,
 /// from 0 to 360, and every degree of gamma.
 std::string photometric_table(const PhotometricSolid& solid);
+/// The same of any function of a unit direction in the luminaire's frame.
+std::string photometric_table(const std::function<double(const Vec3&)>& of_direction);
 
 /// A file NAME.pts of each sensor that measures illuminances at points ("x y z nx ny nz", a line each) or
 /// luminances along lines of sight ("x y z dx dy dz"); warns of all other sensors except cameras.

@@ -40,6 +40,7 @@ std::string sky(const std::string& modifier, const std::string& id, const Rgb& l
 }
 
 struct RadianceLight {
+    const Scene& scene;
     const std::string& id;
     Output& output;
 
@@ -52,6 +53,25 @@ struct RadianceLight {
                                   {"stilb_value", table, "luminaire.cal", "stilb_c", "stilb_gamma"},
                                   numbers_of(light.c0, light.c90, light.nadir)) +
                point_lamp(id + "_solid", id, light.position, light.factor);
+    }
+    /// The table is that of the opening's luminance.
+    std::string operator()(const LuminousOpening& light) const {
+        const Luminaire& luminaire = light.luminaire;
+        const Shape& shape = scene.object(light.object).shape;
+        const lights::OpeningEmitter emitter(light, scene::LightSurroundings(scene), scene::lift_of(scene));
+        const double factor = luminaire.factor.luminance();
+        const std::string table = id + ".dat";
+        output.write(table, photometric_table([&](const Vec3& w) {
+                         const Vec3 leaving =
+                             w.x * luminaire.c0 + w.y * luminaire.c90 + w.z * luminaire.nadir;
+                         return emitter.luminance_cd_m2(leaving).luminance() / factor;
+                     }));
+        const Rgb radiance = luminaire.factor * (1 / kRadianceEfficacy_lm_w);
+        return radiance_primitive("void", "brightdata", id + "_solid",
+                                  {"stilb_value", table, "luminaire.cal", "stilb_c", "stilb_gamma"},
+                                  numbers_of(luminaire.c0, luminaire.c90, luminaire.nadir)) +
+               radiance_primitive(id + "_solid", "light", id, {}, {radiance[0], radiance[1], radiance[2]}) +
+               radiance_shape(shape, id, id + "_opening");
     }
     std::string operator()(const AreaLight&) const { return ""; }
     std::string operator()(const EnvironmentLight& light) const {
@@ -83,8 +103,8 @@ stilb_c = if(stilb_azimuth, stilb_azimuth, stilb_azimuth + 360);
 stilb_gamma = acos(if(stilb_z - 1, 1, if(-1 - stilb_z, -1, stilb_z))) * 180/PI;
 )";
 
-std::string radiance_light(const Light& light, const std::string& id, Output& output) {
-    return std::visit(RadianceLight{id, output}, light.source);
+std::string radiance_light(const Scene& scene, const Light& light, const std::string& id, Output& output) {
+    return std::visit(RadianceLight{scene, id, output}, light.source);
 }
 
 }  // namespace stilb::io::exporting

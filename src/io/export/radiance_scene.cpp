@@ -44,6 +44,8 @@ struct RadianceShape {
             modifier, "ring", name, {},
             {d.center.x, d.center.y, d.center.z, d.normal.x, d.normal.y, d.normal.z, 0, d.radius});
     }
+    std::string operator()(const Box& box) const { return (*this)(triangulated(box)); }
+    std::string operator()(const Harmonics&) const { return ""; }
 };
 
 bool has_normals(const Surface& surface) {
@@ -82,6 +84,10 @@ std::string radiance_primitive(std::string_view modifier, std::string_view type,
     return text + "\n\n";
 }
 
+std::string radiance_shape(const Shape& shape, const std::string& modifier, const std::string& name) {
+    return std::visit(RadianceShape{modifier, name}, shape);
+}
+
 void write_radiance(const SceneFile& file, Output& output) {
     const Scene& scene = file.scene;
     std::string text =
@@ -109,7 +115,7 @@ void write_radiance(const SceneFile& file, Output& output) {
         text += std::visit(RadianceShape{modifier, surface.name}, surface.shape);
     }
     for (const Light& light : scene.lights) {
-        text += radiance_light(light, identifiers.make("light_" + light.name), output);
+        text += radiance_light(scene, light, identifiers.make("light_" + light.name), output);
     }
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         output.write(fmt::format("solid{}.dat", i), photometric_table(scene.solids[i].solid));

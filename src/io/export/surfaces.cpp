@@ -135,13 +135,17 @@ Vec3 normal_at(const Mesh& mesh, std::uint32_t triangle, std::size_t corner) {
 
 std::vector<Surface> surfaces_of(const Scene& scene, Identifiers& identifiers, Output& output) {
     std::map<ObjectId, Rgb> luminances;
+    std::set<ObjectId> openings;
     for (const Light& light : scene.lights) {
-        if (const auto emission = lights::surface_emission(light))
+        if (const auto emission = lights::uniform_emission(light))
             luminances[emission->object] = emission->luminance_cd_m2;
+        if (const auto* luminaire = std::get_if<LuminousOpening>(&light.source))
+            openings.insert(luminaire->object);
     }
     std::vector<Surface> surfaces;
     Division division(surfaces, identifiers, output);
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        if (openings.contains(static_cast<ObjectId>(i))) continue;
         const auto found = luminances.find(static_cast<ObjectId>(i));
         division.add(scene, scene.objects[i],
                      found == luminances.end() ? std::nullopt : std::optional(found->second));

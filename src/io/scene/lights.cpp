@@ -12,7 +12,7 @@
 #include "io/scene/sections.h"
 #include "io/text/text.h"
 #include "lights/colour_temperature.h"
-#include "lights/luminaire.h"
+#include "lights/opening_shape.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -21,6 +21,8 @@ namespace {
 constexpr Range kColourTemperature{lights::kMinColourTemperature_k, lights::kMaxColourTemperature_k,
                                    "from 1000 to 25000 K"};
 constexpr double kWholeTurnDeg = 360;
+/// Of the names of objects that are the openings of luminaires.
+constexpr std::string_view kOpeningSuffix = " (opening)";
 constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
 
 /// The context of reading one light, besides its table.
@@ -74,8 +76,8 @@ AreaLight read_area(TomlTable& table, const Context& context) {
     const TomlItem item = table.at("object");
     const ObjectId object{static_cast<std::uint32_t>(item.index_in(names, "object"))};
     for (const Light& other : scene.lights) {
-        const auto surface = lights::surface_emission(other);
-        if (surface && surface->object == object) {
+        const auto surface = lights::emitting_object(other);
+        if (surface && *surface == object) {
             item.fail(
                 fmt::format("{} is already the emitter of the light {}. Allowed: one area light per object.",
                             in_quotes(item.text()), in_quotes(other.name)));
@@ -84,9 +86,9 @@ AreaLight read_area(TomlTable& table, const Context& context) {
     return {object, read_luminance(table, scene.object(object).shape) * read_colour(table)};
 }
 
-/// The surface of luminous spheres reflects nothing; all of them share one material.
+/// The surfaces of luminous spheres and openings reflect nothing; all of them share one material.
 MaterialId black_of_lights(Scene& scene) {
-    constexpr std::string_view name = "(luminous spheres)";
+    constexpr std::string_view name = "(lamps)";
     const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
                                     [&](const NamedMaterial& material) { return material.name == name; });
     const auto index = static_cast<std::uint32_t>(found - scene.materials.begin());
@@ -94,21 +96,26 @@ MaterialId black_of_lights(Scene& scene) {
     return MaterialId{index};
 }
 
+/// The object of a light that comes with a surface of its own.
+ObjectId add_object(const TomlTable& table, const std::string& name, Shape shape, Scene& scene) {
+    for (const Object& object : scene.objects) {
+        if (object.name != name) continue;
+        table.fail(fmt::format(
+            "the light adds an object {}, but the scene already has an object of this name. Allowed: "
+            "another name of the light or of the object.",
+            in_quotes(name)));
+    }
+    const ObjectId id{static_cast<std::uint32_t>(scene.objects.size())};
+    scene.objects.push_back({name, std::move(shape), {black_of_lights(scene)}});
+    return id;
+}
+
 AreaLight read_sphere(TomlTable& table, const Context& context) {
     expect_light_keys(table, {"type", "center", "radius", "flux", "luminance", "cct", "color"},
                       "type \"sphere\"");
-    Scene& scene = context.file.scene;
     const Sphere sphere{table.at("center").vector(), table.at("radius").number(kRadius)};
-    for (const Object& object : scene.objects) {
-        if (object.name != context.name) continue;
-        table.fail(
-            "a sphere light adds an object of its own name, but the scene already has an object of this "
-            "name. Allowed: another name.");
-    }
-    const AreaLight light{ObjectId{static_cast<std::uint32_t>(scene.objects.size())},
-                          read_luminance(table, sphere) * read_colour(table)};
-    scene.objects.push_back({context.name, sphere, {black_of_lights(scene)}});
-    return light;
+    const Rgb luminance_cd_m2 = read_luminance(table, sphere) * read_colour(table);
+    return {add_object(table, context.name, sphere, context.file.scene), luminance_cd_m2};
 }
 
 /// Lights with the same file share one photometric solid.
@@ -123,16 +130,40 @@ SolidId read_solid(const TomlItem& item, const Context& context) {
         const PhotometryFile file = read_photometry_file(path);
         const PhotometricSolid solid(file.grid);
         solids.push_back({path.string(), file.luminaire, solid, file.format,
-                          check_flux(file, solid.flux_lm()).description()});
+                          check_flux(file, solid.flux_lm()).description(),
+                          lights::Opening::of_signed(file.opening_m)});
         for (const std::string& warning : photometry_warnings(file, solid))
             context.file.warnings.push_back(fmt::format("{}: {}", item.where(), warning));
     }
     return SolidId{index};
 }
 
-Luminaire read_photometry(TomlTable& table, const Context& context) {
-    expect_light_keys(table, {"type", "file", "position", "aim", "spin", "dimming", "flux", "cct", "color"},
-                      "type \"photometry\"");
+/// "point", the diameter of a round opening, [length, width] or [length, width, height].
+lights::Opening read_opening(const TomlItem& item) {
+    using Form = lights::Opening::Form;
+    if (item.is_text()) {
+        if (item.text() != "point") {
+            item.fail(
+                fmt::format("{} is no opening. Allowed: \"point\", a diameter, [length, width] or [length, "
+                            "width, height] "
+                            "in metres.",
+                            in_quotes(item.text())));
+        }
+        return {};
+    }
+    if (item.is_array()) {
+        const std::size_t count = item.elements().size() == 3 ? 3 : 2;
+        const std::vector<double> size = item.numbers(count, kRadius);
+        return {Form::box, {size[1], size[0], count == 3 ? size[2] : 0}};
+    }
+    const double diameter_m = item.number(kRadius);
+    return {Form::vertical_cylinder, {diameter_m, diameter_m, 0}};
+}
+
+lights::LightSource read_photometry(TomlTable& table, const Context& context) {
+    expect_light_keys(
+        table, {"type", "file", "opening", "position", "aim", "spin", "dimming", "flux", "cct", "color"},
+        "type \"photometry\"");
     const Vec3 position = table.at("position").vector();
     const auto aim = table.find("aim"), spin = table.find("spin"), dimming = table.find("dimming"),
                flux = table.find("flux");
@@ -141,8 +172,16 @@ Luminaire read_photometry(TomlTable& table, const Context& context) {
     Rgb factor = read_colour(table);
     if (dimming) factor *= dimming->number(kLightQuantity);
     const SolidId solid = read_solid(table.at("file"), context);
-    if (flux) factor *= flux->number(kLightQuantity) / context.file.scene.solid(solid).flux_lm();
-    return {position, solid, c0, c90, nadir, factor};
+    Scene& scene = context.file.scene;
+    if (flux) factor *= flux->number(kLightQuantity) / scene.solid(solid).flux_lm();
+    Luminaire luminaire{position, solid, c0, c90, nadir, factor};
+    const auto opening = table.find("opening");
+    const lights::Opening of_light = opening ? read_opening(*opening) : scene.solids[index_of(solid)].opening;
+    if (of_light.is_point()) return luminaire;
+    auto [shape, hidden_share] = lights::shape_of(of_light, luminaire, scene.solid(solid));
+    luminaire.scale(Rgb::grey(1 / (1 - hidden_share)));
+    return LuminousOpening{
+        add_object(table, context.name + std::string(kOpeningSuffix), std::move(shape), scene), luminaire};
 }
 
 /// The map from an OpenEXR or Radiance picture, in cd/m2 as the picture reader gives them.

@@ -77,6 +77,7 @@ class TomlItem {
     TomlTable table() const;
 
     bool is_text() const { return std::holds_alternative<std::string>(value_->content); }
+    bool is_array() const { return std::holds_alternative<TomlArray>(value_->content); }
 
     /// Index of the text among the names. `what` is the kind of name for the message; names in `later` are
     /// reported as not supported yet.

@@ -77,9 +77,8 @@ std::vector<HighlightPoint> points_around(const Scene& scene, const EnvironmentL
 std::vector<HighlightPoint> highlight_points(const Scene& scene, const Light& light) {
     if (const auto origin = lights::point_origin(light)) return {{origin->position, Vec3{}, 1}};
     std::vector<HighlightPoint> points;
-    if (const auto surface = lights::surface_emission(light)) {
-        points = std::visit([](const auto& shape) { return points_on(shape); },
-                            scene.object(surface->object).shape);
+    if (const auto surface = lights::emitting_object(light)) {
+        points = std::visit([](const auto& shape) { return points_on(shape); }, scene.object(*surface).shape);
     } else if (const auto* environment = std::get_if<EnvironmentLight>(&light.source)) {
         points = points_around(scene, *environment);
     }

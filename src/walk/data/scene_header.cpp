@@ -90,10 +90,11 @@ Json json_of_meshes(const Scene& scene, const std::vector<DisplayPart>& parts,
     std::vector<int> light_of_object(scene.objects.size(), -1);
     std::vector<Rgb> luminance_cd_m2(scene.objects.size());
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const auto surface = lights::surface_emission(scene.lights[i]);
-        if (!surface) continue;
-        light_of_object[index_of(surface->object)] = static_cast<int>(i);
-        luminance_cd_m2[index_of(surface->object)] = surface->luminance_cd_m2;
+        const auto object = lights::emitting_object(scene.lights[i]);
+        if (!object) continue;
+        light_of_object[index_of(*object)] = static_cast<int>(i);
+        luminance_cd_m2[index_of(*object)] =
+            *lights::mean_luminance_cd_m2(scene.lights[i], scene::LightSurroundings(scene));
     }
     Json list = Json::array();
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -36,8 +36,8 @@ class DisplayBuilder {
           is_emitter_(scene.objects.size()) {
         lights_.lights = direct_.count();
         for (const Light& light : scene.lights) {
-            const auto surface = lights::surface_emission(light);
-            if (surface) is_emitter_[index_of(surface->object)] = true;
+            const auto surface = lights::emitting_object(light);
+            if (surface) is_emitter_[index_of(*surface)] = true;
         }
     }
 

@@ -122,8 +122,10 @@ class Chooser {
         if constexpr (Source::kLocation == LightLocation::point) {
             return shoot_from_point(
                 typename Source::Emitter(source, scene::LightSurroundings(scene_), caster_.lift()));
+        } else if constexpr (std::is_same_v<Source, LuminousOpening>) {
+            return shoot_from_opening(source);
         } else if constexpr (Source::kLocation == LightLocation::surface) {
-            return shoot_from_surface(*surface_emission(light));
+            return shoot_from_surface(*uniform_emission(light));
         } else {
             static_assert(Source::kLocation == LightLocation::infinity);
             return "it surrounds the scene";
@@ -137,7 +139,7 @@ class Chooser {
         return std::string(Emitter::kNoun);
     }
 
-    std::string shoot_from_surface(const lights::SurfaceEmission& light) {
+    std::string shoot_from_surface(const lights::UniformEmission& light) {
         const Object& object = scene_.object(light.object);
         const Shape& shape = object.shape;
         const double luminance_cd_m2 = light.luminance_cd_m2.luminance();
@@ -148,6 +150,34 @@ class Chooser {
         return is_small ? fmt::format("small: replaced by vertices {:.2g} m apart", spacing_m)
                         : fmt::format("large: it would take more than {} vertices {:.2g} m apart",
                                       kMostLightSamples, spacing_m);
+    }
+
+    std::string shoot_from_opening(const LuminousOpening& light) {
+        const lights::EmitterSurface surface(scene_.object(light.object).shape, caster_.lift());
+        const std::size_t count = points_of_opening(scene_.object(light.object));
+        std::vector<lights::EmitterSurface::Point> points;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const double u = (i + 0.5) / static_cast<double>(count);
+            points.push_back(surface.sample_by_area({u, math::sobol(i, 0) * 0x1p-32}));
+        }
+        const lights::LuminaireEmitter emitter(light.luminaire, scene::LightSurroundings(scene_),
+                                               caster_.lift());
+        for (const auto& point : points) {
+            const Frame frame = turned_about(point.normal);
+            std::vector<Vec3> normals;
+            for (const auto& other : points) normals.push_back(frame.to_local(other.normal));
+            add_sample(false, {point.lifted, frame},
+                       OpeningPointIntensity{{emitter.turned_into(frame)}, std::move(normals)});
+        }
+        return fmt::format("the opening of a luminaire: replaced by {} points", count);
+    }
+
+    std::size_t points_of_opening(const Object& opening) const {
+        if (std::holds_alternative<Mesh>(opening.shape)) return kMostLightSamples;
+        const double spacing_m = kVertexSpacing * median_flight_m(opening, caster_);
+        const double count = std::ceil(area_m2(opening.shape) / (spacing_m * spacing_m));
+        return static_cast<std::size_t>(
+            std::clamp(count, double{kFewestOfOpening}, double{kMostLightSamples}));
     }
 
     bool shoot_from_sphere(const Sphere& sphere, double luminance_cd_m2, double spacing_m) {
@@ -218,6 +248,12 @@ double SphereVertexIntensity::operator()(const patches::BufferPixel& pixel) cons
     double all = 0;
     for (const Vec3& normal : normals) all += std::max(dot(normal, pixel.direction), 0.0);
     return sphere_cd * std::max(pixel.direction.z, 0.0) / all;
+}
+
+double OpeningPointIntensity::operator()(const patches::BufferPixel& pixel) const {
+    double all = 0;
+    for (const Vec3& normal : normals) all += std::max(dot(normal, pixel.direction), 0.0);
+    return all > 0 ? luminaire(pixel) * std::max(pixel.direction.z, 0.0) / all : 0;
 }
 
 FirstShotLights choose_first_shot_lights(const Scene& scene, const rays::RayCaster& caster,

@@ -9,7 +9,9 @@
 //
 // A sphere is represented by the twelve vertices of the inscribed icosahedron, facing outwards. They share
 // the light of each direction among the vertices that face it, in proportion to their cosines, so that all of
-// them together have the sphere's intensity in every direction.
+// them together have the sphere's intensity in every direction. Points on the opening of a luminaire, spread
+// evenly by area, share its intensity likewise. Such an opening is always replaced, by as many points as are
+// allowed where it is large: its luminance depends on direction, which patches do not provide for.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +29,9 @@ namespace stilb::estimators {
 /// The largest spacing of vertices, as a share of the distance that half of an area light's light travels at
 /// least.
 inline constexpr double kVertexSpacing = 0.25;
-/// The largest number of vertices of a small area light.
+/// The fewest points of a luminaire's opening.
+inline constexpr std::size_t kFewestOfOpening = 4;
+/// The largest number of vertices of a small area light, and of points of an opening.
 inline constexpr std::size_t kMostLightSamples = 32;
 
 /// The intensities of light samples. Each is called with a pixel of an item buffer around the sample and
@@ -47,7 +51,14 @@ struct SphereVertexIntensity {
     std::vector<Vec3> normals;  ///< of all vertices, in the coordinates of the buffer
     double operator()(const patches::BufferPixel& pixel) const;
 };
-using SampleIntensity = std::variant<PointIntensity, VertexIntensity, SphereVertexIntensity>;
+/// One of the points on a luminaire's opening, which share its light likewise.
+struct OpeningPointIntensity {
+    PointIntensity luminaire;
+    std::vector<Vec3> normals;  ///< of all points, in the coordinates of the buffer
+    double operator()(const patches::BufferPixel& pixel) const;
+};
+using SampleIntensity =
+    std::variant<PointIntensity, VertexIntensity, SphereVertexIntensity, OpeningPointIntensity>;
 
 /// A point that represents a light or a part of it.
 struct LightSample {

@@ -38,7 +38,7 @@ void GroupSources::add(std::uint32_t number, const LightGroups& groups) {
 void GroupSources::add_light(std::size_t light, Group& group) const {
     const Light& source = transport_.scene.lights[light];
     if (location_of(source) == LightLocation::infinity) group.has_outside = true;
-    const auto surface = lights::surface_emission(source);
+    const auto surface = lights::uniform_emission(source);
     if (!surface) return;
     const std::size_t object = index_of(surface->object);
     const auto& first = transport_.patches.first_of_object;

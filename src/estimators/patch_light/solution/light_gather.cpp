@@ -314,8 +314,8 @@ void LightGather::add_of_lamps(const GatheredRay& ray) const {
 std::size_t LightGather::group_of(const transport::Path& ended) const {
     std::size_t outside = 0;
     for (std::size_t light = 0; light < coarse_.scene.lights.size(); ++light) {
-        const auto surface = lights::surface_emission(coarse_.scene.lights[light]);
-        if (surface && surface->object == ended.hit.object) return groups_.of_light[light];
+        const auto surface = lights::emitting_object(coarse_.scene.lights[light]);
+        if (surface && *surface == ended.hit.object) return groups_.of_light[light];
         if (location_of(coarse_.scene.lights[light]) == LightLocation::infinity)
             outside = groups_.of_light[light];
     }

@@ -1,0 +1,148 @@
+#include "lights/opening_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "math/random.h"
+
+namespace stilb::lights {
+namespace {
+
+constexpr double kThinShare = 1e-2;   ///< of the largest extent: the width of a line
+constexpr double kPlateShare = 1e-3;  ///< of the smaller extent: the thickness of a plate
+constexpr double kEqualShare = 1e-2;  ///< relative difference of the diameters of a circle
+constexpr std::uint32_t kCorners = 16;
+
+struct Axes {
+    Vec3 u, v, w;  ///< u and v span the outline, w is the axis of the prism; of the lengths of the extents
+};
+
+/// The outline of a prism relative to its edges, as a polygon around 0.
+std::vector<std::array<double, 2>> outline(bool is_round) {
+    if (!is_round) return {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+    const double step = 2 * kPi / kCorners;
+    const double radius = 0.5 * std::sqrt(step / std::sin(step));
+    std::vector<std::array<double, 2>> corners;
+    for (std::uint32_t i = 0; i < kCorners; ++i)
+        corners.push_back({radius * std::cos(i * step), radius * std::sin(i * step)});
+    return corners;
+}
+
+/// Flat faces with corners of their own, whose fronts are the outside.
+class ConvexMesh {
+  public:
+    explicit ConvexMesh(const Vec3& middle) : middle_(middle) {}
+
+    void add(const std::vector<Vec3>& face) {
+        const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+        mesh_.vertices.insert(mesh_.vertices.end(), face.begin(), face.end());
+        const Vec3 across = cross(face[1] - face[0], face[2] - face[0]);
+        const bool is_outward = dot(across, face[0] - middle_) > 0;
+        for (std::uint32_t i = 1; i + 1 < face.size(); ++i) {
+            const std::uint32_t b = first + i, c = b + 1;
+            mesh_.triangles.push_back(is_outward ? Triangle{first, b, c} : Triangle{first, c, b});
+        }
+    }
+    Mesh take() { return std::move(mesh_); }
+
+  private:
+    Vec3 middle_;
+    Mesh mesh_;
+};
+
+enum class Sides { all, none };
+
+/// Without sides it is a plate: two faces back to back.
+Mesh prism(const Vec3& middle, const Axes& axes, bool is_round, Sides sides) {
+    std::vector<Vec3> lower, upper;
+    for (const auto& [s, t] : outline(is_round)) {
+        const Vec3 corner = middle + s * axes.u + t * axes.v;
+        lower.push_back(corner - 0.5 * axes.w);
+        upper.push_back(corner + 0.5 * axes.w);
+    }
+    ConvexMesh mesh(middle);
+    mesh.add(lower);
+    mesh.add(upper);
+    for (std::size_t i = 0; sides == Sides::all && i < lower.size(); ++i) {
+        const std::size_t next = (i + 1) % lower.size();
+        mesh.add({lower[i], lower[next], upper[next], upper[i]});
+    }
+    return mesh.take();
+}
+
+/// The share of the flux that leaves into the half space below (gamma < 90 degrees).
+double share_below(const PhotometricSolid& solid) {
+    constexpr std::uint32_t kDirections = 1 << 16;
+    std::uint32_t below = 0;
+    for (std::uint32_t i = 0; i < kDirections; ++i)
+        below += solid.sample_direction((i + 0.5) / kDirections, math::sobol(i, 0) * 0x1p-32).z > 0;
+    return double{1} * below / kDirections;
+}
+
+bool is_circle(const Vec3& extent_m) {
+    return std::abs(extent_m.x - extent_m.y) <= kEqualShare * std::max(extent_m.x, extent_m.y);
+}
+
+/// One side of a flat opening; a one-sided ellipse is the lower face of its prism.
+Shape one_side(const Opening& opening, const Luminaire& at, bool is_down) {
+    const Vec3 &size = opening.extent_m, normal = is_down ? at.nadir : -at.nadir;
+    if (opening.form != Opening::Form::box && is_circle(size))
+        return Disk{at.position, normal, (size.x + size.y) / 4};
+    const Vec3 u = size.x * at.c0, v = size.y * at.c90;
+    if (opening.form == Opening::Form::box) {
+        const Vec3 corner = at.position - 0.5 * (u + v);
+        return is_down ? Rectangle{corner, v, u} : Rectangle{corner, u, v};
+    }
+    std::vector<Vec3> face;
+    for (const auto& [s, t] : outline(true)) face.push_back(at.position + s * u + t * v);
+    ConvexMesh mesh(at.position - normal);
+    mesh.add(face);
+    return mesh.take();
+}
+
+Axes axes_of(Opening::Form form, const Vec3& size, const Luminaire& at) {
+    const Vec3 x = size.x * at.c0, y = size.y * at.c90, z = -size.z * at.nadir;
+    if (form == Opening::Form::cylinder_along_c0) return {y, z, x};
+    if (form == Opening::Form::cylinder_along_c90) return {z, x, y};
+    return {x, y, z};
+}
+
+}  // namespace
+
+Opening Opening::of_signed(const Vec3& e) {
+    Opening opening{Form::box, {std::abs(e.x), std::abs(e.y), std::abs(e.z)}};
+    const bool x = e.x < 0, y = e.y < 0, z = e.z < 0;
+    if (x && y) {
+        opening.form = z ? Form::ball : Form::vertical_cylinder;
+    } else if (x != y && z) {
+        opening.form = x ? Form::cylinder_along_c90 : Form::cylinder_along_c0;
+    } else if (x != y && e.x * e.y == 0) {
+        // A single diameter, as old files state it.
+        opening.form = Form::vertical_cylinder;
+        opening.extent_m.x = opening.extent_m.y = std::max(opening.extent_m.x, opening.extent_m.y);
+    }
+    return opening;
+}
+
+OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const PhotometricSolid& solid) {
+    Vec3 size = opening.extent_m;
+    if (opening.form == Opening::Form::ball) {
+        return {Sphere{luminaire.position, std::cbrt(size.x * size.y * size.z) / 2}, 0};
+    }
+    const double thin_m = kThinShare * std::max({size.x, size.y, size.z});
+    size.x = std::max(size.x, thin_m), size.y = std::max(size.y, thin_m);
+    const bool is_flat = !(size.z > 0);
+    if (is_flat) {
+        const double below = share_below(solid);
+        const double hidden = std::min(below, 1 - below);
+        if (hidden < kLeastShare) return {one_side({opening.form, size}, luminaire, below > 0.5), hidden};
+        size.z = kPlateShare * std::min(size.x, size.y);
+    }
+    const Vec3 middle = luminaire.position + (is_flat ? size.z / 2 : 0) * luminaire.nadir;
+    const Axes axes = axes_of(opening.form, size, luminaire);
+    return {prism(middle, axes, opening.form != Opening::Form::box, is_flat ? Sides::none : Sides::all), 0};
+}
+
+}  // namespace stilb::lights

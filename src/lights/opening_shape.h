@@ -1,0 +1,36 @@
+// The surface of a luminaire's luminous opening.
+#pragma once
+
+#include <optional>
+
+#include "geometry/shape.h"
+#include "lights/luminaire.h"
+
+namespace stilb::lights {
+
+/// The luminous opening as luminaire files state it.
+struct Opening {
+    enum class Form { box, vertical_cylinder, cylinder_along_c0, cylinder_along_c90, ball };
+    Form form = Form::box;
+    Vec3 extent_m;  ///< along C0-C180, along C90-C270, along the vertical; each at least 0
+
+    bool is_point() const { return extent_m.x <= 0 && extent_m.y <= 0 && extent_m.z <= 0; }
+    /// From the three numbers of LM-63, where signs mean round outlines.
+    static Opening of_signed(const Vec3& signed_extent_m);
+};
+
+/// The surface of an opening in the middle of which the luminaire is.
+struct OpeningShape {
+    Shape shape;
+    /// The share of the luminaire's flux whose directions see nothing of the surface: less than kLeastShare.
+    double hidden_share = 0;
+};
+/// A flat opening that sends all but this share of its flux to one side is one-sided, else a thin plate of
+/// two faces, the upper one in the plane of the luminaire.
+inline constexpr double kLeastShare = 1e-3;
+
+/// Ellipses have 16 corners and their right area, and ellipsoids become balls of the same volume. Lines get a
+/// hundredth of their length as width. The opening must not be a point.
+OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const PhotometricSolid& solid);
+
+}  // namespace stilb::lights
