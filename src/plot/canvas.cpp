@@ -218,6 +218,20 @@ void Canvas::clipped(const PageRectangle& rectangle, const std::function<void()>
     cairo_restore(context);
 }
 
+void Canvas::clipped_outside(std::span<const PageRectangle> rectangles, const std::function<void()>& draw) {
+    cairo_t* context = cairo_->context.get();
+    cairo_save(context);
+    double left = 0, top = 0, right = 0, bottom = 0;
+    cairo_clip_extents(context, &left, &top, &right, &bottom);
+    cairo_rectangle(context, left, top, right - left, bottom - top);
+    for (const PageRectangle& free : rectangles)
+        cairo_rectangle(context, free.left, free.top, free.width, free.height);
+    cairo_set_fill_rule(context, CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_clip(context);
+    draw();
+    cairo_restore(context);
+}
+
 void Canvas::save() {
     require_success(cairo_status(cairo_->context.get()));
     cairo_surface_t* surface = cairo_->surface.get();

@@ -89,6 +89,8 @@ class Canvas {
     void text(const Point& at, const std::string& text, const TextStyle& style);
     /// Clips the drawing of `draw` to the rectangle.
     void clipped(const PageRectangle& rectangle, const std::function<void()>& draw);
+    /// Leaves the rectangles free. They must not overlap.
+    void clipped_outside(std::span<const PageRectangle> rectangles, const std::function<void()>& draw);
 
     /// Replaces the file in one step; nothing may be drawn afterwards. Throws InputError where it cannot be
     /// written.
