@@ -75,8 +75,8 @@ class PanelPainter {
 
     void draw_lengths(const FalseColourPanel& panel, const PageRectangle& frame) {
         const auto draw = [&](double length_m, double drawn, Side side) {
-            draw_axis(canvas_, Scale(ScaleType::linear, {0, length_m}), length_ticks(length_m, drawn), side,
-                      frame);
+            draw_axis(canvas_, Scale(ScaleType::linear, {0, length_m}), length_ticks(length_m, drawn, side),
+                      side, frame);
         };
         draw(panel.width_m, frame.width, Side::bottom);
         draw(panel.height_m, frame.height, Side::left);

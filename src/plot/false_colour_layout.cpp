@@ -12,7 +12,7 @@ constexpr double kColumnGap = 32;
 constexpr double kRowGap = 24;
 /// The usual sheet, without bar and margins. Rows may be longer, and rows may follow below, where the scale
 /// or the number of panels asks for it.
-constexpr double kContentWidth = 860, kContentHeight = 640;
+constexpr double kContentWidth = 860, kContentHeight = 720;
 /// No panel is longer.
 constexpr double kLongestPanel = 1800;
 /// The longest side of all panels is no shorter.
@@ -43,7 +43,7 @@ double left_extent(std::span<const FalseColourPanel> panels, double units_per_m)
     double left = 0;
     for (const FalseColourPanel& panel : panels) {
         if (!has_size(panel)) continue;
-        const Ticks ticks = length_ticks(panel.height_m, units_per_m * panel.height_m);
+        const Ticks ticks = length_ticks(panel.height_m, units_per_m * panel.height_m, Side::left);
         left = std::max(left, axis_extent(ticks, Side::left));
     }
     return left;
@@ -55,7 +55,7 @@ Tile make_tile(const FalseColourPanel& panel, const PanelHeading& heading, doubl
     const auto [cell_width, cell_height] = cell_size(panel, units_per_m);
     const double width = panel.nu * cell_width, height = panel.nv * cell_height;
     double below = kBelowFrame;
-    if (has_size(panel)) below += axis_extent(length_ticks(panel.width_m, width), Side::bottom);
+    if (has_size(panel)) below += axis_extent(length_ticks(panel.width_m, width, Side::bottom), Side::bottom);
     const double top = 20 + kHeadingLine * static_cast<double>(heading.lines.size());
     const PageRectangle frame{left, top, width, height};
     return {frame, {0, 0, left + std::max(width, heading_width), frame.bottom() + below}};
@@ -136,9 +136,10 @@ void move(Tile& tile, double x, double y) {
 
 bool has_size(const FalseColourPanel& panel) { return panel.width_m > 0 && panel.height_m > 0; }
 
-Ticks length_ticks(double length_m, double drawn) {
-    Ticks ticks =
-        nice_ticks(Scale(ScaleType::linear, {0, length_m}), std::clamp(static_cast<int>(drawn / 50), 3, 11));
+Ticks length_ticks(double length_m, double drawn, Side side) {
+    const double distance = side == Side::left ? 34 : 50;  // labels are wider than high
+    Ticks ticks = nice_ticks(Scale(ScaleType::linear, {0, length_m}),
+                             std::clamp(static_cast<int>(drawn / distance), 3, 11));
     ticks.minor.clear();
     ticks.major.back().label += " m";
     return ticks;

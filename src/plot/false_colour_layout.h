@@ -14,8 +14,8 @@ namespace stilb::plot {
 /// Whether the panel's size in metres is known.
 bool has_size(const FalseColourPanel& panel);
 
-/// Lengths along a side that is `drawn` long on the sheet; the last one names the unit.
-Ticks length_ticks(double length_m, double drawn);
+/// Lengths along the left or bottom side, which is `drawn` long on the sheet; the last one names the unit.
+Ticks length_ticks(double length_m, double drawn, Side side);
 
 /// What stands above a panel: its name with `beside` to the right, and lines below.
 struct PanelHeading {
