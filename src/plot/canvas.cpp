@@ -84,6 +84,17 @@ io::FileKind picture_kind(const std::filesystem::path& path) {
     return kind;
 }
 
+/// Cairo's images have no more pixels on a side.
+void require_size(double width, double height) {
+    constexpr double kMostPixels = 32767;
+    if (kPixelsPerUnit * std::max(width, height) <= kMostPixels) return;
+    throw InputError(
+        fmt::format("the picture would have {:.0f} x {:.0f} pixels, but a .png has {:.0f} at most on a side. "
+                    "Draw less at "
+                    "once, or write an .svg.",
+                    kPixelsPerUnit * width, kPixelsPerUnit * height, kMostPixels));
+}
+
 }  // namespace
 
 void require_picture_path(const std::filesystem::path& path, std::span<const std::filesystem::path> inputs) {
@@ -104,6 +115,7 @@ Canvas::Canvas(std::filesystem::path path, double width, double height)
         cairo_->surface.reset(cairo_svg_surface_create_for_stream(append, &cairo_->svg, width, height));
         cairo_svg_surface_set_document_unit(cairo_->surface.get(), CAIRO_SVG_UNIT_PX);
     } else {
+        require_size(width, height);
         cairo_->surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
                                                          static_cast<int>(width * kPixelsPerUnit),
                                                          static_cast<int>(height * kPixelsPerUnit)));

@@ -70,7 +70,7 @@ void require_picture_path(const std::filesystem::path& path, std::span<const std
 class Canvas {
   public:
     /// A white sheet. The extension of `path` selects the format: .png or .svg (any case); InputError
-    /// for others.
+    /// for others, and where the sheet is too large for a .png.
     Canvas(std::filesystem::path path, double width, double height);
     ~Canvas();
     Canvas(Canvas&&) noexcept;

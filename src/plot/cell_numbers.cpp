@@ -91,8 +91,9 @@ std::string CellNumbers::note() const {
 std::vector<CellNumber> CellNumbers::place(const PageRectangle& frame) const {
     std::vector<CellNumber> numbers;
     if (size_ == 0) return numbers;
-    for (int v = (every_v_ - 1) / 2; v < panel_.nv; v += every_v_) {
-        for (int u = (every_u_ - 1) / 2; u < panel_.nu; u += every_u_) {
+    // In the middles of their parts; a part at the end that is too short has none.
+    for (int v = (every_v_ - 1) / 2; v + every_v_ / 2 < panel_.nv; v += every_v_) {
+        for (int u = (every_u_ - 1) / 2; u + every_u_ / 2 < panel_.nu; u += every_u_) {
             const std::size_t cell = panel_.index_of(u, v);
             std::vector<std::string> lines = lines_of(cell);
             if (!lines.empty())

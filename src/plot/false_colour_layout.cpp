@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kColumnGap = 32;
 constexpr double kRowGap = 24;
-/// The usual sheet, without bar and margins. Rows may be longer, and rows may follow below, where the scale
-/// or the number of panels asks for it.
+/// The usual sheet, without bar and margins. It is larger where the scale or the number of panels asks for
+/// it.
 constexpr double kContentWidth = 860, kContentHeight = 720;
 /// No panel is longer.
 constexpr double kLongestPanel = 1800;
 /// The longest side of all panels is no shorter.
-constexpr double kShortestSide = 160;
+constexpr double kShortestSide = 240;
 constexpr double kUnknownCell = 60;
 constexpr double kBelowFrame = 4;
 /// The ratio of two scales that are tried one after the other.
@@ -115,11 +115,15 @@ Layout lay_out_rows(std::span<const FalseColourPanel> panels, std::span<const Pa
                     std::span<const double> widths, double units_per_m) {
     const double left = left_extent(panels, units_per_m);
     std::vector<Tile> tiles;
-    double widest = kContentWidth;
+    double widest = kContentWidth, area = 0;
     for (std::size_t i = 0; i < panels.size(); ++i) {
-        tiles.push_back(make_tile(panels[i], headings[i], widths[i], left, units_per_m));
-        widest = std::max(widest, tiles.back().box.width);
+        const Tile& tile =
+            tiles.emplace_back(make_tile(panels[i], headings[i], widths[i], left, units_per_m));
+        widest = std::max(widest, tile.box.width);
+        area += (tile.box.width + kColumnGap) * (tile.box.height + kRowGap);
     }
+    // A larger sheet for many panels has the proportions of the usual one.
+    widest = std::max(widest, std::sqrt(area * kContentWidth / kContentHeight));
     Rows rows(widest);
     for (const Tile& tile : tiles) rows.add(tile);
     return std::move(rows).finish();

@@ -177,6 +177,10 @@ TEST(FalseColour, SaysWhatIsWrong) {
     wrong.panels[0].values.pop_back();
     EXPECT_THROW(draw(wrong, {}), std::invalid_argument);
     EXPECT_THROW(draw({"", "lx", {}}, {}), std::invalid_argument);
+    // No .png is so large.
+    FalseColour endless = picture;
+    endless.panels.insert(endless.panels.end(), 4000, picture.panels[0]);
+    EXPECT_THROW(draw(endless, {}), InputError);
 }
 
 TEST(FalseColour, DrawsManyPanelsOfAnyShape) {
