@@ -11,6 +11,7 @@
 #include "io/results/results_writer.h"
 #include "io/results/solution_file.h"
 #include "run/solve.h"
+#include "scene/whites.h"
 #include "stilb/error.h"
 #include "stilb/measure.h"
 #include "stilb/render.h"
@@ -104,6 +105,7 @@ Result measure(const Scene& scene, const std::optional<Options>& options, const 
 
 struct Picture::Data {
     io::Picture picture;
+    scene::WhiteRange white;
 };
 
 namespace {
@@ -111,6 +113,7 @@ namespace {
 Picture to_picture(const RenderResult& rendered, const Scene& scene, const Sensor& camera) {
     io::PictureOrigin origin;
     origin.scene = scene.data().path.string();
+    origin.scene_name = scene.data().file.scene.name;
     origin.sensor = camera.name;
     origin.method = rendered.method;
     origin.seed = rendered.seed;
@@ -118,7 +121,8 @@ Picture to_picture(const RenderResult& rendered, const Scene& scene, const Senso
     Picture picture;
     static_cast<Summary&>(picture) = summary(rendered, scene.data().file.warnings);
     picture.data = std::make_shared<const Picture::Data>(
-        Picture::Data{io::picture_of(rendered, *camera.camera(), origin)});
+        Picture::Data{io::picture_of(rendered, *camera.camera(), origin),
+                      scene::whites_of_lights(scene.data().file.scene)});
     const io::Picture& pixels = picture.data->picture;
     picture.width = pixels.width;
     picture.height = pixels.height;
@@ -132,7 +136,9 @@ Picture to_picture(const RenderResult& rendered, const Scene& scene, const Senso
 
 }  // namespace
 
-void Picture::save(const std::filesystem::path& path) const { io::write_picture(data->picture, path); }
+void Picture::save(const std::filesystem::path& path) const {
+    io::write_picture(data->picture, path, {.exposure = {}, .white = data->white});
+}
 
 Picture render(const Scene& scene, const std::string& camera, const std::optional<Options>& options,
                const Control& control) {

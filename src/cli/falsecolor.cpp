@@ -39,18 +39,32 @@ void keep_only(const std::vector<std::string>& wanted, io::ResultsFile& results,
     });
 }
 
-void draw_picture(const FalseColourRequest& request) {
+/// Refuses flags of measured grids.
+void require_no_grid_flags(const FalseColourRequest& request) {
     if (!request.sensors.empty()) {
         throw InputError("--sensor selects measured grids, but this input is a picture. Leave --sensor out.",
                          {request.input});
     }
+    if (request.options.errors) {
+        throw InputError(
+            "--errors writes the intervals of measured grids, but this input is a picture. The standard "
+            "errors "
+            "of its pixels are in the channel SE.Y of the .exr.",
+            {request.input});
+    }
+}
+
+std::string title_of(const io::PictureOrigin& origin, const std::string& file) {
+    std::string scene = std::filesystem::path(file).filename().string();
+    if (!origin.scene.empty()) scene = origin.scene;
+    if (!origin.scene_name.empty()) scene = origin.scene_name;
+    return fmt::format("{}: luminance{}{}", scene, origin.sensor.empty() ? "" : ", ", origin.sensor);
+}
+
+void draw_picture(const FalseColourRequest& request) {
+    require_no_grid_flags(request);
     const io::Picture picture = io::read_picture(request.input);
-    const io::PictureOrigin& origin = picture.origin;
-    const std::string source =
-        origin.scene.empty() ? std::filesystem::path(request.input).filename().string() : origin.scene;
-    const std::string sensor = origin.sensor.empty() ? "" : fmt::format(", {}", origin.sensor);
-    draw_false_colour(picture, fmt::format("Luminance, {}{}", source, sensor), request.options,
-                      request.output);
+    draw_false_colour(picture, title_of(picture.origin, request.input), request.options, request.output);
 }
 
 int run_falsecolor(const FalseColourRequest& request) {
@@ -61,7 +75,7 @@ int run_falsecolor(const FalseColourRequest& request) {
     }
     io::ResultsFile results = io::read_results_file(request.input);
     if (!request.sensors.empty()) keep_only(request.sensors, results, request.input);
-    draw_false_colour(plot::picture_of(results), request.options, request.output);
+    draw_false_colour(plot::picture_of(results, request.options), request.options, request.output);
     return kExitDone;
 }
 
@@ -73,7 +87,7 @@ void add_falsecolor(CommandLine& line) {
     command.set_examples(
         "  stilb measure office.toml -o office.json\n"
         "  stilb falsecolor office.json -o office.png --isolines\n"
-        "  stilb falsecolor office.json -o desk.svg --sensor desk --numbers --min 0 --max 750\n"
+        "  stilb falsecolor office.json -o desk.svg --sensor desk --numbers --errors\n"
         "  stilb falsecolor view.exr -o luminance.png --log --isolines\n");
     auto request = std::make_shared<FalseColourRequest>();
     plot::FalseColourOptions& options = request->options;
@@ -92,8 +106,13 @@ void add_falsecolor(CommandLine& line) {
     command.add("--min", options.minimum, "Lower end of the scale (default: a round number)");
     command.add("--max", options.maximum, "Upper end of the scale (default: a round number)");
     command.add("--isolines", options.isolines, "Draw labelled lines of equal value");
-    command.add("--numbers", options.numbers,
-                "Write the values: into cells that are large enough, or on a coarse grid over a picture");
+    command.add(
+        "--numbers", options.numbers,
+        "Write the value into each cell (into every second, third ... column and row where the sheet is "
+        "too small; the picture says so), or means on a coarse grid over a picture");
+    command.add("--errors", options.errors,
+                "Write half of the 95 % interval after a ±: of the grids' statistics, and with --numbers of "
+                "each value");
     command.run([request] { return run_falsecolor(*request); });
 }
 

@@ -63,7 +63,7 @@ void write_files(const RunResult& result, const MeasureRequest& request) {
     if (!request.picture.empty()) {
         plot::FalseColourOptions options;
         options.isolines = true;
-        draw_false_colour(plot::picture_of(result, request.scene), options, request.picture);
+        draw_false_colour(plot::picture_of(result, request.scene, options), options, request.picture);
     }
 }
 

@@ -19,7 +19,10 @@
 #include "io/results/solution_file.h"
 #include "io/scene/overrides.h"
 #include "io/text/text.h"
+#include "lights/colour_temperature.h"
 #include "run/run.h"
+#include "scene/light_groups.h"
+#include "scene/whites.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
@@ -34,6 +37,7 @@ struct RenderRequest {
     std::vector<std::string> overrides;
     std::vector<LightFactor> factors;  ///< of lights, with a solution
     io::ToneOptions tone;
+    std::string white = "auto";
     RunFlags flags;
 };
 
@@ -76,15 +80,21 @@ std::string passes_text(const RenderResult& result) {
     return text;
 }
 
+/// The mean standard error beside the mean luminance; nothing where all is dark.
+std::string share_text(const RenderResult& result) {
+    if (!(result.mean_luminance_cd_m2 > 0)) return "";
+    return fmt::format(", {} of the mean luminance",
+                       percent(result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2));
+}
+
 void print_summary(const RenderResult& result, const Sensor& sensor, const std::string& output) {
     std::FILE* const stream = messages_beside(output);
     const auto& [width, height] = sensor.camera()->resolution;
     fmt::print(stream, "{}: {} x {} pixels, mean luminance {:.4g} cd/m²\n", sensor.name, width, height,
                result.mean_luminance_cd_m2);
     if (result.replicates > 1) {
-        fmt::print(stream, "mean standard error of a pixel: {:.3g} cd/m², {} of the mean luminance\n",
-                   result.mean_standard_error_cd_m2,
-                   percent(result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2));
+        fmt::print(stream, "mean standard error of a pixel: {:.3g} cd/m²{}\n",
+                   result.mean_standard_error_cd_m2, share_text(result));
         fmt::print(stream, "95 % of the pixels have a 95 % interval within {} of their value\n",
                    percent(result.attained_error));
     }
@@ -143,6 +153,24 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
     return render(file.scene, sensor, options, &progress, &watch_for_interrupt());
 }
 
+/// What --white asks for; with "auto" by the lights as they shine in the picture.
+scene::WhiteRange whites(const RenderRequest& request, const Scene& scene) {
+    if (request.white == "auto") {
+        const LightGroups groups = scene::light_groups(scene);
+        return whites_of_lights(
+            scene::relit(scene, groups, scene::factors_of_groups(request.factors, groups.names)));
+    }
+    const std::optional<double> kelvin = io::parse_number(request.white);
+    if (!kelvin ||
+        !(*kelvin >= lights::kMinColourTemperature_k && *kelvin <= lights::kMaxColourTemperature_k)) {
+        throw InputError(fmt::format(
+            "--white {}: expected auto or a colour temperature from {:.0f} to {:.0f} K (such as 4000).",
+            request.white, lights::kMinColourTemperature_k, lights::kMaxColourTemperature_k));
+    }
+    const Rgb white = lights::colour_of_temperature(*kelvin);
+    return {white, white};
+}
+
 /// Throws InputError where a picture cannot be written, or would destroy a file that it is computed from.
 void require_pictures(const RenderRequest& request, const io::SceneFile& file) {
     std::vector<std::filesystem::path> inputs = file.sources;
@@ -166,8 +194,10 @@ int run_render(RenderRequest request) {
     if (stored) require_same_light(*stored, file, request.solution);
     const Sensor& sensor = sensors::choose_camera(file.sensors, request.sensor, request.scene);
     require_pictures(request, file);
+    request.tone.white = whites(request, file.scene);
     io::PictureOrigin origin;
     origin.scene = request.scene;
+    origin.scene_name = file.scene.name;
     origin.scene_hash = io::content_hash(file.sources);
     origin.sensor = sensor.name;
     origin.command = request.command;
@@ -181,8 +211,8 @@ int run_render(RenderRequest request) {
     if (!request.flags.quiet) print_warnings(result.warnings);
     print_summary(result, sensor, request.output);
     if (curve)
-        fmt::print(messages_beside(request.output), "{}: exposure {:.3g} per cd/m²\n", request.output,
-                   curve->exposure());
+        fmt::print(messages_beside(request.output), "{}: exposure {:.3g} per cd/m², white {:.0f} K\n",
+                   request.output, curve->exposure(), curve->white_k());
     return result.converged ? kExitDone : kExitStoppedEarly;
 }
 
@@ -220,6 +250,11 @@ void add_render(CommandLine& line) {
              "the picture)")
         .above_zero()
         .value_name("E");
+    command
+        .add("--white", request->white,
+             "White of a .png: auto (the light of the scene's white lamps, the default) or the colour "
+             "temperature in K of the light that shall look white; 6500 shows the colours as they are")
+        .value_name("auto|K");
     add_overrides(command, request->overrides);
     command.find("--set").description(
         "Take this value instead of the scene file's (materials.wall.reflectance=0.4); with --from also a "

@@ -84,6 +84,17 @@ io::FileKind picture_kind(const std::filesystem::path& path) {
     return kind;
 }
 
+/// Cairo's images have no more pixels on a side.
+void require_size(double width, double height) {
+    constexpr double kMostPixels = 32767;
+    if (kPixelsPerUnit * std::max(width, height) <= kMostPixels) return;
+    throw InputError(
+        fmt::format("the picture would have {:.0f} x {:.0f} pixels, but a .png has {:.0f} at most on a side. "
+                    "Draw less at "
+                    "once, or write an .svg.",
+                    kPixelsPerUnit * width, kPixelsPerUnit * height, kMostPixels));
+}
+
 }  // namespace
 
 void require_picture_path(const std::filesystem::path& path, std::span<const std::filesystem::path> inputs) {
@@ -104,6 +115,7 @@ Canvas::Canvas(std::filesystem::path path, double width, double height)
         cairo_->surface.reset(cairo_svg_surface_create_for_stream(append, &cairo_->svg, width, height));
         cairo_svg_surface_set_document_unit(cairo_->surface.get(), CAIRO_SVG_UNIT_PX);
     } else {
+        require_size(width, height);
         cairo_->surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
                                                          static_cast<int>(width * kPixelsPerUnit),
                                                          static_cast<int>(height * kPixelsPerUnit)));
@@ -213,6 +225,20 @@ void Canvas::clipped(const PageRectangle& rectangle, const std::function<void()>
     cairo_t* context = cairo_->context.get();
     cairo_save(context);
     cairo_rectangle(context, rectangle.left, rectangle.top, rectangle.width, rectangle.height);
+    cairo_clip(context);
+    draw();
+    cairo_restore(context);
+}
+
+void Canvas::clipped_outside(std::span<const PageRectangle> rectangles, const std::function<void()>& draw) {
+    cairo_t* context = cairo_->context.get();
+    cairo_save(context);
+    double left = 0, top = 0, right = 0, bottom = 0;
+    cairo_clip_extents(context, &left, &top, &right, &bottom);
+    cairo_rectangle(context, left, top, right - left, bottom - top);
+    for (const PageRectangle& free : rectangles)
+        cairo_rectangle(context, free.left, free.top, free.width, free.height);
+    cairo_set_fill_rule(context, CAIRO_FILL_RULE_EVEN_ODD);
     cairo_clip(context);
     draw();
     cairo_restore(context);

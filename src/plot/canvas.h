@@ -70,7 +70,7 @@ void require_picture_path(const std::filesystem::path& path, std::span<const std
 class Canvas {
   public:
     /// A white sheet. The extension of `path` selects the format: .png or .svg (any case); InputError
-    /// for others.
+    /// for others, and where the sheet is too large for a .png.
     Canvas(std::filesystem::path path, double width, double height);
     ~Canvas();
     Canvas(Canvas&&) noexcept;
@@ -89,6 +89,8 @@ class Canvas {
     void text(const Point& at, const std::string& text, const TextStyle& style);
     /// Clips the drawing of `draw` to the rectangle.
     void clipped(const PageRectangle& rectangle, const std::function<void()>& draw);
+    /// Leaves the rectangles free. They must not overlap.
+    void clipped_outside(std::span<const PageRectangle> rectangles, const std::function<void()>& draw);
 
     /// Replaces the file in one step; nothing may be drawn afterwards. Throws InputError where it cannot be
     /// written.

@@ -14,135 +14,24 @@
 
 #include "plot/axis.h"
 #include "plot/canvas.h"
+#include "plot/cell_numbers.h"
+#include "plot/false_colour_layout.h"
 #include "plot/false_colour_painter.h"
 
 namespace stilb::plot {
 
 namespace {
 
-constexpr double kNameGap = 12;
-constexpr double kColumnGap = 32;
-constexpr double kRowGap = 24;
-/// The width that rows fill, unless they would become too high.
-constexpr double kContentWidth = 860;
-/// The height of all rows together.
-constexpr double kMostHeight = 600;
-constexpr double kLeastRowHeight = 100;
-constexpr std::size_t kMostColumns = 6;
-constexpr double kNiceAspect = 1.5;
-
-bool has_size(const FalseColourPanel& panel) { return panel.width_m > 0 && panel.height_m > 0; }
-
-double aspect_of(const FalseColourPanel& panel) {
-    const double aspect = has_size(panel) ? panel.width_m / panel.height_m : double(panel.nu) / panel.nv;
-    return std::clamp(aspect, 0.05, 20.0);
-}
-
-std::string headline_of(const FalseColourPanel& panel) {
+std::string size_text(const FalseColourPanel& panel) {
     std::string count = fmt::format("{} × {} values", panel.nu, panel.nv);
     if (!has_size(panel)) return count;
     return fmt::format("{:.2f} m × {:.2f} m, {}", panel.width_m, panel.height_m, count);
 }
 
-/// Lengths along a side that is `drawn` long on the sheet; the last one names the unit.
-Ticks length_ticks(double length_m, double drawn) {
-    Ticks ticks =
-        nice_ticks(Scale(ScaleType::linear, {0, length_m}), std::clamp(static_cast<int>(drawn / 50), 2, 11));
-    ticks.minor.clear();
-    ticks.major.back().label += " m";
-    return ticks;
-}
-
-double header_height(const FalseColourPanel& panel) { return panel.subtitle.empty() ? 20 : 36; }
-
-/// The layout of a panel: the frame holds the cells, the box also the header and the axes.
-struct Tile {
-    PageRectangle frame;
-    PageRectangle box;
-};
-
-Tile make_tile(const FalseColourPanel& panel, double height) {
-    double left = 0;
-    double below = 4;
-    if (has_size(panel)) {
-        const Ticks ticks = length_ticks(panel.height_m, height);
-        left = axis_extent(ticks, Side::left);
-        below += axis_extent(ticks, Side::bottom);
-    }
-    const PageRectangle frame{left, header_height(panel), aspect_of(panel) * height, height};
-    const double name = text_width(panel.name, kNameSize, Weight::bold) + kNameGap +
-                        text_width(headline_of(panel), kSmallSize);
-    const double header = left + std::max(name, text_width(panel.subtitle, kSmallSize));
-    return {frame, {0, 0, std::max(frame.right(), header), frame.bottom() + below}};
-}
-
-void move(Tile& tile, double x, double y) {
-    for (PageRectangle* rectangle : {&tile.frame, &tile.box}) {
-        rectangle->left += x;
-        rectangle->top += y;
-    }
-}
-
-struct Layout {
-    std::vector<Tile> tiles;
-    double width = 0, height = 0;
-};
-
-using Panels = std::span<const FalseColourPanel>;
-
-/// Tiles of one height side by side, from (0, 0).
-Layout lay_out_row(Panels panels, double height) {
-    Layout row;
-    for (const FalseColourPanel& panel : panels) {
-        Tile& tile = row.tiles.emplace_back(make_tile(panel, height));
-        move(tile, row.tiles.size() > 1 ? row.width + kColumnGap : 0, 0);
-        row.width = tile.box.right();
-        row.height = std::max(row.height, tile.box.height);
-    }
-    return row;
-}
-
-/// The row that fills the content's width, or is as high as a row may be.
-Layout fill_row(Panels panels, double most_height) {
-    double low = kLeastRowHeight;
-    double high = most_height;
-    while (high - low > 0.5) {
-        const double height = (low + high) / 2;
-        (lay_out_row(panels, height).width > kContentWidth ? high : low) = height;
-    }
-    return lay_out_row(panels, std::floor(low));
-}
-
-Layout lay_out(Panels panels, std::size_t columns) {
-    const std::size_t rows = (panels.size() + columns - 1) / columns;
-    const double most_height = std::max(kLeastRowHeight, kMostHeight / double(rows));
-    Layout layout;
-    for (std::size_t i = 0; i < rows; ++i) {
-        const std::size_t first = i * columns;
-        Layout row = fill_row(panels.subspan(first, std::min(columns, panels.size() - first)), most_height);
-        if (i > 0) layout.height += kRowGap;
-        for (Tile& tile : row.tiles) {
-            move(tile, 0, layout.height);
-            layout.tiles.push_back(tile);
-        }
-        layout.width = std::max(layout.width, row.width);
-        layout.height += row.height;
-    }
-    return layout;
-}
-
-/// Chooses the number of columns that gives the whole sheet the best proportions.
-Layout lay_out(Panels panels) {
-    Layout best;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t columns = 1; columns <= std::min(panels.size(), kMostColumns); ++columns) {
-        Layout layout = lay_out(panels, columns);
-        const double badness = std::abs(std::log(layout.width / layout.height / kNiceAspect));
-        if (badness >= least) continue;
-        least = badness;
-        best = std::move(layout);
-    }
-    return best;
+PanelHeading heading_of(const FalseColourPanel& panel) {
+    PanelHeading heading{panel.name, size_text(panel), {}};
+    if (!panel.subtitle.empty()) heading.lines.push_back(panel.subtitle);
+    return heading;
 }
 
 std::vector<double> all_values(const FalseColour& picture) {
@@ -152,77 +41,45 @@ std::vector<double> all_values(const FalseColour& picture) {
     return all;
 }
 
-int decimals_of(const FalseColourPanel& panel) {
-    double largest = 0;
-    for (const double value : panel.values) {
-        if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-    }
-    return three_digit_decimals(largest);
-}
-
-/// The font size at which every number fits its cell; 0 where that would be too small to read.
-double number_size(const FalseColourPanel& panel, const PageRectangle& frame) {
-    constexpr double kLeast = 6;
-    constexpr double kMost = 13;
-    const PageRectangle place = cell_in(frame, panel, 0, 0);
-    const double highest = std::min(kMost, 0.6 * place.height);
-    if (highest < kLeast) return 0;
-    const int decimals = decimals_of(panel);
-    double widest = 0;  // at size 1
-    for (const double value : panel.values) {
-        if (!std::isfinite(value)) continue;
-        widest = std::max(widest, text_width(number_text(value, decimals), 10) / 10);
-    }
-    if (widest == 0) return 0;
-    const double size = std::min(highest, 0.84 * place.width / widest);
-    return size < kLeast ? 0 : size;
-}
-
 /// Draws one panel after the other, with their common data.
 class PanelPainter {
   public:
     PanelPainter(Canvas& canvas, FalseColourPainter& painter, const FalseColourOptions& options)
         : canvas_(canvas), painter_(painter), options_(options) {}
 
-    void draw(const FalseColourPanel& panel, const Tile& tile) {
-        draw_header(panel, tile);
+    void draw(const FalseColourPanel& panel, const PanelHeading& heading, const Tile& tile,
+              std::span<const CellNumber> numbers) {
+        draw_heading(heading, tile);
         painter_.draw_cells(panel, tile.frame);
-        const double text_size = options_.numbers ? number_size(panel, tile.frame) : 0;
         if (options_.isolines) {
-            const std::vector<Isoline> isolines = painter_.draw_isolines(panel, tile.frame);
-            if (text_size == 0) painter_.label_isolines(isolines, tile.frame);
+            const std::vector<Isoline> isolines = painter_.draw_isolines(panel, tile.frame, numbers);
+            if (!options_.numbers) painter_.label_isolines(isolines, tile.frame);
         }
-        if (text_size > 0) draw_numbers(panel, tile.frame, text_size);
+        for (const CellNumber& number : numbers) painter_.draw_number(number);
         canvas_.stroke_rectangle(tile.frame, {kInk, 0.8});
         if (has_size(panel)) draw_lengths(panel, tile.frame);
     }
 
   private:
-    void draw_header(const FalseColourPanel& panel, const Tile& tile) {
-        const Point at{tile.frame.left, tile.box.top + 10};
-        canvas_.text(at, panel.name, {.size = kNameSize, .colour = kInk, .weight = Weight::bold});
+    void draw_heading(const PanelHeading& heading, const Tile& tile) {
+        Point at{tile.frame.left, tile.box.top + 10};
+        canvas_.text(at, heading.name, {.size = kNameSize, .colour = kInk, .weight = Weight::bold});
         const double indent =
-            panel.name.empty() ? 0 : text_width(panel.name, kNameSize, Weight::bold) + kNameGap;
-        canvas_.text({at.x + indent, at.y}, headline_of(panel), {.size = kSmallSize, .colour = kFaintInk});
-        canvas_.text({at.x, at.y + 17}, panel.subtitle, {.size = kSmallSize, .colour = kInk});
+            heading.name.empty() ? 0 : text_width(heading.name, kNameSize, Weight::bold) + kNameGap;
+        canvas_.text({at.x + indent, at.y}, heading.beside, {.size = kSmallSize, .colour = kFaintInk});
+        for (const std::string& line : heading.lines) {
+            at.y += kHeadingLine;
+            canvas_.text(at, line, {.size = kSmallSize, .colour = kInk});
+        }
     }
 
     void draw_lengths(const FalseColourPanel& panel, const PageRectangle& frame) {
         const auto draw = [&](double length_m, double drawn, Side side) {
-            draw_axis(canvas_, Scale(ScaleType::linear, {0, length_m}), length_ticks(length_m, drawn), side,
-                      frame);
+            draw_axis(canvas_, Scale(ScaleType::linear, {0, length_m}), length_ticks(length_m, drawn, side),
+                      side, frame);
         };
         draw(panel.width_m, frame.width, Side::bottom);
         draw(panel.height_m, frame.height, Side::left);
-    }
-
-    void draw_numbers(const FalseColourPanel& panel, const PageRectangle& frame, double size) {
-        const int decimals = decimals_of(panel);
-        auto value = panel.values.begin();
-        for (int v = 0; v < panel.nv; ++v) {
-            for (int u = 0; u < panel.nu; ++u, ++value)
-                painter_.draw_number(cell_in(frame, panel, u, v).center(), *value, decimals, size);
-        }
     }
 
     Canvas& canvas_;
@@ -236,9 +93,36 @@ void require_consistency(const FalseColour& picture) {
         const bool counts_fit =
             panel.nu > 0 && panel.nv > 0 &&
             panel.values.size() / static_cast<std::size_t>(panel.nu) == static_cast<std::size_t>(panel.nv) &&
-            panel.values.size() % static_cast<std::size_t>(panel.nu) == 0;
+            panel.values.size() % static_cast<std::size_t>(panel.nu) == 0 &&
+            (panel.errors.empty() || panel.errors.size() == panel.values.size());
         if (!counts_fit) throw std::invalid_argument("panel '" + panel.name + "': counts and values differ");
     }
+}
+
+/// Where everything stands on the sheet.
+struct Sheet {
+    std::vector<PanelHeading> headings;
+    std::vector<CellNumbers> numbers;  ///< of each panel, where numbers are asked for
+    Layout layout;
+};
+
+Sheet lay_out_sheet(const FalseColour& picture, const FalseColourOptions& options) {
+    Sheet sheet;
+    std::vector<CellSize> least_cells(picture.panels.size());
+    for (std::size_t i = 0; i < picture.panels.size(); ++i) {
+        sheet.headings.push_back(heading_of(picture.panels[i]));
+        if (!options.numbers) continue;
+        sheet.numbers.emplace_back(picture.panels[i]);
+        least_cells[i] = sheet.numbers.back().comfortable_cell();
+    }
+    const double units_per_m = choose_units_per_m(picture.panels, sheet.headings, least_cells);
+    for (std::size_t i = 0; i < sheet.numbers.size(); ++i) {
+        sheet.numbers[i].fit_into(cell_size(picture.panels[i], units_per_m));
+        const std::string note = sheet.numbers[i].note();
+        if (!note.empty()) sheet.headings[i].lines.push_back(note);
+    }
+    sheet.layout = lay_out(picture.panels, sheet.headings, units_per_m);
+    return sheet;
 }
 
 }  // namespace
@@ -247,23 +131,29 @@ void draw_false_colour(const FalseColour& picture, const FalseColourOptions& opt
                        const std::filesystem::path& path) {
     require_consistency(picture);
     const Scale scale = choose_scale(all_values(picture), options);
-    Layout layout = lay_out(picture.panels);
-    for (Tile& tile : layout.tiles) move(tile, kSheetMargin, kSheetMargin + kTitleHeight);
+    Sheet sheet = lay_out_sheet(picture, options);
+    for (Tile& tile : sheet.layout.tiles) move(tile, kSheetMargin, kSheetMargin + kTitleHeight);
 
-    // The bar stands beside the cells of the first row.
-    const PageRectangle& first = layout.tiles.front().frame;
-    const double content_bottom = kSheetMargin + kTitleHeight + layout.height;
-    const double last_frame_bottom = layout.tiles.back().frame.bottom();
-    const PageRectangle bar{kSheetMargin + layout.width + kBarGap, first.top, kBarWidth,
-                            std::max(kLeastBarHeight, last_frame_bottom - first.top)};
+    // The bar stands beside the cells, from the top of the first to the bottom of the last.
+    const PageRectangle& first = sheet.layout.tiles.front().frame;
+    const double content_bottom = kSheetMargin + kTitleHeight + sheet.layout.height;
+    double lowest = first.bottom();
+    for (const Tile& tile : sheet.layout.tiles) lowest = std::max(lowest, tile.frame.bottom());
+    const double title_width = text_width(picture.title, kTitleSize, Weight::bold);
+    const double content_width = std::max(sheet.layout.width, first.left - kSheetMargin + title_width);
+    const PageRectangle bar{kSheetMargin + content_width + kBarGap, first.top, kBarWidth,
+                            std::max(kLeastBarHeight, lowest - first.top)};
     Canvas canvas(path, bar.left + bar_extent(scale) + kSheetMargin,
                   std::max(content_bottom, bar.bottom() + 8) + kSheetMargin - 8);
-    canvas.text({layout.tiles.front().frame.left, kSheetMargin + kTitleSize}, picture.title,
+    canvas.text({first.left, kSheetMargin + kTitleSize}, picture.title,
                 {.size = kTitleSize, .colour = kInk, .weight = Weight::bold});
     FalseColourPainter painter(canvas, scale);
     PanelPainter panel_painter(canvas, painter, options);
     for (std::size_t i = 0; i < picture.panels.size(); ++i) {
-        panel_painter.draw(picture.panels[i], layout.tiles[i]);
+        const Tile& tile = sheet.layout.tiles[i];
+        const std::vector<CellNumber> numbers =
+            options.numbers ? sheet.numbers[i].place(tile.frame) : std::vector<CellNumber>{};
+        panel_painter.draw(picture.panels[i], sheet.headings[i], tile, numbers);
     }
     painter.draw_bar(bar, picture.unit);
     canvas.save();

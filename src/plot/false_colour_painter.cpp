@@ -43,10 +43,39 @@ PixelImage image_of(const FalseColourPanel& panel, const Scale& scale, const Col
     return image;
 }
 
+constexpr double kLowerLine = 0.8;    ///< the size of further lines over the first
+constexpr double kLineSpacing = 1.3;  ///< from line to line, over the lower one's size
+constexpr double kCapitals = 0.73;    ///< the height of digits over the font's size
+/// Between a number and the isolines that it interrupts.
+constexpr double kSpaceAround = 2;
+
+double line_size(const CellNumber& number, std::size_t line) {
+    return line == 0 ? number.size : kLowerLine * number.size;
+}
+
+/// From the top of the first digits to the bottom of the last ones.
+double text_height(const CellNumber& number) {
+    double height = kCapitals * number.size;
+    for (std::size_t line = 1; line < number.lines.size(); ++line)
+        height += kLineSpacing * line_size(number, line);
+    return height;
+}
+
 }  // namespace
 
+PageRectangle text_box(const CellNumber& number) {
+    double width = 0;
+    for (std::size_t line = 0; line < number.lines.size(); ++line)
+        width = std::max(width, text_width(number.lines[line], line_size(number, line)));
+    const double height = text_height(number);
+    return {number.center.x - width / 2, number.center.y - height / 2, width, height};
+}
+
 Scale choose_scale(std::span<const double> values, const FalseColourOptions& options) {
-    AxisRange range = nice_range(options.scale, values);
+    // Light is not negative: values below 0 are noise around a value near 0.
+    std::vector<double> lit;
+    for (const double value : values) lit.push_back(value < 0 ? 0 : value);
+    AxisRange range = nice_range(options.scale, lit);
     if (options.scale == ScaleType::logarithmic) {
         range.low = std::max(range.low, range.high * std::pow(10.0, -kMostDecades));
     }
@@ -99,8 +128,8 @@ void FalseColourPainter::draw_hatching(const PageRectangle& place) {
     });
 }
 
-std::vector<Isoline> FalseColourPainter::draw_isolines(const FalseColourPanel& panel,
-                                                       const PageRectangle& frame) {
+std::vector<Isoline> FalseColourPainter::find_lines(const FalseColourPanel& panel,
+                                                    const PageRectangle& frame) const {
     // Along the scale's own measure, so that lines on a logarithmic scale lie where the colours say; the
     // lower limit stands in for values without a logarithm.
     std::vector<double> fractions;
@@ -116,13 +145,29 @@ std::vector<Isoline> FalseColourPainter::draw_isolines(const FalseColourPanel& p
                 point = {frame.left + point.x / panel.nu * frame.width,
                          frame.bottom() - point.y / panel.nv * frame.height};
             }
-            if (length_of(line) < kSmallSize) continue;
-            // White in a dark casing: seen on every colour.
-            canvas_.polyline(line, {io::with_alpha(io::grey(0), 0.5), 2.6});
-            canvas_.polyline(line, {io::grey(1), 1.2});
-            isolines.push_back({std::move(line), tick.label});
+            if (length_of(line) >= kSmallSize) isolines.push_back({std::move(line), tick.label});
         }
     }
+    return isolines;
+}
+
+std::vector<Isoline> FalseColourPainter::draw_isolines(const FalseColourPanel& panel,
+                                                       const PageRectangle& frame,
+                                                       std::span<const CellNumber> numbers) {
+    std::vector<Isoline> isolines = find_lines(panel, frame);
+    std::vector<PageRectangle> gaps;
+    for (const CellNumber& number : numbers) {
+        const PageRectangle box = text_box(number);
+        gaps.push_back({box.left - kSpaceAround, box.top - kSpaceAround, box.width + 2 * kSpaceAround,
+                        box.height + 2 * kSpaceAround});
+    }
+    canvas_.clipped_outside(gaps, [&] {
+        for (const Isoline& isoline : isolines) {
+            // White in a dark casing: seen on every colour.
+            canvas_.polyline(isoline.points, {io::with_alpha(io::grey(0), 0.5), 2.6});
+            canvas_.polyline(isoline.points, {io::grey(1), 1.2});
+        }
+    });
     return isolines;
 }
 
@@ -141,16 +186,19 @@ void FalseColourPainter::label_isolines(std::span<const Isoline> isolines, const
     }
 }
 
-void FalseColourPainter::draw_number(const Point& center, double value, int decimals, double size) {
-    if (std::isnan(value)) return;
-    // The halo is seen only where an isoline passes behind, or the surroundings differ.
-    const io::Colour background = map_.at(scale_.fraction_of(value));
-    canvas_.text(center, number_text(value, decimals),
-                 {.size = size,
-                  .colour = readable_on(background),
-                  .horizontal = HorizontalPart::center,
-                  .vertical = VerticalPart::middle,
-                  .halo = background});
+void FalseColourPainter::draw_number(const CellNumber& number) {
+    // The halo is seen only where the surroundings differ.
+    const io::Colour background = map_.at(scale_.fraction_of(number.value));
+    double baseline = number.center.y - text_height(number) / 2 + kCapitals * number.size;
+    for (std::size_t line = 0; line < number.lines.size(); ++line) {
+        const double size = line_size(number, line);
+        if (line > 0) baseline += kLineSpacing * size;
+        canvas_.text({number.center.x, baseline}, number.lines[line],
+                     {.size = size,
+                      .colour = readable_on(background),
+                      .horizontal = HorizontalPart::center,
+                      .halo = background});
+    }
 }
 
 void FalseColourPainter::draw_bar(const PageRectangle& bar, const std::string& unit) {

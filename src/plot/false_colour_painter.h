@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "plot/axis.h"
 #include "plot/canvas.h"
@@ -32,22 +34,34 @@ struct Isoline {
     std::string label;
 };
 
+/// A number in the middle of its cell, perhaps with a second line below.
+struct CellNumber {
+    Point center;
+    double value = 0;  ///< of the cell, for the colours
+    std::vector<std::string> lines;
+    double size = 0;  ///< of the first line; further ones are smaller
+};
+
+/// The place that the number takes.
+PageRectangle text_box(const CellNumber& number);
+
 /// Draws panels' values into frames: row v = 0 at the bottom, a NaN as hatching.
 class FalseColourPainter {
   public:
     FalseColourPainter(Canvas& canvas, const Scale& scale);
 
     void draw_cells(const FalseColourPanel& panel, const PageRectangle& frame);
-    /// Isolines at the bar's labelled values except its ends. Specks, shorter than the height of a label, are
-    /// left out.
-    std::vector<Isoline> draw_isolines(const FalseColourPanel& panel, const PageRectangle& frame);
+    /// Isolines at the bar's labelled values except its ends, interrupted at the numbers. Specks, shorter
+    /// than the height of a label, are left out.
+    std::vector<Isoline> draw_isolines(const FalseColourPanel& panel, const PageRectangle& frame,
+                                       std::span<const CellNumber> numbers);
     void label_isolines(std::span<const Isoline> isolines, const PageRectangle& frame);
-    /// The text in the middle of a cell of that value.
-    void draw_number(const Point& center, double value, int decimals, double size);
+    void draw_number(const CellNumber& number);
     void draw_bar(const PageRectangle& bar, const std::string& unit);
 
   private:
     void draw_hatching(const PageRectangle& place);
+    std::vector<Isoline> find_lines(const FalseColourPanel& panel, const PageRectangle& frame) const;
 
     Canvas& canvas_;
     Scale scale_;

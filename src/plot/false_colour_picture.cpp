@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -128,19 +127,39 @@ std::string headline_of(const io::Picture& picture, const FalseColourPanel& pane
     return text;
 }
 
-void draw_numbers(FalseColourPainter& painter, const FalseColourPanel& panel, const PageRectangle& frame) {
+/// The side of the square over which a number is the mean, as a share of the distance of numbers.
+constexpr double kSpotShare = 0.25;
+
+/// Means about the middles of a coarse grid.
+FalseColourPanel spots_of(const FalseColourPanel& panel, const PageRectangle& frame) {
     const auto parts = [](double length, double part, int most) {
         return std::clamp(static_cast<int>(length / part), 1, most);
     };
-    const FalseColourPanel spots = averaged(panel, parts(frame.width, kNumberWidth, panel.nu),
-                                            parts(frame.height, kNumberHeight, panel.nv), 0.25);
-    for (int v = 0; v < spots.nv; ++v) {
-        for (int u = 0; u < spots.nu; ++u) {
-            const double value = spots.value_at(u, v);
-            painter.draw_number(cell_in(frame, spots, u, v).center(), value, three_digit_decimals(value),
-                                kSmallSize);
+    return averaged(panel, parts(frame.width, kNumberWidth, panel.nu),
+                    parts(frame.height, kNumberHeight, panel.nv), kSpotShare);
+}
+
+std::string spot_text(const io::Picture& picture, const FalseColourPanel& spots) {
+    const auto pixels = [](int count, int parts) {
+        return std::max(1L, std::lround(kSpotShare * count / parts));
+    };
+    return fmt::format("   numbers: means over {} × {} pixels", pixels(picture.width, spots.nu),
+                       pixels(picture.height, spots.nv));
+}
+
+std::vector<CellNumber> numbers_of(const FalseColourPanel& means, const PageRectangle& frame) {
+    std::vector<CellNumber> numbers;
+    for (int v = 0; v < means.nv; ++v) {
+        for (int u = 0; u < means.nu; ++u) {
+            const double value = means.value_at(u, v);
+            if (std::isnan(value)) continue;
+            numbers.push_back({cell_in(frame, means, u, v).center(),
+                               value,
+                               {number_text(value, three_digit_decimals(value))},
+                               kSmallSize});
         }
     }
+    return numbers;
 }
 
 }  // namespace
@@ -154,7 +173,13 @@ void draw_false_colour(const io::Picture& picture, const std::string& title,
     const PageRectangle frame = frame_of(panel);
     const PageRectangle bar{frame.right() + kBarGap, frame.top, kBarWidth,
                             std::max(kLeastBarHeight, frame.height)};
-    const std::string headline = headline_of(picture, whole);
+    std::string headline = headline_of(picture, whole);
+    std::vector<CellNumber> numbers;
+    if (options.numbers) {
+        const FalseColourPanel spots = spots_of(panel, frame);
+        numbers = numbers_of(spots, frame);
+        headline += spot_text(picture, spots);
+    }
     const double text_width_needed =
         std::max(text_width(title, kTitleSize, Weight::bold), text_width(headline, kSmallSize));
     Canvas canvas(path,
@@ -168,10 +193,10 @@ void draw_false_colour(const io::Picture& picture, const std::string& title,
     painter.draw_cells(panel, frame);
     if (options.isolines) {
         const std::vector<Isoline> isolines =
-            painter.draw_isolines(with_columns(panel, kIsolineColumns), frame);
+            painter.draw_isolines(with_columns(panel, kIsolineColumns), frame, numbers);
         if (!options.numbers) painter.label_isolines(isolines, frame);
     }
-    if (options.numbers) draw_numbers(painter, panel, frame);
+    for (const CellNumber& number : numbers) painter.draw_number(number);
     canvas.stroke_rectangle(frame, {kInk, 0.8});
     painter.draw_bar(bar, kUnit);
     canvas.save();
@@ -179,22 +204,28 @@ void draw_false_colour(const io::Picture& picture, const std::string& title,
 
 namespace {
 
-std::string subtitle_of(const io::MeasuredGrid& grid) {
+std::string subtitle_of(const io::MeasuredGrid& grid, const FalseColourOptions& options) {
     std::string text;
-    const auto add = [&](const char* name, double value, int decimals, const std::string& unit) {
-        if (std::isnan(value)) return;
-        text += fmt::format("{}{} {}{}", text.empty() ? "" : "   ", name, number_text(value, decimals), unit);
+    const auto add = [&](const char* name, const io::MeasuredValue& measured, int decimals,
+                         const std::string& unit) {
+        if (std::isnan(measured.value)) return;
+        std::string value = number_text(measured.value, decimals);
+        if (options.errors && measured.half_width > 0) {
+            const int digits = std::max(three_digit_decimals(measured.half_width) - 1, 0);
+            value = fmt::format("{} ± {}", number_text(measured.value, digits),
+                                number_text(measured.half_width, digits));
+        }
+        text += fmt::format("{}{} {}{}", text.empty() ? "" : "   ", name, value, unit);
     };
     const io::MeasuredSummary& summary = grid.summary;
-    add("mean", summary.mean, three_digit_decimals(summary.mean), " " + grid.unit);
-    add("minimum", summary.minimum, three_digit_decimals(summary.minimum), " " + grid.unit);
+    add("mean", summary.mean, three_digit_decimals(summary.mean.value), " " + grid.unit);
+    add("minimum", summary.minimum, three_digit_decimals(summary.minimum.value), " " + grid.unit);
     add("uniformity", summary.uniformity, 2, "");
     return text;
 }
 
-std::string capitalized(std::string text) {
-    if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-    return text;
+io::MeasuredValue measured_value(const statistics::Estimate& estimate) {
+    return {estimate.value, (estimate.upper - estimate.lower) / 2};
 }
 
 io::MeasuredGrid measured_grid(const SensorResult& result, const Grid& of) {
@@ -211,31 +242,49 @@ io::MeasuredGrid measured_grid(const SensorResult& result, const Grid& of) {
     const double cell_v_m = nv > 1 ? length(of.edge_v) / nv : 0;
     grid.width_m = nu * (nu > 1 ? cell_u_m : cell_v_m);
     grid.height_m = nv * (nv > 1 ? cell_v_m : cell_u_m);
-    for (const Reading& reading : result.readings) grid.values.push_back(reading.estimate.value);
+    for (const Reading& reading : result.readings) grid.values.push_back(measured_value(reading.estimate));
     const statistics::GridSummary& summary = result.summary;
-    grid.summary = {summary.mean.value, summary.minimum.value, summary.maximum.value,
-                    summary.uniformity.value};
+    grid.summary = {measured_value(summary.mean), measured_value(summary.minimum),
+                    measured_value(summary.maximum), measured_value(summary.uniformity)};
     return grid;
+}
+
+FalseColourPanel panel_of(const io::MeasuredGrid& grid, const FalseColourOptions& options) {
+    FalseColourPanel panel{
+        grid.name, subtitle_of(grid, options), grid.count[0], grid.count[1], grid.width_m, grid.height_m, {}};
+    for (const io::MeasuredValue& measured : grid.values) {
+        panel.values.push_back(measured.value);
+        if (options.errors) panel.errors.push_back(measured.half_width);
+    }
+    return panel;
+}
+
+void require_errors(const io::MeasuredGrid& grid) {
+    const auto has_error = [](const io::MeasuredValue& measured) { return measured.half_width >= 0; };
+    if (std::ranges::any_of(grid.values, has_error)) return;
+    throw InputError(
+        fmt::format("the values of '{}' have no intervals to write. Leave --errors out.", grid.name));
 }
 
 }  // namespace
 
-FalseColour picture_of(const RunResult& result, const std::string& scene) {
-    io::ResultsFile results{scene, {}};
+FalseColour picture_of(const RunResult& result, const std::string& scene, const FalseColourOptions& options) {
+    io::ResultsFile results{scene, result.scene_name, {}};
     for (const SensorResult& sensor : result.sensors) {
         if (const auto* grid = std::get_if<Grid>(&sensor.sensor.kind))
             results.grids.push_back(measured_grid(sensor, *grid));
     }
-    return picture_of(results);
+    return picture_of(results, options);
 }
 
-FalseColour picture_of(const io::ResultsFile& results) {
+FalseColour picture_of(const io::ResultsFile& results, const FalseColourOptions& options) {
     if (results.grids.empty()) {
         throw InputError(
             "the results contain no grid, and only grids can be drawn. Measure a sensor of type \"grid\".");
     }
     const io::MeasuredGrid& first = results.grids.front();
-    FalseColour picture{capitalized(first.quantity) + ", " + results.scene, first.unit, {}};
+    const std::string& scene = results.scene_name.empty() ? results.scene : results.scene_name;
+    FalseColour picture{fmt::format("{}: {}", scene, first.quantity), first.unit, {}};
     for (const io::MeasuredGrid& grid : results.grids) {
         if (grid.unit != first.unit) {
             throw InputError(
@@ -243,8 +292,8 @@ FalseColour picture_of(const io::ResultsFile& results) {
                             "one quantity.",
                             first.name, first.unit, grid.name, grid.unit));
         }
-        picture.panels.push_back({grid.name, subtitle_of(grid), grid.count[0], grid.count[1], grid.width_m,
-                                  grid.height_m, grid.values});
+        if (options.errors) require_errors(grid);
+        picture.panels.push_back(panel_of(grid, options));
     }
     return picture;
 }

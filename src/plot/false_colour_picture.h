@@ -21,10 +21,11 @@ void draw_false_colour(const io::Picture& picture, const std::string& title,
 
 // Measured grids as a false-colour picture.
 
-/// A panel for each grid, with mean, minimum and uniformity. Throws InputError where there is no grid or
-/// their units differ, because they have one common scale.
-FalseColour picture_of(const io::ResultsFile& results);
+/// A panel for each grid, with mean, minimum and uniformity, entitled with the scene's name, or its file
+/// where it has none. Throws InputError where there is no grid, where their units differ, because they have
+/// one common scale, and where errors are asked for that the results do not have.
+FalseColour picture_of(const io::ResultsFile& results, const FalseColourOptions& options);
 /// The same for the grids among the results of a run; `scene` is the name of its file.
-FalseColour picture_of(const RunResult& result, const std::string& scene);
+FalseColour picture_of(const RunResult& result, const std::string& scene, const FalseColourOptions& options);
 
 }  // namespace stilb::plot

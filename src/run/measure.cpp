@@ -228,6 +228,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     warn(sharp_light_warnings(sharp, result.samples, scene));
     warn(patch_error_warnings(result));
     session.finish(result);
+    result.scene_name = scene.name;
     return result;
 }
 

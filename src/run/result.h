@@ -74,6 +74,7 @@ struct SensorResult {
 };
 
 struct RunResult : RunSummary {
+    std::string scene_name;             ///< may be empty
     std::uint64_t rays = 0;             ///< of the connections to receivers
     std::vector<SensorResult> sensors;  ///< in the order requested
 };

@@ -6,6 +6,7 @@
 
 #include "io/sample_picture.h"
 #include "io/text/table.h"
+#include "lights/colour_temperature.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
 
@@ -68,11 +69,27 @@ TEST_F(PictureFile, PngSaysHowItWasMade) {
     const std::string zero(1, '\0');
     EXPECT_TRUE(has("tEXtExposure" + zero));
     EXPECT_TRUE(has(" per cd/m2"));
-    EXPECT_TRUE(has("tEXtTone curve" + zero + "Reinhard 2002, white at 8 / exposure"));
+    EXPECT_TRUE(
+        has("tEXtTone curve" + zero + "linear to 0.5 / exposure, then Reinhard 2002, white at 8 / exposure"));
     EXPECT_TRUE(has("tEXtsoftware" + zero + "Stilb 9.8.7"));
     EXPECT_TRUE(has("iTXtscene" + zero));
     EXPECT_TRUE(has("Büro.toml"));
     EXPECT_TRUE(has("sRGB"));
+}
+
+/// The screen's white balance belongs to .png alone: the other formats keep absolute values.
+TEST_F(PictureFile, OnlyPngIsAdaptedToTheWhite) {
+    const Picture picture = sample_picture();
+    const Rgb warm = lights::colour_of_temperature(3000);
+    const ToneOptions balanced{.exposure = 0.02, .white = {warm, warm}}, plain{.exposure = 0.02};
+    for (const std::string extension : {".exr", ".hdr", ".png"}) {
+        const fs::path first = folder_ / ("a" + extension), second = folder_ / ("b" + extension);
+        write_picture(picture, first, balanced);
+        write_picture(picture, second, plain);
+        EXPECT_EQ(read_text(first) == read_text(second), extension != ".png") << extension;
+    }
+    EXPECT_NE(read_text(folder_ / "a.png").find(std::string("tEXtWhite") + '\0' + "3000 K"),
+              std::string::npos);
 }
 
 TEST_F(PictureFile, ReplacesWhatIsThere) {

@@ -27,11 +27,13 @@ std::string grid(const std::string& name, const std::string& unit) {
     }
     return "{\"name\":\"" + name + "\",\"type\":\"grid\",\"quantity\":\"illuminance\",\"unit\":\"" + unit +
            "\",\"count\":[3,2],\"values\":[" + values +
-           "],\"summary\":{\"mean\":102.5,\"minimum\":100,\"maximum\":105,\"uniformity\":0.976}}";
+           "],\"summary\":{\"mean\":102.5,\"minimum\":100,\"maximum\":105,\"uniformity\":0.976,"
+           "\"mean_interval\":[101,104],\"minimum_interval\":[null,null]}}";
 }
 
 std::string document(const std::string& sensors) {
-    return "{\"stilb\":\"0.1.0\",\n\"scene\":\"office.toml\",\n\"sensors\":[" + sensors + "]}";
+    return "{\"stilb\":\"0.1.0\",\n\"scene\":\"office.toml\",\"scene_name\":\"Office\",\n\"sensors\":[" +
+           sensors + "]}";
 }
 
 TEST(ResultsFile, ReadsGridsAndTheirSize) {
@@ -46,9 +48,14 @@ TEST(ResultsFile, ReadsGridsAndTheirSize) {
     EXPECT_NEAR(desk.width_m, 1.5, 1e-9);
     EXPECT_NEAR(desk.height_m, 0.8, 1e-9);
     ASSERT_EQ(desk.values.size(), 6u);
-    EXPECT_EQ(desk.values[5], 105);
-    EXPECT_TRUE(std::isnan(desk.values[4]));
-    EXPECT_EQ(desk.summary.uniformity, 0.976);
+    EXPECT_EQ(desk.values[5].value, 105);
+    EXPECT_EQ(desk.values[5].half_width, 0.5);
+    EXPECT_TRUE(std::isnan(desk.values[4].value));
+    EXPECT_EQ(desk.summary.uniformity.value, 0.976);
+    EXPECT_TRUE(std::isnan(desk.summary.uniformity.half_width));
+    EXPECT_EQ(desk.summary.mean.half_width, 1.5);
+    EXPECT_TRUE(std::isnan(desk.summary.minimum.half_width));
+    EXPECT_EQ(results.scene_name, "Office");
 }
 
 TEST(ResultsFile, TakesARowOfCellsForSquares) {
@@ -101,15 +108,36 @@ TEST(ResultsFile, SaysWhatIsWrong) {
 }
 
 TEST(GridPicture, SumsUpEachGrid) {
-    const plot::FalseColour picture = plot::picture_of(
-        read_results(document(grid("desk", "lx") + "," + grid("table", "lx")), "office.json"));
-    EXPECT_EQ(picture.title, "Illuminance, office.toml");
+    const std::string content = document(grid("desk", "lx") + "," + grid("table", "lx"));
+    const plot::FalseColour picture = plot::picture_of(read_results(content, "office.json"), {});
+    EXPECT_EQ(picture.title, "Office: illuminance");
     EXPECT_EQ(picture.unit, "lx");
     ASSERT_EQ(picture.panels.size(), 2u);
     EXPECT_EQ(picture.panels[1].name, "table");
     EXPECT_EQ(picture.panels[0].subtitle, "mean 102 lx   minimum 100 lx   uniformity 0.98");
     EXPECT_EQ(picture.panels[0].nu, 3);
     EXPECT_EQ(picture.panels[0].nv, 2);
+    EXPECT_TRUE(picture.panels[0].errors.empty());
+    // A scene without a name, as in files of older versions, goes by its file.
+    const std::string nameless = with(content, ",\"scene_name\":\"Office\"", "");
+    EXPECT_EQ(plot::picture_of(read_results(nameless, "x.json"), {}).title, "office.toml: illuminance");
+}
+
+TEST(GridPicture, HasErrorsOnDemand) {
+    plot::FalseColourOptions options;
+    options.errors = true;
+    const std::string content = document(grid("desk", "lx"));
+    const plot::FalseColour picture = plot::picture_of(read_results(content, "office.json"), options);
+    EXPECT_EQ(picture.panels[0].errors, std::vector<double>(6, 0.5));
+    EXPECT_EQ(picture.panels[0].subtitle, "mean 102.5 ± 1.5 lx   minimum 100 lx   uniformity 0.98");
+    std::string deterministic = content;
+    for (int i = 0; i < 6; ++i) deterministic = with(deterministic, "[0,1]", "[null,null]");
+    try {
+        plot::picture_of(read_results(deterministic, "office.json"), options);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("Leave --errors out"), std::string::npos) << error.what();
+    }
 }
 
 /// Straight from the results of a run: as read back from the file that they make.
@@ -128,8 +156,12 @@ TEST(GridPicture, IsTheSameOfResultsAndTheirFile) {
         grid.summary = statistics::summarize_grid({replicates, values.size()});
     };
     add("desk", {5, 3}), add("row", {4, 1}), add("column", {1, 4}), add("cell", {1, 1});
-    const plot::FalseColour straight = plot::picture_of(result, "office.toml");
-    const plot::FalseColour read = plot::picture_of(read_results(to_json(result, "office.toml"), "x.json"));
+    result.scene_name = "Two-desk office";
+    plot::FalseColourOptions options;
+    options.errors = true;
+    const plot::FalseColour straight = plot::picture_of(result, "office.toml", options);
+    const plot::FalseColour read =
+        plot::picture_of(read_results(to_json(result, "office.toml"), "x.json"), options);
     EXPECT_EQ(straight.title, read.title);
     EXPECT_EQ(straight.unit, read.unit);
     ASSERT_EQ(straight.panels.size(), 4u);
@@ -139,6 +171,7 @@ TEST(GridPicture, IsTheSameOfResultsAndTheirFile) {
         EXPECT_EQ(a.name, b.name);
         EXPECT_EQ(a.subtitle, b.subtitle);
         EXPECT_EQ(a.values, b.values);
+        EXPECT_EQ(a.errors, b.errors);
         EXPECT_EQ(std::make_pair(a.nu, a.nv), std::make_pair(b.nu, b.nv));
         EXPECT_NEAR(a.width_m, b.width_m, 1e-12) << a.name;
         EXPECT_NEAR(a.height_m, b.height_m, 1e-12) << a.name;
@@ -146,10 +179,9 @@ TEST(GridPicture, IsTheSameOfResultsAndTheirFile) {
 }
 
 TEST(GridPicture, NeedsGridsOfOneUnit) {
-    EXPECT_THROW(plot::picture_of(read_results(document(""), "office.json")), InputError);
-    EXPECT_THROW(
-        plot::picture_of(read_results(document(grid("a", "lx") + "," + grid("b", "cd/m2")), "office.json")),
-        InputError);
+    EXPECT_THROW(plot::picture_of(read_results(document(""), "office.json"), {}), InputError);
+    const std::string two_units = document(grid("a", "lx") + "," + grid("b", "cd/m2"));
+    EXPECT_THROW(plot::picture_of(read_results(two_units, "office.json"), {}), InputError);
 }
 
 }  // namespace

@@ -115,7 +115,9 @@ TEST(ResultsJson, GridsAmongLuminancesAreReadBack) {
     const ResultsFile read = read_results(to_json(made, "room.toml"), "room.json");
     ASSERT_EQ(read.grids.size(), 1u);
     EXPECT_EQ(read.grids[0].name, "desk");
-    EXPECT_EQ(read.grids[0].values, (std::vector<double>{500, 510}));
+    ASSERT_EQ(read.grids[0].values.size(), 2u);
+    EXPECT_EQ(read.grids[0].values[0].value, 500);
+    EXPECT_EQ(read.grids[0].values[1].value, 510);
     EXPECT_EQ(read.grids[0].unit, "lx");
 }
 

@@ -34,9 +34,20 @@ inline Picture sample_picture(int width = 40, int height = 20) {
     }
     picture.camera = sample_camera(Projection::perspective);
     picture.camera->resolution = {width, height};
-    picture.origin = {"office.toml", "0123abcd", "main",    "auto", "stilb render office.toml -o a.exr",
-                      "9.8.7",       17,         4096,      32,     12.5,
-                      10'080,        0.25,       "incoming"};
+    picture.origin = {"office.toml",
+                      "0123abcd",
+                      "main",
+                      "auto",
+                      "stilb render office.toml -o a.exr",
+                      "9.8.7",
+                      17,
+                      4096,
+                      32,
+                      12.5,
+                      10'080,
+                      0.25,
+                      "incoming",
+                      "Two-desk office"};
     return picture;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/sample_picture.h"
+#include "lights/colour_temperature.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -24,7 +25,16 @@ TEST(ToneCurve, IsMonotoneFromBlackToWhite) {
     }
     EXPECT_EQ(last, 1);
     EXPECT_NEAR(curve.display_luminance(799.999), 1, 1e-5);  // no step at white
-    EXPECT_NEAR(curve.display_luminance(1e-3), 1e-5, 1e-9);  // linear in the dark
+    EXPECT_NEAR(curve.display_luminance(1e-3), 1e-5, 1e-15);
+    EXPECT_NEAR(curve.display_luminance(50), 0.5, 1e-12);  // linear to here, then without a kink
+    EXPECT_NEAR((curve.display_luminance(50.1) - curve.display_luminance(50)) / 0.1, 0.01, 1e-4);
+}
+
+TEST(ToneCurve, TellsLampsFromWhatTheyLight) {
+    const ToneCurve curve(1);
+    // Of Reinhard's operator for what exceeds 0.5: x = 1 is l = 1, (1 + 1 / 225) / 2 of the upper half.
+    EXPECT_NEAR(curve.display_luminance(1), 0.5 + 0.5 * (1 + 1 / 225.) / 2, 1e-12);
+    EXPECT_GT(curve.display_luminance(4) - curve.display_luminance(2), 0.05);
 }
 
 TEST(ToneCurve, BlackStaysBlackAndGreyGrey) {
@@ -40,8 +50,26 @@ TEST(ToneCurve, BlackStaysBlackAndGreyGrey) {
         EXPECT_EQ(bytes[0], bytes[1]);
         EXPECT_EQ(bytes[1], bytes[2]);
     }
-    // 0.18 (1 + 0.18 / 64) / 1.18 = 0.15297, in sRGB 0.4283.
-    EXPECT_EQ(curve.srgb({0.18f, 0.18f, 0.18f}), (Bytes{109, 109, 109}));
+    // 0.18 in sRGB is 0.4614.
+    EXPECT_EQ(curve.srgb({0.18f, 0.18f, 0.18f}), (Bytes{118, 118, 118}));
+}
+
+/// White balance: whatever the lamps' colour temperature, a grey wall is grey, and as bright as ever.
+TEST(ToneCurve, ShowsANeutralWallWithoutHue) {
+    for (const double kelvin : {2700.0, 3000.0, 4000.0, 6500.0, 10000.0}) {
+        const Rgb white = lights::colour_of_temperature(kelvin);
+        const ToneCurve curve(0.01, white);
+        EXPECT_NEAR(curve.white_k(), kelvin, 1);
+        for (const float luminance : {5.0f, 18.0f, 60.0f, 300.0f}) {
+            const Rgb wall = luminance * white;
+            const Bytes shown = curve.srgb({float(wall[0]), float(wall[1]), float(wall[2])});
+            EXPECT_EQ(shown, ToneCurve(0.01).srgb({luminance, luminance, luminance})) << kelvin;
+        }
+    }
+    // Without it the wall at 4000 K is sepia.
+    const Rgb wall = 18 * lights::colour_of_temperature(4000);
+    const Bytes shown = ToneCurve(0.01).srgb({float(wall[0]), float(wall[1]), float(wall[2])});
+    EXPECT_GT(shown[0], shown[2] + 30);
 }
 
 double linear(std::uint8_t byte) {
@@ -63,21 +91,43 @@ TEST(ToneCurve, KeepsTheLuminanceOfColoursBeyondTheScreen) {
     EXPECT_LT(curve.srgb({10, 0, 0})[2], curve.srgb({30, 0, 0})[2]);
 }
 
-TEST(ToneCurve, ExposureMakesTheMeanMiddleGrey) {
-    EXPECT_NEAR(automatic_exposure(picture_of({{50, 50, 50}, {200, 200, 200}})), 0.18 / 100, 1e-6);
-    EXPECT_EQ(automatic_exposure(picture_of({{0, 0, 0}, {NAN, 0, 0}})), 1);
-    // Black borders and pixels without value do not count.
-    EXPECT_NEAR(automatic_exposure(picture_of({{100, 100, 100}, {0, 0, 0}, {NAN, 0, 0}})), 0.18 / 100, 1e-6);
+using Pixels = std::vector<std::array<float, 3>>;
+
+/// So many of 100 pixels show lamps, the others a room of 5 to 201 cd/m2 (median 53, nine tenths up to 163).
+Picture room_with(float lamps_cd_m2, int lamps) {
+    Pixels pixels(static_cast<std::size_t>(lamps), {lamps_cd_m2, lamps_cd_m2, lamps_cd_m2});
+    for (int i = 0; i < 100 - lamps; ++i) {
+        const auto grey = static_cast<float>(5 + i * i / 50.);
+        pixels.push_back({grey, grey, grey});
+    }
+    return picture_of(pixels);
 }
 
-TEST(ToneCurve, ExposureProtectsHighlights) {
-    // 5 % of the pixels 150 times as bright: white but for the protection, which dims by less than two stops.
-    std::vector<std::array<float, 3>> pixels(95, {100, 100, 100});
-    pixels.insert(pixels.end(), 5, {15000, 15000, 15000});
-    EXPECT_NEAR(automatic_exposure(picture_of(pixels)), 8.0 / 15000, 1e-7);
-    pixels.back() = pixels[95] = pixels[96] = pixels[97] = pixels[98] = {1e9f, 1e9f, 1e9f};
-    const double exposure = automatic_exposure(picture_of(pixels));
-    EXPECT_NEAR(exposure, 0.18 / std::exp(0.95 * std::log(100) + 0.05 * std::log(1e9)) / 4, 1e-7);
+TEST(AutomaticExposure, UsesTheRange) {
+    EXPECT_NEAR(automatic_exposure(room_with(0, 0)), 0.65 / 163.4, 1e-5);
+    // A picture of one grey is neither white nor dark.
+    EXPECT_NEAR(automatic_exposure(picture_of(Pixels(50, {40, 40, 40}))), 0.36 / 40, 1e-9);
+    EXPECT_EQ(automatic_exposure(picture_of({{0, 0, 0}, {NAN, 0, 0}})), 1);
+    // Black borders and pixels without value do not count.
+    EXPECT_NEAR(automatic_exposure(picture_of({{100, 100, 100}, {0, 0, 0}, {NAN, 0, 0}})), 0.36 / 100, 1e-9);
+}
+
+TEST(AutomaticExposure, LampsDoNotMakeTheRoomDark) {
+    const double without = automatic_exposure(room_with(0, 0));
+    for (const float lamps : {1e3f, 1e4f, 1e6f}) {
+        const double with = automatic_exposure(room_with(lamps, 5));
+        EXPECT_GT(with, 0.9 * without) << lamps;
+        EXPECT_LT(with, 1.1 * without) << lamps;
+    }
+    // A window over a fifth of the picture, ten times as bright as the room: its median is not black.
+    EXPECT_NEAR(53 * automatic_exposure(room_with(700, 20)), 0.12, 0.002);
+}
+
+TEST(AutomaticExposure, BrightThingsInTheDarkKeepTheirContrasts) {
+    Pixels pixels(70, {0.01f, 0.01f, 0.01f});
+    pixels.insert(pixels.end(), 30, {10, 10, 10});
+    const ToneCurve curve(automatic_exposure(picture_of(pixels)));
+    EXPECT_LT(curve.display_luminance(10), 0.96);
 }
 
 TEST(ToneCurve, RefusesAnExposureThatShowsNothing) {

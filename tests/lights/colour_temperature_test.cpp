@@ -83,5 +83,28 @@ TEST(ColourTemperature, GrowsBluerWithoutJumps) {
     }
 }
 
+TEST(CorrelatedTemperature, IsTheWayBack) {
+    for (const double t : {1800.0, 2700.0, 4000.0, 4400.0, 5000.0, 6504.0, 9300.0, 20000.0}) {
+        const CorrelatedTemperature found = correlated_temperature(37 * colour_of_temperature(t));
+        EXPECT_NEAR(1e6 / found.temperature_k, 1e6 / t, 0.003) << t;
+        EXPECT_LT(found.distance, 1e-6) << t;
+    }
+}
+
+TEST(CorrelatedTemperature, StatesTheDistanceFromWhite) {
+    // u = 4x / (-2x + 12y + 3), v = 6y / (-2x + 12y + 3); Rec. 709 green is x = 0.30, y = 0.60.
+    const ChromaticityUv green = chromaticity_of({{0, 5, 0}});
+    EXPECT_NEAR(green.u, 1.2 / 9.6, 1e-3);
+    EXPECT_NEAR(green.v, 3.6 / 9.6, 1e-3);
+    EXPECT_GT(correlated_temperature({{0, 1, 0}}).distance, 0.05);
+    EXPECT_LT(correlated_temperature(Rgb::grey(1)).distance, 0.001);
+}
+
+TEST(CorrelatedTemperature, ChromaticitiesAreColours) {
+    const Rgb colour{{2, 0.5, 0.25}};
+    const Rgb back = colour_of(chromaticity_of(colour)) * colour.luminance();
+    for (std::size_t b = 0; b < kBands; ++b) EXPECT_NEAR(back[b], colour[b], 1e-3);
+}
+
 }  // namespace
 }  // namespace stilb::lights

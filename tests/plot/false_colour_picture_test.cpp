@@ -118,8 +118,11 @@ TEST(FalseColourPicture, DrawsIsolinesAndNumbers) {
     options.isolines = false;
     options.numbers = true;
     const PngPixels numbers = draw(ramp, options);
+    ASSERT_EQ(plain.height, numbers.height);
     int written = 0;
-    for (std::size_t i = 0; i < plain.rgb.size(); ++i) written += plain.rgb[i] != numbers.rgb[i];
+    for (int y = 0; y < plain.height; ++y) {
+        for (int x = 0; x < plain.width; ++x) written += plain.at(x, y) != numbers.at(x, y);
+    }
     EXPECT_GT(written, 2000);
     EXPECT_LT(written, 40'000);
 }

@@ -79,25 +79,51 @@ TEST(FalseColour, HatchesCellsWithoutAValue) {
     EXPECT_GT(bars.count, 20);
 }
 
-TEST(FalseColour, DrawsNumbersOnlyWhereTheyFit) {
+TEST(FalseColour, PanelsShareOneScaleOfMetres) {
+    // A hall of 4 m x 4 m, a desk of 1 m x 0.5 m, and a strip; and the same after many more desks.
+    FalseColour picture{"", "lx", {{"hall", "", 4, 4, 4, 4, std::vector<double>(16, 20)}}};
+    picture.panels.push_back({"desk", "", 2, 2, 1, 0.5, std::vector<double>(4, 50)});
+    picture.panels.push_back({"strip", "", 10, 1, 5, 0.2, std::vector<double>(10, 70)});
+    for (const int more : {0, 12}) {
+        for (int i = 0; i < more; ++i)
+            picture.panels.push_back({"desk", "", 2, 2, 1, 0.5, std::vector<double>(4, 10)});
+        const PngPixels pixels = draw(picture, zero_to_hundred());
+        const double per_m2 = find_colour(pixels, colour_at(0.2), cells_end(pixels)).count / 16.;
+        EXPECT_GT(per_m2, 60 * 60);
+        // The frame's line covers a pixel or two of each side.
+        const int desk = find_colour(pixels, colour_at(0.5), cells_end(pixels)).count;
+        const int strip = find_colour(pixels, colour_at(0.7), cells_end(pixels)).count;
+        EXPECT_NEAR(desk / 0.5, per_m2, 0.08 * per_m2);
+        EXPECT_NEAR(strip, per_m2, 0.15 * per_m2);
+    }
+}
+
+/// White pixels within 200 of the middle of the cells; nothing but numbers is white on cells so dark.
+int white_on_cells(const PngPixels& pixels) {
+    const Spot cells = find_colour(pixels, colour_at(0.05), cells_end(pixels));
+    int white = 0;
+    for (int y = int(cells.y) - 200; y < int(cells.y) + 200; ++y) {
+        for (int x = int(cells.x) - 200; x < int(cells.x) + 200; ++x) white += pixels.at(x, y) == 0xffffff;
+    }
+    return white;
+}
+
+TEST(FalseColour, WritesNumbersIntoTheCells) {
     FalseColourOptions options = zero_to_hundred();
-    // Nothing else on so dark cells is white.
-    const auto white_on_cells = [&](int count) {
-        FalseColourPanel panel{"", "", count, count, 0, 0, {}};
-        panel.values.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(count), 5.0);
-        const PngPixels pixels = draw({"", "lx", {panel}}, options);
-        const Spot cells = find_colour(pixels, colour_at(0.05), cells_end(pixels));
-        int white = 0;
-        for (int y = int(cells.y) - 200; y < int(cells.y) + 200; ++y) {
-            for (int x = int(cells.x) - 200; x < int(cells.x) + 200; ++x)
-                white += pixels.at(x, y) == 0xffffff;
-        }
-        return white;
+    const auto panel = [](int count) {
+        const auto cells = static_cast<std::size_t>(count) * static_cast<std::size_t>(count);
+        return FalseColourPanel{"", "", count, count, 5, 5, std::vector<double>(cells, 5.0)};
     };
-    EXPECT_EQ(white_on_cells(8), 0);
+    EXPECT_EQ(white_on_cells(draw({"", "lx", {panel(8)}}, options)), 0);
     options.numbers = true;
-    EXPECT_GT(white_on_cells(8), 50);
-    EXPECT_EQ(white_on_cells(200), 0);
+    EXPECT_GT(white_on_cells(draw({"", "lx", {panel(8)}}, options)), 50);
+    // The sheet grows: a number in each of 50 x 50 cells. In 300 x 300 some are left out, but not all.
+    const PngPixels many = draw({"", "lx", {panel(50)}}, options);
+    EXPECT_GT(many.width, 2000);
+    EXPECT_GT(white_on_cells(many), 50);
+    const PngPixels most = draw({"", "lx", {panel(300)}}, options);
+    EXPECT_LT(most.width, 4200);
+    EXPECT_GT(white_on_cells(most), 50);
 }
 
 TEST(FalseColour, DrawsIsolinesWhereTheyBelong) {
@@ -151,6 +177,10 @@ TEST(FalseColour, SaysWhatIsWrong) {
     wrong.panels[0].values.pop_back();
     EXPECT_THROW(draw(wrong, {}), std::invalid_argument);
     EXPECT_THROW(draw({"", "lx", {}}, {}), std::invalid_argument);
+    // No .png is so large.
+    FalseColour endless = picture;
+    endless.panels.insert(endless.panels.end(), 4000, picture.panels[0]);
+    EXPECT_THROW(draw(endless, {}), InputError);
 }
 
 TEST(FalseColour, DrawsManyPanelsOfAnyShape) {

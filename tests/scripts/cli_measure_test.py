@@ -221,6 +221,14 @@ class MeasureTest(CommandLineTest):
         results.write_text(document, encoding="utf-8")
         self.assertEqual(run("falsecolor", results, "-o", read, "--isolines").returncode, 0)
         self.assertEqual(straight.read_bytes(), read.read_bytes())
+        self.assertEqual(json.loads(document)["scene_name"], "A room")
+
+    def test_picture_with_errors(self):
+        results, plain, numbers = (self.folder / name for name in ("room.json", "plain.svg", "numbers.svg"))
+        self.measure("--paths", "4096", "-o", results)
+        for picture, flags in ((plain, ["--numbers"]), (numbers, ["--numbers", "--errors"])):
+            self.assertEqual(run("falsecolor", results, "-o", picture, "--isolines", *flags).returncode, 0)
+        self.assertGreater(numbers.read_text().count("<use"), plain.read_text().count("<use") + 20)
 
     def test_table(self):
         result = run("measure", self.scene, "--error", "5%")

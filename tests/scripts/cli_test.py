@@ -54,6 +54,10 @@ class WrongInputTest(CommandLineTest):
         self.expect_wrong_input(["solve", self.scene, "-o", "x.solution", "--degree", "99"], "from 0 to 12")
         self.expect_wrong_input(["measure", self.scene, "--threads", "1e9"], "--threads", "from 0 to 4096")
         self.expect_wrong_input(["render", self.scene, "-o", "x.png", "--exposure", "0"], "Give a number above 0.")
+        self.write("view.toml", ROOM + CAMERA)
+        for white in ("warm", "900", "nan", ""):
+            self.expect_wrong_input(["render", self.folder / "view.toml", "-o", "x.png", "--white", white],
+                                    f"--white {white}: expected auto or a colour temperature from 1000 to 25000 K")
 
     def test_numbers(self):
         for flag in ("--time", "--patch"):
@@ -131,6 +135,32 @@ class FullDiskTest(CommandLineTest):
                 self.assertRegex(result.stderr, r"^stilb: standard output cannot be written[^\n]*\n$")
 
 
+class RenderTest(CommandLineTest):
+    def render(self, scene, picture, *flags):
+        file = self.write("view.toml", scene + CAMERA.replace("[640, 480]", "[64, 48]").replace("fisheye", "perspective"))
+        result = run("render", file, "-o", self.folder / picture, "--paths", "4", *flags)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def test_white_balance(self):
+        """The message names the white; without another light than that of the lamps, it is theirs."""
+        warm = ROOM.replace("flux = 1000", "flux = 1000\ncct = 3000")
+        self.assertRegex(self.render(warm, "a.png"), r"a\.png: exposure [\d.e-]+ per cd/m², white 3000 K\n")
+        self.assertIn("white 4000 K", self.render(warm, "b.png", "--white", "4000"))
+        pictures = [(self.folder / name).read_bytes() for name in ("a.png", "b.png")]
+        self.assertNotEqual(*pictures)
+        for number, flags in enumerate(([], ["--white", "2700"])):
+            self.assertNotIn("white", self.render(warm, f"{number}.hdr", *flags))
+
+    def test_darkness(self):
+        """No share of nothing."""
+        dark = ROOM[:ROOM.index("[lights.bulb]")] + ROOM[ROOM.index("[sensors.desk]"):]
+        printed = self.render(dark, "dark.png")
+        self.assertIn("mean standard error of a pixel: 0 cd/m²\n", printed)
+        self.assertNotIn("nan %", printed)
+        self.assertIn("exposure 1 per cd/m²", printed)
+
+
 class FalsecolorTest(CommandLineTest):
     def radiance_picture(self):
         """Two grey pixels as Radiance writes them."""
@@ -149,6 +179,7 @@ class FalsecolorTest(CommandLineTest):
         picture = self.radiance_picture()
         drawing = self.folder / "view.png"
         self.expect_wrong_input(["falsecolor", picture, "-o", drawing, "--sensor", "desk"], "--sensor")
+        self.expect_wrong_input(["falsecolor", picture, "-o", drawing, "--errors"], "--errors", "SE.Y")
         self.expect_wrong_input(["falsecolor", self.folder / "none.exr", "-o", drawing], "none.exr", "cannot be read")
         picture.write_bytes(picture.read_bytes()[:-1])
         self.expect_wrong_input(["falsecolor", picture, "-o", drawing], "view.hdr", "row 1 of 1")

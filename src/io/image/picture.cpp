@@ -147,6 +147,7 @@ std::vector<HeaderField> header_fields(const Picture& picture) {
     if (!origin.version.empty()) add("software", std::string(kSoftware) + origin.version);
     add("command", origin.command);
     add("scene", origin.scene);
+    add("sceneName", origin.scene_name);
     add("sceneHash", origin.scene_hash);
     add("sensor", origin.sensor);
     add("method", origin.method);
@@ -168,6 +169,7 @@ void read_header_field(Picture& picture, std::string_view name, std::string_view
     if (is("software") && text.starts_with(kSoftware)) origin.version = text.substr(kSoftware.size());
     if (is("command")) origin.command = text;
     if (is("scene")) origin.scene = text;
+    if (is("sceneName")) origin.scene_name = text;
     if (is("sceneHash")) origin.scene_hash = text;
     if (is("sensor")) origin.sensor = text;
     if (is("method")) origin.method = text;

@@ -30,6 +30,7 @@ struct PictureOrigin {
     std::uint64_t patches = 0;  ///< that represent the surfaces
     double patch_size_m = 0;    ///< no edge is longer
     std::string first_shot;     ///< the variant that replaces small lights
+    std::string scene_name;     ///< as the scene file gives it
     bool operator==(const PictureOrigin&) const = default;
 };
 
@@ -73,8 +74,8 @@ struct HeaderField {
     std::string text;  ///< one line
 };
 
-/// Origin (scene, sceneHash, sensor, method, seed, paths, replicates, elapsed_s, patches, patchSize_m,
-/// firstShot, command, software) and view; unknown values are left out.
+/// Origin (scene, sceneName, sceneHash, sensor, method, seed, paths, replicates, elapsed_s, patches,
+/// patchSize_m, firstShot, command, software) and view; unknown values are left out.
 ///
 /// The view is in Radiance's words: VIEW = "-vtv -vp 0 0 1.5 -vd 1 0 0 -vu 0 0 1 -vh 60 -vv 36", with -vtv
 /// for perspective and -vta for an (equiangular) fisheye. Radiance has no equirectangular type (its -vtc is a

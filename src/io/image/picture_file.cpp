@@ -43,7 +43,7 @@ std::optional<ToneCurve> write_picture(const Picture& picture, const std::filesy
                                        const ToneOptions& tone) {
     const FileKind kind = luminance_picture_kind(path);
     if (kind == FileKind::png_picture) {
-        const ToneCurve curve(tone.exposure ? *tone.exposure : automatic_exposure(picture));
+        const ToneCurve curve = tone_curve_for(picture, tone);
         replace_file(path, to_png(picture, curve));
         return curve;
     }
@@ -75,7 +75,8 @@ void flush(png_structp) {}
 
 std::vector<HeaderField> texts_of(const Picture& picture, const ToneCurve& curve) {
     std::vector<HeaderField> texts{{"Exposure", fmt::format("{} per cd/m2", curve.exposure())},
-                                   {"Tone curve", curve.description()}};
+                                   {"Tone curve", curve.description()},
+                                   {"White", fmt::format("{:.0f} K", curve.white_k())}};
     for (HeaderField& field : header_fields(picture)) texts.push_back(std::move(field));
     return texts;
 }

@@ -18,8 +18,9 @@ void require_luminance_picture_path(const std::filesystem::path& path,
                                     std::span<const std::filesystem::path> inputs);
 
 /// Writes .exr (exr_file.h), .hdr (hdr_file.h) or .png (png_picture.h). The file is replaced in one step, so
-/// that a viewer never reads half of it. Returns the tone curve of a .png, whose exposure may have been
-/// chosen automatically. Throws InputError as above and where the file cannot be written.
+/// that a viewer never reads half of it. Returns the tone curve of a .png, whose exposure and white may have
+/// been chosen automatically; the other formats keep the picture's values. Throws InputError as above and
+/// where the file cannot be written.
 std::optional<ToneCurve> write_picture(const Picture& picture, const std::filesystem::path& path,
                                        const ToneOptions& tone = {});
 
@@ -67,7 +68,8 @@ Picture read_hdr(std::string_view content, const std::string& name);
 // Tone-mapped pictures as PNG. Only this implementation includes libpng: Cairo, which draws everything else,
 // cannot write text fields into a PNG.
 
-/// The content of a file: 8-bit sRGB. Its texts are "Exposure" (per cd/m2), "Tone curve" and header_fields().
+/// The content of a file: 8-bit sRGB. Its texts are "Exposure" (per cd/m2), "Tone curve", "White" and
+/// header_fields().
 std::string to_png(const Picture& picture, const ToneCurve& curve);
 
 }  // namespace stilb::io

@@ -8,6 +8,7 @@
 
 #include "base/rgb.h"
 #include "base/vec.h"
+#include "lights/colour_temperature.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -61,11 +62,14 @@ Colour readable_on(const Colour& background) {
 
 namespace {
 
-constexpr double kMiddleGrey = 0.18;
+// The curve.
+constexpr double kLinearEnd = 0.5;
 constexpr double kWhite = 8;
-/// Two stops (a factor of 4).
-constexpr double kMostProtection = 4;
-constexpr double kProtectedShare = 0.99;
+
+// The automatic exposure.
+constexpr double kBrightShare = 0.9;
+constexpr double kBright = 0.65, kBrightest = 4;
+constexpr double kDarkestMedian = 0.12, kBrightestMedian = 0.36;
 
 std::uint8_t srgb_byte(double linear) {
     const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
@@ -86,19 +90,28 @@ Triple within_screen(const Triple& rgb, double luminance) {
 
 }  // namespace
 
-ToneCurve::ToneCurve(double exposure) : exposure_(exposure) {
+ToneCurve::ToneCurve(double exposure, const Rgb& white)
+    : exposure_(exposure), white_(white), adapted_(white) {
     if (!(exposure > 0 && std::isfinite(exposure)))
         throw InputError(fmt::format("exposure {}: expected a number above 0", exposure));
 }
 
 std::string ToneCurve::description() const {
-    return fmt::format("Reinhard 2002, white at {} / exposure", kWhite);
+    return fmt::format("linear to {} / exposure, then Reinhard 2002, white at {} / exposure", kLinearEnd,
+                       kWhite);
 }
+
+double ToneCurve::white_k() const { return lights::correlated_temperature(white_).temperature_k; }
 
 double ToneCurve::display_luminance(double luminance_cd_m2) const {
     if (!(luminance_cd_m2 > 0)) return 0;
-    const double l = luminance_cd_m2 * exposure_;
-    return l >= kWhite ? 1 : l * (1 + l / (kWhite * kWhite)) / (1 + l);
+    const double x = luminance_cd_m2 * exposure_;
+    if (x >= kWhite) return 1;
+    if (x <= kLinearEnd) return x;
+    // In units of the shoulder's height.
+    constexpr double kRange = (kWhite - kLinearEnd) / (1 - kLinearEnd);
+    const double l = (x - kLinearEnd) / (1 - kLinearEnd);
+    return kLinearEnd + (1 - kLinearEnd) * l * (1 + l / (kRange * kRange)) / (1 + l);
 }
 
 std::array<std::uint8_t, 3> ToneCurve::srgb(const std::array<float, 3>& rgb_cd_m2) const {
@@ -107,27 +120,27 @@ std::array<std::uint8_t, 3> ToneCurve::srgb(const std::array<float, 3>& rgb_cd_m
     const double shown = display_luminance(luminance);
     if (shown == 0) return {0, 0, 0};
     if (shown == 1) return {255, 255, 255};
+    Rgb balanced = adapted_(rgb);
+    if (!(balanced.luminance() > 0)) balanced = Rgb::grey(1);  // a colour far outside of Rec. 709
+    const double scale = shown / balanced.luminance();
     Triple display;
-    for (std::size_t i = 0; i < 3; ++i) display[i] = rgb[i] * (shown / luminance);
+    for (std::size_t i = 0; i < 3; ++i) display[i] = balanced[i] * scale;
     display = within_screen(display, shown);
     return {srgb_byte(display[0]), srgb_byte(display[1]), srgb_byte(display[2])};
 }
 
 double automatic_exposure(const Picture& picture) {
-    std::vector<double> luminances;
-    double sum_of_logarithms = 0;
-    for (std::size_t i = 0; i < picture.pixel_count(); ++i) {
-        const double luminance = picture.luminance_cd_m2(i);
-        if (!(luminance > 0 && std::isfinite(luminance))) continue;
-        luminances.push_back(luminance);
-        sum_of_logarithms += std::log(luminance);
-    }
+    PictureLuminances luminances(picture);
     if (luminances.empty()) return 1;
-    const auto count = static_cast<double>(luminances.size());
-    const double exposure = kMiddleGrey / std::exp(sum_of_logarithms / count);
-    const auto nth = luminances.begin() + static_cast<std::ptrdiff_t>(kProtectedShare * (count - 1));
-    std::nth_element(luminances.begin(), nth, luminances.end());
-    return std::clamp(kWhite / *nth, exposure / kMostProtection, exposure);
+    const double median = luminances.quantile(0.5);
+    const double bright = luminances.quantile(kBrightShare);
+    const double exposure = std::clamp(kBright / bright, kDarkestMedian / median, kBrightestMedian / median);
+    return std::min(exposure, kBrightest / bright);
+}
+
+ToneCurve tone_curve_for(const Picture& picture, const ToneOptions& options) {
+    return ToneCurve(options.exposure ? *options.exposure : automatic_exposure(picture),
+                     choose_white(picture, options.white));
 }
 
 namespace {

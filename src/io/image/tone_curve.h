@@ -7,6 +7,8 @@
 #include <string>
 
 #include "io/image/picture.h"
+#include "io/image/white_balance.h"
+#include "scene/whites.h"
 
 namespace stilb::io {
 
@@ -38,24 +40,34 @@ double distance(const Oklab& first, const Oklab& second);
 /// Black or white, whichever has more contrast with `background` [W3C, WCAG 2.1]; at least 4.5 : 1.
 Colour readable_on(const Colour& background);
 
+// The way of a luminance picture to the screen: white balance, exposure, tone curve.
+
 struct ToneOptions {
-    /// The exposure per cd/m2: a luminance of 0.18 / exposure becomes middle grey. Chosen from the picture
-    /// where absent.
+    /// The exposure per cd/m2: luminance times exposure is what the tone curve shows. Chosen from the
+    /// picture where absent.
     std::optional<double> exposure;
+    /// The white of the picture, chosen between these two colours by choose_white().
+    scene::WhiteRange white{};
 };
 
-/// Luminance times exposure goes through the curve L (1 + L / W^2) / (1 + L) with W = 8 (Reinhard's global
-/// operator [Reinhard et al. 2002, Photographic tone reproduction for digital images, eq. 4]): nearly linear
-/// at low luminances, and white from W on. Hue and saturation stay, except that a colour outside the
-/// display's gamut is mixed with grey of the same luminance: overexposed colours tend to white.
+/// Luminance times exposure x is shown as it is up to 0.5. Above, a shoulder without a kink leads to white
+/// at x = 8: Reinhard's global operator [Reinhard et al. 2002, Photographic tone reproduction for digital
+/// images, eq. 4] for what exceeds 0.5. So all but the bright parts keep their contrasts, and lamps still
+/// differ from what they light. Colours are adapted to the white (white_balance.h); the luminance stays. A
+/// colour outside of the display's gamut is mixed with grey of the same luminance: overexposed colours tend
+/// to white.
 class ToneCurve {
   public:
-    /// Throws InputError where the exposure is not a finite number above 0.
-    explicit ToneCurve(double exposure);
+    /// `white`: what is shown without hue. Throws InputError where the exposure is not a finite number above
+    /// 0.
+    explicit ToneCurve(double exposure, const Rgb& white = Rgb::grey(1));
 
     double exposure() const { return exposure_; }
-    /// A description such as "Reinhard 2002, white at 8 / exposure".
+    const Rgb& white() const { return white_; }
+    /// A description such as "linear to 0.5 / exposure, then Reinhard 2002, white at 8 / exposure".
     std::string description() const;
+    /// Of the white: its correlated colour temperature.
+    double white_k() const;
 
     /// Display luminance, 0 to 1; monotonic; 0 for negative values and for NaN.
     double display_luminance(double luminance_cd_m2) const;
@@ -64,11 +76,18 @@ class ToneCurve {
 
   private:
     double exposure_;
+    Rgb white_;
+    ChromaticAdaptation adapted_;
 };
 
-/// The exposure that makes the geometric mean of the luminances middle grey, 0.18. It is reduced, down to a
-/// quarter, where more than one pixel in a hundred would become white. 1 for a black picture.
+/// The exposure that makes nine tenths of the pixels no brighter than 0.65. The median then must lie between
+/// 0.12 and 0.36, so that neither bright lamps and windows nor their absence decide over the
+/// room; but nine tenths of the pixels must not exceed 4, so that few bright things in the dark keep their
+/// contrasts. 1 for a black picture.
 double automatic_exposure(const Picture& picture);
+
+/// By the options, with an automatic exposure where they have none.
+ToneCurve tone_curve_for(const Picture& picture, const ToneOptions& options);
 
 // RGB with primaries other than Rec. 709.
 

@@ -31,9 +31,9 @@ class Node {
             {file_});
     }
 
-    bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+    bool has(const std::string& key) const { return json_.is_object() && json_.contains(key); }
 
-    Node member(const char* key) const {
+    Node member(const std::string& key) const {
         if (!json_.is_object()) fail("an object");
         const std::string path = path_.empty() ? key : path_ + "." + key;
         const auto found = json_.find(key);
@@ -98,6 +98,14 @@ void read_size(const Node& values, MeasuredGrid& grid) {
     grid.height_m = extent_of(span_v, nv, nu > 1 ? span_u / (nu - 1) : 0);
 }
 
+/// The member `name` of an object, with its interval where the object has one.
+MeasuredValue read_value(const Node& object, const std::string& name, const std::string& interval) {
+    const double value = object.member(name).number_or_none();
+    if (!object.has(interval)) return {value, kNone};
+    const Node ends = object.member(interval);
+    return {value, (ends.element(1).number_or_none() - ends.element(0).number_or_none()) / 2};
+}
+
 MeasuredGrid read_grid(const Node& sensor) {
     MeasuredGrid grid;
     grid.name = sensor.member("name").text();
@@ -111,13 +119,14 @@ MeasuredGrid read_grid(const Node& sensor) {
         values.fail(fmt::format("of {} x {} values", nu, nv));
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
-        grid.values.push_back(values.element(i).member("value").number_or_none());
+        grid.values.push_back(read_value(values.element(i), "value", "interval"));
     }
     read_size(values, grid);
     const Node summary = sensor.member("summary");
-    grid.summary = {summary.member("mean").number_or_none(), summary.member("minimum").number_or_none(),
-                    summary.member("maximum").number_or_none(),
-                    summary.member("uniformity").number_or_none()};
+    const auto statistic = [&](const std::string& name) {
+        return read_value(summary, name, name + "_interval");
+    };
+    grid.summary = {statistic("mean"), statistic("minimum"), statistic("maximum"), statistic("uniformity")};
     return grid;
 }
 
@@ -146,7 +155,8 @@ ResultsFile read_results(std::string_view content, const std::string& name) {
             "JSON, but not measured results: there is no 'stilb'. The file must be one that Stilb wrote.",
             {name});
     }
-    ResultsFile results{root.member("scene").text(), {}};
+    ResultsFile results{root.member("scene").text(), "", {}};
+    if (root.has("scene_name")) results.scene_name = root.member("scene_name").text();
     const Node sensors = root.member("sensors");
     for (std::size_t i = 0; i < sensors.size(); ++i) {
         if (sensors.element(i).member("type").text() == "grid")

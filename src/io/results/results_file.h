@@ -9,9 +9,14 @@
 
 namespace stilb::io {
 
-/// Statistics over all values of a grid; NaN where the results have none.
+/// A value with half of its 95 % interval; NaN where the results have none.
+struct MeasuredValue {
+    double value = 0, half_width = 0;
+};
+
+/// Statistics over all values of a grid.
 struct MeasuredSummary {
-    double mean = 0, minimum = 0, maximum = 0, uniformity = 0;
+    MeasuredValue mean, minimum, maximum, uniformity;
 };
 
 struct MeasuredGrid {
@@ -21,13 +26,14 @@ struct MeasuredGrid {
     std::array<int, 2> count{1, 1};
     /// The size from edge to edge along u and v; both 0 for a single cell, whose size is unknown.
     double width_m = 0, height_m = 0;
-    std::vector<double> values;  ///< u fastest; NaN where there is none
+    std::vector<MeasuredValue> values;  ///< u fastest
     MeasuredSummary summary;
 };
 
 /// The grids of a results file; other sensors are left out.
 struct ResultsFile {
-    std::string scene;
+    std::string scene;       ///< its file
+    std::string scene_name;  ///< may be empty
     std::vector<MeasuredGrid> grids;
 };
 

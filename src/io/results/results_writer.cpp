@@ -203,6 +203,7 @@ std::string with_readings(std::string_view document, std::span<const SensorResul
 std::string to_json(const RunResult& result, const std::string& scene) {
     Json json{{"stilb", STILB_VERSION},
               {"scene", scene},
+              {"scene_name", result.scene_name},
               {"method", result.method},
               {"seed", result.seed},
               {"elapsed_s", result.elapsed_s},

@@ -71,11 +71,13 @@ vec3 withinScreen(vec3 rgb, float level) {
   return level + share * (rgb - level);
 }
 
-// Reinhard's global operator [Reinhard et al. 2002, eq. 4], white at 8, as in the program's PNG pictures.
+// Linear to 0.5, then Reinhard's global operator [Reinhard et al. 2002, eq. 4], white at 8, as in the program's PNG
+// pictures.
 vec3 reinhard(vec3 rgb) {
   float luminance = luminanceOf(rgb);
   if (luminance <= 0.0) return vec3(0.0);
-  float level = luminance >= 8.0 ? 1.0 : luminance * (1.0 + luminance / 64.0) / (1.0 + luminance);
+  float excess = min(max(luminance - 0.5, 0.0) / 0.5, 15.0);
+  float level = min(luminance, 0.5) + 0.5 * excess * (1.0 + excess / 225.0) / (1.0 + excess);
   return withinScreen(rgb * (level / luminance), level);
 }
 
