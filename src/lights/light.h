@@ -20,6 +20,7 @@ struct Light {
     std::string name;
     LightSource source;
     std::string group = {};  ///< of lights that are dimmed together; empty: it is one of its own
+    double maintenance = 1;  ///< the maintenance factor, which its emission contains
 };
 
 template <typename Sources>
