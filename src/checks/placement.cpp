@@ -25,6 +25,18 @@ std::optional<ComponentId> only_around(const Enclosure& enclosure, const Enclosu
     return found != enclosure.end() ? std::optional{*found} : std::nullopt;
 }
 
+/// A component around all of the `inner` points and none of the `others`.
+std::optional<ComponentId> around_all(const EnclosureList& inner, const EnclosureList& others) {
+    for (const ComponentId& component : inner.front()) {
+        const auto is_around = [&](const Enclosure& enclosure) {
+            return std::binary_search(enclosure.begin(), enclosure.end(), component);
+        };
+        if (std::ranges::all_of(inner, is_around) && std::ranges::none_of(others, is_around))
+            return component;
+    }
+    return std::nullopt;
+}
+
 /// The position of a point without light, relative to the lights.
 std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const Scene& scene) {
     if (const auto component = only_around(dark, lit))
@@ -36,19 +48,17 @@ std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const S
     return "in an enclosure without a light";
 }
 
+ProbeRay ray_of(const Measurand& measurand, const rays::RayCaster& caster) {
+    const MeasuringPoint point = viewpoint_of(measurand);
+    const auto* body = std::get_if<BodyPoint>(&measurand);
+    return {body ? lifted_position(*body, caster) : lifted_position(point, caster), point.normal};
+}
+
 /// Rays along which the light of the readings arrives.
 std::vector<ProbeRay> rays_of(const Sensor& sensor, const rays::RayCaster& caster) {
-    if (const Camera* camera = sensor.camera()) {
-        const MeasuringPoint viewpoint{camera->position, sensors::CameraView(*camera).forward()};
-        return {{lifted_position(viewpoint, caster), viewpoint.normal}};
-    }
+    if (sensor.camera()) return {first_ray_of(sensor, caster)};
     std::vector<ProbeRay> rays;
-    for (const Measurand& measurand : sensor.measurands()) {
-        const MeasuringPoint point = viewpoint_of(measurand);
-        const auto* body = std::get_if<BodyPoint>(&measurand);
-        rays.push_back(
-            {body ? lifted_position(*body, caster) : lifted_position(point, caster), point.normal});
-    }
+    for (const Measurand& measurand : sensor.measurands()) rays.push_back(ray_of(measurand, caster));
     return rays;
 }
 
@@ -100,15 +110,41 @@ std::optional<std::string> fault_of(const Light& light, const EnclosureList& of_
             "Open a window, or remove the light.",
             light.name);
     }
-    const auto component = only_around(of_light.front(), of_sensors);
-    if (!component) return std::nullopt;
-    return fmt::format(
-        "light \"{}\" is inside object \"{}\": its light cannot get out to any sensor. Move it, or open the "
-        "object.",
-        light.name, scene.object(component->object).name);
+    if (const auto component = only_around(of_light.front(), of_sensors)) {
+        return fmt::format(
+            "light \"{}\" is inside object \"{}\": its light cannot get out to any sensor. Move it, or open "
+            "the "
+            "object.",
+            light.name, scene.object(component->object).name);
+    }
+    if (const auto component = around_all(of_sensors, of_light)) {
+        return fmt::format(
+            "light \"{}\" is outside object \"{}\", which encloses all sensors: its light cannot get in. "
+            "Move it, "
+            "or open the object.",
+            light.name, scene.object(component->object).name);
+    }
+    return std::nullopt;
+}
+
+/// Whether the light is mounted in a surface and shines to the side without sensors.
+bool is_turned_round(const Light& light, const EnclosureList& of_sensors, const Enclosures& enclosures,
+                     const rays::RayCaster& caster) {
+    const auto origin = lights::point_origin(light);
+    if (!origin || !origin->axis) return false;
+    const Vec3 behind =
+        origin->position - caster.offset_m(origin->position, caster.half_extent_m()) * *origin->axis;
+    return contains(of_sensors, enclosures.enclosure_of({behind, -*origin->axis}));
 }
 
 }  // namespace
+
+ProbeRay first_ray_of(const Sensor& sensor, const rays::RayCaster& caster) {
+    const Camera* camera = sensor.camera();
+    if (!camera) return ray_of(sensor.measurand(0), caster);
+    const MeasuringPoint viewpoint{camera->position, sensors::CameraView(*camera).forward()};
+    return {lifted_position(viewpoint, caster), viewpoint.normal};
+}
 
 std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,
                                             const Enclosures& enclosures, std::span<const Sensor> sensors,
@@ -138,6 +174,13 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         auto fault = fault_of(scene.lights[i], enclosures.of_lights()[i], of_sensors, scene);
         if (!fault) continue;
+        if (is_turned_round(scene.lights[i], of_sensors, enclosures, caster)) {
+            fault = fmt::format(
+                "light \"{}\" is mounted in a surface and shines to its other side, away from all sensors. "
+                "Turn "
+                "its aim round, or move it.",
+                scene.lights[i].name);
+        }
         explained.lights[i] = true;
         warnings.push_back(std::move(*fault));
     }

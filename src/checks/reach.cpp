@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "checks/checks.h"
@@ -101,6 +102,30 @@ struct Shining {
         return object ? walks.is_object_met[index_of(*object)] : is_outside && walks.leaves_scene;
     }
 };
+
+bool meets_nothing(const Trail& trail) { return std::ranges::none_of(trail.is_object_met, std::identity{}); }
+
+/// A sentence for the lights that shine past everything: where there are no sensors.
+std::vector<std::string> lost_light_warnings(const Scene& scene, const rays::RayCaster& caster) {
+    constexpr std::uint64_t particles = 64;
+    std::vector<std::string> lost;
+    for (const Light& light : scene.lights) {
+        Shining shining(light, scene, caster);
+        if (shining.is_outside) continue;
+        for (std::uint64_t i = 0; i < particles && meets_nothing(shining.trail); ++i) {
+            math::SampleStream stream(math::RandomKey{}.derived(kFromLights), i);
+            const lights::Emission particle = shining.emit(stream);
+            follow_walk(scene, caster, {particle.origin, particle.direction}, particle.direction, 0, stream,
+                        shining.trail);
+        }
+        if (meets_nothing(shining.trail)) lost.push_back(light.name);
+    }
+    if (lost.empty()) return {};
+    const bool is_one = lost.size() == 1;
+    return {fmt::format("{} {}: none of {} light meets a surface. Turn {} towards the scene.",
+                        is_one ? "light" : "lights", list_of(lost), is_one ? "its" : "their",
+                        is_one ? "it" : "them")};
+}
 
 class ReachCheck {
   public:
@@ -218,8 +243,9 @@ class ReachCheck {
             dark.size() == 1 ? "sensor" : "sensors", list_of(dark), dark.size() == 1 ? "it" : "them"));
     }
 
-    /// Names the object that stands between a light and the first sensor; empty where none does.
+    /// Why no light reaches the first sensor: the object that stands between; empty where none does.
     std::string obstacle_of(const Shining& shining) const {
+        if (meets_nothing(shining.trail)) return ": it meets no surface. Turn it towards the scene";
         math::SampleStream stream(math::RandomKey{}.derived(kFromLights), 0);
         const Vec3 origin = shining.emit(stream).origin, to_sensor = around_.front().first - origin;
         if (!(length(to_sensor) > 0)) return "";
@@ -246,6 +272,7 @@ class ReachCheck {
 
 std::vector<std::string> reach_warnings(const Scene& scene, const rays::RayCaster& caster,
                                         std::span<const Sensor> sensors, const Explained& explained) {
+    if (sensors.empty()) return lost_light_warnings(scene, caster);
     return ReachCheck(scene, caster, sensors, explained).warnings();
 }
 

@@ -96,6 +96,38 @@ TEST(Placement, ALampInAClosedShade) {
     EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({2.1, 2, 2})}).size(), 0u);
 }
 
+TEST(Placement, ALampOutsideOfTheRoom) {
+    Scene scene = furnished_room();
+    scene.lights.push_back({"lantern", bulb({2, 2, 3.2})});
+    const Texts warnings = warnings_of(scene, {at({2, 2, 0.75}), at({3, 1, 0})});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(
+        warnings[0],
+        "light \"lantern\" is outside object \"room\", which encloses all sensors: its light cannot get in. "
+        "Move it, or open the object.");
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({6, 2, 1})}), Texts{}) << "a sensor outside, too";
+}
+
+/// A downlight in the plane of the ceiling shines into the room, unless it is turned round.
+TEST(Placement, ALuminaireThatIsTurnedRound) {
+    const auto room_with = [](const Vec3& aim) {
+        Scene scene = furnished_room();
+        const lights::LuminaireFrame frame = lights::aim_luminaire(aim, 0);
+        scene.solids.push_back(
+            {.file = "spot.ies",
+             .luminaire = "",
+             .solid = PhotometricSolid({lights::PhotometryType::C, {0}, {0, 45, 90}, {100, 70, 0}})});
+        scene.lights.push_back(
+            {"spot", Luminaire{{2, 2, 3}, SolidId{0}, frame.c0, frame.c90, frame.nadir, Rgb::grey(1)}});
+        return scene;
+    };
+    EXPECT_EQ(warnings_of(room_with({0, 0, -1}), {at({2, 2, 0.75})}), Texts{});
+    EXPECT_EQ(warnings_of(room_with({0, 0, 1}), {at({2, 2, 0.75})}),
+              Texts{"light \"spot\" is mounted in a surface and shines to its other side, away from all "
+                    "sensors. Turn "
+                    "its aim round, or move it."});
+}
+
 TEST(Placement, AnEnvironmentIsOutsideOfClosedRooms) {
     Scene scene = furnished_room();
     scene.lights.push_back({"sky", EnvironmentLight{Rgb::grey(1000)}});
