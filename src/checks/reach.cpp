@@ -97,6 +97,11 @@ struct Shining {
         return std::visit([&](const auto& own) { return own.emit(stream); }, emitter);
     }
 
+    std::optional<lights::IncidentLight> sample_incident(const lights::ReceivingPoint& at,
+                                                         const std::array<double, 2>& u) const {
+        return std::visit([&](const auto& own) { return own.sample_incident(at, u); }, emitter);
+    }
+
     /// Whether a walk of a sensor has met the light itself.
     bool is_met_by(const Trail& walks) const {
         return object ? walks.is_object_met[index_of(*object)] : is_outside && walks.leaves_scene;
@@ -145,7 +150,7 @@ class ReachCheck {
     }
 
     std::vector<std::string> warnings() {
-        if (around_.empty() || scene_.lights.empty()) return {};
+        if (around_.empty() || unexplained_lights() == 0) return {};
         std::vector<std::string> dark;
         std::string in_the_way;
         std::size_t judged = 0;
@@ -201,13 +206,28 @@ class ReachCheck {
             math::SampleStream stream(math::RandomKey{}.derived(kFromLights), i);
             const lights::Emission particle = shining.emit(stream);
             const std::size_t known = shining.trail.locations.size();
-            const Location start{particle.origin, particle.direction};
-            shining.trail.locations.push_back(start);
-            follow_walk(scene_, caster_, start, particle.direction, kReachReflections, stream, shining.trail);
+            if (is_lit_directly(all_places_.locations, shining)) return true;
+            follow_walk(scene_, caster_, {particle.origin, particle.direction}, particle.direction,
+                        kReachReflections, stream, shining.trail);
             for (std::size_t j = known; j < shining.trail.locations.size(); ++j) {
                 if (is_connected(shining.trail.locations[j], all_places_.locations)) return true;
             }
             if (connections_ > kMostConnections) return std::nullopt;
+        }
+        return false;
+    }
+
+    /// Whether a sample of the light itself, not of a reflection, gets to one of some places.
+    bool is_lit_directly(const std::vector<Location>& places, const Shining& shining) {
+        for (std::size_t k = 0; k < std::min(kConnections, places.size()); ++k) {
+            math::SampleStream stream(math::RandomKey{}.derived(kOfPairs), connections_++);
+            const Location& place =
+                places[static_cast<std::size_t>(stream.next() * static_cast<double>(places.size()))];
+            const auto [u1, u2] = stream.next_two();
+            const auto light = shining.sample_incident({place.position, place.normal}, {u1, u2});
+            if (light && light->normal_illuminance_lx.max() > 0 && dot(light->direction, place.normal) > 0 &&
+                caster_.transmittance({place.position, light->source_point}).max() > 0)
+                return true;
         }
         return false;
     }

@@ -156,7 +156,7 @@ class WarningsTest(CommandLineTest):
     def test_measure_says_what_info_says(self):
         twice = ROOM + '[lights.again]\ntype = "point"\nposition = [2, 1.5, 2]\nflux = 500\n'
         lantern = ROOM + '[lights.lantern]\ntype = "point"\nposition = [2, 1.5, 3]\nflux = 500\n'
-        for text, expected in ((twice, "are alike and in one place"), (lantern, 'is outside object "room"')):
+        for text, expected in ((twice, "are alike and in one place"), (lantern, 'is not inside object "room"')):
             self.scene = self.write("odd.toml", text)
             warnings = json.loads(run("info", self.scene, "--json").stdout)["warnings"]
             self.assertEqual(len(warnings), 1)
