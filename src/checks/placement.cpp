@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "checks/checks.h"
+#include "checks/walks.h"
 
 namespace stilb::checks {
 namespace {
