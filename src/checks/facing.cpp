@@ -162,24 +162,55 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::vector<Loca
         sensor.name, scene.object(*object).name);
 }
 
+/// Lamps whose fronts face one object.
+struct FacedLamps {
+    bool are_area_lights = false;
+    Facing facing;  ///< the closest
+    std::vector<std::string> names;
+};
+
+std::string text_of_lamps(const FacedLamps& lamps, const Scene& scene) {
+    const bool is_one = lamps.names.size() == 1;
+    const std::string remedy =
+        lamps.are_area_lights
+            ? fmt::format(
+                  "Only fronts emit light: turn {} round (a rectangle by exchanging edge_u and edge_v), or "
+                  "move {}.",
+                  is_one ? "the lamp" : "the lamps", is_one ? "it" : "them")
+            : fmt::format("Move {} to the other side, or turn {} aim round.", is_one ? "it" : "them",
+                          is_one ? "its" : "their");
+    return fmt::format("{} {}: {} object \"{}\", {} away, which stops almost all of {} light. {}",
+                       is_one ? "light" : "lights", list_of(lamps.names),
+                       is_one ? "its front faces" : "their fronts face",
+                       scene.object(lamps.facing.object).name, short_distance(lamps.facing.distance_m),
+                       is_one ? "its" : "their", remedy);
+}
+
+std::vector<FacedLamps> faced_lamps(const Scene& scene, const rays::RayCaster& caster, Explained& explained) {
+    std::vector<FacedLamps> all;
+    for (std::size_t i = 0; i < std::min(scene.lights.size(), kMostLampsTested); ++i) {
+        const Light& light = scene.lights[i];
+        const auto facing = explained.lights[i] ? std::nullopt : faced_by(light, scene, caster);
+        if (!facing) continue;
+        explained.lights[i] = true;
+        const bool is_area_light = lights::surface_emission(light).has_value();
+        auto same = std::ranges::find_if(all, [&](const FacedLamps& lamps) {
+            return lamps.are_area_lights == is_area_light && lamps.facing.object == facing->object;
+        });
+        if (same == all.end()) same = all.insert(all.end(), {is_area_light, *facing, {}});
+        same->names.push_back(light.name);
+        same->facing.distance_m = std::min(same->facing.distance_m, facing->distance_m);
+    }
+    return all;
+}
+
 }  // namespace
 
 std::vector<std::string> facing_warnings(const Scene& scene, const rays::RayCaster& caster,
                                          std::span<const Sensor> sensors, Explained& explained) {
     std::vector<std::string> warnings;
-    for (std::size_t i = 0; i < std::min(scene.lights.size(), kMostLampsTested); ++i) {
-        const Light& light = scene.lights[i];
-        const auto faced = faced_by(light, scene, caster);
-        if (!faced) continue;
-        explained.lights[i] = true;
-        warnings.push_back(fmt::format(
-            "light \"{}\": its front faces object \"{}\", {} away, which stops almost all of its light. {}",
-            light.name, scene.object(faced->object).name, short_distance(faced->distance_m),
-            lights::surface_emission(light)
-                ? "Only fronts emit light: turn the lamp round (a rectangle by exchanging edge_u and "
-                  "edge_v), or move it."
-                : "Move it to the other side, or turn its aim round."));
-    }
+    for (const FacedLamps& lamps : faced_lamps(scene, caster, explained))
+        warnings.push_back(text_of_lamps(lamps, scene));
     const std::vector<Location> lamps = lamp_points(scene, caster);
     for (std::size_t i = 0; i < std::min(sensors.size(), kMostSensorsTested); ++i) {
         if (explained.sensors[i]) continue;

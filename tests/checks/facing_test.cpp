@@ -66,6 +66,12 @@ TEST(Facing, ALuminaireAboveAFalseCeiling) {
         Texts{
             "light \"panel\": its front faces object \"2\", 5 cm away, which stops almost all of its light. "
             "Move it to the other side, or turn its aim round."});
+    for (int i = 0; i < 4; ++i) scene.lights.push_back(scene.lights[1]);
+    EXPECT_EQ(
+        warnings_of(scene),
+        Texts{
+            "lights \"panel\", \"panel\", \"panel\" and 2 more: their fronts face object \"2\", 5 cm away, "
+            "which stops almost all of their light. Move them to the other side, or turn their aim round."});
 }
 
 TEST(Facing, AGlassCoverStopsNoLight) {
