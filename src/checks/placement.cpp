@@ -92,10 +92,11 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosu
     if (most == nullptr) return std::nullopt;
     const std::string which =
         points == 1 ? "it lies" : fmt::format("{} of {} points lie", dark_points, points);
-    return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} to where light is.",
-                       sensor.name, which, whereabouts(*most, lit, scene),
-                       points == 1 ? "it reads" : "they read", sensor.quantity().unit,
-                       points == 1 ? "it" : "them");
+    const std::string_view it = points == 1 ? "it" : "them";
+    return fmt::format(
+        "sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} to where light is, or a light to {}.",
+        sensor.name, which, whereabouts(*most, lit, scene), points == 1 ? "it reads" : "they read",
+        sensor.quantity().unit, it, it);
 }
 
 // Lights whose light gets to no sensor.

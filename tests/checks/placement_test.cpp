@@ -46,7 +46,7 @@ TEST(Placement, PointsInsideACabinetAreCounted) {
     EXPECT_EQ(warnings[0],
               "sensor \"desk\": 4 of 64 points lie inside object \"cabinet\", which contains no light: no "
               "light arrives, "
-              "they read 0 lx. Move them to where light is.");
+              "they read 0 lx. Move them to where light is, or a light to them.");
 }
 
 TEST(Placement, APointInsideTheCabinetsWallSide) {
