@@ -15,6 +15,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaste
     add(unit_warnings(scene));
     add(hole_warnings(scene, enclosures.components()));
     add(overlap_warnings(scene, caster, sensors));
+    add(lamp_warnings(scene, caster, enclosures.components(), sensors));
     add(placement_warnings(scene, caster, enclosures, sensors, explained));
     add(facing_warnings(scene, caster, sensors, explained));
     add(reach_warnings(scene, caster, sensors, explained));

@@ -1,9 +1,11 @@
-// Warnings about a scene: holes, overlaps, units, sensors and lights in the wrong place or turned the wrong
-// way, objects without light.
+// Warnings about a scene: holes, overlaps, units, lamps by mistake, sensors and lights in the wrong place or
+// turned the wrong way, objects without light.
 #pragma once
 
 #include <compare>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,8 +51,11 @@ class Enclosures {
     /// Whether a light's rays start there.
     bool is_lit(const Enclosure& enclosure) const;
 
-    /// The connected components of every object.
+    /// The connected components of every object; a mesh is closed where the lamps that were cut out of it
+    /// close it.
     const std::vector<geometry::ConnectedComponents>& components() const { return components_; }
+    /// A start of the light's rays from each of its components.
+    std::vector<ProbeRay> probe_rays_of(const Light& light) const;
 
   private:
     struct LightLocation {
@@ -58,7 +63,15 @@ class Enclosures {
         Enclosure enclosure;
     };
 
-    std::vector<ProbeRay> probe_rays_of(const Light& light) const;
+    /// A lamp that was cut out of a mesh.
+    struct CutLamp {
+        ObjectId from{};
+        std::vector<std::uint32_t> component_of_triangle;  ///< of the whole mesh
+    };
+
+    void join_cut_lamps();
+    /// The component that a ray has met, if it is closed.
+    std::optional<ComponentId> closed_component(const rays::Hit& hit) const;
     Enclosure voted_enclosure(const ProbeRay& probe_ray) const;
     Enclosure boxes_around(const Vec3& point) const;
     Enclosure crossed_an_odd_number_of_times(const Vec3& origin, const Vec3& direction) const;
@@ -66,6 +79,7 @@ class Enclosures {
     const Scene& scene_;
     const rays::RayCaster& caster_;
     std::vector<geometry::ConnectedComponents> components_;
+    std::map<ObjectId, CutLamp> cut_lamps_;
     std::vector<std::vector<Enclosure>> of_lights_;
     std::vector<LightLocation> tried_;  ///< the lights whose visibility from a point is tested
 };
@@ -86,7 +100,19 @@ std::vector<std::string> hole_warnings(const Scene& scene,
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
                                           std::span<const Sensor> sensors);
 
+// Lamps that were probably not meant.
+
+/// A sentence for lights of the same kind and distribution in one place, and one for each area light whose
+/// whole object is a closed mesh or box, or surrounds a sensor: a room, say, of which only a part was meant
+/// to shine.
+std::vector<std::string> lamp_warnings(const Scene& scene, const rays::RayCaster& caster,
+                                       const std::vector<geometry::ConnectedComponents>& components,
+                                       std::span<const Sensor> sensors);
+
 // Misplaced sensors and lights.
+
+/// A ray along which the light of the sensor's first reading arrives; of a camera, that of its middle.
+ProbeRay first_ray_of(const Sensor& sensor, const rays::RayCaster& caster);
 
 /// Lights and sensors that a warning names already: later checks leave them out, one message for one mistake.
 struct Explained {
@@ -103,15 +129,16 @@ std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayC
                                             const Enclosures& enclosures, std::span<const Sensor> sensors,
                                             Explained& explained);
 
-/// A sentence for every area light whose front is close to a surface that stops its light, and for every
-/// illuminance sensor whose normal points to a surface close by, or into the surface that it lies on, away
-/// from the lamps.
+/// A sentence for every area light and luminaire whose front is close to a surface that stops its light, and
+/// for every illuminance sensor whose normal points to a surface close by, or into the surface that it lies
+/// on, away from the lamps.
 std::vector<std::string> facing_warnings(const Scene& scene, const rays::RayCaster& caster,
                                          std::span<const Sensor> sensors, Explained& explained);
 
 /// A sentence for the lights of which nothing reaches any sensor, and one for the sensors that no light
-/// reaches. Random walks from both sides are connected, over some diffuse reflections at each side: where
-/// they find no connection, hardly any light gets through. Of many lights and sensors only a part is tested.
+/// reaches. Without sensors one for the lights whose light meets no surface. Random walks from both sides are
+/// connected, over some diffuse reflections at each side: where they find no connection, hardly any light
+/// gets through. Of many lights and sensors only a part is tested.
 std::vector<std::string> reach_warnings(const Scene& scene, const rays::RayCaster& caster,
                                         std::span<const Sensor> sensors, const Explained& explained);
 

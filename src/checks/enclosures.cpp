@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <set>
+#include <utility>
 #include <variant>
 
 #include "checks/checks.h"
 #include "checks/walks.h"
+#include "scene/cut_lamps.h"
 
 namespace stilb::checks {
 namespace {
@@ -62,6 +65,7 @@ struct ProbeRaysOfShape {
 
 Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scene_(scene), caster_(caster) {
     for (const Object& object : scene.objects) components_.push_back(find_components(object.shape));
+    join_cut_lamps();
     for (const Light& light : scene.lights) {
         std::vector<Enclosure>& enclosures = of_lights_.emplace_back();
         if (location_of(light) == stilb::LightLocation::infinity)
@@ -71,6 +75,39 @@ Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scen
             if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, enclosures.back()});
         }
     }
+}
+
+void Enclosures::join_cut_lamps() {
+    std::set<ObjectId> with_lamps;
+    for (const Object& object : scene_.objects) {
+        if (object.cut_from) with_lamps.insert(*object.cut_from);
+    }
+    for (const ObjectId object : with_lamps) {
+        geometry::ConnectedComponents& own = components_[index_of(object)];
+        geometry::ConnectedComponents whole = find_components(scene::whole_mesh(scene_, object));
+        auto first = whole.of_triangle.begin();
+        const auto take = [&](std::size_t count) {
+            const auto begin = std::exchange(first, first + static_cast<std::ptrdiff_t>(count));
+            return std::vector<std::uint32_t>(begin, first);
+        };
+        own.of_triangle = take(own.of_triangle.size());
+        // Components are numbered by their first triangles: those of lamps alone come last.
+        const std::uint32_t last = *std::ranges::max_element(own.of_triangle);
+        own.open_edges.assign(whole.open_edges.begin(), whole.open_edges.begin() + last + 1);
+        for (const ObjectId lamp : scene::cut_from(scene_, object))
+            cut_lamps_[lamp] = {object, take(components_[index_of(lamp)].of_triangle.size())};
+    }
+}
+
+std::optional<ComponentId> Enclosures::closed_component(const rays::Hit& hit) const {
+    ComponentId id{hit.object, components_[index_of(hit.object)].of_triangle[hit.triangle]};
+    if (const auto lamp = cut_lamps_.find(hit.object); lamp != cut_lamps_.end()) {
+        const std::uint32_t component = lamp->second.component_of_triangle[hit.triangle];
+        const bool is_part = component < components_[index_of(lamp->second.from)].count();
+        if (is_part) id = {lamp->second.from, component};
+    }
+    const bool is_closed = components_[index_of(id.object)].is_closed(id.component);
+    return is_closed ? std::optional(id) : std::nullopt;
 }
 
 std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
@@ -91,12 +128,11 @@ Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const V
     for (int i = 0; i < kMostCrossings; ++i) {
         const auto hit = caster_.closest(from, direction);
         if (!hit) break;
-        const geometry::ConnectedComponents& components = components_[index_of(hit->object)];
-        const std::uint32_t component = components.of_triangle[hit->triangle];
+        const auto component = closed_component(*hit);
         // Glass encloses nothing.
-        const bool encloses = components.is_closed(component) && !transmits(scene_.material(hit->material));
+        const bool encloses = component && !transmits(scene_.material(hit->material));
         if (encloses && !std::holds_alternative<Box>(scene_.object(hit->object).shape))
-            crossed.push_back({hit->object, component});
+            crossed.push_back(*component);
         from = hit->position - (hit->lifted - hit->position);  // just behind the surface
     }
     std::sort(crossed.begin(), crossed.end());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "checks/checks.h"
@@ -15,6 +16,8 @@ namespace {
 /// A lamp whose light is stopped within this distance, or within this share of the lamp's own size if that is
 /// less, cannot light a room: in such a gap almost all of the light is absorbed.
 constexpr double kNarrowGap_m = 0.1, kNarrowShare = 0.25;
+/// Of luminaires, what is farther away to the side is not in front.
+constexpr double kWidestGap_m = 1;
 constexpr int kLampRays = 32, kMostThatEscape = 3;
 constexpr std::size_t kMostLampsTested = 10'000;
 /// A surface so close in front of a measuring point hides all else.
@@ -35,23 +38,41 @@ struct Facing {
     double distance_m = 0;
 };
 
+/// Surfaces so close to the front of a lamp stop its light.
+struct NarrowGap {
+    double depth_m = kNarrowGap_m;
+    std::optional<Vec3>
+        axis;  ///< of a luminaire: its depth is measured along it, as light leaves it to all sides
+};
+
+/// Nothing for lights that shine to all sides.
+std::optional<NarrowGap> narrow_gap(const Light& light, const Scene& scene) {
+    if (const auto object = lights::emitting_object(light)) {
+        const double size_m = std::sqrt(area_m2(scene.object(*object).shape));
+        return NarrowGap{std::min(kNarrowGap_m, kNarrowShare * size_m), std::nullopt};
+    }
+    const auto origin = lights::point_origin(light);
+    return origin && origin->axis ? std::optional(NarrowGap{kNarrowGap_m, origin->axis}) : std::nullopt;
+}
+
 /// The object close to the front of a lamp that stops almost all of its light, if there is one.
 std::optional<Facing> faced_by(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
-    const auto surface = lights::emitting_object(light);
-    if (!surface) return std::nullopt;
+    const auto gap = narrow_gap(light, scene);
+    if (!gap) return std::nullopt;
     const auto emitter = lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift());
-    const double size_m = std::sqrt(area_m2(scene.object(*surface).shape));
-    const double narrow_m = std::min(kNarrowGap_m, kNarrowShare * size_m);
-    Facing facing{{}, narrow_m};
+    Facing facing{{}, gap->depth_m};
     int escaped = 0;
     for (std::uint64_t i = 0; i < kLampRays; ++i) {
         math::SampleStream stream(math::RandomKey{}.derived(kLampFronts), i);
         const lights::Emission ray = std::visit([&](const auto& own) { return own.emit(stream); }, emitter);
         const auto hit = caster.closest(ray.origin, ray.direction);
-        if (!hit || hit->distance_m > narrow_m || transmits(scene.material(hit->material))) {
+        const double distance_m = hit ? hit->distance_m : std::numeric_limits<double>::infinity();
+        const double depth_m = gap->axis ? std::abs(dot(ray.direction, *gap->axis)) * distance_m : distance_m;
+        if (!(depth_m <= gap->depth_m && distance_m <= kWidestGap_m) ||
+            transmits(scene.material(hit->material))) {
             if (++escaped > kMostThatEscape) return std::nullopt;
-        } else if (hit->distance_m < facing.distance_m) {
-            facing = {hit->object, hit->distance_m};
+        } else if (depth_m < facing.distance_m) {
+            facing = {hit->object, depth_m};
         }
     }
     return facing;
@@ -141,22 +162,55 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::vector<Loca
         sensor.name, scene.object(*object).name);
 }
 
+/// Lamps whose fronts face one object.
+struct FacedLamps {
+    bool are_area_lights = false;
+    Facing facing;  ///< the closest
+    std::vector<std::string> names;
+};
+
+std::string text_of_lamps(const FacedLamps& lamps, const Scene& scene) {
+    const bool is_one = lamps.names.size() == 1;
+    const std::string remedy =
+        lamps.are_area_lights
+            ? fmt::format(
+                  "Only fronts emit light: turn {} round (a rectangle by exchanging edge_u and edge_v), or "
+                  "move {}.",
+                  is_one ? "the lamp" : "the lamps", is_one ? "it" : "them")
+            : fmt::format("Move {} to the other side, or turn {} aim round.", is_one ? "it" : "them",
+                          is_one ? "its" : "their");
+    return fmt::format("{} {}: {} object \"{}\", {} away, which stops almost all of {} light. {}",
+                       is_one ? "light" : "lights", list_of(lamps.names),
+                       is_one ? "its front faces" : "their fronts face",
+                       scene.object(lamps.facing.object).name, short_distance(lamps.facing.distance_m),
+                       is_one ? "its" : "their", remedy);
+}
+
+std::vector<FacedLamps> faced_lamps(const Scene& scene, const rays::RayCaster& caster, Explained& explained) {
+    std::vector<FacedLamps> all;
+    for (std::size_t i = 0; i < std::min(scene.lights.size(), kMostLampsTested); ++i) {
+        const Light& light = scene.lights[i];
+        const auto facing = explained.lights[i] ? std::nullopt : faced_by(light, scene, caster);
+        if (!facing) continue;
+        explained.lights[i] = true;
+        const bool is_area_light = lights::uniform_emission(light).has_value();
+        auto same = std::ranges::find_if(all, [&](const FacedLamps& lamps) {
+            return lamps.are_area_lights == is_area_light && lamps.facing.object == facing->object;
+        });
+        if (same == all.end()) same = all.insert(all.end(), {is_area_light, *facing, {}});
+        same->names.push_back(light.name);
+        same->facing.distance_m = std::min(same->facing.distance_m, facing->distance_m);
+    }
+    return all;
+}
+
 }  // namespace
 
 std::vector<std::string> facing_warnings(const Scene& scene, const rays::RayCaster& caster,
                                          std::span<const Sensor> sensors, Explained& explained) {
     std::vector<std::string> warnings;
-    for (std::size_t i = 0; i < std::min(scene.lights.size(), kMostLampsTested); ++i) {
-        const Light& light = scene.lights[i];
-        const auto faced = faced_by(light, scene, caster);
-        if (!faced) continue;
-        explained.lights[i] = true;
-        warnings.push_back(fmt::format(
-            "light \"{}\": its front faces object \"{}\", {} away, which stops almost all of its light. Only "
-            "fronts emit light: turn the lamp round (a rectangle by exchanging edge_u and edge_v), or move "
-            "it.",
-            light.name, scene.object(faced->object).name, short_distance(faced->distance_m)));
-    }
+    for (const FacedLamps& lamps : faced_lamps(scene, caster, explained))
+        warnings.push_back(text_of_lamps(lamps, scene));
     const std::vector<Location> lamps = lamp_points(scene, caster);
     for (std::size_t i = 0; i < std::min(sensors.size(), kMostSensorsTested); ++i) {
         if (explained.sensors[i]) continue;

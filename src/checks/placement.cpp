@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "checks/checks.h"
+#include "checks/walks.h"
 
 namespace stilb::checks {
 namespace {
@@ -25,6 +26,18 @@ std::optional<ComponentId> only_around(const Enclosure& enclosure, const Enclosu
     return found != enclosure.end() ? std::optional{*found} : std::nullopt;
 }
 
+/// A component around all of the `inner` points and none of the `others`.
+std::optional<ComponentId> around_all(const EnclosureList& inner, const EnclosureList& others) {
+    for (const ComponentId& component : inner.front()) {
+        const auto is_around = [&](const Enclosure& enclosure) {
+            return std::binary_search(enclosure.begin(), enclosure.end(), component);
+        };
+        if (std::ranges::all_of(inner, is_around) && std::ranges::none_of(others, is_around))
+            return component;
+    }
+    return std::nullopt;
+}
+
 /// The position of a point without light, relative to the lights.
 std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const Scene& scene) {
     if (const auto component = only_around(dark, lit))
@@ -36,19 +49,17 @@ std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const S
     return "in an enclosure without a light";
 }
 
+ProbeRay ray_of(const Measurand& measurand, const rays::RayCaster& caster) {
+    const MeasuringPoint point = viewpoint_of(measurand);
+    const auto* body = std::get_if<BodyPoint>(&measurand);
+    return {body ? lifted_position(*body, caster) : lifted_position(point, caster), point.normal};
+}
+
 /// Rays along which the light of the readings arrives.
 std::vector<ProbeRay> rays_of(const Sensor& sensor, const rays::RayCaster& caster) {
-    if (const Camera* camera = sensor.camera()) {
-        const MeasuringPoint viewpoint{camera->position, sensors::CameraView(*camera).forward()};
-        return {{lifted_position(viewpoint, caster), viewpoint.normal}};
-    }
+    if (sensor.camera()) return {first_ray_of(sensor, caster)};
     std::vector<ProbeRay> rays;
-    for (const Measurand& measurand : sensor.measurands()) {
-        const MeasuringPoint point = viewpoint_of(measurand);
-        const auto* body = std::get_if<BodyPoint>(&measurand);
-        rays.push_back(
-            {body ? lifted_position(*body, caster) : lifted_position(point, caster), point.normal});
-    }
+    for (const Measurand& measurand : sensor.measurands()) rays.push_back(ray_of(measurand, caster));
     return rays;
 }
 
@@ -81,66 +92,189 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosu
     if (most == nullptr) return std::nullopt;
     const std::string which =
         points == 1 ? "it lies" : fmt::format("{} of {} points lie", dark_points, points);
-    return fmt::format("sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} to where light is.",
-                       sensor.name, which, whereabouts(*most, lit, scene),
-                       points == 1 ? "it reads" : "they read", sensor.quantity().unit,
-                       points == 1 ? "it" : "them");
+    const std::string_view it = points == 1 ? "it" : "them";
+    return fmt::format(
+        "sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} to where light is, or a light to {}.",
+        sensor.name, which, whereabouts(*most, lit, scene), points == 1 ? "it reads" : "they read",
+        sensor.quantity().unit, it, it);
 }
 
-std::optional<std::string> fault_of(const Light& light, const EnclosureList& of_light,
-                                    const EnclosureList& of_sensors, const Scene& scene) {
-    const bool is_measured = std::any_of(of_light.begin(), of_light.end(), [&](const Enclosure& enclosure) {
-        return contains(of_sensors, enclosure);
-    });
-    if (is_measured) return std::nullopt;
-    if (location_of(light) == LightLocation::infinity) {
-        return fmt::format(
-            "light \"{}\" surrounds the scene, but closed surfaces enclose all sensors: its light cannot "
-            "get in. "
-            "Open a window, or remove the light.",
-            light.name);
+// Lights whose light gets to no sensor.
+
+enum class Fault { shut_in, shut_out, turned_round };
+
+/// Lights with one fault, and the object that stops their light.
+struct FaultyLights {
+    Fault fault;
+    ObjectId object{};
+    std::vector<std::string> names;
+};
+
+std::string text_of_lights(const FaultyLights& lights, const Scene& scene) {
+    const bool is_one = lights.names.size() == 1;
+    const std::string subject =
+        fmt::format("{} {} {}", is_one ? "light" : "lights", list_of(lights.names), is_one ? "is" : "are");
+    const std::string_view its = is_one ? "its" : "their", it = is_one ? "it" : "them";
+    const std::string& object = scene.object(lights.object).name;
+    switch (lights.fault) {
+        case Fault::shut_in:
+            return fmt::format(
+                "{} inside object \"{}\": {} light cannot get out to any sensor. Move {}, or open the "
+                "object.",
+                subject, object, its, it);
+        case Fault::shut_out:
+            return fmt::format(
+                "{} not inside object \"{}\", which encloses all sensors: {} light cannot reach them. Move "
+                "{} "
+                "inside, or open the object.",
+                subject, object, its, it);
+        case Fault::turned_round:
+            break;
     }
-    const auto component = only_around(of_light.front(), of_sensors);
-    if (!component) return std::nullopt;
     return fmt::format(
-        "light \"{}\" is inside object \"{}\": its light cannot get out to any sensor. Move it, or open the "
-        "object.",
-        light.name, scene.object(component->object).name);
+        "{} mounted in object \"{}\" and turned round: {} light leaves on the side without sensors. Turn {} "
+        "to the "
+        "other side, by aim or (a rectangle) by exchanging edge_u and edge_v.",
+        subject, object, its, it);
 }
+
+class PlacementCheck {
+  public:
+    PlacementCheck(const Scene& scene, const rays::RayCaster& caster, const Enclosures& enclosures,
+                   std::span<const Sensor> sensors)
+        : scene_(scene), caster_(caster), enclosures_(enclosures), sensors_(sensors) {
+        for (const EnclosureList& of_light : enclosures.of_lights())
+            lit_.insert(lit_.end(), of_light.begin(), of_light.end());
+        for (const Sensor& sensor : sensors) {
+            const std::vector<ProbeRay> rays = rays_of(sensor, caster);
+            auto& counts = counts_.emplace_back();
+            for (const ProbeRay& ray : rays) ++counts[enclosures.enclosure_of(ray)];
+            for (const auto& [enclosure, count] : counts) of_sensors_.push_back(enclosure);
+            first_.push_back(rays.front().position);
+        }
+    }
+
+    std::vector<std::string> warnings(Explained& explained) {
+        if (lit_.empty()) return {};
+        const bool some_are_lit = std::ranges::any_of(
+            of_sensors_, [&](const Enclosure& enclosure) { return contains(lit_, enclosure); });
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            // One message for one mistake: where no sensor is lit, the sensors are named.
+            explained.lights[i] = add_turned(i) || (some_are_lit && add_shut(i));
+        }
+        std::vector<std::string> warnings;
+        const bool lights_explain_all = !some_are_lit && !faulty_.empty();
+        for (std::size_t i = 0; i < sensors_.size(); ++i) {
+            auto fault = fault_of(sensors_[i], counts_[i], lit_, scene_);
+            if (!fault) continue;
+            explained.sensors[i] = true;
+            if (!lights_explain_all) warnings.push_back(std::move(*fault));
+        }
+        warnings.insert(warnings.end(), of_sky_.begin(), of_sky_.end());
+        for (const FaultyLights& lights : faulty_) warnings.push_back(text_of_lights(lights, scene_));
+        return warnings;
+    }
+
+  private:
+    void add(Fault fault, ObjectId object, const Light& light) {
+        const auto same = std::ranges::find_if(faulty_, [&](const FaultyLights& lights) {
+            return lights.fault == fault && lights.object == object;
+        });
+        if (same == faulty_.end()) {
+            faulty_.push_back({fault, object, {light.name}});
+        } else {
+            same->names.push_back(light.name);
+        }
+    }
+
+    bool is_measured(std::size_t i) const {
+        return std::ranges::any_of(enclosures_.of_lights()[i], [&](const Enclosure& enclosure) {
+            return contains(of_sensors_, enclosure);
+        });
+    }
+
+    /// Lights in the surface of an object that shine away from it, while sensors are inside.
+    bool add_turned(std::size_t i) {
+        const Light& light = scene_.lights[i];
+        const auto origin = lights::point_origin(light);
+        const bool has_front = lights::emitting_object(light) || (origin && origin->axis);
+        if (!has_front || is_measured(i)) return false;
+        const ProbeRay front = enclosures_.probe_rays_of(light).front();
+        // Behind the surface, even if the lamp was put in front of it (scene/overlaps.h).
+        constexpr double offsets = 6;
+        const double depth_m = offsets * caster_.offset_m(front.position, caster_.half_extent_m());
+        const Enclosure behind =
+            enclosures_.enclosure_of({front.position - depth_m * front.direction, -front.direction});
+        if (!contains(of_sensors_, behind)) return false;
+        const auto component = only_around(behind, {enclosures_.of_lights()[i].front()});
+        if (!component) return false;
+        add(Fault::turned_round, component->object, light);
+        return true;
+    }
+
+    /// Lights that a closed object separates from all sensors.
+    bool add_shut(std::size_t i) {
+        const Light& light = scene_.lights[i];
+        const EnclosureList& of_light = enclosures_.of_lights()[i];
+        if (is_measured(i)) return false;
+        if (location_of(light) == LightLocation::infinity) {
+            of_sky_.push_back(
+                fmt::format("light \"{}\" surrounds the scene, but closed surfaces enclose all sensors: its "
+                            "light cannot get "
+                            "in. Open a window, or remove the light.",
+                            light.name));
+            return true;
+        }
+        if (const auto component = only_around(of_light.front(), of_sensors_)) {
+            add(Fault::shut_in, component->object, light);
+            return true;
+        }
+        const auto component = around_all(of_sensors_, of_light);
+        if (!component || is_seen(light)) return false;
+        add(Fault::shut_out, component->object, light);
+        return true;
+    }
+
+    /// Whether the first point of a sensor sees the light: one that lies in a wall is on neither side of it.
+    bool is_seen(const Light& light) const {
+        const auto sees = [&](const Vec3& point) {
+            return std::ranges::any_of(enclosures_.probe_rays_of(light), [&](const ProbeRay& ray) {
+                return !caster_.occluded(point, ray.position);
+            });
+        };
+        constexpr std::size_t most_sensors = 64;
+        return std::ranges::any_of(std::span(first_).first(std::min(first_.size(), most_sensors)), sees);
+    }
+
+    const Scene& scene_;
+    const rays::RayCaster& caster_;
+    const Enclosures& enclosures_;
+    std::span<const Sensor> sensors_;
+    EnclosureList lit_, of_sensors_;
+    std::vector<std::map<Enclosure, std::size_t>> counts_;  ///< by sensor: of its points
+    std::vector<Vec3> first_;                               ///< by sensor: where its first ray starts
+    std::vector<FaultyLights> faulty_;
+    std::vector<std::string> of_sky_;
+};
 
 }  // namespace
+
+ProbeRay first_ray_of(const Sensor& sensor, const rays::RayCaster& caster) {
+    const Camera* camera = sensor.camera();
+    if (!camera) return ray_of(sensor.measurand(0), caster);
+    const MeasuringPoint viewpoint{camera->position, sensors::CameraView(*camera).forward()};
+    return {lifted_position(viewpoint, caster), viewpoint.normal};
+}
 
 std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,
                                             const Enclosures& enclosures, std::span<const Sensor> sensors,
                                             Explained& explained) {
-    EnclosureList lit, of_sensors;
-    for (const EnclosureList& of_light : enclosures.of_lights())
-        lit.insert(lit.end(), of_light.begin(), of_light.end());
     std::vector<std::string> warnings;
     for (const Sensor& sensor : sensors) {
         if (auto warning = body_warning(sensor, caster)) warnings.push_back(std::move(*warning));
     }
-    if (lit.empty()) return warnings;
-
-    for (std::size_t i = 0; i < sensors.size(); ++i) {
-        std::map<Enclosure, std::size_t> counts;
-        for (const ProbeRay& ray : rays_of(sensors[i], caster)) ++counts[enclosures.enclosure_of(ray)];
-        for (const auto& [enclosure, count] : counts) of_sensors.push_back(enclosure);
-        auto fault = fault_of(sensors[i], counts, lit, scene);
-        if (!fault) continue;
-        explained.sensors[i] = true;
-        warnings.push_back(std::move(*fault));
-    }
-    const bool some_are_lit =
-        std::any_of(of_sensors.begin(), of_sensors.end(),
-                    [&](const Enclosure& enclosure) { return contains(lit, enclosure); });
-    if (!some_are_lit) return warnings;  // one message for one mistake
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        auto fault = fault_of(scene.lights[i], enclosures.of_lights()[i], of_sensors, scene);
-        if (!fault) continue;
-        explained.lights[i] = true;
-        warnings.push_back(std::move(*fault));
-    }
+    for (std::string& warning : PlacementCheck(scene, caster, enclosures, sensors).warnings(explained))
+        warnings.push_back(std::move(warning));
     return warnings;
 }
 

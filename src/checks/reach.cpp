@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "checks/checks.h"
@@ -96,11 +97,40 @@ struct Shining {
         return std::visit([&](const auto& own) { return own.emit(stream); }, emitter);
     }
 
+    std::optional<lights::IncidentLight> sample_incident(const lights::ReceivingPoint& at,
+                                                         const std::array<double, 2>& u) const {
+        return std::visit([&](const auto& own) { return own.sample_incident(at, u); }, emitter);
+    }
+
     /// Whether a walk of a sensor has met the light itself.
     bool is_met_by(const Trail& walks) const {
         return object ? walks.is_object_met[index_of(*object)] : is_outside && walks.leaves_scene;
     }
 };
+
+bool meets_nothing(const Trail& trail) { return std::ranges::none_of(trail.is_object_met, std::identity{}); }
+
+/// A sentence for the lights that shine past everything: where there are no sensors.
+std::vector<std::string> lost_light_warnings(const Scene& scene, const rays::RayCaster& caster) {
+    constexpr std::uint64_t particles = 64;
+    std::vector<std::string> lost;
+    for (const Light& light : scene.lights) {
+        Shining shining(light, scene, caster);
+        if (shining.is_outside) continue;
+        for (std::uint64_t i = 0; i < particles && meets_nothing(shining.trail); ++i) {
+            math::SampleStream stream(math::RandomKey{}.derived(kFromLights), i);
+            const lights::Emission particle = shining.emit(stream);
+            follow_walk(scene, caster, {particle.origin, particle.direction}, particle.direction, 0, stream,
+                        shining.trail);
+        }
+        if (meets_nothing(shining.trail)) lost.push_back(light.name);
+    }
+    if (lost.empty()) return {};
+    const bool is_one = lost.size() == 1;
+    return {fmt::format("{} {}: none of {} light meets a surface. Turn {} towards the scene.",
+                        is_one ? "light" : "lights", list_of(lost), is_one ? "its" : "their",
+                        is_one ? "it" : "them")};
+}
 
 class ReachCheck {
   public:
@@ -120,7 +150,7 @@ class ReachCheck {
     }
 
     std::vector<std::string> warnings() {
-        if (around_.empty() || scene_.lights.empty()) return {};
+        if (around_.empty() || unexplained_lights() == 0) return {};
         std::vector<std::string> dark;
         std::string in_the_way;
         std::size_t judged = 0;
@@ -176,13 +206,28 @@ class ReachCheck {
             math::SampleStream stream(math::RandomKey{}.derived(kFromLights), i);
             const lights::Emission particle = shining.emit(stream);
             const std::size_t known = shining.trail.locations.size();
-            const Location start{particle.origin, particle.direction};
-            shining.trail.locations.push_back(start);
-            follow_walk(scene_, caster_, start, particle.direction, kReachReflections, stream, shining.trail);
+            if (is_lit_directly(all_places_.locations, shining)) return true;
+            follow_walk(scene_, caster_, {particle.origin, particle.direction}, particle.direction,
+                        kReachReflections, stream, shining.trail);
             for (std::size_t j = known; j < shining.trail.locations.size(); ++j) {
                 if (is_connected(shining.trail.locations[j], all_places_.locations)) return true;
             }
             if (connections_ > kMostConnections) return std::nullopt;
+        }
+        return false;
+    }
+
+    /// Whether a sample of the light itself, not of a reflection, gets to one of some places.
+    bool is_lit_directly(const std::vector<Location>& places, const Shining& shining) {
+        for (std::size_t k = 0; k < std::min(kConnections, places.size()); ++k) {
+            math::SampleStream stream(math::RandomKey{}.derived(kOfPairs), connections_++);
+            const Location& place =
+                places[static_cast<std::size_t>(stream.next() * static_cast<double>(places.size()))];
+            const auto [u1, u2] = stream.next_two();
+            const auto light = shining.sample_incident({place.position, place.normal}, {u1, u2});
+            if (light && light->normal_illuminance_lx.max() > 0 && dot(light->direction, place.normal) > 0 &&
+                caster_.transmittance({place.position, light->source_point}).max() > 0)
+                return true;
         }
         return false;
     }
@@ -218,8 +263,9 @@ class ReachCheck {
             dark.size() == 1 ? "sensor" : "sensors", list_of(dark), dark.size() == 1 ? "it" : "them"));
     }
 
-    /// Names the object that stands between a light and the first sensor; empty where none does.
+    /// Why no light reaches the first sensor: the object that stands between; empty where none does.
     std::string obstacle_of(const Shining& shining) const {
+        if (meets_nothing(shining.trail)) return ": it meets no surface. Turn it towards the scene";
         math::SampleStream stream(math::RandomKey{}.derived(kFromLights), 0);
         const Vec3 origin = shining.emit(stream).origin, to_sensor = around_.front().first - origin;
         if (!(length(to_sensor) > 0)) return "";
@@ -246,6 +292,7 @@ class ReachCheck {
 
 std::vector<std::string> reach_warnings(const Scene& scene, const rays::RayCaster& caster,
                                         std::span<const Sensor> sensors, const Explained& explained) {
+    if (sensors.empty()) return lost_light_warnings(scene, caster);
     return ReachCheck(scene, caster, sensors, explained).warnings();
 }
 

@@ -13,6 +13,7 @@
 
 #include "cli/command_line.h"
 #include "cli/info_report.h"
+#include "cli/results_table.h"
 #include "cli/scene_argument.h"
 #include "io/text/file_kind.h"
 
@@ -55,11 +56,11 @@ void add_info(CommandLine& line) {
              "Scene (TOML; - for standard input), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
         .required();
     add_overrides(command, request->overrides);
-    command.add(
-        "--json", request->json,
-        "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
-        "\"total_flux_lm\", \"luminaires\", \"sensors\", \"run\", \"warnings\", \"memory\"}, as far as "
-        "the file has them; units are in the keys");
+    command.add("--json", request->json,
+                "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
+                "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"run\", \"warnings\", "
+                "\"memory\"}, as far as "
+                "the file has them; units are in the keys");
     command.run([request] {
         const InfoReport report = report_file(*request);
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
@@ -220,12 +221,18 @@ std::string memory_text(const Json& memory) {
 
 using Describe = std::string (*)(const Json&);
 
+/// The maintenance factors that the flux contains.
+std::string maintained(const Json& report) {
+    if (!report.contains("maintenance")) return "";
+    return fmt::format(" ({})", maintenance_text(report["maintenance"].get<std::array<double, 2>>()));
+}
+
 std::string section_text(const Json& report, const char* key, const char* title, Describe describe) {
     if (!report.contains(key) || report[key].empty()) return "";
     const Json& list = report[key];
     std::string result = fmt::format("\n{} ({})", title, list.size());
     if (key == std::string_view("lights") && number(report, "total_flux_lm") > 0)
-        result += fmt::format(", {:.5g} lm in all", number(report, "total_flux_lm"));
+        result += fmt::format(", {:.5g} lm in all{}", number(report, "total_flux_lm"), maintained(report));
     for (const Json& item : list) result += fmt::format("\n  {}", describe(item));
     return result + "\n";
 }

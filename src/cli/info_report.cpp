@@ -102,6 +102,7 @@ Json light_json(const Light& light, const Scene& scene) {
         std::visit([&](const auto& is) { member = is; }, value);
     }
     if (location_of(light) != LightLocation::infinity) json["flux_lm"] = flux_lm(scene, light).luminance();
+    if (light.maintenance < 1) json["maintenance"] = light.maintenance;
     return json;
 }
 
@@ -191,6 +192,7 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
         json["objects"].push_back(object_json(scene.objects[i], enclosures.components()[i], scene));
     json["lights"] = list_json(scene.lights, [&](const Light& light) { return light_json(light, scene); });
     json["total_flux_lm"] = total_flux_lm;
+    if (const auto maintenance = scene::maintenance_factors(scene)) json["maintenance"] = *maintenance;
     json["luminaires"] = list_json(scene.solids, luminaire_json);
     json["sensors"] = list_json(file.sensors, sensor_json);
     json["run"] = run_json(file.run);

@@ -100,7 +100,7 @@ void print_summary(const RenderResult& result, const Sensor& sensor, const std::
     }
     fmt::print(stream, "{}, {} in {:.1f} s: {}\n", result.method, passes_text(result), result.elapsed_s,
                ending(result.stop_reason, "passes"));
-    fmt::print(stream, "{}", shortfall_text(result, output));
+    fmt::print(stream, "{}{}", shortfall_text(result, output), maintenance_line(result));
     fmt::print(stream, "{}", detail_text(result.levels_of_detail));
     if (result.patches) fmt::print(stream, "{}", patch_text(*result.patches));
 }

@@ -113,11 +113,19 @@ std::string sensor_table(const SensorResult& result) {
     return text;
 }
 
-std::string title_of(const std::vector<SensorResult>& sensors) {
+std::string quantities_of(const std::vector<SensorResult>& sensors) {
     const auto luminances = std::ranges::count_if(
         sensors, [](const SensorResult& result) { return result.sensor.measures_luminance(); });
-    if (luminances == 0) return "Illuminance";
-    return luminances < std::ssize(sensors) ? "Illuminance and luminance" : "Luminance";
+    if (luminances == 0) return "illuminance";
+    return luminances < std::ssize(sensors) ? "illuminance and luminance" : "luminance";
+}
+
+std::string title_of(const RunResult& result) {
+    std::string title = quantities_of(result.sensors);
+    if (result.maintenance)
+        return fmt::format("Maintained {} ({})", title, maintenance_text(*result.maintenance));
+    title[0] = title[0] == 'i' ? 'I' : 'L';
+    return title;
 }
 
 std::string ending_with_error(const RunResult& result, std::string_view samples) {
@@ -135,7 +143,7 @@ std::string with_error(const statistics::Estimate& estimate) {
 }
 
 std::string to_table(const RunResult& result) {
-    std::string text = title_of(result.sensors) + ", with 95 % intervals\n\n";
+    std::string text = title_of(result) + ", with 95 % intervals\n\n";
     for (const SensorResult& sensor : result.sensors) text += sensor_table(sensor);
     const std::string_view samples = estimators::find_estimator(result.method).samples;
     text += fmt::format("\n{}, {} {} in {:.2f} s: {}\n", result.method, result.samples, samples,
@@ -161,6 +169,16 @@ std::string angles_text(const Location& location) {
     for (const Location::Angle& angle : location.angles)
         text += fmt::format("{}{} {:5.5g}°", text.empty() ? "" : "  ", angle.name, angle.value_deg);
     return text;
+}
+
+std::string maintenance_text(const std::array<double, 2>& factors) {
+    const auto [lowest, highest] = factors;
+    return lowest == highest ? fmt::format("maintenance factor {:g}", lowest)
+                             : fmt::format("maintenance factors {:g} to {:g}", lowest, highest);
+}
+
+std::string maintenance_line(const RunSummary& result) {
+    return result.maintenance ? fmt::format("maintained: {}\n", maintenance_text(*result.maintenance)) : "";
 }
 
 std::string detail_text(std::span<const run::LevelOfDetail> levels) {

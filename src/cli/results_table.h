@@ -1,6 +1,7 @@
 // Results as text.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +33,13 @@ std::string angles_text(const Location& location);
 
 /// One line per object.
 std::string detail_text(std::span<const run::LevelOfDetail> levels);
+
+// Maintenance factors as text.
+
+/// "maintenance factor 0.8", or "maintenance factors 0.7 to 0.8", where lamps have different ones.
+std::string maintenance_text(const std::array<double, 2>& factors);
+/// A line that says so; empty where no lamp has one below 1.
+std::string maintenance_line(const RunSummary& result);
 
 // The end of a run as text.
 

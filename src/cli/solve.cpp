@@ -38,7 +38,7 @@ void print_summary(const SolveResult& result, const io::StoredSolution& stored, 
                percent(result.attained_error));
     fmt::print(stream, "ray-bundle, {} steps in {:.1f} s: {}\n", result.samples, result.elapsed_s,
                ending(result.stop_reason, "steps"));
-    fmt::print(stream, "{}", shortfall_text(result, output));
+    fmt::print(stream, "{}{}", shortfall_text(result, output), maintenance_line(result));
     fmt::print(stream, "{}", patch_text(*result.patches));
 }
 

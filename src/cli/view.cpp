@@ -179,7 +179,7 @@ void conclude(const ViewRequest& request, const Input& input, SolveResult& resul
     fmt::print("95 % of the light is exact within {}\n", percent(summary.attained_error));
     fmt::print("ray-bundle, {} steps in {:.1f} s: {}\n", summary.samples, summary.elapsed_s,
                ending(summary.stop_reason, "steps"));
-    fmt::print("{}", shortfall_text(summary, is_kept ? request.output : ""));
+    fmt::print("{}{}", shortfall_text(summary, is_kept ? request.output : ""), maintenance_line(summary));
     if (bytes)
         fmt::print("{}: the solution, {:.1f} MB\n", request.output, 1e-6 * static_cast<double>(*bytes));
     std::fflush(stdout);

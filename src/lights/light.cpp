@@ -61,6 +61,11 @@ LightSource scaled(const LightSource& source, const Rgb& factor) {
     return result;
 }
 
+const Luminaire* luminaire_of(const Light& light) {
+    if (const auto* opening = std::get_if<LuminousOpening>(&light.source)) return &opening->luminaire;
+    return std::get_if<Luminaire>(&light.source);
+}
+
 std::optional<LightOrigin> point_origin(const Light& light) {
     return std::visit(
         []<LightKind L>(const L& source) -> std::optional<LightOrigin> {

@@ -21,6 +21,7 @@ struct Light {
     std::string name;
     LightSource source;
     std::string group = {};  ///< of lights that are dimmed together; empty: it is one of its own
+    double maintenance = 1;  ///< the maintenance factor, which its emission contains
 };
 
 template <typename Sources>
@@ -52,6 +53,8 @@ struct UniformEmission {
 std::optional<UniformEmission> uniform_emission(const Light& light);
 /// The same light, its emission multiplied by a factor, band by band.
 LightSource scaled(const LightSource& source, const Rgb& factor);
+/// The luminaire of a file that a light is, with or without an opening; null for others.
+const Luminaire* luminaire_of(const Light& light);
 /// The emitter of a point light; nothing for other lights.
 std::optional<LightOrigin> point_origin(const Light& light);
 

@@ -48,6 +48,8 @@ struct RunSummary {
     double attained_error = 0;
     std::optional<estimators::PatchReport> patches;  ///< for methods on patches
     std::vector<LevelOfDetail> levels_of_detail;
+    /// The lowest and the highest maintenance factor of the lamps; nothing where none is below 1.
+    std::optional<std::array<double, 2>> maintenance;
     std::vector<std::string> warnings;
 };
 

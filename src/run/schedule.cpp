@@ -160,6 +160,7 @@ void Session::finish(RunSummary& summary) const {
     summary.method = options_.method;
     summary.seed = options_.seed;
     summary.elapsed_s = clock_.elapsed_s();
+    summary.maintenance = scene::maintenance_factors(scene_);
 }
 
 }  // namespace stilb::run

@@ -61,6 +61,16 @@ Rgb flux_lm(const Scene& scene, const Light& light) {
     return lights::flux_lm(light, LightSurroundings(scene));
 }
 
+std::optional<std::array<double, 2>> maintenance_factors(const Scene& scene) {
+    std::optional<std::array<double, 2>> range;
+    for (const Light& light : scene.lights) {
+        if (location_of(light) == LightLocation::infinity) continue;  // daylight is no lamp
+        if (!range) range = {light.maintenance, light.maintenance};
+        range = {std::min((*range)[0], light.maintenance), std::max((*range)[1], light.maintenance)};
+    }
+    return range && (*range)[0] < 1 ? range : std::nullopt;
+}
+
 double surface_area_m2(const Scene& scene) {
     double area = 0;
     for (const Object& object : scene.objects) area += area_m2(object.shape);

@@ -2,6 +2,8 @@
 // reader and RayCaster for the queries.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,8 @@ struct Object {
     Shape shape;
     /// One material for the whole object, or (meshes) one for each triangle.
     std::vector<MaterialId> materials;
+    /// The object that a lamp's faces were cut out of (cut_lamps.h).
+    std::optional<ObjectId> cut_from = {};
 };
 
 /// A luminaire's distribution, and the statements of its file.
@@ -71,6 +75,8 @@ Bounds bounds_of(const Scene& scene);
 Lift lift_of(const Scene& scene);
 /// Flux of a light per band; luminance() of it is lumen.
 Rgb flux_lm(const Scene& scene, const Light& light);
+/// The lowest and the highest maintenance factor of the lamps; nothing where no lamp has one below 1.
+std::optional<std::array<double, 2>> maintenance_factors(const Scene& scene);
 /// The area of all objects; each surface once, though both its sides reflect.
 double surface_area_m2(const Scene& scene);
 

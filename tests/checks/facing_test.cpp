@@ -49,6 +49,31 @@ TEST(Facing, LightFromNarrowStripsAndFromUplightsGetsOut) {
     EXPECT_EQ(warnings_of(room_with_panel(2.79, true, 0.005)), Texts{});
 }
 
+/// A luminaire 5 cm above a false ceiling, of a file with light downwards only.
+TEST(Facing, ALuminaireAboveAFalseCeiling) {
+    Scene scene = furnished_room();
+    scene.solids.push_back(
+        {.file = "panel.ldt",
+         .luminaire = "",
+         .solid = PhotometricSolid({lights::PhotometryType::C, {0}, {0, 45, 90}, {100, 70, 0}})});
+    const lights::LuminaireFrame frame = lights::aim_luminaire(kDown, 0);
+    scene.lights.push_back(
+        {"panel", Luminaire{{2, 1.5, 2.65}, SolidId{0}, frame.c0, frame.c90, frame.nadir, Rgb::grey(1)}});
+    EXPECT_EQ(warnings_of(scene), Texts{});
+    add_object(scene, Rectangle{{0, 0, 2.6}, {0, 3, 0}, {4, 0, 0}}, diffuse(0.7));
+    EXPECT_EQ(
+        warnings_of(scene),
+        Texts{
+            "light \"panel\": its front faces object \"2\", 5 cm away, which stops almost all of its light. "
+            "Move it to the other side, or turn its aim round."});
+    for (int i = 0; i < 4; ++i) scene.lights.push_back(scene.lights[1]);
+    EXPECT_EQ(
+        warnings_of(scene),
+        Texts{
+            "lights \"panel\", \"panel\", \"panel\" and 2 more: their fronts face object \"2\", 5 cm away, "
+            "which stops almost all of their light. Move them to the other side, or turn their aim round."});
+}
+
 TEST(Facing, AGlassCoverStopsNoLight) {
     Scene scene = room_with_panel(2.6, true);
     add_object(scene, Rectangle{{2, 0.5, 2.61}, {1.5, 0, 0}, {0, 1.5, 0}}, ThinDielectric{1.52, 1});

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "checks/checks.h"
+#include "scene/overlaps.h"
 
 namespace stilb::checks {
 namespace {
@@ -45,7 +46,7 @@ TEST(Placement, PointsInsideACabinetAreCounted) {
     EXPECT_EQ(warnings[0],
               "sensor \"desk\": 4 of 64 points lie inside object \"cabinet\", which contains no light: no "
               "light arrives, "
-              "they read 0 lx. Move them to where light is.");
+              "they read 0 lx. Move them to where light is, or a light to them.");
 }
 
 TEST(Placement, APointInsideTheCabinetsWallSide) {
@@ -94,6 +95,67 @@ TEST(Placement, ALampInAClosedShade) {
         "light \"lamp\" is inside object \"shade\": its light cannot get out to any sensor. Move it, or "
         "open the object.");
     EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({2.1, 2, 2})}).size(), 0u);
+}
+
+TEST(Placement, LampsOutsideOfTheRoom) {
+    Scene scene = furnished_room();
+    scene.lights.push_back({"lantern", bulb({2, 2, 3.2})});
+    const std::vector<Sensor> sensors{at({2, 2, 0.75}), at({3, 1, 0})};
+    EXPECT_EQ(
+        warnings_of(scene, sensors),
+        Texts{"light \"lantern\" is not inside object \"room\", which encloses all sensors: its light cannot "
+              "reach them. Move it inside, or open the object."});
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({6, 2, 1})}), Texts{}) << "a sensor outside, too";
+    for (int i = 0; i < 8; ++i) scene.lights.push_back({"string", bulb({2.0 + i, 2, 3.2})});
+    EXPECT_EQ(
+        warnings_of(scene, sensors),
+        Texts{"lights \"lantern\", \"string\", \"string\" and 6 more are not inside object \"room\", which "
+              "encloses all sensors: their light cannot reach them. Move them inside, or open the object."});
+}
+
+/// Whichever side a bulb in the ceiling's own plane is on, its light counts if a sensor gets it: also that of
+/// the last of many lights.
+TEST(Placement, ABulbThatASensorSeesIsInside) {
+    Scene scene = furnished_room();
+    for (int i = 0; i < 10; ++i) scene.lights.push_back({"bulb", bulb({2, 2, 2.5})});
+    scene.lights.push_back({"in the window", bulb({2, 4.001, 1})});
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75})}).size(), 1u);
+    Mesh open = triangulated(Box{{0, 0, 0}, {4, 4, 3}});
+    open.triangles.erase(open.triangles.begin());
+    scene.objects[0].shape = open;
+    EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75})}).size(), 0u);
+}
+
+/// Lamps in the plane of the ceiling shine into the room, unless they are turned round.
+TEST(Placement, LampsThatAreTurnedRound) {
+    const auto add_spot = [](Scene& scene, const Vec3& aim) {
+        const lights::LuminaireFrame frame = lights::aim_luminaire(aim, 0);
+        scene.solids = {
+            {.file = "spot.ies",
+             .luminaire = "",
+             .solid = PhotometricSolid({lights::PhotometryType::C, {0}, {0, 45, 90}, {100, 70, 0}})}};
+        scene.lights.push_back(
+            {"spot", Luminaire{{2, 2, 3}, SolidId{0}, frame.c0, frame.c90, frame.nadir, Rgb::grey(1)}});
+    };
+    const auto add_panel = [](Scene& scene, const Vec3& u, const Vec3& v) {
+        scene.objects.push_back({"panel", Rectangle{{2, 1, 3}, u, v}, {MaterialId{0}}});
+        scene.lights.push_back({"panel", AreaLight{ObjectId{2}, Rgb::grey(100)}});
+        scene::put_lamps_in_front(scene);
+    };
+    const Vec3 x{0.6, 0, 0}, y{0, 0.6, 0};
+    Scene good = furnished_room(), wrong = furnished_room();
+    add_spot(good, {0, 0, -1}), add_panel(good, y, x);
+    EXPECT_EQ(warnings_of(good, {at({2, 2, 0.75})}), Texts{});
+    add_spot(wrong, {0, 0, 1}), add_panel(wrong, x, y);
+    const Texts expected{
+        "lights \"spot\", \"panel\" are mounted in object \"room\" and turned round: their light leaves on "
+        "the side "
+        "without sensors. Turn them to the other side, by aim or (a rectangle) by exchanging edge_u and "
+        "edge_v."};
+    EXPECT_EQ(warnings_of(wrong, {at({2, 2, 0.75})}), expected);
+    wrong.lights.erase(
+        wrong.lights.begin());  // the bulb: now all lamps are turned round, and the sensor is right
+    EXPECT_EQ(warnings_of(wrong, {at({2, 2, 0.75})}), expected);
 }
 
 TEST(Placement, AnEnvironmentIsOutsideOfClosedRooms) {

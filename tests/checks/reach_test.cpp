@@ -55,6 +55,21 @@ TEST(Reach, OneLampAboveTheCeiling) {
     }
 }
 
+/// A front that shines out of the scene, with sensors and without.
+TEST(Reach, ALampThatShinesPastEverything) {
+    Scene scene;
+    add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}, diffuse(0.5));
+    add_point_light(scene, {2, 1.5, 2}, kIntensity);
+    add_area_light(scene, Rectangle{{1, 1, 2.5}, {0.5, 0, 0}, {0, 0.5, 0}}, Rgb::grey(100));
+    EXPECT_EQ(warnings_of(scene, {kDesk}),
+              Texts{"light \"1\": none of its light reaches a sensor: it meets no surface. "
+                    "Turn it towards the scene."});
+    EXPECT_EQ(warnings_of(scene, {}),
+              Texts{"light \"1\": none of its light meets a surface. Turn it towards the scene."});
+    add_environment(scene, Rgb::grey(100));
+    EXPECT_EQ(warnings_of(scene, {}).size(), 1u);
+}
+
 TEST(Reach, ManyDarkLampsAreOneSentence) {
     Scene scene = room_of_rectangles();
     add_point_light(scene, {2, 1.5, 2.7}, kIntensity);

@@ -88,6 +88,12 @@ TEST(ResultsTable, NamesTheQuantities) {
     EXPECT_TRUE(has(table_of(made), "\neye           500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 0, 1)\n"));
     made.sensors.erase(made.sensors.begin(), made.sensors.begin() + 2);
     EXPECT_TRUE(table_of(made).starts_with("Illuminance, with 95 % intervals\n"));
+    made.maintenance = {0.8, 0.8};
+    EXPECT_TRUE(
+        table_of(made).starts_with("Maintained illuminance (maintenance factor 0.8), with 95 % intervals\n"));
+    made.maintenance = {0.7, 1};
+    EXPECT_TRUE(table_of(made).starts_with(
+        "Maintained illuminance (maintenance factors 0.7 to 1), with 95 % intervals\n"));
 }
 
 TEST(ResultsTable, NamesTheSamplesOfTheMethod) {

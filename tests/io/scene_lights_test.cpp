@@ -164,7 +164,7 @@ TEST(SceneLights, RefusesUnknownTypesAndKeys) {
     EXPECT_REFUSAL(
         light("type = \"point\"\nflus = 1"),
         "s.toml:11: lights.a: unknown key \"flus\" for type \"point\". Did you mean \"flux\"? Allowed: "
-        "type, position, flux, intensity, cct, color, group.");
+        "type, position, positions, array, flux, intensity, cct, color, group, maintenance.");
 }
 
 TEST(SceneLights, RefusesWrongQuantities) {

@@ -75,9 +75,10 @@ TEST(SceneBodies, FaceADirectionOrANormal) {
 TEST(SceneBodies, RefuseWrongKeys) {
     EXPECT_REFUSAL(sensor("type = \"cylindrical\"\nposition = [1, 2, 3]\nnormal = [0, 0, 1]"),
                    "s.toml:4: sensors.s: unknown key \"normal\" for type \"cylindrical\". Allowed: type, "
-                   "position, points.");
+                   "position, points, positions, array.");
     EXPECT_REFUSAL(sensor("type = \"spherical\""),
-                   "s.toml:1: sensors.s: key \"position\" or \"points\" is missing for type \"spherical\".");
+                   "s.toml:1: sensors.s: key \"position\", \"points\", \"positions\" or \"array\" is missing "
+                   "for type \"spherical\".");
     EXPECT_REFUSAL(sensor("type = \"semicylindrical\"\nposition = [1, 2, 3]"),
                    "s.toml:1: sensors.s: key \"direction\" is missing for type \"semicylindrical\".");
     EXPECT_REFUSAL(sensor("type = \"semicylindrical\"\nposition = [1, 2, 3]\ndirection = [0, 0.6, 0.8]"),
@@ -99,7 +100,7 @@ TEST(SceneSensors, RefusesUnknownTypesAndKeys) {
     EXPECT_REFUSAL(
         grid("counts = [4, 2]"),
         "s.toml:6: sensors.s: unknown key \"counts\" for type \"grid\". Did you mean \"count\"? Allowed: "
-        "type, corner, edge_u, edge_v, count, normal.");
+        "type, corner, positions, array, edge_u, edge_v, count, normal.");
 }
 
 TEST(SceneSensors, RefusesWrongCounts) {
@@ -124,9 +125,9 @@ TEST(SceneSensors, RefusesWrongGeometry) {
         "direction.");
     EXPECT_REFUSAL(sensor("type = \"illuminance\"\nposition = [1, 2, 3]"),
                    "s.toml:1: sensors.s: key \"normal\" is missing for type \"illuminance\".");
-    EXPECT_REFUSAL(
-        sensor("type = \"illuminance\"\nnormal = [0, 0, 1]"),
-        "s.toml:1: sensors.s: key \"position\" or \"points\" is missing for type \"illuminance\".");
+    EXPECT_REFUSAL(sensor("type = \"illuminance\"\nnormal = [0, 0, 1]"),
+                   "s.toml:1: sensors.s: key \"position\", \"points\", \"positions\" or \"array\" is missing "
+                   "for type \"illuminance\".");
     EXPECT_REFUSAL(sensor("type = \"illuminance\"\nposition = [0, 0, 1]\npoints = []\nnormal = [0, 0, 1]"),
                    "s.toml:4: sensors.s.points: contradicts \"position\", which is given too. Allowed: "
                    "one of the two.");

@@ -85,12 +85,14 @@ class ExampleTest(unittest.TestCase):
         return json.loads(result.stdout)
 
     def test_scenes_are_read_without_warnings(self):
+        """The first example of a page is a scene; the others are additions to it."""
         for page in ("README.md", "docs/scene-format.md"):
-            (scene,) = blocks(ROOT / page, "toml")
-            with self.subTest(page=page), tempfile.TemporaryDirectory() as folder:
-                file = Path(folder) / "room.toml"
-                file.write_text(scene)
-                self.assertEqual(self.stilb("info", file, "--json")["warnings"], [])
+            scene, *additions = blocks(ROOT / page, "toml")
+            for addition in ["", *additions]:
+                with self.subTest(page=page, addition=addition), tempfile.TemporaryDirectory() as folder:
+                    file = Path(folder) / "room.toml"
+                    file.write_text(scene + addition)
+                    self.assertEqual(self.stilb("info", file, "--json")["warnings"], [])
 
     def test_the_readme_shows_the_simple_room(self):
         (scene,) = blocks(ROOT / "README.md", "toml")

@@ -72,15 +72,13 @@ enum class Queries { single, packets };
 
 /// How many of about `rays` rays find no surface, of sixteen walks by diffuse reflection that begin inside
 /// and begin anew where a ray is lost. Convex meshes lose every walk that gets outside.
-inline std::uint64_t lost_rays(const ClosedMesh& closed, Queries queries, std::uint64_t rays,
+inline std::uint64_t lost_rays(const Scene& scene, const Vec3& inside, Queries queries, std::uint64_t rays,
                                std::uint64_t seed) {
-    Scene scene;
-    add_object(scene, closed.mesh, diffuse(0.5));
     const rays::RayCaster caster(scene);
     RandomPairs random(seed);
     const auto from_inside = [&] {
         const auto [u1, u2] = random.next_pair();
-        return rays::Ray{closed.inside, math::sample_sphere(u1, u2).direction};
+        return rays::Ray{inside, math::sample_sphere(u1, u2).direction};
     };
     std::vector<rays::Ray> walks;
     for (std::size_t i = 0; i < kPacketWidth; ++i) walks.push_back(from_inside());
@@ -107,6 +105,13 @@ inline std::uint64_t lost_rays(const ClosedMesh& closed, Queries queries, std::u
         }
     }
     return lost;
+}
+
+inline std::uint64_t lost_rays(const ClosedMesh& closed, Queries queries, std::uint64_t rays,
+                               std::uint64_t seed) {
+    Scene scene;
+    add_object(scene, closed.mesh, diffuse(0.5));
+    return lost_rays(scene, closed.inside, queries, rays, seed);
 }
 
 }  // namespace stilb

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "geometry/harmonics/surface.h"
+#include "geometry/mesh_part.h"
 #include "io/export/parts.h"
 
 namespace stilb::io::exporting {
@@ -49,28 +50,13 @@ Mesh mesh_of(const Harmonics& body) {
     return mesh;
 }
 
-/// The triangles of one material, with their vertices alone.
+/// The triangles of one material.
 Mesh part_of(const Mesh& mesh, const std::vector<MaterialId>& materials, MaterialId material) {
-    Mesh part;
-    std::vector<std::uint32_t> number(mesh.vertices.size(), ~0u);
-    const bool has_normals_of_vertices = !mesh.normals.empty() && mesh.corner_normals.empty();
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (materials[t] != material) continue;
-        Triangle triangle{};
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const std::uint32_t vertex = mesh.triangles[t][corner];
-            if (number[vertex] == ~0u) {
-                number[vertex] = static_cast<std::uint32_t>(part.vertices.size());
-                part.vertices.push_back(mesh.vertices[vertex]);
-                if (has_normals_of_vertices) part.normals.push_back(mesh.normals[vertex]);
-            }
-            triangle[corner] = number[vertex];
-        }
-        part.triangles.push_back(triangle);
-        if (!mesh.corner_normals.empty()) part.corner_normals.push_back(mesh.corner_normals[t]);
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (materials[t] == material) triangles.push_back(t);
     }
-    if (!mesh.corner_normals.empty()) part.normals = mesh.normals;
-    return part;
+    return geometry::part_of(mesh, triangles);
 }
 
 /// Adds the surfaces of one object.

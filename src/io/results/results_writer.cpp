@@ -214,6 +214,7 @@ std::string to_json(const RunResult& result, const std::string& scene) {
               {"stopped", text_of(result.stop_reason)},
               {"attained_error", result.attained_error},
               {"warnings", result.warnings}};
+    if (result.maintenance) json["maintenance"] = *result.maintenance;
     if (result.patches) {
         json["first_shot_set_up_s"] = result.patches->set_up_s;
         json["patches"] = patches_json(*result.patches);

@@ -50,12 +50,18 @@ Parameters read_fields(const TomlTable& table) {
     return parameters;
 }
 
+/// "type", and the keys of the parameters.
+template <typename Parameters>
+std::vector<std::string_view> typed_keys() {
+    std::vector<std::string_view> keys = keys_of<Parameters>();
+    keys.insert(keys.begin(), "type");
+    return keys;
+}
+
 /// Reads a table that has these keys, a "type" equal to `type`, and no others.
 template <typename Parameters>
 Parameters read_typed_fields(TomlTable& table, std::string_view type) {
-    std::vector<std::string_view> keys = keys_of<Parameters>();
-    keys.insert(keys.begin(), "type");
-    table.expect_keys(keys, fmt::format("type \"{}\"", type));
+    table.expect_keys(typed_keys<Parameters>(), fmt::format("type \"{}\"", type));
     return read_fields<Parameters>(table);
 }
 
@@ -72,7 +78,8 @@ using Keys = std::vector<std::string_view>;
 // The parts that do not depend on the type.
 
 Vec3 read_direction_field(const FieldSource& source, std::string_view key, bool warns_of_length);
-std::vector<Vec3> read_positions(const FieldSource& source);
+/// Of "position", "points", "positions" or "array".
+std::vector<Vec3> read_positions(const TomlTable& table);
 std::vector<MeasuringPoint> read_measuring_points(const FieldSource& source);
 std::vector<Measurand> read_sights(const FieldSource& source);
 std::array<int, 2> read_counts(const TomlItem& item, const sensors::CountLimit& limit);
@@ -99,19 +106,19 @@ Keys keys_of(const sensors::DirectionField<Owner, Value>& field) {
 }
 template <typename Owner>
 Keys keys_of(const sensors::PositionsField<Owner>&) {
-    return {"position", "points"};
+    return {"position", "points", "positions", "array"};
 }
 template <typename Owner>
 Keys keys_of(const sensors::MeasuringPointsField<Owner>&) {
-    return {"position", "points", "normal"};
+    return {"position", "points", "positions", "array", "normal"};
 }
 template <typename Owner>
 Keys keys_of(const sensors::SightsField<Owner>&) {
-    return {"position", "direction", "target", "directions", "targets"};
+    return {"position", "points", "positions", "array", "direction", "target", "directions", "targets"};
 }
 template <typename Owner>
 Keys keys_of(const sensors::ParallelogramField<Owner>&) {
-    return {"corner", "edge_u", "edge_v"};
+    return {"corner", "positions", "array", "edge_u", "edge_v"};
 }
 template <typename Owner>
 Keys keys_of(const sensors::CountsField<Owner>& field) {
@@ -150,7 +157,7 @@ void read_field(const sensors::DirectionField<Owner, Value>& field, const FieldS
 }
 template <typename Owner>
 void read_field(const sensors::PositionsField<Owner>& field, const FieldSource& source, Owner& owner) {
-    owner.*field.member = read_positions(source);
+    owner.*field.member = read_positions(source.table);
 }
 template <typename Owner>
 void read_field(const sensors::MeasuringPointsField<Owner>& field, const FieldSource& source, Owner& owner) {
@@ -179,14 +186,20 @@ void read_field(const sensors::ChoiceField<Owner, Enumeration>& field, const Fie
         static_cast<Enumeration>(source.table.at(field.key).index_in(field.names, field.key));
 }
 
-/// Reads a sensor of this kind, and checks its keys one by one and together.
+/// "type", and the keys of a kind of sensor.
 template <typename Kind>
-Kind read_by_fields(TomlTable& table, std::vector<std::string>& warnings) {
+Keys sensor_keys() {
     Keys keys{"type"};
     for_each_field<Kind>([&](const auto& field) {
         for (const std::string_view key : keys_of(field)) keys.push_back(key);
     });
-    table.expect_keys(keys, "type \"" + std::string(Kind::kType) + "\"");
+    return keys;
+}
+
+/// Reads a sensor of this kind, and checks its keys one by one and together.
+template <typename Kind>
+Kind read_by_fields(TomlTable& table, std::vector<std::string>& warnings) {
+    table.expect_keys(sensor_keys<Kind>(), "type \"" + std::string(Kind::kType) + "\"");
     Kind kind;
     for_each_field<Kind>([&](const auto& field) { read_field(field, FieldSource{table, warnings}, kind); });
     if constexpr (requires(const sensors::GivenKeys& given) { kind.settle(given); }) {

@@ -9,10 +9,12 @@
 
 #include "io/image/picture_file.h"
 #include "io/photometry/photometry_file.h"
+#include "io/scene/repetition.h"
 #include "io/scene/sections.h"
 #include "io/text/text.h"
 #include "lights/colour_temperature.h"
 #include "lights/opening_shape.h"
+#include "scene/cut_lamps.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -29,14 +31,9 @@ constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
 struct Context {
     const std::string& name;
     const std::filesystem::path& directory;
+    PartsOfObjects& parts;
     SceneFile& file;
 };
-
-/// The keys of a type, and those of all types.
-void expect_light_keys(TomlTable& table, std::vector<std::string_view> keys, std::string_view kind) {
-    keys.emplace_back("group");
-    table.expect_keys(keys, kind);
-}
 
 /// A colour of luminance 1.
 Rgb read_colour(const TomlTable& table) {
@@ -53,7 +50,6 @@ Rgb read_colour(const TomlTable& table) {
 }
 
 PointLight read_point(TomlTable& table) {
-    expect_light_keys(table, {"type", "position", "flux", "intensity", "cct", "color"}, "type \"point\"");
     const double quantity = table.one_of({"flux", "intensity"}).item.number(kLightQuantity);
     const double intensity_cd = table.has("flux") ? quantity / (4 * kPi) : quantity;
     return {table.at("position").vector(), intensity_cd * read_colour(table)};
@@ -68,13 +64,8 @@ double read_luminance(const TomlTable& table, const Shape& shape) {
     return luminance_cd_m2;
 }
 
-AreaLight read_area(TomlTable& table, const Context& context) {
-    expect_light_keys(table, {"type", "object", "flux", "luminance", "cct", "color"}, "type \"area\"");
-    const Scene& scene = context.file.scene;
-    std::vector<std::string_view> names;
-    for (const Object& object : scene.objects) names.push_back(object.name);
-    const TomlItem item = table.at("object");
-    const ObjectId object{static_cast<std::uint32_t>(item.index_in(names, "object"))};
+/// Refuses an object that shines already.
+void expect_unlit(const TomlItem& item, ObjectId object, const Scene& scene) {
     for (const Light& other : scene.lights) {
         const auto surface = lights::emitting_object(other);
         if (surface && *surface == object) {
@@ -83,7 +74,35 @@ AreaLight read_area(TomlTable& table, const Context& context) {
                             in_quotes(item.text()), in_quotes(other.name)));
         }
     }
-    return {object, read_luminance(table, scene.object(object).shape) * read_colour(table)};
+}
+
+/// The object that a light shines from: the one that it names, or some faces of it.
+ObjectId read_emitter(const TomlTable& table, const Context& context) {
+    Scene& scene = context.file.scene;
+    std::vector<std::string_view> names;
+    for (const Object& object : scene.objects) names.push_back(object.name);
+    const TomlItem item = table.at("object");
+    const ObjectId object{static_cast<std::uint32_t>(item.index_in(names, "object"))};
+    expect_unlit(item, object, scene);
+    table.expect_not_both("material", "mesh_group");
+    for (const std::string_view key : {"material", "mesh_group"}) {
+        if (const auto part = table.find(key))
+            return cut_out_lamp(scene, object, {std::string(key), *part}, context.parts);
+    }
+    const auto lamps = scene::cut_from(scene, object);
+    if (!lamps.empty()) {
+        item.fail(fmt::format(
+            "some of its faces are another light, {}. Allowed: \"material\" or \"mesh_group\", which "
+            "pick faces for each light of the object.",
+            in_quotes(scene.object(lamps.front()).name)));
+    }
+    return object;
+}
+
+AreaLight read_area(TomlTable& table, const Context& context) {
+    const ObjectId object = read_emitter(table, context);
+    const Shape& shape = context.file.scene.object(object).shape;
+    return {object, read_luminance(table, shape) * read_colour(table)};
 }
 
 /// The surfaces of luminous spheres and openings reflect nothing; all of them share one material.
@@ -111,8 +130,6 @@ ObjectId add_object(const TomlTable& table, const std::string& name, Shape shape
 }
 
 AreaLight read_sphere(TomlTable& table, const Context& context) {
-    expect_light_keys(table, {"type", "center", "radius", "flux", "luminance", "cct", "color"},
-                      "type \"sphere\"");
     const Sphere sphere{table.at("center").vector(), table.at("radius").number(kRadius)};
     const Rgb luminance_cd_m2 = read_luminance(table, sphere) * read_colour(table);
     return {add_object(table, context.name, sphere, context.file.scene), luminance_cd_m2};
@@ -161,9 +178,6 @@ lights::Opening read_opening(const TomlItem& item) {
 }
 
 lights::LightSource read_photometry(TomlTable& table, const Context& context) {
-    expect_light_keys(
-        table, {"type", "file", "opening", "position", "aim", "spin", "dimming", "flux", "cct", "color"},
-        "type \"photometry\"");
     const Vec3 position = table.at("position").vector();
     const auto aim = table.find("aim"), spin = table.find("spin"), dimming = table.find("dimming"),
                flux = table.find("flux");
@@ -207,8 +221,6 @@ std::shared_ptr<const Panorama> read_panorama(const TomlItem& item, double dimmi
 }
 
 EnvironmentLight read_environment(TomlTable& table, const Context& context) {
-    expect_light_keys(table, {"type", "luminance", "file", "up", "rotation", "dimming", "cct", "color"},
-                      "type \"environment\"");
     for (const Light& other : context.file.scene.lights) {
         if (location_of(other) != LightLocation::infinity) continue;
         table.fail(fmt::format("surrounds the scene, as light {} does. Allowed: one environment.",
@@ -229,18 +241,23 @@ EnvironmentLight read_environment(TomlTable& table, const Context& context) {
     return light;
 }
 
-/// Selects the reader by `type`.
+/// The reader of a type of light.
 struct Reader {
     std::string_view type;
+    std::string_view place;  ///< the key of its position, in place of which there may be several; or empty
+    std::string_view keys;   ///< the others, without those of all types
     lights::LightSource (*read)(TomlTable& table, const Context& context);
 };
 constexpr std::array kReaders{
-    Reader{"point", [](TomlTable& t, const Context&) -> lights::LightSource { return read_point(t); }},
-    Reader{"area", [](TomlTable& t, const Context& c) -> lights::LightSource { return read_area(t, c); }},
-    Reader{"sphere", [](TomlTable& t, const Context& c) -> lights::LightSource { return read_sphere(t, c); }},
-    Reader{"photometry",
+    Reader{"point", "position", "flux intensity cct color",
+           [](TomlTable& t, const Context&) -> lights::LightSource { return read_point(t); }},
+    Reader{"area", "", "object material mesh_group flux luminance cct color",
+           [](TomlTable& t, const Context& c) -> lights::LightSource { return read_area(t, c); }},
+    Reader{"sphere", "center", "radius flux luminance cct color",
+           [](TomlTable& t, const Context& c) -> lights::LightSource { return read_sphere(t, c); }},
+    Reader{"photometry", "position", "file opening aim spin dimming flux cct color",
            [](TomlTable& t, const Context& c) -> lights::LightSource { return read_photometry(t, c); }},
-    Reader{"environment",
+    Reader{"environment", "", "luminance file up rotation dimming cct color",
            [](TomlTable& t, const Context& c) -> lights::LightSource { return read_environment(t, c); }},
 };
 
@@ -253,17 +270,29 @@ constexpr bool all_have_readers(const std::variant<Kinds...>*) {
 }
 static_assert(all_have_readers(static_cast<const lights::LightSource*>(nullptr)));
 
-lights::LightSource read_source(TomlTable& table, const Context& context) {
+/// Daylight is not a lamp: it has no maintenance factor, and takes no defaults.
+bool is_lamp(const Reader& reader) { return reader.type != EnvironmentLight::kType; }
+
+std::vector<std::string_view> keys_of(const Reader& reader) {
+    std::vector<std::string_view> keys{"type"};
+    if (!reader.place.empty()) keys.insert(keys.end(), {reader.place, "positions", "array"});
+    std::string_view others = reader.keys;
+    while (!others.empty()) keys.push_back(next_word(others));
+    keys.push_back("group");
+    if (is_lamp(reader)) keys.push_back("maintenance");
+    return keys;
+}
+
+const Reader& reader_of(const TomlTable& table) {
     std::array<std::string_view, kReaders.size()> types;
     std::ranges::transform(kReaders, types.begin(), &Reader::type);
-    const std::string_view type = table.choose("type", types);
-    return std::ranges::find(kReaders, type, &Reader::type)->read(table, context);
+    return *std::ranges::find(kReaders, table.choose("type", types), &Reader::type);
 }
 
 /// Lights with the same text are dimmed together in solutions.
-std::string read_group(const TomlTable& table) {
+std::string read_group(const TomlTable& table, std::string otherwise) {
     const auto group = table.find("group");
-    if (!group) return {};
+    if (!group) return otherwise;
     std::string name(group->text());
     if (name.empty()) group->fail("the name is empty. Allowed: a text with at least one character.");
     return name;
@@ -271,10 +300,24 @@ std::string read_group(const TomlTable& table) {
 
 }  // namespace
 
-void read_lights(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file) {
-    for (auto& [name, table] : named_tables(section)) {
-        lights::LightSource source = read_source(table, {name, directory, file});
-        file.scene.lights.push_back({name, std::move(source), read_group(table)});
+std::vector<TypeKeys> light_types() {
+    std::vector<TypeKeys> types;
+    for (const Reader& reader : kReaders) {
+        if (is_lamp(reader)) types.push_back({reader.type, keys_of(reader)});
+    }
+    return types;
+}
+
+void read_lights(const TomlTable& section, LightContext context, SceneFile& file) {
+    const auto place = [](const TomlTable& table) { return reader_of(table).place; };
+    for (auto& [name, table, copy_of] : repeated_tables(named_tables(section, context.defaults), place)) {
+        const Reader& reader = reader_of(table);
+        table.expect_keys(keys_of(reader), fmt::format("type {}", in_quotes(reader.type)));
+        const double maintenance = is_lamp(reader) ? read_maintenance(table, context.maintenance) : 1;
+        Light light{name, reader.read(table, {name, context.directory, context.parts, file}),
+                    read_group(table, copy_of), maintenance};
+        if (maintenance < 1) light.source = lights::scaled(light.source, Rgb::grey(maintenance));
+        file.scene.lights.push_back(std::move(light));
     }
 }
 

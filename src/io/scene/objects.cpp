@@ -263,7 +263,8 @@ class PartMaterials {
     std::optional<MaterialId> rest_;
 };
 
-Object read_mesh_object(TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
+Object read_mesh_object(TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
+                        MeshParts& parts) {
     MeshFile mesh = read_mesh(table, directory, file);
     warn_of_degenerate(table, mesh, file);
     std::vector<MaterialId> materials;
@@ -272,6 +273,7 @@ Object read_mesh_object(TomlTable& table, const std::filesystem::path& directory
     } else {
         materials = {read_material(table.at("material"), file.scene)};
     }
+    parts = take_parts(mesh);
     return {"", std::move(mesh.mesh), std::move(materials)};
 }
 
@@ -296,11 +298,13 @@ Shape read_simple_shape(TomlTable& table, std::string_view shape, SceneFile& fil
     return read_polygons(table, file);
 }
 
-Object read_untransformed(TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
+/// `parts` is filled if the object is a mesh from a file.
+Object read_untransformed(TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
+                          MeshParts& parts) {
     const std::string_view shape = table.choose("shape", kShapes);
     if (shape == "mesh") {
         expect_object_keys(table, shape, {"file", "materials"});
-        return read_mesh_object(table, directory, file);
+        return read_mesh_object(table, directory, file, parts);
     }
     const auto of_one_material = [&](Shape geometry) {
         return Object{"", std::move(geometry), {read_material(table.at("material"), file.scene)}};
@@ -335,15 +339,19 @@ geometry::Transform transform_of(const Shape& shape, const TomlTable& table) {
 
 }  // namespace
 
-void read_objects(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file) {
+PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory,
+                            SceneFile& file) {
+    PartsOfObjects parts;
     for (auto& [name, table] : named_tables(section)) {
-        Object object = read_untransformed(table, directory, file);
+        const ObjectId id{static_cast<std::uint32_t>(file.scene.objects.size())};
+        Object object = read_untransformed(table, directory, file, parts[id]);
         object.name = name;
         const geometry::Transform transform = transform_of(object.shape, table);
         expect_possible(transform, object.shape, table);
         if (transform != geometry::Transform{}) object.shape = transformed(object.shape, transform);
         file.scene.objects.push_back(std::move(object));
     }
+    return parts;
 }
 
 }  // namespace stilb::io

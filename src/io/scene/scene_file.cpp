@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "estimators/estimator_list.h"
 #include "io/scene/fields.h"
@@ -23,6 +24,7 @@ namespace {
 
 constexpr Range kRelativeError{1e-9, 0.999999, "a share between 0 and 1, such as 0.01 or \"1%\""};
 constexpr Range kSeconds{1e-3, 1e9, "a time above 0 (from 0.001 to 1e9 s)"};
+constexpr Range kMaintenance{1e-3, 1, "a factor above 0 (from 0.001 to 1)"};
 constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
 
 std::string read_method(const TomlItem& item) {
@@ -79,6 +81,20 @@ std::vector<NamedTable> named_tables(const TomlTable& section) {
     return tables;
 }
 
+std::vector<NamedTable> named_tables(const TomlTable& section, const Defaults& defaults) {
+    std::vector<NamedTable> tables = named_tables(section);
+    for (NamedTable& named : tables) named.table = defaults.complete(named.table);
+    return tables;
+}
+
+std::vector<TomlItem> read_list(const TomlItem& list, std::string_view what) {
+    std::vector<TomlItem> items = list.elements();
+    if (items.empty()) {
+        list.fail(fmt::format("found no {}. Allowed: [[x, y, z], ...] with one {} or more.", what, what));
+    }
+    return items;
+}
+
 Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings) {
     const Vec3 given = item.vector();
     const Vec3 normal = item.made_unit(given);
@@ -102,7 +118,7 @@ Rectangle read_rectangle(const TomlTable& table) {
 }
 
 RunOptions read_run(TomlTable section) {
-    section.expect_keys({"method", "error", "time", "paths", "bounces", "seed", "threads"});
+    section.expect_keys({"method", "error", "time", "paths", "bounces", "seed", "threads", "maintenance"});
     RunOptions run;
     if (const auto item = section.find("method")) run.method = read_method(*item);
     if (const auto item = section.find("error")) run.error = read_error(*item);
@@ -116,6 +132,11 @@ RunOptions read_run(TomlTable section) {
     }
     if (const auto item = section.find("threads")) run.threads = static_cast<int>(item->integer(0, 4096));
     return run;
+}
+
+double read_maintenance(const TomlTable& table, double otherwise) {
+    const auto item = table.find("maintenance");
+    return item ? item->number(kMaintenance) : otherwise;
 }
 
 SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory,
@@ -135,24 +156,32 @@ SceneFile read_scene(std::string_view toml, const std::string& name, const std::
 SceneFile read_scene(const TomlMembers& members, const std::string& name,
                      const std::filesystem::path& directory) {
     TomlTable root(members, "", name, 0);
-    root.expect_keys({"scene", "materials", "objects", "lights", "sensors", "run"});
+    root.expect_keys({"scene", "defaults", "materials", "objects", "lights", "sensors", "run"});
     const TomlMembers nothing;
     const TomlTable none(nothing, "", name, 0);
+    TomlTable all_defaults = section_of(root, "defaults", none);
+    all_defaults.expect_keys({"materials", "lights", "sensors"});
+    const auto defaults = [&](std::string_view section, std::vector<TypeKeys> types) {
+        return Defaults(section_of(all_defaults, section, none), std::move(types));
+    };
 
     SceneFile file;
     TomlTable scene = section_of(root, "scene", none);
     scene.expect_keys({"name"});
     if (const auto title = scene.find("name")) file.scene.name = title->text();
     const TomlTable materials = section_of(root, "materials", none);
-    file.scene.materials = read_materials(materials);
-    read_objects(section_of(root, "objects", none), directory, file);
+    file.scene.materials = read_materials(materials, defaults("materials", material_types()));
+    PartsOfObjects parts = read_objects(section_of(root, "objects", none), directory, file);
     warn_of_unused_materials(materials, file);
-    read_lights(section_of(root, "lights", none), directory, file);
+    const TomlTable run = section_of(root, "run", none);
+    file.run = read_run(run);
+    read_lights(section_of(root, "lights", none),
+                {defaults("lights", light_types()), read_maintenance(run, 1), std::move(parts), directory},
+                file);
     scene::put_lamps_in_front(file.scene);
     if (file.scene.lights.empty())
         file.warnings.emplace_back(InputError("no light: the scene is dark.", {name}).what());
-    read_sensors(section_of(root, "sensors", none), file);
-    file.run = read_run(section_of(root, "run", none));
+    read_sensors(section_of(root, "sensors", none), defaults("sensors", sensor_types()), file);
     return file;
 }
 
@@ -181,9 +210,17 @@ Material read_material(TomlTable& table) {
 
 }  // namespace
 
-std::vector<NamedMaterial> read_materials(const TomlTable& section) {
+std::vector<TypeKeys> material_types() {
+    std::vector<TypeKeys> types;
+    materials::for_each_model([&]<typename Model>() {
+        types.push_back({Model::kType, typed_keys<materials::ParametersOf<Model>>()});
+    });
+    return types;
+}
+
+std::vector<NamedMaterial> read_materials(const TomlTable& section, const Defaults& defaults) {
     std::vector<NamedMaterial> materials;
-    for (auto& [name, table] : named_tables(section)) {
+    for (auto& [name, table] : named_tables(section, defaults)) {
         materials.push_back({name, read_material(table)});
     }
     return materials;

@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/transform.h"
+#include "io/scene/defaults.h"
+#include "io/scene/mesh_parts.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/toml.h"
 
@@ -17,18 +20,40 @@ struct NamedTable {
 };
 /// The tables of the section; throws for names that cannot be part of a file name.
 std::vector<NamedTable> named_tables(const TomlTable& section);
+/// The same, each table with the defaults that it takes.
+std::vector<NamedTable> named_tables(const TomlTable& section, const Defaults& defaults);
 
-std::vector<NamedMaterial> read_materials(const TomlTable& section);
-/// Objects refer to the materials of `file.scene`.
-void read_objects(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file);
-/// Area lights refer to the objects of `file.scene`; luminous spheres add theirs.
-void read_lights(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file);
-void read_sensors(const TomlTable& section, SceneFile& file);
+std::vector<NamedMaterial> read_materials(const TomlTable& section, const Defaults& defaults);
+/// Objects refer to the materials of `file.scene`. Returns the parts of those that are meshes.
+PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory,
+                            SceneFile& file);
+
+/// What lights depend on, besides their section.
+struct LightContext {
+    Defaults defaults;
+    double maintenance = 1;  ///< of lights that do not give their own
+    PartsOfObjects parts;
+    const std::filesystem::path& directory;
+};
+/// Area lights refer to the objects of `file.scene`; those of some faces and luminous spheres add theirs.
+void read_lights(const TomlTable& section, LightContext context, SceneFile& file);
+
+void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile& file);
 RunOptions read_run(TomlTable section);
+/// The key maintenance of [run] or of a light; `otherwise` where it is missing.
+double read_maintenance(const TomlTable& table, double otherwise);
+
+// The types that take defaults, with their keys.
+std::vector<TypeKeys> material_types();
+/// All but environments: daylight is not a lamp.
+std::vector<TypeKeys> light_types();
+std::vector<TypeKeys> sensor_types();
 
 /// The keys scale, rotate, translate or transform of an object.
 geometry::Transform read_transform(const TomlTable& object);
 
+/// The elements of a list of triples, each a `what`.
+std::vector<TomlItem> read_list(const TomlItem& list, std::string_view what);
 /// A direction as a unit vector, with a warning where its length was far from 1.
 Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings);
 /// The keys file or coefficients, degree, intersection, lod. The centre comes from the file; with

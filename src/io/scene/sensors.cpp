@@ -6,20 +6,12 @@
 #include <type_traits>
 
 #include "io/scene/fields.h"
+#include "io/scene/repetition.h"
 
 namespace stilb::io {
 namespace {
 
 using Warnings = std::vector<std::string>;
-
-/// The elements of a list of triples, each a `what`.
-std::vector<TomlItem> read_list(const TomlItem& list, std::string_view what) {
-    std::vector<TomlItem> items = list.elements();
-    if (items.empty()) {
-        list.fail(fmt::format("found no {}. Allowed: [[x, y, z], ...] with one {} or more.", what, what));
-    }
-    return items;
-}
 
 std::vector<Vec3> read_directions(const TomlItem& list, Warnings& warnings) {
     std::vector<Vec3> directions;
@@ -46,6 +38,11 @@ sensors::SensorKind read_nth(std::size_t n, TomlTable& table, Warnings& warnings
     return readers[n](table, warnings);
 }
 
+template <typename... Kinds>
+std::vector<TypeKeys> keys_of_types(std::type_identity<std::variant<Kinds...>>) {
+    return {{Kinds::kType, sensor_keys<Kinds>()}...};
+}
+
 sensors::SensorKind read_sensor(TomlTable& table, Warnings& warnings) {
     const std::string_view type = table.choose("type", sensors::kSensorTypeNames);
     const auto found = std::ranges::find(sensors::kSensorTypeNames, type);
@@ -60,17 +57,15 @@ Vec3 read_direction_field(const FieldSource& source, std::string_view key, bool 
     return warns_of_length ? read_direction(item, source.warnings) : item.direction();
 }
 
-std::vector<Vec3> read_positions(const FieldSource& source) {
-    const auto [key, item] = source.table.one_of({"position", "points"});
-    std::vector<Vec3> positions;
-    for (const TomlItem& point : key == "points" ? read_list(item, "point") : std::vector{item})
-        positions.push_back(point.vector());
-    return positions;
+std::vector<Vec3> read_positions(const TomlTable& table) {
+    const TomlTable::NamedItem given = table.one_of({"position", "points", "positions", "array"});
+    if (given.key == "position") return {given.item.vector()};
+    return read_several_positions(given);
 }
 
 std::vector<MeasuringPoint> read_measuring_points(const FieldSource& source) {
     std::vector<MeasuringPoint> points;
-    const std::vector<Vec3> positions = read_positions(source);
+    const std::vector<Vec3> positions = read_positions(source.table);
     const Vec3 normal = read_direction(source.table.at("normal"), source.warnings);
     for (const Vec3& position : positions) points.push_back({position, normal});
     return points;
@@ -96,26 +91,49 @@ Vec3 read_direction_to(const TomlItem& target, const Vec3& position) {
     return normalized(offset);
 }
 
-std::vector<Measurand> read_sights(const FieldSource& source) {
-    const Vec3 position = source.table.at("position").vector();
-    const auto [key, item] = source.table.one_of({"direction", "target", "directions", "targets"});
+namespace {
+
+/// The directions from a position; those of `direction` and `directions` are the same from everywhere.
+std::vector<Vec3> directions_from(const Vec3& position, const TomlTable::NamedItem& given,
+                                  Warnings& warnings) {
+    const auto& [key, item] = given;
+    if (key == "direction") return {read_direction(item, warnings)};
+    if (key == "directions") return read_directions(item, warnings);
+    if (key == "target") return {read_direction_to(item, position)};
     std::vector<Vec3> directions;
-    if (key == "direction") directions = {read_direction(item, source.warnings)};
-    if (key == "directions") directions = read_directions(item, source.warnings);
-    if (key == "target") directions = {read_direction_to(item, position)};
-    if (key == "targets") {
-        for (const TomlItem& target : read_list(item, "target"))
-            directions.push_back(read_direction_to(target, position));
-    }
+    for (const TomlItem& target : read_list(item, "target"))
+        directions.push_back(read_direction_to(target, position));
+    return directions;
+}
+
+}  // namespace
+
+std::vector<Measurand> read_sights(const FieldSource& source) {
+    const std::vector<Vec3> positions = read_positions(source.table);
+    const auto given = source.table.one_of({"direction", "target", "directions", "targets"});
     std::vector<Measurand> sights;
-    for (const Vec3& direction : directions) sights.emplace_back(LineOfSight{position, direction});
+    for (const Vec3& position : positions) {
+        for (const Vec3& direction : directions_from(position, given, source.warnings))
+            sights.emplace_back(LineOfSight{position, direction});
+    }
     return sights;
 }
 
-void read_sensors(const TomlTable& section, SceneFile& file) {
+std::vector<TypeKeys> sensor_types() { return keys_of_types(std::type_identity<sensors::SensorKind>{}); }
+
+void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile& file) {
+    // Grids are copied, as each is an area of its own. Other sensors have all positions together.
+    const auto place = [](const TomlTable& table) -> std::string_view {
+        return table.text_of("type") == Grid::kType ? "corner" : "";
+    };
     std::int64_t readings = 0;
-    for (auto& [name, table] : named_tables(section)) {
-        file.sensors.push_back({name, read_sensor(table, file.warnings)});
+    for (auto& [name, table, copy_of] : repeated_tables(named_tables(section, defaults), place)) {
+        Warnings warnings;
+        file.sensors.push_back({name, read_sensor(table, warnings)});
+        for (std::string& warning : warnings) {
+            const bool is_new = std::ranges::find(file.warnings, warning) == file.warnings.end();
+            if (is_new) file.warnings.push_back(std::move(warning));  // several positions have the same
+        }
         readings += static_cast<std::int64_t>(file.sensors.back().size());
         if (readings > sensors::kMostReadings) {
             table.fail(fmt::format("the sensors up to this one have {} readings. Allowed: {} in all.",

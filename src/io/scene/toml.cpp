@@ -250,6 +250,13 @@ std::filesystem::path TomlItem::existing_file(const std::filesystem::path& direc
     return path;
 }
 
+TomlTable TomlTable::with(TomlMembers members) const {
+    TomlTable table = *this;
+    table.kept_ = std::make_shared<const TomlMembers>(std::move(members));
+    table.members_ = table.kept_.get();
+    return table;
+}
+
 void TomlTable::fail(std::string_view message) const {
     throw InputError(with_path(path_, message), {*file_, line_});
 }
@@ -286,6 +293,12 @@ std::optional<TomlItem> TomlTable::find(std::string_view key) const {
 TomlItem TomlTable::at(std::string_view key) const {
     if (const auto item = find(key)) return *item;
     fail(fmt::format("key {} is missing{}.", in_quotes(key), kind_));
+}
+
+std::string_view TomlTable::text_of(std::string_view key) const {
+    const auto found = std::ranges::find(*members_, key, &TomlMember::key);
+    const auto* text = found != members_->end() ? std::get_if<std::string>(&found->value.content) : nullptr;
+    return text ? std::string_view(*text) : std::string_view();
 }
 
 std::string_view TomlTable::choose(std::string_view key, std::span<const std::string_view> names,

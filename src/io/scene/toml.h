@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -106,6 +107,10 @@ class TomlTable {
     TomlTable(const TomlMembers& members, std::string path, const std::string& file, std::size_t line)
         : members_(&members), path_(std::move(path)), file_(&file), line_(line) {}
 
+    const TomlMembers& members() const { return *members_; }
+    /// A table in the same place of the file with these members, which it keeps. It must outlive its items.
+    TomlTable with(TomlMembers members) const;
+
     /// Throws for any other key. `kind` is the owner of these keys, as in `for type "phong"`; may be empty.
     void expect_keys(const std::vector<std::string_view>& keys, std::string_view kind = "");
 
@@ -115,6 +120,8 @@ class TomlTable {
     bool has(std::string_view key) const { return find(key).has_value(); }
     std::optional<TomlItem> find(std::string_view key) const;
     TomlItem at(std::string_view key) const;
+    /// The text under the key; empty where there is none.
+    std::string_view text_of(std::string_view key) const;
     /// The name given by the key; `later` as in TomlItem::index_in().
     std::string_view choose(std::string_view key, std::span<const std::string_view> names,
                             std::span<const std::string_view> later = {}) const;
@@ -130,6 +137,7 @@ class TomlTable {
     TomlItem item(const TomlMember& member) const;
 
     const TomlMembers* members_;
+    std::shared_ptr<const TomlMembers> kept_;  ///< the same, where they are not those of the file
     std::string path_;
     const std::string* file_;
     std::size_t line_;

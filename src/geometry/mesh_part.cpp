@@ -1,0 +1,66 @@
+#include "geometry/mesh_part.h"
+
+namespace stilb::geometry {
+namespace {
+
+/// The elements that some triangles use, numbered in the order of their first use.
+class Used {
+  public:
+    explicit Used(std::size_t count) : new_number_(count, kNoNumber) {}
+
+    Triangle renumbered(const Triangle& triangle) {
+        Triangle numbers{};
+        for (std::size_t corner = 0; corner < 3; ++corner) numbers[corner] = renumbered(triangle[corner]);
+        return numbers;
+    }
+
+    std::vector<Vec3> of(const std::vector<Vec3>& all) const {
+        std::vector<Vec3> used;
+        used.reserve(old_numbers_.size());
+        for (const std::uint32_t number : old_numbers_) used.push_back(all[number]);
+        return used;
+    }
+
+  private:
+    std::uint32_t renumbered(std::uint32_t number) {
+        if (number == kNoNormal) return kNoNormal;
+        if (new_number_[number] == kNoNumber) {
+            new_number_[number] = static_cast<std::uint32_t>(old_numbers_.size());
+            old_numbers_.push_back(number);
+        }
+        return new_number_[number];
+    }
+
+    static constexpr std::uint32_t kNoNumber = ~0u;
+    std::vector<std::uint32_t> new_number_, old_numbers_;
+};
+
+}  // namespace
+
+Mesh part_of(const Mesh& mesh, std::span<const std::uint32_t> triangles) {
+    Mesh part;
+    Used vertices(mesh.vertices.size()), normals(mesh.normals.size());
+    const bool has_corner_normals = !mesh.corner_normals.empty();
+    for (const std::uint32_t t : triangles) {
+        part.triangles.push_back(vertices.renumbered(mesh.triangles[t]));
+        if (has_corner_normals) part.corner_normals.push_back(normals.renumbered(mesh.corner_normals[t]));
+    }
+    part.vertices = vertices.of(mesh.vertices);
+    if (!mesh.normals.empty()) part.normals = (has_corner_normals ? normals : vertices).of(mesh.normals);
+    return part;
+}
+
+std::vector<std::uint32_t> others(std::size_t count, std::span<const std::uint32_t> numbers) {
+    std::vector<std::uint32_t> rest;
+    auto next = numbers.begin();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (next != numbers.end() && *next == i) {
+            ++next;
+        } else {
+            rest.push_back(i);
+        }
+    }
+    return rest;
+}
+
+}  // namespace stilb::geometry
