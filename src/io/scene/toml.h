@@ -77,6 +77,7 @@ class TomlItem {
     TomlTable table() const;
 
     bool is_text() const { return std::holds_alternative<std::string>(value_->content); }
+    bool is_table() const { return std::holds_alternative<TomlMembers>(value_->content); }
 
     /// Index of the text among the names. `what` is the kind of name for the message; names in `later` are
     /// reported as not supported yet.
