@@ -26,7 +26,16 @@ struct Reading : Estimate {
     Triple position{};  ///< [m]
 };
 
-/// The readings of one sensor.
+enum class Verdict { pass, fail, undecided };
+
+/// What a scene file requires of a sensor by `require`, and whether it is met, for certain at 95 %.
+struct Requirement {
+    std::string key;  ///< "mean", "uniformity" ...
+    double limit = 0;
+    Verdict verdict = Verdict::undecided;
+};
+
+/// The readings of one sensor; of a derived value a single one, without colour and position (NaN).
 struct SensorResult {
     std::string name, type;
     std::string quantity, unit;     ///< such as "illuminance" and "lx"
@@ -35,6 +44,8 @@ struct SensorResult {
     Estimate mean, minimum, maximum;
     Estimate uniformity;        ///< minimum over mean
     double attained_error = 0;  ///< relative half-width of the intervals of 95 % of the readings, at most
+    Estimate diversity;         ///< minimum over maximum
+    std::vector<Requirement> requirements;
 };
 
 /// A run of measure(), render() or solve(): its options, its effort and its success.

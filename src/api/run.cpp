@@ -71,11 +71,19 @@ SensorResult sensor_result(const run::SensorResult& measured) {
                         .minimum = estimate(measured.summary.minimum),
                         .maximum = estimate(measured.summary.maximum),
                         .uniformity = estimate(measured.summary.uniformity),
-                        .attained_error = measured.attained_error};
+                        .attained_error = measured.attained_error,
+                        .diversity = estimate(measured.summary.diversity),
+                        .requirements = {}};
+    for (const auto& [requirement, verdict] : measured.requirements) {
+        result.requirements.push_back(
+            {std::string(requirement.criterion->key), requirement.limit, static_cast<Verdict>(verdict)});
+    }
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t j = 0; j < measured.readings.size(); ++j) {
         const run::Reading& reading = measured.readings[j];
-        result.readings.push_back(
-            {estimate(reading.estimate), triple(reading.rgb), triple(position_of(sensor.measurand(j)))});
+        const Triple position =
+            sensor.derived() ? Triple{none, none, none} : triple(position_of(sensor.measurand(j)));
+        result.readings.push_back({estimate(reading.estimate), triple(reading.rgb), position});
     }
     return result;
 }

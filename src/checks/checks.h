@@ -142,6 +142,14 @@ std::vector<std::string> facing_warnings(const Scene& scene, const rays::RayCast
 std::vector<std::string> reach_warnings(const Scene& scene, const rays::RayCaster& caster,
                                         std::span<const Sensor> sensors, const Explained& explained);
 
+// Points that belong to no area.
+
+/// The sensors, without those points of areas that are not measured, because they stand inside of a body or
+/// outside of the room (a closed surface separates them from all lights), or a surface covers them. The areas
+/// count them. Throws InputError where an area has no other points.
+std::vector<Sensor> without_hidden_points(const Scene& scene, const rays::RayCaster& caster,
+                                          std::span<const Sensor> sensors);
+
 // Objects that no light reaches.
 
 /// The objects that no light reaches, in the order of the scene; emitters are never among them. Light

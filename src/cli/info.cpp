@@ -194,14 +194,27 @@ std::string readings_text(const Json& sensor) {
     if (sensor.contains("count")) return size_text(sensor["count"], "points");
     const std::size_t readings = count(sensor, "points");
     const sensors::Noun noun = sensors::readings_of_type(text(sensor, "type"));
-    return fmt::format("{} {}", readings, readings == 1 ? noun.one : noun.many);
+    const std::size_t left_out = sensor.contains("left_out") ? count(sensor, "left_out") : 0;
+    return fmt::format("{} {}{}", readings, readings == 1 ? noun.one : noun.many, left_out_text(left_out));
+}
+
+std::string required_text(const Json& sensor) {
+    if (!sensor.contains("require")) return "";
+    std::string result;
+    for (const auto& [key, limit] : sensor["require"].items())
+        result += fmt::format("{} {} {:g}", result.empty() ? ", required:" : ",", key, limit.get<double>());
+    return result;
+}
+
+std::string sensor_details(const Json& sensor) {
+    if (sensor.contains("resolution")) return camera_text(sensor);
+    if (sensor.contains("formula")) return text(sensor, "formula");
+    return readings_text(sensor) + ", " + extent_text(sensor.at("extent"));
 }
 
 std::string sensor_text(const Json& sensor) {
-    const std::string what = sensor.contains("resolution")
-                                 ? camera_text(sensor)
-                                 : readings_text(sensor) + ", " + extent_text(sensor.at("extent"));
-    return fmt::format("{:16} {:15} {}", text(sensor, "name"), text(sensor, "type"), what);
+    return fmt::format("{:16} {:15} {}{}", text(sensor, "name"), text(sensor, "type"), sensor_details(sensor),
+                       required_text(sensor));
 }
 
 std::string run_text(const Json& run) {

@@ -130,10 +130,21 @@ Json sensor_json(const Sensor& sensor) {
         json.update(camera_json(*camera));
         return json;
     }
+    for (const auto& [criterion, limit] : sensor.requirements)
+        json["require"][std::string(criterion->key)] = limit;
+    if (const Derived* derived = sensor.derived()) {
+        json["formula"] = derived->formula.text();
+        json["unit"] = derived->unit;
+        return json;
+    }
     Bounds bounds;
     for (const Measurand& measurand : sensor.measurands()) bounds.include(position_of(measurand));
     json["points"] = sensor.size();
     if (const auto count = sensor.count()) json["count"] = *count;
+    if (const auto* area = std::get_if<Area>(&sensor.kind)) {
+        json["spacing_m"] = area->cell_m;
+        json["left_out"] = area->left_out;
+    }
     json["extent"] = extent_json(bounds);
     return json;
 }
@@ -141,6 +152,8 @@ Json sensor_json(const Sensor& sensor) {
 Json run_json(const RunOptions& run) {
     Json json{{"method", run.method}};
     if (run.error) json["error"] = *run.error;
+    if (run.target != run::Target::readings)
+        json["target"] = run::kTargetNames[static_cast<std::size_t>(run.target)];
     if (run.time_s) json["time_s"] = *run.time_s;
     if (run.paths) json["paths"] = *run.paths;
     if (run.bounces) json["bounces"] = *run.bounces;
@@ -194,9 +207,10 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     json["total_flux_lm"] = total_flux_lm;
     if (const auto maintenance = scene::maintenance_factors(scene)) json["maintenance"] = *maintenance;
     json["luminaires"] = list_json(scene.solids, luminaire_json);
-    json["sensors"] = list_json(file.sensors, sensor_json);
+    const std::vector<Sensor> sensors = checks::without_hidden_points(scene, caster, file.sensors);
+    json["sensors"] = list_json(sensors, sensor_json);
     json["run"] = run_json(file.run);
-    json["warnings"] = checks::scene_warnings(file.scene, caster, enclosures, file.sensors, file.warnings);
+    json["warnings"] = checks::scene_warnings(file.scene, caster, enclosures, sensors, file.warnings);
     json["memory"] = {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}};
     return json;
 }

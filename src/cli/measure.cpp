@@ -1,5 +1,6 @@
 // stilb measure: readings of all sensors of a scene.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -31,6 +32,8 @@ struct MeasureRequest {
     /// Where JSON goes: "-" is standard output, which then gets no table.
     std::optional<std::string> json;
     std::string output, csv_directory, picture;
+    std::optional<std::string> target;
+    bool has_replicates = false, checks = false;
     RunFlags flags;
 };
 
@@ -57,8 +60,10 @@ std::vector<std::string> json_files(const MeasureRequest& request) {
 
 /// Writes the files that the request names.
 void write_files(const RunResult& result, const MeasureRequest& request) {
+    const auto replicates =
+        request.has_replicates ? io::ReplicateValues::written : io::ReplicateValues::left_out;
     for (const std::string& file : json_files(request))
-        io::replace_file(file, io::to_json(result, request.scene));
+        io::replace_file(file, io::to_json(result, request.scene, replicates));
     if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
     if (!request.picture.empty()) {
         plot::FalseColourOptions options;
@@ -67,13 +72,44 @@ void write_files(const RunResult& result, const MeasureRequest& request) {
     }
 }
 
+run::Target target_of(const std::string& name) {
+    const auto found = std::ranges::find(run::kTargetNames, name);
+    if (found == run::kTargetNames.end()) {
+        throw InputError(fmt::format("--target {}: there is no such value.{} Allowed: {}.", name,
+                                     did_you_mean(name, run::kTargetNames),
+                                     fmt::join(run::kTargetNames, ", ")));
+    }
+    return static_cast<run::Target>(found - run::kTargetNames.begin());
+}
+
+/// Refuses flags that have nothing to act on.
+void require_purpose(const MeasureRequest& request, std::span<const Sensor> sensors) {
+    if (request.has_replicates && json_files(request).empty())
+        throw InputError("--replicates writes into the JSON document: give --json or -o as well.");
+    if (request.checks && !sensors::has_requirements(sensors)) {
+        throw InputError(
+            "--check: no measured sensor has a key \"require\", such as require = { mean = 500 }.",
+            {request.scene});
+    }
+}
+
+/// With --check, requirements decide.
+int exit_code_of(const RunResult& result, const MeasureRequest& request) {
+    if (!request.checks) return result.converged ? kExitDone : kExitStoppedEarly;
+    const Verdict verdict = run::verdict_of(result).value_or(Verdict::undecided);
+    if (verdict == Verdict::fail) return kExitCheckFailed;
+    return verdict == Verdict::pass ? kExitDone : kExitStoppedEarly;
+}
+
 int run_measure(const MeasureRequest& request) {
     const io::SceneFile file = read_scene(request.scene, request.overrides);
     const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, request.sensors, request.scene);
+    require_purpose(request, sensors);
     std::size_t readings = 0;
     for (const Sensor& sensor : sensors) readings += sensor.size();
-    const RunOptions options =
+    RunOptions options =
         with_reserve(request.flags.over(file.run), kFinishing_s * static_cast<double>(readings));
+    if (request.target) options.target = target_of(*request.target);
     for (const std::string& output : json_files(request))
         io::require_output(output, io::FileKind::results, file.sources);
     if (!request.picture.empty()) plot::require_picture_path(request.picture, file.sources);
@@ -90,7 +126,7 @@ int run_measure(const MeasureRequest& request) {
     if (!request.flags.quiet) print_warnings(result.warnings);
     if (std::ranges::none_of(json_files(request), io::is_standard_output))
         fmt::print("{}", to_table(result) + shortfall_text(result, ""));
-    return result.converged ? kExitDone : kExitStoppedEarly;
+    return exit_code_of(result, request);
 }
 
 }  // namespace
@@ -102,7 +138,8 @@ void add_measure(CommandLine& line) {
         "  stilb measure office.toml\n"
         "  stilb measure office.toml --error 0.5% --sensor desk\n"
         "  stilb measure office.toml -o office.json\n"
-        "  stilb measure office.toml --csv results --falsecolor office.png\n");
+        "  stilb measure office.toml --csv results --falsecolor office.png\n"
+        "  stilb measure office.toml --check --time 60\n");
     auto request = std::make_shared<MeasureRequest>();
     command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input (required)");
     command.add("--sensor", request->sensors, "Measure only this sensor (may be repeated)")
@@ -122,6 +159,18 @@ void add_measure(CommandLine& line) {
     command
         .add("--falsecolor", request->picture, "Write also a false-colour picture of the grids (.png, .svg)")
         .value_name("FILE");
+    command.add(
+        "--check", request->checks,
+        "Exit with code 1 where a requirement of a sensor (require = ...) is not met, with code 3 where "
+        "it is not sure yet, else with 0");
+    command.add("--replicates", request->has_replicates,
+                "Write also the values of all replicates into the JSON document");
+    command
+        .add("--target", request->target,
+             "Readings (default: 95 % of each sensor's) or mean (means and minima of the sensors) have the "
+             "error "
+             "of --error")
+        .value_name("NAME");
     add_overrides(command, request->overrides);
     request->flags.add_to(command);
     command.run([request] {

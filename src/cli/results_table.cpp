@@ -38,8 +38,16 @@ std::string end_text(const SensorResult& result, std::size_t j) {
     return hit ? ", meets " + location_text(*hit) : ", leaves the scene";
 }
 
+/// With a space before the unit, if there is one.
+std::string with_unit(const statistics::Estimate& estimate, const Sensor& sensor) {
+    const std::string unit = unit_of(sensor);
+    return with_error(estimate) + (unit.empty() ? "" : " " + unit);
+}
+
 std::string reading_text(const SensorResult& result, const Sensor& sensor, std::size_t j) {
-    const std::string value = fmt::format("{} {}", with_error(result.readings[j].estimate), unit_of(sensor));
+    const std::string value = with_unit(result.readings[j].estimate, sensor);
+    if (const Derived* derived = sensor.derived())
+        return fmt::format("{}   {}\n", value, derived->formula.text());
     const Location location = sensor.location(j);
     if (location.angles.empty())
         return fmt::format("{}   {}{}\n", value, location_text(location), end_text(result, j));
@@ -77,47 +85,81 @@ std::string grid_values(const SensorResult& result, const std::array<int, 2>& co
     return text;
 }
 
+std::string raster_text(const Area& area) {
+    return fmt::format(" {:.3g} m x {:.3g} m apart{}", area.cell_m[0], area.cell_m[1],
+                       left_out_text(area.left_out));
+}
+
 std::string size_text(const Sensor& sensor) {
     if (const auto count = sensor.count()) return fmt::format("{} x {} grid", (*count)[0], (*count)[1]);
-    const std::string readings =
-        fmt::format("{} {}", sensor.size(), sensors::readings_of_type(sensor.type()).many);
+    std::string readings = fmt::format("{} {}", sensor.size(), sensors::readings_of_type(sensor.type()).many);
+    if (const auto* area = std::get_if<Area>(&sensor.kind)) readings += raster_text(*area);
     const auto location = sensor.common_location();
     return location ? fmt::format("{} {}", readings, location_text(*location)) : readings;
 }
 
+/// Diversity is shown of areas, and where something is required of it.
+bool is_shown(Statistic statistic, const Sensor& sensor) {
+    if (statistic != Statistic::diversity) return !is_ratio(statistic) || sensor.has_ratios();
+    return std::holds_alternative<Area>(sensor.kind) ||
+           std::ranges::any_of(sensor.requirements, [](const Requirement& requirement) {
+               return requirement.criterion->statistic == Statistic::diversity;
+           });
+}
+
 std::string summary_text(const statistics::GridSummary& summary, const Sensor& sensor) {
-    const std::string unit = unit_of(sensor);
-    std::string text =
-        fmt::format("    mean {} {}   minimum {} {}   maximum {} {}", with_error(summary.mean), unit,
-                    with_error(summary.minimum), unit, with_error(summary.maximum), unit);
-    if (!sensor.measures_luminance()) {
-        const statistics::Estimate& uniformity = summary.uniformity;
-        text += "   uniformity " + (std::isnan(uniformity.value) ? "-" : with_error(uniformity));
+    std::string text;
+    for (std::size_t i = 0; i < kStatisticNames.size(); ++i) {
+        const auto statistic = static_cast<Statistic>(i);
+        if (!is_shown(statistic, sensor)) continue;
+        const statistics::Estimate& value = summary[statistic];
+        text += fmt::format("{} {} ", text.empty() ? "   " : "  ", name_of(statistic));
+        text += std::isnan(value.value) ? "-"
+                : is_ratio(statistic)   ? with_error(value)
+                                        : with_unit(value, sensor);
     }
     return text + '\n';
+}
+
+/// "required: mean at least 500 lx: pass; ..."; empty where nothing is required.
+std::string requirements_text(const SensorResult& result) {
+    std::string text;
+    for (const auto& [requirement, verdict] : result.requirements) {
+        const sensors::Criterion& criterion = *requirement.criterion;
+        const std::string unit = is_ratio(criterion.statistic) ? "" : unit_of(result.sensor);
+        text += fmt::format("{} {} {} {:g}{}{}: {}", text.empty() ? "    required:" : ";", criterion.key,
+                            name_of(criterion.limit), requirement.limit, unit.empty() ? "" : " ", unit,
+                            run::name_of(verdict));
+    }
+    return text.empty() ? text : text + '\n';
 }
 
 std::string sensor_table(const SensorResult& result) {
     const Sensor& sensor = result.sensor;
     const std::size_t readings = sensor.size();
-    if (readings == 1) return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0));
+    if (result.readings.size() == 1)
+        return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0)) +
+               requirements_text(result);
     std::string text = fmt::format("{:12}  {}", sensor.name, size_text(sensor));
     text += fmt::format("; 95 % of the readings within {}\n", percent(result.attained_error));
-    text += summary_text(result.summary, sensor);
+    text += summary_text(result.summary, sensor) + requirements_text(result);
     if (const auto count = sensor.count()) {
         const bool fits = (*count)[0] <= kMostColumns && (*count)[1] <= kMostRows;
         return fits ? text + grid_values(result, *count) : text;
     }
-    if (readings > kMostReadings) return text;
+    if (readings > kMostReadings || std::holds_alternative<Area>(sensor.kind)) return text;
     for (std::size_t j = 0; j < readings; ++j) text += "    " + reading_text(result, sensor, j);
     return text;
 }
 
 std::string quantities_of(const std::vector<SensorResult>& sensors) {
-    const auto luminances = std::ranges::count_if(
-        sensors, [](const SensorResult& result) { return result.sensor.measures_luminance(); });
-    if (luminances == 0) return "illuminance";
-    return luminances < std::ssize(sensors) ? "illuminance and luminance" : "luminance";
+    const auto has = [&](std::string_view unit) {
+        return std::ranges::any_of(sensors, [&](const SensorResult& result) {
+            return !result.sensor.derived() && result.sensor.quantity().unit == unit;
+        });
+    };
+    if (!has(sensors::kLuminance.unit)) return "illuminance";
+    return has(sensors::kIlluminance.unit) ? "illuminance and luminance" : "luminance";
 }
 
 std::string title_of(const RunResult& result) {
@@ -135,6 +177,20 @@ std::string ending_with_error(const RunResult& result, std::string_view samples)
     return fmt::format("{}; error {}", ended, attained);
 }
 
+/// "Requirements: 2 pass, 1 not sure yet"; empty where there are none.
+std::string verdicts_text(const RunResult& result) {
+    std::string text;
+    for (const Verdict verdict : {Verdict::pass, Verdict::fail, Verdict::undecided}) {
+        std::size_t count = 0;
+        for (const SensorResult& sensor : result.sensors)
+            count += std::ranges::count(sensor.requirements, verdict, &RatedRequirement::verdict);
+        if (count > 0)
+            text +=
+                fmt::format("{} {} {}", text.empty() ? "Requirements:" : ",", count, run::name_of(verdict));
+    }
+    return text.empty() ? text : text + '\n';
+}
+
 }  // namespace
 
 std::string with_error(const statistics::Estimate& estimate) {
@@ -148,7 +204,7 @@ std::string to_table(const RunResult& result) {
     const std::string_view samples = estimators::find_estimator(result.method).samples;
     text += fmt::format("\n{}, {} {} in {:.2f} s: {}\n", result.method, result.samples, samples,
                         result.elapsed_s, ending_with_error(result, samples));
-    text += detail_text(result.levels_of_detail);
+    text += verdicts_text(result) + detail_text(result.levels_of_detail);
     return result.patches ? text + patch_text(*result.patches) : text;
 }
 
@@ -181,6 +237,11 @@ std::string maintenance_line(const RunSummary& result) {
     return result.maintenance ? fmt::format("maintained: {}\n", maintenance_text(*result.maintenance)) : "";
 }
 
+std::string left_out_text(std::size_t points) {
+    if (points == 0) return "";
+    return fmt::format(" ({} hidden {} left out)", points, points == 1 ? "one" : "ones");
+}
+
 std::string detail_text(std::span<const run::LevelOfDetail> levels) {
     std::string text;
     for (const run::LevelOfDetail& level : levels) {
@@ -201,6 +262,8 @@ std::string ending(StopReason reason, std::string_view all) {
     switch (reason) {
         case StopReason::target_reached:
             return "the requested error is reached";
+        case StopReason::requirements_decided:
+            return "all requirements are decided";
         case StopReason::paths_done:
             return fmt::format("all {} done", all);
         case StopReason::time_over:

@@ -29,6 +29,9 @@ std::string location_text(const Location& location);
 /// "theta 30°  phi 0°"; empty where a location has no angles.
 std::string angles_text(const Location& location);
 
+/// " (3 hidden ones left out)": points of an area that are not measured; empty for none.
+std::string left_out_text(std::size_t points);
+
 // The objects by harmonics whose series were truncated, as text.
 
 /// One line per object.

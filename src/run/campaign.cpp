@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "run/paces.h"
+#include "run/sensor_estimates.h"
 #include "stilb/error.h"
 
 namespace stilb::run {
@@ -36,10 +37,15 @@ std::size_t strands_of_replicate(std::size_t replicates, std::size_t readings) {
 ReplicatePlan ReplicatePlan::of(std::span<const Sensor> sensors, const RunOptions& options,
                                 bool lights_patches) {
     const bool are_large_grids = !lights_patches && std::ranges::all_of(sensors, [](const Sensor& sensor) {
-        return sensor.count() && sensor.size() >= kLargeGrid;
+        return sensor.size() == 0 || (sensor.count() && sensor.size() >= kLargeGrid);
     });
     ReplicatePlan plan;
-    if (are_large_grids) plan = {kFewReplicates, true, options.error.has_value()};
+    plan.target = options.target;
+    if (are_large_grids) {
+        plan.replicates = kFewReplicates;
+        plan.pools_errors = true;
+        plan.has_paces = options.error && options.target == Target::readings;
+    }
     if (options.replicates) plan.replicates = static_cast<std::size_t>(*options.replicates);
     return plan;
 }
@@ -52,6 +58,7 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
       expected_largest_(estimator.expected_largest()),
       pools_errors_(plan.pools_errors),
       has_paces_(plan.has_paces),
+      target_(plan.target),
       packets_(estimator.packets()) {
     if (packets_.empty()) {
         has_paces_ = false;
@@ -151,9 +158,13 @@ void Campaign::set_paces() {
 }
 
 double Campaign::attained_error() const {
+    if (target_ == Target::mean)
+        return attained_error_of_means(sensors_,
+                                       estimate_all(*this, sensors_, statistics::kStoppedConfidence));
     double worst = 0;
     std::size_t first = 0;
     for (const Sensor& sensor : sensors_) {
+        if (sensor.size() == 0) continue;
         const Estimates all = estimates(sensor, first, statistics::kStoppedConfidence);
         worst = std::max(worst, statistics::attained_error(all.readings));
         first += sensor.size();
@@ -161,9 +172,20 @@ double Campaign::attained_error() const {
     return worst;
 }
 
+bool Campaign::is_decided() const {
+    if (!sensors::has_requirements(sensors_)) return false;
+    const std::vector<SensorEstimates> all = estimate_all(*this, sensors_, statistics::kVerdictConfidence);
+    for (std::size_t s = 0; s < all.size(); ++s) {
+        const std::vector<RatedRequirement> rated = rate(sensors_[s].requirements, all[s].summary);
+        if (std::ranges::any_of(rated, &RatedRequirement::is_undecided)) return false;
+    }
+    return true;
+}
+
 bool Campaign::is_beyond_reach(double error) const {
     std::size_t first = 0;
     for (const Sensor& sensor : sensors_) {
+        if (sensor.size() == 0) continue;
         const auto bias = estimates(sensor, first, statistics::kStoppedConfidence).bias;
         if (bias && bias->relative_at_least > error) return true;
         first += sensor.size();

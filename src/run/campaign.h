@@ -22,13 +22,15 @@ struct ReplicatePlan {
     std::size_t replicates = 32;
     bool pools_errors = false;  ///< of readings side by side
     bool has_paces = false;     ///< packets that are sure enough take fewer samples (paces.h)
+    Target target = Target::readings;
 
     /// Few replicates where all sensors are large grids: the points of a replicate then lie more evenly, and
     /// neighbours help with the errors (statistics/pooled_errors.h).
     static ReplicatePlan of(std::span<const Sensor> sensors, const RunOptions& options, bool lights_patches);
 };
 
-/// The sums of all replicates, and their progress. Keeps references to the estimator and the sensors.
+/// The sums of all replicates, and their progress. Keeps references to the estimator and the sensors, which
+/// may have no readings.
 class Campaign final : public Work {
   public:
     /// `readings`: of all sensors. `key`: of all replicates. `least_samples`: of all replicates, before the
@@ -54,6 +56,7 @@ class Campaign final : public Work {
 
     /// The error of the worst sensor.
     double attained_error() const override;
+    bool is_decided() const override;
     bool is_beyond_reach(double error) const override;
 
     std::size_t replicates() const { return replicates_.size(); }
@@ -119,6 +122,7 @@ class Campaign final : public Work {
     std::span<const Sensor> sensors_;
     std::vector<double> expected_largest_;
     bool pools_errors_, has_paces_;
+    Target target_;
     std::vector<std::uint32_t> packets_;  ///< of the readings; one packet where the method has none
     std::uint64_t unit_ = 1;              ///< samples of a replicate are a multiple of this
     std::vector<Replicate> replicates_;

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 
+#include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "run/campaign.h"
 #include "run/level_of_detail.h"
 #include "run/run.h"
+#include "run/sensor_estimates.h"
 #include "stilb/error.h"
 #include "transport/line_of_sight.h"
 #include "transport/sharp_light.h"
@@ -32,6 +35,11 @@ void require_measurable(std::span<const Sensor> sensors, const estimators::Estim
     }
 }
 
+void require_readings(std::span<const Sensor> sensors) {
+    if (std::ranges::all_of(sensors, [](const Sensor& sensor) { return sensor.size() == 0; }))
+        throw InputError("no sensor to measure: the scene needs one under [sensors]");
+}
+
 /// Refuses goniometers that are on no surface.
 void require_surfaces(std::span<const Sensor> sensors, const rays::RayCaster& caster) {
     for (const Sensor& sensor : sensors) {
@@ -47,30 +55,30 @@ void require_surfaces(std::span<const Sensor> sensors, const rays::RayCaster& ca
     }
 }
 
-/// The options with defaults for a run without targets.
-RunOptions with_reading_target(RunOptions options) {
+/// The options with defaults for a run without targets: requirements are one.
+RunOptions with_reading_target(RunOptions options, std::span<const Sensor> sensors) {
     if (!options.error && !options.time_s && !options.paths) {
-        options.error = 0.01;
+        if (!sensors::has_requirements(sensors)) options.error = 0.01;
         options.time_s = 60;
     }
     return options;
 }
 
-/// Widens the summary by the patches' error.
-void include_patch_error(const statistics::BiasBounds& bias, SensorResult& result) {
-    result.patch_error = bias.relative;
-    for (std::size_t j = 0; j < result.readings.size(); ++j)
-        result.readings[j].patch_error = bias.of_readings[j];
-    const auto [least, most] = std::ranges::minmax_element(
-        result.readings, {}, [](const Reading& reading) { return reading.estimate.value; });
-    statistics::GridSummary& summary = result.summary;
-    // That of the minimum and that of the mean, in units of the mean.
-    const double of_quotient = *least->patch_error + summary.uniformity.value * bias.of_mean;
-    summary.uniformity = widened(summary.uniformity, of_quotient / summary.mean.value);
-    summary.mean = widened(summary.mean, bias.of_mean);
-    summary.minimum = widened(summary.minimum, *least->patch_error);
-    summary.maximum = widened(summary.maximum, *most->patch_error);
+/// The sensors with the units of derived values, whose formulas must fit.
+std::vector<Sensor> with_units(std::vector<Sensor> sensors) {
+    for (Sensor& sensor : sensors) {
+        auto* const derived = std::get_if<Derived>(&sensor.kind);
+        if (!derived) continue;
+        try {
+            *derived = sensors::resolved(*derived, sensors);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("sensor \"{}\": {}", sensor.name, error.what()));
+        }
+    }
+    return sensors;
 }
+
+Rgb unknown_colour() { return Rgb::grey(std::numeric_limits<double>::quiet_NaN()); }
 
 /// Warns where the error of the patches is much of the whole.
 std::vector<std::string> patch_error_warnings(const RunResult& result) {
@@ -123,27 +131,58 @@ std::vector<std::string> rarity_warnings(const Campaign::Estimates& estimates, s
 }
 
 /// `first`: of the sensor's readings.
-SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, std::size_t first,
-                           std::span<const std::optional<Vec3>> sight_ends, double confidence,
-                           std::vector<std::string>& warnings) {
+SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, SensorEstimates&& estimates,
+                           std::size_t first, std::span<const std::optional<Vec3>> sight_ends) {
     const std::size_t count = sensor.size();
+    Campaign::Estimates& own = estimates.readings;
     SensorResult result;
     result.sensor = sensor;
-    Campaign::Estimates estimates = campaign.estimates(sensor, first, confidence);
-    std::ranges::move(rarity_warnings(estimates, campaign.samples_in_all(), sensor),
-                      std::back_inserter(warnings));
-    result.summary = statistics::summarize_grid({estimates.replicate_means, count, estimates.columns},
-                                                confidence, estimates.rare_light);
-    result.replicate_means = std::move(estimates.replicate_means);
-    result.attained_error = statistics::attained_error(estimates.readings);
-    const std::vector<Rgb> rgb = campaign.rgb(first, count);
-    for (std::size_t j = 0; j < count; ++j) result.readings.push_back({estimates.readings[j], rgb[j]});
-    if (estimates.bias) include_patch_error(*estimates.bias, result);
+    result.summary = estimates.summary;
+    result.attained_error = statistics::attained_error(own.readings);
+    result.replicate_means = std::move(own.replicate_means);
+    const std::vector<Rgb> rgb =
+        sensor.derived() ? std::vector{unknown_colour()} : campaign.rgb(first, count);
+    for (std::size_t j = 0; j < rgb.size(); ++j) result.readings.push_back({own.readings[j], rgb[j]});
+    if (own.bias) {
+        result.patch_error = own.bias->relative;
+        for (std::size_t j = 0; j < count; ++j) result.readings[j].patch_error = own.bias->of_readings[j];
+    }
     if (std::holds_alternative<Luminance>(sensor.kind)) {
         const auto ends = sight_ends.subspan(first, count);
         result.sub_points.assign(ends.begin(), ends.end());
     }
     return result;
+}
+
+/// A run that stopped by its own estimates stopped sooner where the errors happened to be too small, or where
+/// values happened to be far from what is required (docs/statistics.md).
+double confidence_of(const RunOptions& options, StopReason reason) {
+    if (reason == StopReason::requirements_decided) return statistics::kDecidedConfidence;
+    return options.error ? statistics::kStoppedConfidence : kConfidence;
+}
+
+/// Adds the warnings of all sensors.
+std::vector<SensorResult> sensor_results(const Campaign& campaign, std::span<const Sensor> sensors,
+                                         const RunOptions& options, StopReason reason,
+                                         std::span<const std::optional<Vec3>> sight_ends,
+                                         std::vector<std::string>& warnings) {
+    const bool has_looked = sensors::has_requirements(sensors) && ends_when_decided(options);
+    const double confidence = confidence_of(options, reason);
+    std::vector<SensorEstimates> estimates = estimate_all(campaign, sensors, confidence);
+    std::vector<SensorEstimates> deciding;
+    if (has_looked) deciding = estimate_all(campaign, sensors, statistics::kVerdictConfidence);
+    std::vector<SensorResult> results;
+    std::size_t first = 0;
+    for (std::size_t s = 0; s < sensors.size(); ++s) {
+        const Sensor& sensor = sensors[s];
+        std::ranges::move(rarity_warnings(estimates[s].readings, campaign.samples_in_all(), sensor),
+                          std::back_inserter(warnings));
+        SensorResult& result =
+            results.emplace_back(sensor_result(campaign, sensor, std::move(estimates[s]), first, sight_ends));
+        result.requirements = rate(sensor.requirements, has_looked ? deciding[s].summary : result.summary);
+        first += sensor.size();
+    }
+    return results;
 }
 
 /// The measurands of all sensors, with the weights for a run that stops when each sensor as a whole is exact
@@ -153,9 +192,6 @@ struct Wanted {
         for (const Sensor& sensor : sensors) {
             std::ranges::copy(sensor.measurands(), std::back_inserter(measurands));
             weights.insert(weights.end(), sensor.size(), 1 / static_cast<double>(sensor.size()));
-        }
-        if (measurands.empty()) {
-            throw InputError("no sensor to measure: the scene needs one under [sensors]");
         }
     }
 
@@ -175,22 +211,25 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
 
 }  // namespace
 
-RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked_options,
+RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, const RunOptions& asked_options,
                   ProgressSink* progress, const std::atomic<bool>* interrupt) {
     if (has_levels_of_detail(scene)) {
-        DetailedScene detailed = with_levels_of_detail(scene, sensors);
-        RunResult result = measure(detailed.scene, sensors, asked_options, progress, interrupt);
+        DetailedScene detailed = with_levels_of_detail(scene, given_sensors);
+        RunResult result = measure(detailed.scene, given_sensors, asked_options, progress, interrupt);
         result.levels_of_detail = std::move(detailed.levels);
         return result;
     }
-    const Wanted wanted(sensors);
+    require_readings(given_sensors);
     require_valid(asked_options);
     const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
-    const RunOptions options = with_reading_target(asked_options);
-    require_measurable(sensors, method);
+    const RunOptions options = with_reading_target(asked_options, given_sensors);
+    require_measurable(given_sensors, method);
 
     Session session(scene, asked_options, options, progress, interrupt);
-    require_surfaces(sensors, session.caster());
+    require_surfaces(given_sensors, session.caster());
+    const std::vector<Sensor> sensors =
+        with_units(checks::without_hidden_points(scene, session.caster(), given_sensors));
+    const Wanted wanted(sensors);
     std::vector<std::string> of_scene = session.scene_warnings(sensors);
     estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kReadingPreparation));
     problem.measurands = wanted.measurands;
@@ -212,19 +251,12 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
     session.describe(*estimator, result);
     result.replicates = static_cast<int>(campaign.replicates());
     result.rays = campaign.rays();
-    // A run that stopped by its own error estimate stops sooner where the estimate happens to be too small
-    // (docs/statistics.md).
-    const double confidence = options.error ? statistics::kStoppedConfidence : kConfidence;
     const auto warn = [&](std::vector<std::string> more) {
         std::ranges::move(more, std::back_inserter(result.warnings));
     };
     warn(std::move(of_scene));
-    std::size_t first = 0;
-    for (const Sensor& sensor : sensors) {
-        result.sensors.push_back(
-            sensor_result(campaign, sensor, first, estimator->sight_ends(), confidence, result.warnings));
-        first += sensor.size();
-    }
+    result.sensors = sensor_results(campaign, sensors, options, result.stop_reason, estimator->sight_ends(),
+                                    result.warnings);
     warn(sharp_light_warnings(sharp, result.samples, scene));
     warn(patch_error_warnings(result));
     session.finish(result);

@@ -1,6 +1,7 @@
 // The options of a run: plain values.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,11 +11,17 @@
 
 namespace stilb::run {
 
+/// What the error of a run of readings is that of: single readings, or means and minima of the sensors.
+enum class Target { readings, mean };
+/// In the order of the enumeration.
+inline constexpr std::array<std::string_view, 2> kTargetNames{"readings", "mean"};
+
 struct RunOptions {
     std::string method = "auto";
     /// The run stops at this relative half-width of the 95 % interval, met by 95 % of each sensor's readings
-    /// (of a picture's pixels, of a solution's light).
+    /// (of a picture's pixels, of a solution's light), or as `target` says.
     std::optional<double> error;
+    Target target = Target::readings;
     std::optional<double> time_s;
     /// The part of time_s that the caller needs after the run, for example to write files.
     double reserved_s = 0;
@@ -33,6 +40,12 @@ struct RunOptions {
     estimators::PatchOptions patches;
 };
 
+/// Whether a run of readings ends as soon as all requirements are decided: unless it has a number of samples
+/// alone, of which it then does neither more nor less.
+inline bool ends_when_decided(const RunOptions& options) {
+    return !options.paths || options.error || options.time_s;
+}
+
 /// Throws InputError where an option is out of its range.
 void require_valid(const RunOptions& options);
 
@@ -43,4 +56,5 @@ std::optional<double> parse_relative_error(std::string_view text);
 
 namespace stilb {
 using run::RunOptions;
+using run::Target;
 }  // namespace stilb

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/rgb.h"
@@ -17,7 +18,14 @@
 namespace stilb::run {
 
 /// `patches_too_coarse`: no number of samples reaches the requested error.
-enum class StopReason { target_reached, paths_done, time_over, interrupted, patches_too_coarse };
+enum class StopReason {
+    target_reached,
+    requirements_decided,
+    paths_done,
+    time_over,
+    interrupted,
+    patches_too_coarse
+};
 
 /// The truncation of the series of an object (level_of_detail.h).
 struct LevelOfDetail {
@@ -40,11 +48,11 @@ struct RunSummary {
     int replicates = 0;
     double elapsed_s = 0;
     StopReason stop_reason = StopReason::paths_done;
-    /// False where a requested error is not met.
+    /// False where a requested error is not met, unless all requirements were decided before.
     bool converged = true;
     std::optional<double> requested_error;  ///< relative half-width, where there was a limit on it
     /// Relative half-width that 95 % meet: of the readings of the worst sensor, of the pixels, or of the
-    /// light on the sides of patches.
+    /// light on the sides of patches. With Target::mean the worst one of means and minima.
     double attained_error = 0;
     std::optional<estimators::PatchReport> patches;  ///< for methods on patches
     std::vector<LevelOfDetail> levels_of_detail;
@@ -60,19 +68,34 @@ struct Reading {
     std::optional<double> patch_error{};
 };
 
+/// Whether a requirement is met, for certain at 95 %.
+enum class Verdict { pass, fail, undecided };
+
+/// "pass", "fail", "not sure yet".
+std::string_view name_of(Verdict verdict);
+
+struct RatedRequirement {
+    Requirement requirement;
+    Verdict verdict = Verdict::undecided;
+
+    bool is_undecided() const { return verdict == Verdict::undecided; }
+};
+
 struct SensorResult {
     Sensor sensor;
-    std::vector<Reading> readings;  ///< in the order of the sensor's measurands
+    /// In the order of the sensor's measurands; one of a derived value, whose colour is unknown.
+    std::vector<Reading> readings;
     /// Luminance sensors: the end of each line of sight; nothing where it leaves the scene. Empty: not
     /// recorded.
     std::vector<std::optional<Vec3>> sub_points;
-    statistics::GridSummary summary;
-    double attained_error = 0;  ///< relative half-width that 95 % of the readings meet
+    statistics::GridSummary summary;  ///< uniformity and diversity of a derived value are NaN
+    double attained_error = 0;        ///< relative half-width that 95 % of the readings meet
     /// Methods on patches: the root mean square of the patches' errors, relative to the readings, at most.
     std::optional<double> patch_error{};
     /// Replicates x readings, luminance-weighted [lx or cd/m2]: the basis of the estimates. Means of
     /// runs with other seeds can be combined with them.
     std::vector<double> replicate_means{};
+    std::vector<RatedRequirement> requirements{};
 };
 
 struct RunResult : RunSummary {
@@ -80,6 +103,9 @@ struct RunResult : RunSummary {
     std::uint64_t rays = 0;             ///< of the connections to receivers
     std::vector<SensorResult> sensors;  ///< in the order requested
 };
+
+/// On all requirements together: a fail where one fails; nothing where there are none.
+std::optional<Verdict> verdict_of(const RunResult& result);
 
 /// Pixels row by row from the top, NaN outside of the camera's field.
 struct Pixels {
@@ -104,10 +130,12 @@ struct RenderResult : RunSummary {
 
 namespace stilb {
 using run::Pixels;
+using run::RatedRequirement;
 using run::Reading;
 using run::RenderResult;
 using run::RunResult;
 using run::RunSummary;
 using run::SensorResult;
 using run::StopReason;
+using run::Verdict;
 }  // namespace stilb

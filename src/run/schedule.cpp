@@ -44,6 +44,8 @@ Schedule::Ending Schedule::run(Work& work) const {
         const std::uint64_t check = std::min(last, work.next_check());
         if (const auto reason = advance_to(check, last, work, error)) return {*reason, work.attained_error()};
         if (options_.error && error <= *options_.error) return {StopReason::target_reached, error};
+        if (ends_when_decided(options_) && work.is_decided())
+            return {StopReason::requirements_decided, error};
         if (options_.error && work.is_beyond_reach(*options_.error))
             return {StopReason::patches_too_coarse, error};
         if (check == last) return {StopReason::paths_done, error};
@@ -147,8 +149,9 @@ void Session::run(Work& work, RunSummary& summary) {
     summary.stop_reason = ending.reason;
     summary.attained_error = ending.attained_error;
     summary.requested_error = options_.error;
-    summary.converged = ending.reason != StopReason::interrupted &&
-                        (!options_.error || ending.attained_error <= *options_.error);
+    summary.converged = ending.reason == StopReason::requirements_decided ||
+                        (ending.reason != StopReason::interrupted &&
+                         (!options_.error || ending.attained_error <= *options_.error));
 }
 
 void Session::describe(const estimators::Estimator& estimator, RunSummary& summary) const {

@@ -52,6 +52,8 @@ class Work {
     /// are done by then: they may be fewer in some replicates.
     virtual void advance(std::uint64_t count) = 0;
     virtual double attained_error() const = 0;
+    /// Whether there are requirements, and all of them are decided.
+    virtual bool is_decided() const { return false; }
     /// Whether no number of samples reaches this error.
     virtual bool is_beyond_reach(double /*error*/) const { return false; }
     /// Called after each report of progress: shows the unfinished result where the sink asks for it.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "base/field.h"
 #include "base/vec.h"
+#include "sensors/expression.h"
 #include "sensors/measurand.h"
 
 namespace stilb::sensors {
@@ -129,6 +131,39 @@ struct ChoiceField {
 template <typename Owner, typename Enumeration>
 ChoiceField(std::string_view, Enumeration Owner::*, std::span<const std::string_view>, std::string_view)
     -> ChoiceField<Owner, Enumeration>;
+
+/// A formula of other sensors, as a text.
+template <typename Owner>
+struct FormulaField {
+    std::string_view key;
+    Expression Owner::*member;
+    std::string_view meaning;
+};
+template <typename Owner>
+FormulaField(std::string_view, Expression Owner::*, std::string_view) -> FormulaField<Owner>;
+
+struct PolygonInSpace;
+struct Band;
+
+/// A plane polygon by "corners" (in the plane z = "height" where they are pairs) and "holes", or by "corner",
+/// "edge_u" and "edge_v".
+template <typename Owner>
+struct PolygonField {
+    PolygonInSpace Owner::*member;
+    std::string_view meaning;
+};
+template <typename Owner>
+PolygonField(PolygonInSpace Owner::*, std::string_view) -> PolygonField<Owner>;
+
+/// A width, or a table of "width" and "require".
+template <typename Owner>
+struct BandField {
+    std::string_view key;
+    std::optional<Band> Owner::*member;
+    std::string_view meaning;
+};
+template <typename Owner>
+BandField(std::string_view, std::optional<Band> Owner::*, std::string_view) -> BandField<Owner>;
 
 /// A contradiction between the keys of a sensor: the key to change, and the message for it.
 struct Fault {

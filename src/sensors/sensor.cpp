@@ -37,7 +37,15 @@ std::string_view Sensor::type() const {
 }
 
 Quantity Sensor::quantity() const {
-    return std::visit([]<typename Kind>(const Kind&) { return Kind::kQuantity; }, kind);
+    return std::visit(
+        []<typename Kind>(const Kind& one) {
+            if constexpr (requires { one.quantity(); }) {
+                return one.quantity();
+            } else {
+                return Kind::kQuantity;
+            }
+        },
+        kind);
 }
 
 std::size_t Sensor::size() const {
@@ -96,6 +104,10 @@ std::optional<std::array<int, 2>> Sensor::count() const {
         kind);
 }
 
+bool has_requirements(std::span<const Sensor> sensors) {
+    return !std::ranges::all_of(sensors, [](const Sensor& sensor) { return sensor.requirements.empty(); });
+}
+
 namespace {
 
 /// The sensor of this name among those that `is_wanted`. `what`: their name in messages.
@@ -114,6 +126,20 @@ const Sensor& sensor_named(const std::vector<Sensor>& all, const std::string& na
 }
 
 bool is_camera(const Sensor& sensor) { return sensor.camera() != nullptr; }
+
+/// Adds the sensors that derived values among the chosen ones need.
+void add_operands(const std::vector<Sensor>& all, std::vector<Sensor>& chosen) {
+    std::vector<Sensor> needed;
+    for (const Sensor& sensor : chosen) {
+        if (!sensor.derived()) continue;
+        for (const Operand& operand : sensor.derived()->formula.operands()) {
+            const Sensor* other = find_sensor(all, operand.sensor);
+            if (other && !find_sensor(chosen, other->name) && !find_sensor(needed, other->name))
+                needed.push_back(*other);
+        }
+    }
+    std::ranges::move(needed, std::back_inserter(chosen));
+}
 
 }  // namespace
 
@@ -144,6 +170,7 @@ std::vector<Sensor> choose_meters(const std::vector<Sensor>& all, const std::vec
         }
         chosen.push_back(sensor_named(all, name, "sensor", file, std::not_fn(is_camera)));
     }
+    add_operands(all, chosen);
     if (names.empty()) std::ranges::remove_copy_if(all, std::back_inserter(chosen), is_camera);
     if (chosen.empty() && !all.empty()) {
         throw InputError(

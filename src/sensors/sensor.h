@@ -1,8 +1,9 @@
 // Sensors. One file a kind; a kind is a struct with
 //
-//     kType, kQuantity, kReadings     its name in files, the quantity, the name of its readings
+//     kType, kReadings                its name in files, the name of its readings
+//     kQuantity, or quantity()        the quantity
 //     fields()                        its keys in scene files (fields.h, base/field.h)
-//     size(), measurand(j)            its readings, all of one quantity; cameras have none
+//     size(), measurand(j)            its readings, all of one quantity; cameras and derived values have none
 //
 // and optionally settle(given) for conditions between its keys, location(j) where results show more than
 // location_of(measurand), common_location() and `count` for rows and columns. The scene reader, JSON, CSV,
@@ -11,22 +12,26 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "sensors/area.h"
 #include "sensors/bodies.h"
 #include "sensors/camera.h"
+#include "sensors/derived.h"
 #include "sensors/goniometer.h"
 #include "sensors/illuminance.h"
 #include "sensors/luminance.h"
+#include "sensors/requirement.h"
 
 namespace stilb::sensors {
 
-using SensorKind = std::variant<IlluminancePoints, Grid, Cylindrical, Semicylindrical, Hemispherical,
-                                Spherical, Luminance, Goniometer, Camera>;
+using SensorKind = std::variant<IlluminancePoints, Grid, Area, Cylindrical, Semicylindrical, Hemispherical,
+                                Spherical, Luminance, Goniometer, Derived, Camera>;
 
 template <typename... Kinds>
 constexpr std::array<std::string_view, sizeof...(Kinds)> type_names(
@@ -42,12 +47,15 @@ Noun readings_of_type(std::string_view type);
 struct Sensor {
     std::string name;
     SensorKind kind;
+    std::vector<Requirement> requirements{};
 
     std::string_view type() const;
     Quantity quantity() const;
-    bool measures_luminance() const { return quantity().unit == kLuminance.unit; }
+    bool measures_luminance() const { return !derived() && quantity().unit == kLuminance.unit; }
+    /// Whether uniformity and diversity are defined, as those of an illuminated area are.
+    bool has_ratios() const { return !measures_luminance() && !derived(); }
 
-    /// Number of readings; a camera, which makes a picture, has none.
+    /// Number of readings; a camera, which makes a picture, and a derived value have none.
     std::size_t size() const;
     Measurand measurand(std::size_t j) const;
     /// All measurands, in order.
@@ -59,14 +67,25 @@ struct Sensor {
     std::optional<std::array<int, 2>> count() const;
     /// The camera; null for other sensors.
     const Camera* camera() const { return std::get_if<Camera>(&kind); }
+    /// The derived value; null for other sensors.
+    const Derived* derived() const { return std::get_if<Derived>(&kind); }
 };
+
+/// A derived value with its unit. Throws InputError, without the sensor's name, where its formula does not
+/// fit the sensors: each of its operands is a reading or a statistic of one of them that is measured.
+Derived resolved(const Derived& derived, std::span<const Sensor> sensors);
+/// The sensor of this name; null where there is none.
+const Sensor* find_sensor(std::span<const Sensor> sensors, std::string_view name);
+
+bool has_requirements(std::span<const Sensor> sensors);
 
 // Choosing by name; `file` is where the sensors come from, for messages. All throw InputError.
 
 /// The camera of that name; where the name is empty, the only one.
 const Sensor& choose_camera(const std::vector<Sensor>& all, const std::string& name,
                             const std::string& file = "");
-/// The sensors of these names, which must not be cameras; where there are no names, all that are none.
+/// The sensors of these names, which must not be cameras, and those that derived values among them need;
+/// where there are no names, all that are no cameras.
 std::vector<Sensor> choose_meters(const std::vector<Sensor>& all, const std::vector<std::string>& names,
                                   const std::string& file = "");
 

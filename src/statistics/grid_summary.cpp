@@ -15,6 +15,10 @@
 //
 // Bonferroni, because the correlation of the readings' errors is unknown. The maximum is the minimum of the
 // negatives.
+//
+// The diversity, minimum over maximum, is the minimum of the readings over the one that is selected as the
+// largest. What the interval of the maximum has beyond a plain one is added, because the true maximum may be
+// another reading.
 #include "statistics/grid_summary.h"
 
 #include <algorithm>
@@ -30,16 +34,25 @@ namespace {
 constexpr double kScreeningShare = 0.1;  ///< of the total error rate
 constexpr double kSideShare = 0.45;      ///< of the total error rate, for each end of the interval
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr Estimate kUndefined{kNone, kNone, kNone, kNone};
+
 enum class Extreme { minimum, maximum };
 
 double sign_of(Extreme extreme) { return extreme == Extreme::minimum ? 1 : -1; }
+
+/// The reading with the least or the largest mean; the first of several.
+std::size_t index_of(Extreme extreme, std::span<const double> means) {
+    const auto found =
+        extreme == Extreme::minimum ? std::ranges::min_element(means) : std::ranges::max_element(means);
+    return static_cast<std::size_t>(found - means.begin());
+}
 
 class ExtremeFinder {
   public:
     ExtremeFinder(const ReplicateTable& table, const ReplicateMoments& moments, Extreme extreme,
                   double confidence)
-        : sign_(sign_of(extreme)), error_rate_(1 - confidence) {
-        select(moments.means);
+        : sign_(sign_of(extreme)), error_rate_(1 - confidence), selected_(index_of(extreme, moments.means)) {
         screen(table, moments.means);
     }
 
@@ -65,18 +78,17 @@ class ExtremeFinder {
         return {values[selected_], errors.standard_errors[selected_], lower, upper};
     }
 
-  private:
-    void select(std::span<const double> means) {
-        for (std::size_t j = 1; j < means.size(); ++j) {
-            if (sign_ * means[j] < sign_ * means[selected_]) selected_ = j;
-        }
+    std::size_t selected() const { return selected_; }
+    /// What the interval of the extreme has beyond that of one reading with this error.
+    Margins beyond_one_reading(const Estimate& extreme, const PooledErrors<double>& errors) const {
+        const StudentQuantiles outward = quantiles(kSideShare * error_rate_, errors);
+        return margins_beyond(extreme,
+                              outward(errors.degrees_of_freedom[selected_]) * extreme.standard_error);
     }
 
+  private:
     void screen(const ReplicateTable& table, std::span<const double> means) {
-        std::vector<double> selected_residuals(table.replicates());
-        for (std::size_t r = 0; r < selected_residuals.size(); ++r) {
-            selected_residuals[r] = table.row(r)[selected_] - means[selected_];
-        }
+        const std::vector<double> selected_residuals = residuals_of_reading(table, selected_);
         const std::vector<double> slopes(table.readings, 1.0);
         const PooledErrors<double> paired = residual_errors(table, means, slopes, selected_residuals);
         const StudentQuantiles strict =
@@ -94,29 +106,34 @@ class ExtremeFinder {
 
     double sign_;
     double error_rate_;
-    std::size_t selected_ = 0;
+    std::size_t selected_;
     std::vector<std::size_t> contenders_;
 };
 
-/// The uniformity's errors by the delta method: x_j / X moves by (dx_j - (x_j / X) dX) / X.
-Estimate estimate_uniformity(const ReplicateTable& table, std::span<const double> means,
-                             std::span<const double> grid_means, const Estimate& mean,
-                             const ExtremeFinder& smallest, std::span<const double> rare_light) {
-    if (!(mean.value > 0)) {
-        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-        return {kNone, kNone, kNone, kNone};
-    }
+/// The least reading over a denominator X. Its errors follow by the delta method: x_j / X moves by
+/// (dx_j - (x_j / X) dX) / X, with the residuals dX of X.
+Estimate estimate_ratio(const ReplicateTable& table, std::span<const double> means, double denominator,
+                        std::span<const double> residuals, const ExtremeFinder& smallest,
+                        std::span<const double> rare_light) {
+    if (!(denominator > 0)) return kUndefined;
     std::vector<double> ratios(means.begin(), means.end());
-    for (double& ratio : ratios) ratio /= mean.value;
-    std::vector<double> mean_residuals(grid_means.begin(), grid_means.end());
-    for (double& residual : mean_residuals) residual -= mean.value;
-    PooledErrors<double> errors = residual_errors(table, means, ratios, mean_residuals);
-    for (double& error : errors.standard_errors) error /= mean.value;
+    for (double& ratio : ratios) ratio /= denominator;
+    PooledErrors<double> errors = residual_errors(table, means, ratios, residuals);
+    for (double& error : errors.standard_errors) error /= denominator;
     std::vector<double> missing(rare_light.begin(), rare_light.end());
-    for (double& light : missing) light /= mean.value;
-    Estimate uniformity = smallest.estimate(ratios, errors, missing);
-    uniformity.upper = std::min(uniformity.upper, 1.0);  // no minimum exceeds the mean
-    return uniformity;
+    for (double& light : missing) light /= denominator;
+    return smallest.estimate(ratios, errors, missing);
+}
+
+Estimate estimate_diversity(const ReplicateTable& table, const ReplicateMoments& moments,
+                            const Estimate& maximum, const ExtremeFinder& smallest,
+                            const ExtremeFinder& largest, std::span<const double> rare_light) {
+    const std::vector<double> residuals = residuals_of_reading(table, largest.selected());
+    Estimate diversity = estimate_ratio(table, moments.means, maximum.value, residuals, smallest, rare_light);
+    const Margins margins = largest.beyond_one_reading(maximum, moments.errors);
+    diversity.lower -= diversity.value * margins.above / maximum.value;
+    diversity.upper += diversity.value * margins.below / maximum.value;
+    return diversity;
 }
 
 std::vector<double> compute_grid_means(const ReplicateTable& table) {
@@ -129,12 +146,35 @@ std::vector<double> compute_grid_means(const ReplicateTable& table) {
     return grid_means;
 }
 
+/// Takes the mean away from the values of the replicates, and returns it.
+double take_mean(std::vector<double>& values) {
+    const double mean = compute_replicate_moments({values, 1}).means.front();
+    for (double& value : values) value -= mean;
+    return mean;
+}
+
 }  // namespace
+
+const Estimate& GridSummary::operator[](Statistic statistic) const {
+    switch (statistic) {
+        case Statistic::mean:
+            return mean;
+        case Statistic::minimum:
+            return minimum;
+        case Statistic::maximum:
+            return maximum;
+        case Statistic::uniformity:
+            return uniformity;
+        case Statistic::diversity:
+            break;
+    }
+    return diversity;
+}
 
 GridSummary summarize_grid(const ReplicateTable& table, double confidence,
                            std::span<const double> rare_light) {
     const ReplicateMoments moments = compute_replicate_moments(table);
-    const std::vector<double> grid_means = compute_grid_means(table);
+    std::vector<double> grid_means = compute_grid_means(table);
     const ExtremeFinder smallest(table, moments, Extreme::minimum, confidence);
     const ExtremeFinder largest(table, moments, Extreme::maximum, confidence);
 
@@ -145,9 +185,41 @@ GridSummary summarize_grid(const ReplicateTable& table, double confidence,
     summary.mean = estimate_from_replicates(grid_means, confidence, missing);
     summary.minimum = smallest.estimate(moments.means, moments.errors, rare_light);
     summary.maximum = largest.estimate(moments.means, moments.errors, rare_light);
+    take_mean(grid_means);
     summary.uniformity =
-        estimate_uniformity(table, moments.means, grid_means, summary.mean, smallest, rare_light);
+        estimate_ratio(table, moments.means, summary.mean.value, grid_means, smallest, rare_light);
+    summary.diversity = estimate_diversity(table, moments, summary.maximum, smallest, largest, rare_light);
+    // No minimum exceeds the mean or the maximum.
+    summary.uniformity.upper = std::min(summary.uniformity.upper, 1.0);
+    summary.diversity.upper = std::min(summary.diversity.upper, 1.0);
     return summary;
+}
+
+std::vector<double> residuals_of_reading(const ReplicateTable& table, std::size_t reading) {
+    std::vector<double> residuals(table.replicates());
+    for (std::size_t r = 0; r < residuals.size(); ++r) residuals[r] = table.row(r)[reading];
+    take_mean(residuals);
+    return residuals;
+}
+
+std::vector<double> residuals_of(const ReplicateTable& table, Statistic statistic) {
+    const std::vector<double> means = compute_replicate_moments(table).means;
+    const std::size_t least = index_of(Extreme::minimum, means), most = index_of(Extreme::maximum, means);
+    if (statistic == Statistic::minimum) return residuals_of_reading(table, least);
+    if (statistic == Statistic::maximum) return residuals_of_reading(table, most);
+    std::vector<double> of_mean = compute_grid_means(table);
+    const double mean = take_mean(of_mean);
+    if (statistic == Statistic::mean) return of_mean;
+    const bool is_diversity = statistic == Statistic::diversity;
+    const double denominator = is_diversity ? means[most] : mean;
+    const std::vector<double> of_denominator = is_diversity ? residuals_of_reading(table, most) : of_mean;
+    std::vector<double> residuals = residuals_of_reading(table, least);
+    for (std::size_t r = 0; r < residuals.size(); ++r) {
+        residuals[r] = denominator > 0
+                           ? (residuals[r] - means[least] / denominator * of_denominator[r]) / denominator
+                           : kNone;
+    }
+    return residuals;
 }
 
 }  // namespace stilb::statistics

@@ -2,6 +2,7 @@
 // quality.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -62,6 +63,15 @@ std::vector<Estimate> estimate_readings(const ReplicateTable& table, double conf
 /// where only the value is 0.
 double relative_half_width(const Estimate& estimate);
 
+/// What an interval has beyond `half_width` on each side, 0 where it is narrower.
+struct Margins {
+    double below = 0, above = 0;
+};
+inline Margins margins_beyond(const Estimate& estimate, double half_width) {
+    return {std::max(0.0, estimate.value - estimate.lower - half_width),
+            std::max(0.0, estimate.upper - estimate.value - half_width)};
+}
+
 // Means and standard errors over a table's replicates, all readings at once.
 
 struct ReplicateMoments {
@@ -116,6 +126,15 @@ inline constexpr double kReadingShare = 0.95;
 /// % of the runs: a run stops sooner where the standard error happens to be too small. docs/statistics.md has
 /// the measurements.
 inline constexpr double kStoppedConfidence = 0.96;
+
+/// The confidence of the intervals by which a run decides what is required as it goes on. It looks again and
+/// again, each time with a chance to be wrong, so they are wider than those of results. docs/statistics.md
+/// has the measurements.
+inline constexpr double kVerdictConfidence = 0.998;
+
+/// The confidence of the intervals of a run that stopped by such a decision, so that they hold in 95 % of the
+/// runs: it stops sooner where a value happens to be far from what is required.
+inline constexpr double kDecidedConfidence = 0.98;
 
 /// The relative half-width that this share of the readings meets; 0 without readings.
 double attained_error(std::span<const Estimate> readings, double share = kReadingShare);

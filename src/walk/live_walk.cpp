@@ -27,6 +27,8 @@ const char* sentence_of(StopReason reason) {
     switch (reason) {
         case StopReason::target_reached:
             return "The requested error is reached.";
+        case StopReason::requirements_decided:
+            return "All requirements are decided.";
         case StopReason::paths_done:
             return "All steps are done.";
         case StopReason::time_over:

@@ -84,7 +84,7 @@ TEST(SceneLuminance, RefusesWhatDoesNotSayWhereToLook) {
     EXPECT_REFUSAL(
         sight("normal = [0, 0, 1]"),
         "s.toml:4: sensors.s: unknown key \"normal\" for type \"luminance\". Allowed: type, position, "
-        "points, positions, array, direction, target, directions, targets.");
+        "points, positions, array, direction, target, directions, targets, require.");
 }
 
 TEST(SceneGoniometer, MeasuresAPlane) {

@@ -75,7 +75,7 @@ TEST(SceneBodies, FaceADirectionOrANormal) {
 TEST(SceneBodies, RefuseWrongKeys) {
     EXPECT_REFUSAL(sensor("type = \"cylindrical\"\nposition = [1, 2, 3]\nnormal = [0, 0, 1]"),
                    "s.toml:4: sensors.s: unknown key \"normal\" for type \"cylindrical\". Allowed: type, "
-                   "position, points, positions, array.");
+                   "position, points, positions, array, require.");
     EXPECT_REFUSAL(sensor("type = \"spherical\""),
                    "s.toml:1: sensors.s: key \"position\", \"points\", \"positions\" or \"array\" is missing "
                    "for type \"spherical\".");
@@ -95,12 +95,12 @@ TEST(SceneBodies, RefuseWrongKeys) {
 TEST(SceneSensors, RefusesUnknownTypesAndKeys) {
     EXPECT_REFUSAL(sensor("type = \"gird\""),
                    "s.toml:2: sensors.s.type: unknown type \"gird\". Did you mean \"grid\"? Allowed: "
-                   "illuminance, grid, cylindrical, semicylindrical, hemispherical, spherical, luminance, "
-                   "goniometer, camera.");
+                   "illuminance, grid, area, cylindrical, semicylindrical, hemispherical, spherical, "
+                   "luminance, goniometer, derived, camera.");
     EXPECT_REFUSAL(
         grid("counts = [4, 2]"),
         "s.toml:6: sensors.s: unknown key \"counts\" for type \"grid\". Did you mean \"count\"? Allowed: "
-        "type, corner, positions, array, edge_u, edge_v, count, normal.");
+        "type, corner, positions, array, edge_u, edge_v, count, normal, require.");
 }
 
 TEST(SceneSensors, RefusesWrongCounts) {

@@ -39,7 +39,10 @@ class GridSimulator {
     explicit GridSimulator(const GridModel& model)
         : model_(model), means_(model.replicates * model.truth.size()) {}
 
-    GridSummary run() {
+    GridSummary run() { return summarize_grid({replicates(), model_.truth.size()}); }
+
+    /// Replicates x readings of another run.
+    const std::vector<double>& replicates() {
         const std::size_t points = model_.truth.size();
         const double common_error = model_.error * std::sqrt(model_.common_share);
         const double own_error = model_.error * std::sqrt(1 - model_.common_share);
@@ -49,7 +52,7 @@ class GridSimulator {
                 means_[r * points + j] = model_.truth[j] + common + own_error * normal_(random_);
             }
         }
-        return summarize_grid({means_, points});
+        return means_;
     }
 
   private:
@@ -97,23 +100,26 @@ class SimulatedGrid : public testing::TestWithParam<GridModel> {};
 TEST_P(SimulatedGrid, IntervalsCoverTheTruth) {
     const GridModel& model = GetParam();
     GridSimulator simulator(model);
-    Coverage mean, minimum, maximum, uniformity;
+    Coverage mean, minimum, maximum, uniformity, diversity;
     for (int run = 0; run < kRuns; ++run) {
         const GridSummary summary = simulator.run();
         mean.add(summary.mean, model.mean());
         minimum.add(summary.minimum, model.minimum());
         maximum.add(summary.maximum, model.maximum());
         uniformity.add(summary.uniformity, model.minimum() / model.mean());
+        diversity.add(summary.diversity, model.minimum() / model.maximum());
     }
     EXPECT_NEAR(mean.share(), 0.95, 0.02);
     EXPECT_GE(minimum.share(), kLeastCoverage);
     EXPECT_GE(maximum.share(), kLeastCoverage);
     EXPECT_GE(uniformity.share(), kLeastCoverage);
-    RecordProperty("coverage", testing::PrintToString(std::vector{mean.share(), minimum.share(),
-                                                                  maximum.share(), uniformity.share()}));
+    EXPECT_GE(diversity.share(), kLeastCoverage);
+    RecordProperty("coverage",
+                   testing::PrintToString(std::vector{mean.share(), minimum.share(), maximum.share(),
+                                                      uniformity.share(), diversity.share()}));
     RecordProperty("half_widths",
                    testing::PrintToString(std::vector{mean.half_width, minimum.half_width, maximum.half_width,
-                                                      uniformity.half_width}));
+                                                      uniformity.half_width, diversity.half_width}));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -160,6 +166,25 @@ TEST(GridSummary, ValuesAreThePlainOnesOfTheMeans) {
     EXPECT_DOUBLE_EQ(summary.uniformity.value, 0.5);
     // Residuals of the minimum -1, 1, of the mean -2/3, 2/3; to first order dm/X - (m/X) dX/X.
     EXPECT_NEAR(summary.uniformity.standard_error, (1 - 1.0 / 3) / 4, 1e-12);
+    // Of the maximum likewise -1, 1.
+    EXPECT_DOUBLE_EQ(summary.diversity.value, 1.0 / 3);
+    EXPECT_NEAR(summary.diversity.standard_error, (1 - 1.0 / 3) / 6, 1e-12);
+}
+
+/// They make up the standard errors that the summary states by other means.
+TEST(GridSummary, ResidualsAreThoseOfTheErrors) {
+    const GridModel model{"clear", clear_extremes(64), 16, 5, 0.5};
+    const std::vector<double> means = GridSimulator(model).replicates();
+    const ReplicateTable table{means, 64};
+    const GridSummary summary = summarize_grid(table);
+    for (std::size_t i = 0; i < kStatisticNames.size(); ++i) {
+        const auto statistic = static_cast<Statistic>(i);
+        const Estimate residual = estimate_from_replicates(residuals_of(table, statistic));
+        EXPECT_NEAR(residual.value, 0, 1e-12) << name_of(statistic);
+        EXPECT_NEAR(residual.standard_error, summary[statistic].standard_error,
+                    1e-9 * residual.standard_error)
+            << name_of(statistic);
+    }
 }
 
 TEST(GridSummary, ExactReadingsHaveNoWidth) {
@@ -175,6 +200,9 @@ TEST(GridSummary, DarknessHasNoUniformity) {
     EXPECT_EQ(summary.minimum, Estimate{});
     EXPECT_TRUE(std::isnan(summary.uniformity.value));
     EXPECT_TRUE(std::isnan(summary.uniformity.lower));
+    EXPECT_TRUE(std::isnan(summary.diversity.value) && std::isnan(summary.diversity.upper));
+    for (const double residual : residuals_of({means, 3}, Statistic::uniformity))
+        EXPECT_TRUE(std::isnan(residual));
 }
 
 TEST(GridSummary, OneReadingIsItsOwnMinimumAndMaximum) {
@@ -184,6 +212,8 @@ TEST(GridSummary, OneReadingIsItsOwnMinimumAndMaximum) {
     EXPECT_DOUBLE_EQ(summary.maximum.value, 2.5);
     EXPECT_DOUBLE_EQ(summary.uniformity.value, 1);
     EXPECT_NEAR(summary.uniformity.standard_error, 0, 1e-15);
+    EXPECT_DOUBLE_EQ(summary.diversity.value, 1);
+    EXPECT_NEAR(summary.diversity.standard_error, 0, 1e-15);
 }
 
 }  // namespace

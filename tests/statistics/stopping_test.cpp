@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -106,6 +107,82 @@ TEST(Stopping, IntervalsHoldThoughTheRunStopsWhereTheyAreNarrow) {
     for (const double growth : {1.5, 2.0}) {
         EXPECT_GE(StoppedRun(normal, growth).coverage(0.07), 0.94) << growth;
         EXPECT_GE(StoppedRun(skewed, growth).coverage(0.07), 0.94) << growth;
+    }
+}
+
+/// A reading of true value 0 from replicates of normal samples, of which each has as many as runs have at
+/// their checks, 1, 1.5, 2, 3 ... times as many as at the first one, where the reading has an error of 1.
+class RequiredRun {
+  public:
+    explicit RequiredRun(std::size_t replicates)
+        : sums_(replicates),
+          error_(std::sqrt(static_cast<double>(replicates))),
+          deciding_(quantile(kVerdictConfidence)),
+          stated_(quantile(kDecidedConfidence)) {}
+
+    /// At the first check at which a requirement is decided, or at the last one.
+    struct Ending {
+        bool is_decided = false;
+        bool interval_holds = false;
+    };
+    Ending run(double required, int checks) {
+        std::ranges::fill(sums_, 0);
+        std::uint64_t samples = 0;
+        for (int check = 1;; ++check) {
+            const std::uint64_t next = next_check(samples, kFirst);
+            const ReplicateMoments moments = grow(samples, next);
+            samples = next;
+            const double mean = moments.means.front(), error = moments.errors.standard_errors.front();
+            const bool is_decided = std::abs(mean - required) > deciding_ * error;
+            if (is_decided || check == checks) return {is_decided, std::abs(mean) <= stated_ * error};
+        }
+    }
+
+  private:
+    static constexpr std::uint64_t kFirst = 16;
+
+    double quantile(double confidence) const {
+        return student_t_quantile((1 + confidence) / 2, static_cast<int>(sums_.size()) - 1);
+    }
+    /// The moments after `to` samples of each replicate.
+    ReplicateMoments grow(std::uint64_t from, std::uint64_t to) {
+        std::vector<double> means;
+        const double more = static_cast<double>(to - from) / kFirst;
+        for (double& sum : sums_) {
+            sum += error_ * std::sqrt(more) * normal_(random_);
+            means.push_back(sum * kFirst / static_cast<double>(to));
+        }
+        return compute_replicate_moments({means, 1});
+    }
+
+    std::vector<double> sums_;
+    double error_, deciding_, stated_;
+    std::mt19937_64 random_{29};
+    std::normal_distribution<double> normal_;
+};
+
+/// Where exactly the true value is required, every verdict is by chance. 30 checks are 30,000 times as many
+/// samples as at the first one.
+TEST(Stopping, VerdictsAreSeldomByChanceThoughTheRunLooksAgainAndAgain) {
+    for (const std::size_t replicates : {8U, 32U}) {
+        RequiredRun runs(replicates);
+        constexpr int kRuns = 4000;
+        int decided = 0;
+        for (int run = 0; run < kRuns; ++run) decided += runs.run(0, 30).is_decided;
+        EXPECT_LE(decided, 0.05 * kRuns) << replicates;
+        EXPECT_GE(decided, 0.01 * kRuns) << "the test would find a rule that never decides";
+    }
+}
+
+/// Whatever the distance of the requirement, in errors of the first check.
+TEST(Stopping, IntervalsHoldThoughTheRunStopsByAVerdict) {
+    for (const double distance : {0.2, 0.4, 0.6, 1., 2., 3., 4., 6.}) {
+        RequiredRun runs(32);
+        constexpr int kRuns = 2000;
+        int held = 0;
+        for (int run = 0; run < kRuns; ++run) held += runs.run(-distance, 30).interval_holds;
+        EXPECT_GE(held / double{kRuns}, 0.935) << distance;
+        EXPECT_LE(held / double{kRuns}, 0.99) << distance;
     }
 }
 

@@ -30,16 +30,28 @@ std::optional<Vec3> sub_point(const SensorResult& result, const Sensor& sensor, 
 
 Json interval_json(const statistics::Estimate& e) { return {e.lower, e.upper}; }
 
-/// Uniformity is defined for an illuminated area; luminances in several directions have none.
-Json summary_json(const statistics::GridSummary& summary, bool has_uniformity) {
-    Json json{
-        {"mean", summary.mean.value}, {"minimum", summary.minimum.value}, {"maximum", summary.maximum.value}};
-    if (has_uniformity) json["uniformity"] = summary.uniformity.value;
-    json["mean_interval"] = interval_json(summary.mean);
-    json["minimum_interval"] = interval_json(summary.minimum);
-    json["maximum_interval"] = interval_json(summary.maximum);
-    if (has_uniformity) json["uniformity_interval"] = interval_json(summary.uniformity);
-    return json;
+/// Uniformity and diversity are defined for an illuminated area; luminances in several directions have none.
+Json summary_json(const statistics::GridSummary& summary, const Sensor& sensor) {
+    Json values, intervals;
+    for (std::size_t i = 0; i < kStatisticNames.size(); ++i) {
+        const auto statistic = static_cast<Statistic>(i);
+        if (is_ratio(statistic) && !sensor.has_ratios()) continue;
+        const std::string name(name_of(statistic));
+        values[name] = summary[statistic].value;
+        intervals[name + "_interval"] = interval_json(summary[statistic]);
+    }
+    values.update(intervals);
+    return values;
+}
+
+Json requirement_json(const RatedRequirement& rated, const statistics::GridSummary& summary) {
+    const sensors::Criterion& criterion = *rated.requirement.criterion;
+    const statistics::Estimate& estimate = summary[criterion.statistic];
+    return {{"key", criterion.key},
+            {criterion.limit == sensors::Limit::at_least ? "at_least" : "at_most", rated.requirement.limit},
+            {"value", estimate.value},
+            {"interval", interval_json(estimate)},
+            {"verdict", run::name_of(rated.verdict)}};
 }
 
 Json sensor_json(const SensorResult& result, const Sensor& sensor) {
@@ -49,8 +61,15 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     if (const auto count = sensor.count()) json["count"] = *count;
     json["attained_error"] = result.attained_error;
     if (result.patch_error) json["patch_error"] = *result.patch_error;
+    if (const auto* area = std::get_if<Area>(&sensor.kind)) {
+        json["spacing_m"] = area->cell_m;
+        json["left_out"] = area->left_out;
+    }
+    if (sensor.derived()) json["formula"] = sensor.derived()->formula.text();
     json["values"] = nullptr;  // with_readings() fills them in
-    json["summary"] = summary_json(result.summary, !sensor.measures_luminance());
+    if (!sensor.derived()) json["summary"] = summary_json(result.summary, sensor);
+    for (const RatedRequirement& rated : result.requirements)
+        json["requirements"].push_back(requirement_json(rated, result.summary));
     return json;
 }
 
@@ -78,6 +97,8 @@ const char* text_of(StopReason reason) {
     switch (reason) {
         case StopReason::target_reached:
             return "target reached";
+        case StopReason::requirements_decided:
+            return "requirements decided";
         case StopReason::paths_done:
             return "paths done";
         case StopReason::time_over:
@@ -142,10 +163,9 @@ class ObjectText {
     bool is_empty_ = true;
 };
 
-void append_reading(const SensorResult& result, std::size_t j, std::string& text) {
+void add_location(const SensorResult& result, std::size_t j, ObjectText& object) {
     const Sensor& sensor = result.sensor;
     const Location location = sensor.location(j);
-    ObjectText object(text);
     object.add("position", location.position);
     for (const Location::Direction& direction : location.directions)
         object.add(direction.name, direction.value);
@@ -157,36 +177,51 @@ void append_reading(const SensorResult& result, std::size_t j, std::string& text
         }
     }
     for (const Location::Angle& angle : location.angles) object.add(angle.name, angle.value_deg);
+}
+
+void add_replicates(const SensorResult& result, std::size_t j, ObjectText& object) {
+    std::vector<double> values;
+    for (std::size_t i = j; i < result.replicate_means.size(); i += result.readings.size())
+        values.push_back(result.replicate_means[i]);
+    object.add("replicates", values);
+}
+
+void append_reading(const SensorResult& result, std::size_t j, ReplicateValues replicates,
+                    std::string& text) {
+    ObjectText object(text);
+    if (!result.sensor.derived()) add_location(result, j, object);
     const Reading& reading = result.readings[j];
     object.add("value", reading.estimate.value);
     object.add("standard_error", reading.estimate.standard_error);
     object.add("interval", std::array{reading.estimate.lower, reading.estimate.upper});
     if (reading.patch_error) object.add("patch_error", *reading.patch_error);
-    object.add("rgb", reading.rgb.band);
+    if (!result.sensor.derived()) object.add("rgb", reading.rgb.band);
+    if (replicates == ReplicateValues::written) add_replicates(result, j, object);
 }
 
 /// The readings of a sensor as JSON, in their order, a line for each; in parts, which are made in parallel.
-std::vector<std::string> reading_texts(const SensorResult& result) {
+std::vector<std::string> reading_texts(const SensorResult& result, ReplicateValues replicates) {
     constexpr std::size_t kPart = 1024;
     const std::size_t count = result.readings.size();
     std::vector<std::string> parts((count + kPart - 1) / kPart);
     parallel_for(parts.size(), [&](std::size_t p) {
         for (std::size_t j = p * kPart; j < std::min(count, (p + 1) * kPart); ++j) {
             parts[p] += j > 0 ? ",\n    " : "\n    ";
-            append_reading(result, j, parts[p]);
+            append_reading(result, j, replicates, parts[p]);
         }
     });
     return parts;
 }
 
 /// `document` with an array of the readings in place of each `"values": null`.
-std::string with_readings(std::string_view document, std::span<const SensorResult> sensors) {
+std::string with_readings(std::string_view document, std::span<const SensorResult> sensors,
+                          ReplicateValues replicates) {
     constexpr std::string_view kKey = "\"values\": ", kNull = "null";
     std::string text;
     for (const SensorResult& sensor : sensors) {
         // It occurs for each sensor only, because quotation marks within texts are escaped.
         const std::size_t end = document.find(kKey) + kKey.size();
-        const std::vector<std::string> parts = reading_texts(sensor);
+        const std::vector<std::string> parts = reading_texts(sensor, replicates);
         std::size_t length = text.size() + document.size();
         for (const std::string& part : parts) length += part.size();
         text.reserve(length + 8);
@@ -200,7 +235,7 @@ std::string with_readings(std::string_view document, std::span<const SensorResul
 
 }  // namespace
 
-std::string to_json(const RunResult& result, const std::string& scene) {
+std::string to_json(const RunResult& result, const std::string& scene, ReplicateValues replicates) {
     Json json{{"stilb", STILB_VERSION},
               {"scene", scene},
               {"scene_name", result.scene_name},
@@ -212,8 +247,9 @@ std::string to_json(const RunResult& result, const std::string& scene) {
               {"rays", result.rays},
               {"converged", result.converged},
               {"stopped", text_of(result.stop_reason)},
-              {"attained_error", result.attained_error},
-              {"warnings", result.warnings}};
+              {"attained_error", result.attained_error}};
+    if (const auto verdict = run::verdict_of(result)) json["verdict"] = run::name_of(*verdict);
+    json["warnings"] = result.warnings;
     if (result.maintenance) json["maintenance"] = *result.maintenance;
     if (result.patches) {
         json["first_shot_set_up_s"] = result.patches->set_up_s;
@@ -229,7 +265,7 @@ std::string to_json(const RunResult& result, const std::string& scene) {
     Json list = Json::array();
     for (const SensorResult& sensor : result.sensors) list.push_back(sensor_json(sensor, sensor.sensor));
     json["sensors"] = std::move(list);
-    return with_readings(json.dump(1), result.sensors) + "\n";
+    return with_readings(json.dump(1), result.sensors, replicates) + "\n";
 }
 
 namespace {
@@ -281,13 +317,15 @@ std::string in_column(std::string_view text) {
     return name;
 }
 
-void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings, const Quantity& quantity) {
-    const std::string unit = fmt::format("_{}", in_column(quantity.unit));
+void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings, const Sensor& sensor) {
+    const Quantity quantity = sensor.quantity();
+    const std::string unit = quantity.unit.empty() ? "" : fmt::format("_{}", in_column(quantity.unit));
     const auto estimate = [&](std::size_t j) -> const statistics::Estimate& { return readings[j].estimate; };
     columns.add(in_column(quantity.name) + unit, [&](std::size_t j) { return estimate(j).value; });
     columns.add("standard_error" + unit, [&](std::size_t j) { return estimate(j).standard_error; });
     columns.add("interval_low" + unit, [&](std::size_t j) { return estimate(j).lower; });
     columns.add("interval_high" + unit, [&](std::size_t j) { return estimate(j).upper; });
+    if (sensor.derived()) return;
     constexpr std::array<const char*, kBands> bands{"red", "green", "blue"};
     for (std::size_t b = 0; b < kBands; ++b)
         columns.add(bands[b] + unit, [&](std::size_t j) { return readings[j].rgb[b]; });
@@ -295,14 +333,14 @@ void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings,
 
 void write_sensor(const SensorResult& result, const Sensor& sensor, const std::filesystem::path& path) {
     ReadingColumns columns(result.readings.size());
-    add_locations(columns, sensor);
+    if (!sensor.derived()) add_locations(columns, sensor);
     if (sensor.measures_luminance()) {
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
         columns.add_vector({"hit_x_m", "hit_y_m", "hit_z_m"}, [&](std::size_t j) {
             return sub_point(result, sensor, j).value_or(Vec3{none, none, none});
         });
     }
-    add_readings(columns, result.readings, sensor.quantity());
+    add_readings(columns, result.readings, sensor);
     write_csv(columns.columns(), path);
 }
 

@@ -9,9 +9,13 @@
 
 namespace stilb::io {
 
+/// Whether each reading is written with its values in all replicates.
+enum class ReplicateValues { left_out, written };
+
 /// `scene` is the scene file as the user named it. Two runs with the same results give the same text except
 /// for elapsed_s and first_shot_set_up_s.
-std::string to_json(const RunResult& result, const std::string& scene);
+std::string to_json(const RunResult& result, const std::string& scene,
+                    ReplicateValues replicates = ReplicateValues::left_out);
 
 // The results of a run as CSV, a file per sensor.
 

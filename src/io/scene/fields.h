@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "io/scene/sections.h"
 #include "io/scene/toml.h"
 #include "sensors/fields.h"
+#include "sensors/sensor.h"
 
 namespace stilb::io {
 
@@ -82,6 +84,11 @@ Vec3 read_direction_field(const FieldSource& source, std::string_view key, bool 
 std::vector<Vec3> read_positions(const TomlTable& table);
 std::vector<MeasuringPoint> read_measuring_points(const FieldSource& source);
 std::vector<Measurand> read_sights(const FieldSource& source);
+Expression read_formula(const TomlItem& item);
+sensors::PolygonInSpace read_polygon(const TomlTable& table);
+sensors::Band read_band(const TomlItem& item);
+/// The table "require" of a sensor, or of a band; empty where there is none.
+std::vector<Requirement> read_requirements(const TomlTable& owner, const Sensor& sensor);
 std::array<int, 2> read_counts(const TomlItem& item, const sensors::CountLimit& limit);
 /// The unit vector from the position to a target.
 Vec3 read_direction_to(const TomlItem& target, const Vec3& position);
@@ -126,6 +133,18 @@ Keys keys_of(const sensors::CountsField<Owner>& field) {
 }
 template <typename Owner, typename Enumeration>
 Keys keys_of(const sensors::ChoiceField<Owner, Enumeration>& field) {
+    return {field.key};
+}
+template <typename Owner>
+Keys keys_of(const sensors::FormulaField<Owner>& field) {
+    return {field.key};
+}
+template <typename Owner>
+Keys keys_of(const sensors::PolygonField<Owner>&) {
+    return {"corners", "height", "holes", "corner", "edge_u", "edge_v"};
+}
+template <typename Owner>
+Keys keys_of(const sensors::BandField<Owner>& field) {
     return {field.key};
 }
 
@@ -186,6 +205,20 @@ void read_field(const sensors::ChoiceField<Owner, Enumeration>& field, const Fie
         static_cast<Enumeration>(source.table.at(field.key).index_in(field.names, field.key));
 }
 
+template <typename Owner>
+void read_field(const sensors::FormulaField<Owner>& field, const FieldSource& source, Owner& owner) {
+    owner.*field.member = read_formula(source.table.at(field.key));
+}
+
+template <typename Owner>
+void read_field(const sensors::PolygonField<Owner>& field, const FieldSource& source, Owner& owner) {
+    owner.*field.member = read_polygon(source.table);
+}
+template <typename Owner>
+void read_field(const sensors::BandField<Owner>& field, const FieldSource& source, Owner& owner) {
+    if (const auto item = source.table.find(field.key)) owner.*field.member = read_band(*item);
+}
+
 /// "type", and the keys of a kind of sensor.
 template <typename Kind>
 Keys sensor_keys() {
@@ -193,6 +226,7 @@ Keys sensor_keys() {
     for_each_field<Kind>([&](const auto& field) {
         for (const std::string_view key : keys_of(field)) keys.push_back(key);
     });
+    if constexpr (!std::is_same_v<Kind, Camera>) keys.push_back("require");
     return keys;
 }
 

@@ -118,10 +118,13 @@ Rectangle read_rectangle(const TomlTable& table) {
 }
 
 RunOptions read_run(TomlTable section) {
-    section.expect_keys({"method", "error", "time", "paths", "bounces", "seed", "threads", "maintenance"});
+    section.expect_keys(
+        {"method", "error", "target", "time", "paths", "bounces", "seed", "threads", "maintenance"});
     RunOptions run;
     if (const auto item = section.find("method")) run.method = read_method(*item);
     if (const auto item = section.find("error")) run.error = read_error(*item);
+    if (const auto item = section.find("target"))
+        run.target = static_cast<run::Target>(item->index_in(run::kTargetNames, "target"));
     if (const auto item = section.find("time")) run.time_s = item->number(kSeconds);
     if (const auto item = section.find("paths"))
         run.paths = static_cast<std::uint64_t>(item->integer(1, kMostPaths));

@@ -1,5 +1,6 @@
 // [sensors.NAME]
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -7,6 +8,7 @@
 
 #include "io/scene/fields.h"
 #include "io/scene/repetition.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 namespace {
@@ -48,6 +50,56 @@ sensors::SensorKind read_sensor(TomlTable& table, Warnings& warnings) {
     const auto found = std::ranges::find(sensors::kSensorTypeNames, type);
     return read_nth(static_cast<std::size_t>(found - sensors::kSensorTypeNames.begin()), table, warnings,
                     std::type_identity<sensors::SensorKind>{});
+}
+
+/// Illuminances, luminances and their ratios; derived values may be below 0.
+constexpr Range kLimit{0, 1e15, "a number from 0 to 1e15"};
+constexpr Range kLimitOfDerived{-1e15, 1e15, "a number from -1e15 to 1e15"};
+constexpr Range kLimitOfRatio{0, 1, "a share from 0 to 1"};
+
+const Range& range_of(const sensors::Criterion& criterion, const Sensor& sensor) {
+    if (is_ratio(criterion.statistic)) return kLimitOfRatio;
+    return sensor.derived() ? kLimitOfDerived : kLimit;
+}
+
+/// Adds the bands around an area as sensors of their own, "task.surround" and "task.background".
+void add_bands(const TomlTable& table, const Sensor& sensor, std::vector<Sensor>& all) {
+    const auto* area = std::get_if<Area>(&sensor.kind);
+    if (!area) return;
+    double from_m = 0;
+    const auto add = [&](const char* key, const std::optional<sensors::Band>& band) {
+        if (!band) return;
+        Area around{.polygon = area->polygon,
+                    .normal = area->normal,
+                    .spacing_m = area->spacing_m,
+                    .band_m = {from_m, from_m + band->width_m}};
+        if (const auto fault = around.settle(sensors::GivenKeys({}))) table.at(key).fail(fault->message);
+        all.push_back({fmt::format("{}.{}", sensor.name, key), std::move(around), band->requirements});
+        from_m += band->width_m;
+    };
+    add("surround", area->surround);
+    add("background", area->background);
+}
+
+/// Two sensors of one name: a band and another sensor.
+void require_different_names(const TomlTable& section, const std::vector<Sensor>& all) {
+    for (const Sensor& sensor : all) {
+        if (std::ranges::count(all, sensor.name, &Sensor::name) < 2) continue;
+        section.at(sensor.name)
+            .fail("has the name of a band around an area, which is a sensor, too. Allowed: another name.");
+    }
+}
+
+/// Checks a derived value against all sensors, and gives it its unit.
+void resolve(const TomlTable& table, const std::string& name, std::vector<Sensor>& all) {
+    auto& sensor = *std::ranges::find(all, name, &Sensor::name);
+    auto* const derived = std::get_if<Derived>(&sensor.kind);
+    if (!derived) return;
+    try {
+        *derived = sensors::resolved(*derived, all);
+    } catch (const InputError& error) {
+        table.at("value").fail(error.what());
+    }
 }
 
 }  // namespace
@@ -119,6 +171,32 @@ std::vector<Measurand> read_sights(const FieldSource& source) {
     return sights;
 }
 
+Expression read_formula(const TomlItem& item) {
+    try {
+        return Expression(item.text());
+    } catch (const InputError& error) {
+        item.fail(error.what());
+    }
+}
+
+std::vector<Requirement> read_requirements(const TomlTable& owner, const Sensor& sensor) {
+    std::vector<Requirement> requirements;
+    const auto item = owner.find("require");
+    if (!item) return requirements;
+    TomlTable table = item->table();
+    Keys keys;
+    for (const sensors::Criterion& criterion : sensors::kCriteria) {
+        if (is_ratio(criterion.statistic) && !sensor.has_ratios()) continue;
+        keys.push_back(criterion.key);
+        if (const auto limit = table.find(criterion.key))
+            requirements.push_back({&criterion, limit->number(range_of(criterion, sensor))});
+    }
+    table.expect_keys(keys, fmt::format("type \"{}\"", sensor.type()));
+    if (requirements.empty())
+        item->fail(fmt::format("is empty. Allowed: {}, or no require.", fmt::join(keys, ", ")));
+    return requirements;
+}
+
 std::vector<TypeKeys> sensor_types() { return keys_of_types(std::type_identity<sensors::SensorKind>{}); }
 
 void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile& file) {
@@ -127,19 +205,26 @@ void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile&
         return table.text_of("type") == Grid::kType ? "corner" : "";
     };
     std::int64_t readings = 0;
-    for (auto& [name, table, copy_of] : repeated_tables(named_tables(section, defaults), place)) {
+    const auto tables = repeated_tables(named_tables(section, defaults), place);
+    for (auto [name, table, copy_of] : tables) {
         Warnings warnings;
-        file.sensors.push_back({name, read_sensor(table, warnings)});
+        Sensor& sensor = file.sensors.emplace_back(Sensor{name, read_sensor(table, warnings)});
+        sensor.requirements = read_requirements(table, sensor);
+        const std::size_t own = file.sensors.size() - 1;
+        add_bands(table, Sensor(sensor), file.sensors);
         for (std::string& warning : warnings) {
             const bool is_new = std::ranges::find(file.warnings, warning) == file.warnings.end();
             if (is_new) file.warnings.push_back(std::move(warning));  // several positions have the same
         }
-        readings += static_cast<std::int64_t>(file.sensors.back().size());
+        for (std::size_t s = own; s < file.sensors.size(); ++s)
+            readings += static_cast<std::int64_t>(file.sensors[s].size());
         if (readings > sensors::kMostReadings) {
             table.fail(fmt::format("the sensors up to this one have {} readings. Allowed: {} in all.",
                                    readings, sensors::kMostReadings));
         }
     }
+    require_different_names(section, file.sensors);
+    for (const auto& [name, table, copy_of] : tables) resolve(table, name, file.sensors);
 }
 
 }  // namespace stilb::io

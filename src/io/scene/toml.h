@@ -79,6 +79,7 @@ class TomlItem {
 
     bool is_text() const { return std::holds_alternative<std::string>(value_->content); }
     bool is_array() const { return std::holds_alternative<TomlArray>(value_->content); }
+    bool is_table() const { return std::holds_alternative<TomlMembers>(value_->content); }
 
     /// Index of the text among the names. `what` is the kind of name for the message; names in `later` are
     /// reported as not supported yet.

@@ -1,0 +1,32 @@
+// All values of the sensors of a run: readings, summaries, derived values, and whether they meet what is
+// required.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "run/campaign.h"
+#include "run/result.h"
+#include "sensors/sensor.h"
+#include "statistics/grid_summary.h"
+
+namespace stilb::run {
+
+/// Of one sensor; of a derived value, a single reading without pooled errors.
+struct SensorEstimates {
+    Campaign::Estimates readings;
+    statistics::GridSummary summary;  ///< intervals with the error of the patches
+};
+
+/// One for each sensor of the campaign, in order. Throws InputError where a derived value does not fit.
+std::vector<SensorEstimates> estimate_all(const Campaign& campaign, std::span<const Sensor> sensors,
+                                          double confidence);
+
+/// The largest relative half-width of the means and minima of sensors with readings.
+double attained_error_of_means(std::span<const Sensor> sensors, std::span<const SensorEstimates> estimates);
+
+/// A requirement is met, or is not, where the whole interval says so.
+std::vector<RatedRequirement> rate(std::span<const Requirement> requirements,
+                                   const statistics::GridSummary& summary);
+
+}  // namespace stilb::run

@@ -1,0 +1,93 @@
+#include "io/scene_text.h"
+
+namespace stilb::io {
+namespace {
+
+std::string area(const std::string& keys) { return "[sensors.task]\ntype = \"area\"\n" + keys; }
+const std::string kCorners = "corners = [[0, 0], [4, 0], [4, 3], [0, 3]]\nheight = 0.75\n";
+
+TEST(SceneAreas, AreRectanglesOrPolygons) {
+    const SceneFile flat = read_text(area(kCorners));
+    ASSERT_EQ(flat.sensors.size(), 1U);
+    EXPECT_EQ(flat.sensors[0].type(), "area");
+    EXPECT_EQ(flat.sensors[0].size(), 48U);  // p(4) = 0.527: 8 x 6 cells of half a metre
+    const SceneFile spatial =
+        read_text(area("corners = [[0, 0, 0.75], [4, 0, 0.75], [4, 3, 0.75], [0, 3, 0.75]]"));
+    const SceneFile rectangle =
+        read_text(area("corner = [0, 0, 0.75]\nedge_u = [4, 0, 0]\nedge_v = [0, 3, 0]"));
+    for (const SceneFile* other : {&spatial, &rectangle}) {
+        ASSERT_EQ(other->sensors[0].size(), flat.sensors[0].size());
+        for (std::size_t j = 0; j < flat.sensors[0].size(); ++j) {
+            EXPECT_EQ(viewpoint_of(other->sensors[0].measurand(j)).position,
+                      viewpoint_of(flat.sensors[0].measurand(j)).position);
+        }
+    }
+    EXPECT_EQ(read_text(area(kCorners + "spacing = 0.5\nholes = [[[1, 1], [2, 1], [2, 2], [1, 2]]]"))
+                  .sensors[0]
+                  .size(),
+              44U);
+}
+
+TEST(SceneAreas, HaveBandsAsSensorsOfTheirOwn) {
+    const SceneFile file =
+        read_text(area(kCorners + "surround = { width = 0.5, require = { mean = 300, uniformity = 0.4 } }\n"
+                                  "background = 3\nrequire = { mean = 500 }\n") +
+                  "[sensors.ratio]\ntype = \"derived\"\nvalue = \"task.surround.mean / task.mean\"\n");
+    ASSERT_EQ(file.sensors.size(), 4U);
+    EXPECT_EQ(file.sensors[0].name, "task");
+    EXPECT_EQ(file.sensors[0].requirements.size(), 1U);
+    EXPECT_EQ(file.sensors[1].name, "task.surround");
+    EXPECT_EQ(file.sensors[1].requirements.size(), 2U);
+    EXPECT_EQ(file.sensors[2].name, "task.background");
+    EXPECT_TRUE(file.sensors[2].requirements.empty());
+    EXPECT_EQ(std::get<Area>(file.sensors[1].kind).band_m, (std::array{0., 0.5}));
+    EXPECT_EQ(std::get<Area>(file.sensors[2].kind).band_m, (std::array{0.5, 3.5}));
+}
+
+TEST(SceneAreas, RefuseWrongKeys) {
+    EXPECT_REFUSAL(area("height = 1"),
+                   "s.toml:1: sensors.task: key \"corners\" or \"corner\" is missing for type \"area\".");
+    EXPECT_REFUSAL(
+        area("corners = [[0, 0], [1, 0], [1, 1]]"),
+        "s.toml:3: sensors.task.corners[0]: found a pair [x, y], but no \"height\". Allowed: triples "
+        "[x, y, z], or \"height\" as well.");
+    EXPECT_REFUSAL(area("corners = [[0, 0, 1], [1, 0, 1], [1, 1, 1]]\nheight = 1"),
+                   "s.toml:3: sensors.task.corners[0]: found a triple [x, y, z] beside \"height\". Allowed: "
+                   "pairs [x, y], or no \"height\".");
+    EXPECT_REFUSAL(
+        area(kCorners + "edge_u = [1, 0, 0]"),
+        "s.toml:5: sensors.task.edge_u: contradicts \"corners\", which is given too. Allowed: one of "
+        "the two.");
+    EXPECT_REFUSAL(
+        area("corner = [0, 0, 0]\nedge_u = [4, 0, 0]\nedge_v = [0, 3, 0]\nheight = 1"),
+        "s.toml:6: sensors.task.height: contradicts \"corner\", which is given too. Allowed: one of "
+        "the two.");
+    EXPECT_REFUSAL(
+        area("corners = [[0, 0], [4, 3], [4, 0], [0, 3]]\nheight = 1"),
+        "s.toml:3: sensors.task.corners: the area has no extent. Allowed: corners that are not on one "
+        "line.");
+    EXPECT_REFUSAL(
+        area("corners = [[0, 0], [4, 4], [4, 0], [0, 3]]\nheight = 1"),
+        "s.toml:3: sensors.task.corners: crosses or touches itself: the edges from corners 0 and 2, "
+        "counted from 0, meet. Allowed: a simple polygon.");
+    EXPECT_REFUSAL(
+        area(kCorners + "surround = 0"),
+        "s.toml:5: sensors.task.surround: 0 is not allowed. Allowed: a width from 0.001 to 1e6 m.");
+    EXPECT_REFUSAL(area(kCorners + "surround = { width = 0.5, requires = {} }"),
+                   "s.toml:5: sensors.task.surround: unknown key \"requires\". Did you mean \"require\"? "
+                   "Allowed: width, require.");
+    EXPECT_REFUSAL(
+        area(kCorners + "spacing = 0"),
+        "s.toml:5: sensors.task.spacing: 0 is not allowed. Allowed: a length from 0.001 to 1e6 m.");
+    EXPECT_REFUSAL(area(kCorners + "background = 100000\nspacing = 1"),
+                   "s.toml:5: sensors.task.background: asks for a raster of 200004 x 200003 points. Allowed: "
+                   "10000000 readings in all sensors together.");
+    EXPECT_REFUSAL(
+        "[sensors.\"task.surround\"]\ntype = \"spherical\"\nposition = [0, 0, 0]\n" +
+            area(kCorners + "surround = 0.5"),
+        "s.toml:1: sensors.\"task.surround\": has the name of a band around an area, which is a sensor, "
+        "too. Allowed: another name.");
+}
+
+}  // namespace
+}  // namespace stilb::io

@@ -1,0 +1,135 @@
+"""stilb measure: areas, derived values, requirements and their exit codes, replicates."""
+
+import csv
+import json
+import statistics
+import tempfile
+import unittest
+from pathlib import Path
+
+from command_line import ROOM, CommandLineTest, run
+
+RATINGS = """
+[sensors.task]
+type = "area"
+corners = [[0.6, 0.6], [3.4, 0.6], [3.4, 2.2], [0.6, 2.2]]
+height = 0.75
+spacing = 0.4
+surround = 0.4
+
+[sensors.ratio]
+type = "derived"
+value = "desk.mean / wall"
+"""
+
+
+def requiring(text):
+    return ROOM.replace("count = [3, 2]", f"count = [3, 2]\nrequire = {text}")
+
+
+class RatingsTest(CommandLineTest):
+    def test_areas_and_derived_values(self):
+        self.scene = self.write("ratings.toml", ROOM + RATINGS)
+        document = self.measure("--paths", "4096")
+        self.assertNotIn("verdict", document)
+        desk, wall, task, surround, ratio = document["sensors"]
+        self.assertEqual((task["name"], surround["name"]), ("task", "task.surround"))
+        self.assertEqual((task["type"], task["quantity"], task["unit"]), ("area", "illuminance", "lx"))
+        self.assertAlmostEqual(task["spacing_m"][0], 0.4)
+        self.assertEqual(len(task["values"]) + task["left_out"], 7 * 4)
+        self.assertEqual(task["left_out"], 1)  # in the cabinet
+        self.assertLess(task["summary"]["diversity"], task["summary"]["uniformity"])
+        self.assertNotIn("summary", ratio)
+        self.assertEqual((ratio["type"], ratio["unit"], ratio["formula"]), ("derived", "", "desk.mean / wall"))
+        (value,) = ratio["values"]
+        self.assertEqual(set(value), {"value", "standard_error", "interval"})
+        self.assertAlmostEqual(value["value"], desk["summary"]["mean"] / wall["values"][0]["value"], 12)
+        self.assertGreater(value["standard_error"], 0)
+        table = run("measure", self.scene, "--paths", "4096").stdout
+        self.assertRegex(table, r"\ntask +27 points 0\.4 m x 0\.4 m apart \(1 hidden one left out\); 95 % of the ")
+        self.assertRegex(table, r"   diversity 0\.[0-9]+ ± 0\.[0-9]+\n")
+        self.assertRegex(table, r"\nratio +[0-9.]+ ± [0-9.]+   desk\.mean / wall\n")
+
+    def test_csv_of_derived_values(self):
+        self.scene = self.write("ratings.toml", ROOM + RATINGS)
+        with tempfile.TemporaryDirectory() as folder:
+            self.measure("--paths", "4096", "--csv", folder)
+            with (Path(folder) / "ratio.csv").open(newline="") as file:
+                rows = list(csv.reader(file))
+            self.assertTrue((Path(folder) / "task.surround.csv").exists())
+        self.assertEqual(rows[0], ["derived_value", "standard_error", "interval_low", "interval_high"])
+        self.assertEqual(len(rows), 2)
+
+    def test_one_derived_value_measures_what_it_needs(self):
+        self.scene = self.write("ratings.toml", ROOM + RATINGS)
+        document = self.measure("--paths", "4096", "--sensor", "ratio")
+        self.assertEqual([s["name"] for s in document["sensors"]], ["ratio", "desk", "wall"])
+
+    def test_replicates(self):
+        self.scene = self.write("ratings.toml", ROOM + RATINGS)
+        document = self.measure("--paths", "4096", "--replicates")
+        for sensor in document["sensors"]:
+            for value in sensor["values"]:
+                replicates = value["replicates"]
+                self.assertEqual(len(replicates), document["replicates"])
+                self.assertAlmostEqual(statistics.fmean(replicates), value["value"], 9)
+                error = statistics.stdev(replicates) / len(replicates) ** 0.5
+                self.assertAlmostEqual(error, value["standard_error"], 9)
+        self.assertNotIn("replicates", self.measure("--paths", "4096")["sensors"][0]["values"][0])
+        self.expect_wrong_input(["measure", self.scene, "--replicates"], "give --json or -o as well")
+
+    def test_requirements_are_the_exit_code_of_a_check(self):
+        for text, code, verdict in (("{ mean = 1, uniformity = 0.01 }", 0, "pass"), ("{ mean = 1, minimum = 1e5 }", 1, "fail"),
+                                    ("{ maximum = 1 }", 1, "fail")):
+            with self.subTest(text=text):
+                self.scene = self.write("required.toml", requiring(text))
+                document = self.measure("--check", code=code)
+                self.assertEqual((document["verdict"], document["stopped"]), (verdict, "requirements decided"))
+                self.assertIs(document["converged"], True)
+                self.assertEqual(document["sensors"][0]["requirements"][-1]["verdict"], verdict)
+                self.measure()  # without --check, a fail is a result
+        table = run("measure", self.scene, "--check").stdout
+        self.assertRegex(table, r"\n    required: maximum at most 1 lx: fail\n")
+        self.assertRegex(table, r": all requirements are decided; error [^\n]+\nRequirements: 1 fail\n$")
+
+    def test_what_is_not_sure_yet(self):
+        self.scene = self.write("free.toml", ROOM)
+        mean = self.measure("--error", "0.2%")["sensors"][0]["summary"]["mean"]
+        self.scene = self.write("required.toml", requiring(f"{{ mean = {mean} }}"))
+        document = self.measure("--check", "--paths", "2048", "--seed", "3", code=3)
+        self.assertEqual((document["verdict"], document["stopped"]), ("not sure yet", "paths done"))
+        (requirement,) = document["sensors"][0]["requirements"]
+        low, high = requirement["interval"]
+        self.assertTrue(low < mean < high)
+        self.assertEqual((requirement["key"], requirement["at_least"]), ("mean", mean))
+        self.measure("--paths", "2048", "--seed", "3")  # exit code 0
+
+    def test_a_check_needs_requirements(self):
+        self.expect_wrong_input(["measure", self.scene, "--check"], "no measured sensor has a key \"require\"")
+
+    def test_target(self):
+        readings, mean = (self.measure("--error", "1%", "--target", name) for name in ("readings", "mean"))
+        self.assertEqual(readings["attained_error"], max(s["attained_error"] for s in readings["sensors"]))
+        widths = []
+        for sensor in mean["sensors"]:
+            for key in ("mean", "minimum"):
+                low, high = sensor["summary"][f"{key}_interval"]
+                widths.append((high - low) / 2 / sensor["summary"][key])
+        self.assertAlmostEqual(mean["attained_error"], max(widths), 12)
+        self.assertLessEqual(mean["attained_error"], 0.01)
+        self.expect_wrong_input(["measure", self.scene, "--target", "men"], 'Did you mean "mean"?')
+
+    def test_info_shows_formulas_and_limits(self):
+        self.scene = self.write("ratings.toml", requiring("{ mean = 500 }") + RATINGS)
+        document = json.loads(run("info", self.scene, "--json").stdout)
+        desk, _, task, _, ratio = document["sensors"]
+        self.assertEqual(desk["require"], {"mean": 500})
+        self.assertEqual(task["left_out"], 1)
+        self.assertEqual((ratio["formula"], ratio["unit"]), ("desk.mean / wall", ""))
+        text = run("info", self.scene).stdout
+        self.assertRegex(text, r"\n  desk +grid +3 x 2 points, .*, required: mean 500\n")
+        self.assertRegex(text, r"\n  ratio +derived +desk\.mean / wall\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
