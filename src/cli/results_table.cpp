@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "estimators/estimator_list.h"
@@ -158,6 +159,8 @@ std::string quantities_of(const std::vector<SensorResult>& sensors) {
             return !result.sensor.derived() && result.sensor.quantity().unit == unit;
         });
     };
+    if (std::ranges::all_of(sensors, [](const auto& result) { return result.sensor.rates_glare(); }))
+        return "glare ratings";
     if (!has(sensors::kLuminance.unit)) return "illuminance";
     return has(sensors::kIlluminance.unit) ? "illuminance and luminance" : "luminance";
 }
@@ -166,7 +169,7 @@ std::string title_of(const RunResult& result) {
     std::string title = quantities_of(result.sensors);
     if (result.maintenance)
         return fmt::format("Maintained {} ({})", title, maintenance_text(*result.maintenance));
-    title[0] = title[0] == 'i' ? 'I' : 'L';
+    title[0] = static_cast<char>(std::toupper(title[0]));
     return title;
 }
 

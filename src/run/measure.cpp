@@ -9,6 +9,7 @@
 #include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "run/campaign.h"
+#include "run/glare.h"
 #include "run/level_of_detail.h"
 #include "run/run.h"
 #include "run/sensor_estimates.h"
@@ -23,7 +24,7 @@ constexpr double kConfidence = 0.95;
 /// Samples that a run makes for the sake of sharp light before its first error estimate: some seconds of
 /// work.
 constexpr std::uint64_t kMostAwaited = 1 << 20;
-enum ReadingPurpose : std::uint64_t { kReadingPreparation, kReadingReplicates };
+enum ReadingPurpose : std::uint64_t { kReadingPreparation, kReadingReplicates, kReadingGlare };
 
 void require_measurable(std::span<const Sensor> sensors, const estimators::EstimatorEntry& method) {
     for (const Sensor& sensor : sensors) {
@@ -185,6 +186,17 @@ std::vector<SensorResult> sensor_results(const Campaign& campaign, std::span<con
     return results;
 }
 
+/// Sensors that rate glare have illuminances up to here.
+void rate_glare(const Scene& scene, const rays::RayCaster& caster, const RunOptions& options,
+                RunResult& result) {
+    const math::RandomKey key = math::RandomKey{options.seed}.derived(kReadingGlare);
+    for (SensorResult& sensor : result.sensors) {
+        if (!sensor.sensor.rates_glare()) continue;
+        sensor = with_glare_ratings(sensor, scene, caster, confidence_of(options, result.stop_reason), key,
+                                    result.warnings);
+    }
+}
+
 /// The measurands of all sensors, with the weights for a run that stops when each sensor as a whole is exact
 /// enough.
 struct Wanted {
@@ -257,6 +269,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     warn(std::move(of_scene));
     result.sensors = sensor_results(campaign, sensors, options, result.stop_reason, estimator->sight_ends(),
                                     result.warnings);
+    session.on_threads([&] { rate_glare(scene, session.caster(), options, result); });
     warn(sharp_light_warnings(sharp, result.samples, scene));
     warn(patch_error_warnings(result));
     session.finish(result);

@@ -30,6 +30,10 @@ const Sensor& meter_of(const Operand& operand, std::span<const Sensor> sensors) 
         throw InputError(fmt::format("\"{}\" is itself a derived value. Write its formula here: {}.",
                                      sensor->name, sensor->derived()->formula.text()));
     }
+    if (sensor->rates_glare()) {
+        throw InputError(
+            fmt::format("sensor \"{}\" rates glare, and ratings cannot be part of a formula.", sensor->name));
+    }
     if (sensor->size() == 0)
         throw InputError(fmt::format("sensor \"{}\" is a camera, which has no readings.", sensor->name));
     return *sensor;

@@ -89,6 +89,15 @@ struct SightsField {
 template <typename Owner>
 SightsField(std::vector<Measurand> Owner::*, std::string_view) -> SightsField<Owner>;
 
+/// Positions of eyes, and for each of them one or many directions or targets; the normals are the directions.
+template <typename Owner>
+struct EyesField {
+    std::vector<MeasuringPoint> Owner::*member;
+    std::string_view meaning;
+};
+template <typename Owner>
+EyesField(std::vector<MeasuringPoint> Owner::*, std::string_view) -> EyesField<Owner>;
+
 /// A parallelogram by "corner", "edge_u" and "edge_v".
 template <typename Owner>
 struct ParallelogramField {

@@ -23,6 +23,7 @@
 #include "sensors/bodies.h"
 #include "sensors/camera.h"
 #include "sensors/derived.h"
+#include "sensors/glare.h"
 #include "sensors/goniometer.h"
 #include "sensors/illuminance.h"
 #include "sensors/luminance.h"
@@ -31,7 +32,7 @@
 namespace stilb::sensors {
 
 using SensorKind = std::variant<IlluminancePoints, Grid, Area, Cylindrical, Semicylindrical, Hemispherical,
-                                Spherical, Luminance, Goniometer, Derived, Camera>;
+                                Spherical, Luminance, Goniometer, Ugr, Derived, Camera>;
 
 template <typename... Kinds>
 constexpr std::array<std::string_view, sizeof...(Kinds)> type_names(
@@ -53,7 +54,9 @@ struct Sensor {
     Quantity quantity() const;
     bool measures_luminance() const { return !derived() && quantity().unit == kLuminance.unit; }
     /// Whether uniformity and diversity are defined, as those of an illuminated area are.
-    bool has_ratios() const { return !measures_luminance() && !derived(); }
+    bool has_ratios() const { return !measures_luminance() && !derived() && !rates_glare(); }
+    /// Whether its readings are ratings of glare, which are made of illuminances after the run.
+    bool rates_glare() const { return std::holds_alternative<Ugr>(kind); }
 
     /// Number of readings; a camera, which makes a picture, and a derived value have none.
     std::size_t size() const;

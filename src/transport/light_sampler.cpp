@@ -209,7 +209,10 @@ double LightSampler::outside_pdf_per_sr(const Vec3& direction, const Vec3& from,
 
 Rgb LightSampler::emitted_luminance(const rays::Hit& hit, const Vec3& leaving) const {
     const std::uint32_t light = light_of_object_[index_of(hit.object)];
-    if (!hit.on_front || light == kNoLight) return {};
+    return hit.on_front && light != kNoLight ? front_luminance(light, leaving) : Rgb{};
+}
+
+Rgb LightSampler::front_luminance(std::size_t light, const Vec3& leaving) const {
     return std::visit(
         [&]<typename Emitter>(const Emitter& emitter) -> Rgb {
             if constexpr (lights::SurfaceEmitterKind<Emitter>) return emitter.luminance_cd_m2(leaving);

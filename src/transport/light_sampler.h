@@ -79,6 +79,8 @@ class LightSampler {
 
     /// Luminance that leaves `hit`, on an emitter, in a unit direction; zero elsewhere.
     Rgb emitted_luminance(const rays::Hit& hit, const Vec3& leaving) const;
+    /// The same of the front of a light on a surface.
+    Rgb front_luminance(std::size_t light, const Vec3& leaving) const;
     /// Luminance from outside of the scene along a ray that leaves it in a unit direction.
     Rgb outside_luminance(const Vec3& direction) const;
     /// As pdf_per_sr() and pdf_of_its_light_per_sr(), for such a ray.

@@ -124,6 +124,10 @@ Keys keys_of(const sensors::SightsField<Owner>&) {
     return {"position", "points", "positions", "array", "direction", "target", "directions", "targets"};
 }
 template <typename Owner>
+Keys keys_of(const sensors::EyesField<Owner>&) {
+    return {"position", "points", "positions", "array", "direction", "target", "directions", "targets"};
+}
+template <typename Owner>
 Keys keys_of(const sensors::ParallelogramField<Owner>&) {
     return {"corner", "positions", "array", "edge_u", "edge_v"};
 }
@@ -187,6 +191,13 @@ void read_field(const sensors::SightsField<Owner>& field, const FieldSource& sou
     owner.*field.member = read_sights(source);
 }
 template <typename Owner>
+void read_field(const sensors::EyesField<Owner>& field, const FieldSource& source, Owner& owner) {
+    for (const Measurand& sight : read_sights(source)) {
+        const auto& [position, direction] = std::get<LineOfSight>(sight);
+        (owner.*field.member).push_back({position, direction});
+    }
+}
+template <typename Owner>
 void read_field(const sensors::ParallelogramField<Owner>& field, const FieldSource& source, Owner& owner) {
     const Rectangle rectangle = read_rectangle(source.table);
     owner.*field.corner = rectangle.corner;
@@ -226,7 +237,7 @@ Keys sensor_keys() {
     for_each_field<Kind>([&](const auto& field) {
         for (const std::string_view key : keys_of(field)) keys.push_back(key);
     });
-    if constexpr (!std::is_same_v<Kind, Camera>) keys.push_back("require");
+    if constexpr (!std::is_same_v<Kind, Camera> && !std::is_same_v<Kind, Ugr>) keys.push_back("require");
     return keys;
 }
 

@@ -1,0 +1,114 @@
+#include "run/glare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "base/parallel.h"
+#include "transport/glare.h"
+
+namespace stilb::run {
+namespace {
+
+using statistics::Estimate;
+using transport::Glare;
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+double ugr(double glare, double background_lx) {
+    return 8 * std::log10(0.25 * std::numbers::pi * glare / background_lx);
+}
+
+/// The rating with the errors of illuminance, direct light and glare, each half-width in quadrature.
+Estimate rating_of(const Estimate& illuminance, const Glare& view, double confidence) {
+    const Estimate direct = statistics::estimate_from_replicates(view.direct_of_replicates_lx, confidence);
+    const Estimate glare = statistics::estimate_from_replicates(view.glare_of_replicates, confidence);
+    if (!(glare.value > 0)) return {};
+    const double background_lx = illuminance.value - direct.value;
+    if (!(background_lx > 0)) return {kUndefined, kUndefined, kUndefined, kUndefined};
+    const double value = ugr(glare.value, background_lx);
+    const double direct_half = direct.upper - direct.value;
+    const double more_lx = std::hypot(illuminance.upper - illuminance.value, direct_half),
+                 less_lx = std::hypot(illuminance.value - illuminance.lower, direct_half);
+    const double per_relative = 8 / std::numbers::ln10;
+    const double of_glare = per_relative * (glare.upper - glare.value) / glare.value;
+    const double relative_error =
+        std::hypot(std::hypot(illuminance.standard_error, direct.standard_error) / background_lx,
+                   glare.standard_error / glare.value);
+    // Where the background may be 0, there is no upper end.
+    const double brighter = value - ugr(glare.value, background_lx + more_lx);
+    const double darker = less_lx < background_lx ? ugr(glare.value, background_lx - less_lx) - value
+                                                  : std::numeric_limits<double>::infinity();
+    return {value, per_relative * relative_error, value - std::hypot(brighter, of_glare),
+            value + std::hypot(darker, of_glare)};
+}
+
+/// The lights of a kind of glare source, in all views.
+using LightNumbers = std::set<std::uint32_t>;
+
+void warn(const std::string& sensor, const LightNumbers& numbers, const Scene& scene, std::string_view text,
+          std::vector<std::string>& warnings) {
+    if (numbers.empty()) return;
+    const std::string first = fmt::format("\"{}\"", scene.lights[*numbers.begin()].name);
+    const std::string which = numbers.size() == 1
+                                  ? fmt::format("light {}", first)
+                                  : fmt::format("{} lights ({} first)", numbers.size(), first);
+    warnings.push_back(fmt::format("sensor \"{}\": {} {}", sensor, which, text));
+}
+
+void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, const Scene& scene,
+                     std::vector<std::string>& warnings) {
+    LightNumbers small, large, points;
+    for (const Glare& view : views) {
+        for (const transport::GlareSource& source : view.sources) {
+            if (source.solid_angle_sr < transport::kLeastGlare_sr) small.insert(source.light);
+            if (source.solid_angle_sr > transport::kMostGlare_sr) large.insert(source.light);
+        }
+    }
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        if (location_of(scene.lights[i]) == LightLocation::point) points.insert(i);
+    }
+    warn(sensor.name, small, scene,
+         "fill less than 0.0003 sr of a view, for which UGR was not made: they are left out there.",
+         warnings);
+    warn(sensor.name, large, scene,
+         "fill more than 0.1 sr of a view: UGR is not valid for sources so large, and its value too high or "
+         "too "
+         "low.",
+         warnings);
+    warn(sensor.name, points, scene,
+         "have no luminous area, so that their glare is missing from UGR. Give them an opening.", warnings);
+}
+
+}  // namespace
+
+SensorResult with_glare_ratings(const SensorResult& illuminances, const Scene& scene,
+                                const rays::RayCaster& caster, double confidence, math::RandomKey key,
+                                std::vector<std::string>& warnings) {
+    const auto& eyes = std::get<Ugr>(illuminances.sensor.kind).eyes;
+    const transport::LightSampler lights(scene, caster);
+    std::vector<Glare> views(eyes.size());
+    parallel_for(eyes.size(), [&](std::size_t j) {
+        views[j] = find_glare(eyes[j], scene, caster, lights, key.derived(j));
+    });
+    SensorResult result = illuminances;
+    for (std::size_t j = 0; j < eyes.size(); ++j)
+        result.readings[j] = {rating_of(illuminances.readings[j].estimate, views[j], confidence), {}};
+    for (std::size_t i = 0; i < result.replicate_means.size(); ++i) {
+        const Glare& view = views[i % eyes.size()];
+        double glare = 0;
+        for (const double of_replicate : view.glare_of_replicates)
+            glare += of_replicate / static_cast<double>(view.glare_of_replicates.size());
+        double& mean = result.replicate_means[i];
+        mean = glare > 0 ? ugr(glare, mean - view.direct_lx) : 0;
+    }
+    result.summary = statistics::summarize_grid({result.replicate_means, eyes.size()}, confidence);
+    warn_of_sources(result.sensor, views, scene, warnings);
+    return result;
+}
+
+}  // namespace stilb::run

@@ -1,0 +1,139 @@
+#include "transport/glare.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "lights/emitter_surface.h"
+
+namespace stilb::transport {
+namespace {
+
+constexpr double kMostIndex = 16;
+constexpr std::size_t kReplicates = 8;
+constexpr std::uint64_t kSamples = 256;  ///< of each lamp and replicate
+
+double degrees(double angle) { return angle * 180 / std::numbers::pi; }
+
+/// The integrals over a lamp.
+struct Seen {
+    double solid_angle_sr = 0, intensity = 0, direct_lx = 0;
+    Vec3 middle;
+
+    void add(const Seen& other, double share) {
+        solid_angle_sr += share * other.solid_angle_sr;
+        intensity += share * other.intensity;
+        direct_lx += share * other.direct_lx;
+        middle += share * other.middle;
+    }
+    /// Of a lamp that is seen.
+    GlareSource source(std::uint32_t light, const Vec3& line_of_sight) const {
+        return {light, solid_angle_sr, intensity / solid_angle_sr,
+                position_index(normalized(middle), line_of_sight)};
+    }
+};
+
+class Eye {
+  public:
+    Eye(const MeasuringPoint& at, const rays::RayCaster& caster, const LightSampler& lights)
+        : position_(at.position), sight_(at.normal), caster_(caster), lights_(lights) {}
+
+    /// One replicate's samples of the lamp's surface.
+    Seen see(std::size_t light, const lights::EmitterSurface& surface, math::RandomKey key) const {
+        Seen seen;
+        for (std::uint64_t i = 0; i < kSamples; ++i) {
+            math::SampleStream stream(key, i);
+            const auto point = surface.sample_seen(position_, stream.next_two());
+            if (!point) continue;
+            const double cosine = dot(point->direction, sight_);
+            if (!(cosine > 0)) continue;
+            const double visible = caster_.transmittance({position_, point->lifted}).luminance();
+            if (!(visible > 0)) continue;
+            const double solid_angle_sr = 1 / (point->pdf_per_sr * kSamples);
+            const double luminance_cd_m2 =
+                visible * lights_.front_luminance(light, -point->direction).luminance();
+            seen.add({solid_angle_sr, solid_angle_sr * luminance_cd_m2,
+                      solid_angle_sr * luminance_cd_m2 * cosine, solid_angle_sr * point->direction},
+                     1);
+        }
+        return seen;
+    }
+
+    double direct_of_point_lx(std::size_t light) const {
+        const auto incident = lights_.sample_incident(light, position_, {});
+        if (!incident) return 0;
+        const double cosine = std::max(dot(incident->direction, sight_), 0.0);
+        if (!(cosine > 0)) return 0;
+        const double visible = caster_.transmittance({position_, incident->source_point}).luminance();
+        return cosine * visible * incident->normal_illuminance_lx.luminance();
+    }
+
+    const Vec3& sight() const { return sight_; }
+
+  private:
+    Vec3 position_, sight_;
+    const rays::RayCaster& caster_;
+    const LightSampler& lights_;
+};
+
+void add_lamp(const Eye& eye, std::uint32_t light, const lights::EmitterSurface& surface, math::RandomKey key,
+              Glare& glare) {
+    std::array<Seen, kReplicates> of_replicates;
+    Seen all;
+    for (std::size_t r = 0; r < kReplicates; ++r) {
+        of_replicates[r] = eye.see(light, surface, key.derived(r));
+        all.add(of_replicates[r], 1.0 / kReplicates);
+        glare.direct_of_replicates_lx[r] += of_replicates[r].direct_lx;
+    }
+    if (!(all.solid_angle_sr > 0)) return;
+    glare.sources.push_back(all.source(light, eye.sight()));
+    if (all.solid_angle_sr < kLeastGlare_sr) return;
+    for (std::size_t r = 0; r < kReplicates; ++r) {
+        if (of_replicates[r].solid_angle_sr > 0)
+            glare.glare_of_replicates[r] += of_replicates[r].source(light, eye.sight()).glare();
+    }
+}
+
+}  // namespace
+
+double position_index(const Vec3& direction, const Vec3& line_of_sight) {
+    const Vec3 right = normalized(cross(line_of_sight, {0, 0, 1}));
+    const Vec3 up = cross(right, line_of_sight);
+    const double ahead = dot(direction, line_of_sight), beside = dot(direction, right),
+                 above = dot(direction, up);
+    const double across = std::hypot(beside, above);
+    const double s = degrees(std::atan2(across, ahead));
+    const double t = across > 0 ? degrees(std::acos(std::min(std::abs(above) / across, 1.0))) : 0;
+    if (s >= 90) return kMostIndex;
+    if (above >= 0) {
+        const double first = (35.2 - 0.31889 * t - 1.22 * std::exp(-2 * t / 9)) * 1e-3;
+        const double second = (21 + 0.26667 * t - 0.002963 * t * t) * 1e-5;
+        return std::min(std::exp(first * s + second * s * s), kMostIndex);
+    }
+    const double cosine = std::abs(above) / across;
+    const double b = degrees(std::atan(across / ahead * std::sqrt(1 + 0.3225 * cosine * cosine)));
+    return std::min(std::exp(6.49e-3 * b + 21e-5 * b * b), kMostIndex);
+}
+
+Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCaster& caster,
+                 const LightSampler& lights, math::RandomKey key) {
+    Glare glare;
+    glare.direct_of_replicates_lx.resize(kReplicates);
+    glare.glare_of_replicates.resize(kReplicates);
+    const Eye eye(at, caster, lights);
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        if (const auto object = lights::emitting_object(scene.lights[i])) {
+            const lights::EmitterSurface surface(scene.object(*object).shape, caster.lift());
+            add_lamp(eye, i, surface, key.derived(i), glare);
+        } else if (lights.is_point(i)) {
+            const double direct_lx = eye.direct_of_point_lx(i);
+            for (double& of_replicate : glare.direct_of_replicates_lx) of_replicate += direct_lx;
+        }
+    }
+    for (const double of_replicate : glare.direct_of_replicates_lx)
+        glare.direct_lx += of_replicate / kReplicates;
+    return glare;
+}
+
+}  // namespace stilb::transport

@@ -1,0 +1,73 @@
+#include "transport/glare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/scene_builder.h"
+
+namespace stilb::transport {
+namespace {
+
+constexpr Vec3 kAhead{0, 1, 0};
+
+/// The direction at an angle from the line of sight, in a plane at an angle from the vertical.
+Vec3 direction_at(double from_sight_deg, double from_vertical_deg) {
+    const double s = from_sight_deg * kPi / 180, t = from_vertical_deg * kPi / 180;
+    return {std::sin(s) * std::sin(t), std::cos(s), std::sin(s) * std::cos(t)};
+}
+
+/// Guth's formula, computed by hand.
+TEST(PositionIndex, IsThatOfGuth) {
+    EXPECT_DOUBLE_EQ(position_index(kAhead, kAhead), 1);
+    // t = 0: exp((35.2 - 1.22) 1e-3 30 + 21e-5 900)
+    EXPECT_NEAR(position_index(direction_at(30, 0), kAhead), std::exp(1.0194 + 0.189), 1e-9);
+    // t = 90: exp((35.2 - 28.7001 - 1.22 e^-20) 1e-3 30 + (21 + 24.0003 - 24.0003 - 0.0000) 1e-5 900)
+    const double second = (21 + 0.26667 * 90 - 0.002963 * 8100) * 1e-5;
+    EXPECT_NEAR(position_index(direction_at(30, 90), kAhead),
+                std::exp((35.2 - 0.31889 * 90) * 1e-3 * 30 + second * 900), 1e-9);
+    EXPECT_EQ(position_index(direction_at(30, 90), kAhead), position_index(direction_at(30, -90), kAhead));
+}
+
+TEST(PositionIndex, HasItsOwnFormulaBelowTheLineOfSight) {
+    const double b = std::atan(std::tan(kPi / 6) * std::sqrt(1.3225)) * 180 / kPi;
+    EXPECT_NEAR(position_index(direction_at(30, 180), kAhead), std::exp(6.49e-3 * b + 21e-5 * b * b), 1e-9);
+}
+
+TEST(PositionIndex, IsSixteenAtMost) {
+    EXPECT_EQ(position_index(direction_at(85, 0), kAhead), 16);
+    EXPECT_EQ(position_index(direction_at(120, 40), kAhead), 16);
+}
+
+/// A disk that faces the eye on its line of sight: solid angle, luminance and illuminance in closed form.
+TEST(Glare, HasTheIntegralsOfADisk) {
+    Scene scene;
+    add_area_light(scene, Disk{{0, 2, 1.2}, {0, -1, 0}, 0.3}, Rgb::grey(5000));
+    const rays::RayCaster caster(scene);
+    const LightSampler lights(scene, caster);
+    const Glare glare = find_glare({{0, 0, 1.2}, kAhead}, scene, caster, lights, math::RandomKey{});
+    ASSERT_EQ(glare.sources.size(), 1u);
+    const double cosine = 2 / std::hypot(2, 0.3);
+    EXPECT_NEAR(glare.sources[0].solid_angle_sr, 2 * kPi * (1 - cosine), 1e-5);
+    EXPECT_NEAR(glare.sources[0].luminance_cd_m2, 5000, 1e-9);
+    EXPECT_NEAR(glare.sources[0].position_index, 1, 1e-3);
+    EXPECT_NEAR(glare.direct_lx, kPi * 5000 * (1 - cosine * cosine), 0.02);
+}
+
+/// Half of a rectangle is hidden; a lamp behind the eye is none.
+TEST(Glare, CountsWhatTheEyeSees) {
+    Scene scene;
+    add_area_light(scene, Rectangle{{-0.2, 3, 1}, {0.4, 0, 0}, {0, 0, 0.4}}, Rgb::grey(1000));
+    add_area_light(scene, Disk{{0, -2, 1.2}, {0, 1, 0}, 0.3}, Rgb::grey(1000));
+    add_object(scene, Rectangle{{-1, 2.999, 1}, {1, 0, 0}, {0, 0, 1}}, Black{});
+    const rays::RayCaster caster(scene);
+    const LightSampler lights(scene, caster);
+    const Glare glare = find_glare({{0, 0, 1.2}, kAhead}, scene, caster, lights, math::RandomKey{});
+    ASSERT_EQ(glare.sources.size(), 1u);
+    EXPECT_NEAR(glare.sources[0].solid_angle_sr, 0.5 * 0.16 / 9, 2e-4);
+    EXPECT_NEAR(glare.sources[0].luminance_cd_m2, 1000, 1e-9);
+}
+
+}  // namespace
+}  // namespace stilb::transport
