@@ -47,9 +47,13 @@ class OverlapLight {
         : caster_(caster),
           sensors_(sensors),
           lit_(lit_places(scene, caster)),
-          is_lamp_(scene.objects.size()) {
+          is_lamp_(scene.objects.size()),
+          is_opening_(scene.objects.size()) {
         for (const Light& light : scene.lights) {
-            if (const auto surface = lights::emitting_object(light)) is_lamp_[index_of(*surface)] = true;
+            const auto surface = lights::emitting_object(light);
+            if (!surface) continue;
+            is_lamp_[index_of(*surface)] = true;
+            is_opening_[index_of(*surface)] = lights::luminaire_of(light) != nullptr;
         }
     }
 
@@ -60,6 +64,8 @@ class OverlapLight {
     /// Whether light arrives there and anything is in sight. Of lamps only the fronts count: behind them the
     /// other surface is hidden anyway.
     bool matters(const Overlap& overlap) const {
+        // A luminaire in the plane of a ceiling is placed as it should be (docs/photometry.md).
+        if (is_opening_[index_of(overlap.first)] && is_lamp_on(overlap)) return false;
         // Twice as far from the plane as a lamp that was put in front of it.
         const Vec3 off = 4 * caster_.offset_m(overlap.position, caster_.half_extent_m()) * overlap.normal;
         return is_lit({overlap.position + off, overlap.normal}) ||
@@ -95,7 +101,7 @@ class OverlapLight {
     const rays::RayCaster& caster_;
     std::span<const Sensor> sensors_;
     std::vector<Location> lit_;
-    std::vector<bool> is_lamp_;  ///< by object
+    std::vector<bool> is_lamp_, is_opening_;  ///< by object
 };
 
 }  // namespace

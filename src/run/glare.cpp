@@ -17,6 +17,8 @@ namespace {
 using statistics::Estimate;
 using transport::Glare;
 
+/// Of the glare in a view: sources of less need no warning.
+constexpr double kLeastShare = 0.01;
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 double ugr(double glare, double background_lx) {
@@ -50,21 +52,23 @@ Estimate rating_of(const Estimate& illuminance, const Glare& view, double confid
 /// The lights of a kind of glare source, in all views.
 using LightNumbers = std::set<std::uint32_t>;
 
-void warn(const std::string& sensor, const LightNumbers& numbers, const Scene& scene, std::string_view text,
-          std::vector<std::string>& warnings) {
+/// "The solid angle of light "a" and 2 more", and the text.
+void warn(const std::string& sensor, std::string_view what, const LightNumbers& numbers, const Scene& scene,
+          std::string_view text, std::vector<std::string>& warnings) {
     if (numbers.empty()) return;
-    const std::string first = fmt::format("\"{}\"", scene.lights[*numbers.begin()].name);
-    const std::string which = numbers.size() == 1
-                                  ? fmt::format("light {}", first)
-                                  : fmt::format("{} lights ({} first)", numbers.size(), first);
-    warnings.push_back(fmt::format("sensor \"{}\": {} {}", sensor, which, text));
+    const std::string more = numbers.size() > 1 ? fmt::format(" and {} more", numbers.size() - 1) : "";
+    warnings.push_back(fmt::format("sensor \"{}\": {} of light \"{}\"{} {}", sensor, what,
+                                   scene.lights[*numbers.begin()].name, more, text));
 }
 
 void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, const Scene& scene,
                      std::vector<std::string>& warnings) {
     LightNumbers small, large, points;
     for (const Glare& view : views) {
+        double all = 0;
+        for (const transport::GlareSource& source : view.sources) all += source.glare();
         for (const transport::GlareSource& source : view.sources) {
+            if (source.glare() < kLeastShare * all) continue;
             if (source.solid_angle_sr < transport::kLeastGlare_sr) small.insert(source.light);
             if (source.solid_angle_sr > transport::kMostGlare_sr) large.insert(source.light);
         }
@@ -72,16 +76,12 @@ void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, cons
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         if (location_of(scene.lights[i]) == LightLocation::point) points.insert(i);
     }
-    warn(sensor.name, small, scene,
-         "fill less than 0.0003 sr of a view, for which UGR was not made: they are left out there.",
-         warnings);
-    warn(sensor.name, large, scene,
-         "fill more than 0.1 sr of a view: UGR is not valid for sources so large, and its value too high or "
-         "too "
-         "low.",
-         warnings);
-    warn(sensor.name, points, scene,
-         "have no luminous area, so that their glare is missing from UGR. Give them an opening.", warnings);
+    warn(sensor.name, "the solid angle", small, scene,
+         "is less than 0.0003 sr, for which UGR was not made: its glare is left out.", warnings);
+    warn(sensor.name, "the solid angle", large, scene,
+         "is more than 0.1 sr, for which UGR was not made: the rating is not valid.", warnings);
+    warn(sensor.name, "the glare", points, scene,
+         "is missing from UGR, as it has no luminous area. Give it an opening.", warnings);
 }
 
 }  // namespace

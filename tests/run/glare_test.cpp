@@ -75,11 +75,11 @@ TEST(UnifiedGlareRating, HasIntervalsThatCover) {
 TEST(UnifiedGlareRating, SaysWhatItLeavesOut) {
     Scene scene = lamp_in_an_environment();
     add_point_light(scene, {1, 2, 2}, Rgb::grey(10));
-    add_area_light(scene, Sphere{{0, 4, 1.2}, 0.02}, Rgb::grey(1e5));
+    add_area_light(scene, Sphere{{0, 4, 1.2}, 0.02}, Rgb::grey(1e6));
     const run::RunResult result = rated(scene, 1);
     ASSERT_EQ(result.warnings.size(), 2u);
-    EXPECT_NE(result.warnings[0].find("less than 0.0003 sr"), std::string::npos) << result.warnings[0];
-    EXPECT_NE(result.warnings[1].find("no luminous area"), std::string::npos) << result.warnings[1];
+    EXPECT_NE(result.warnings[0].find("is less than 0.0003 sr"), std::string::npos) << result.warnings[0];
+    EXPECT_NE(result.warnings[1].find("has no luminous area"), std::string::npos) << result.warnings[1];
 }
 
 TEST(UnifiedGlareRating, IsZeroWithoutALampInView) {
