@@ -73,7 +73,7 @@ def finished(command: list, **options) -> tuple[subprocess.CompletedProcess, flo
 
 def exported(task: Task, program: str) -> Path:
     folder = EXPORTS / f"{task.scene}-{program}"
-    finished([STILB, "export", task.path, "--format", program, "-o", folder, "--quiet"])
+    finished([STILB, "export", task.path, *task.overrides, "--format", program, "-o", folder, "--quiet"])
     return folder
 
 
@@ -103,7 +103,7 @@ class StilbSession:
     def _command(self, size: int, seed: int) -> list:
         command = ["--method", self.method, "--paths", size, "--seed", seed, "--threads", self.threads, "--quiet"]
         sensors = [word for name in self.task.sensors for word in ("--sensor", name)]
-        return [self.task.path, *sensors, *command]
+        return [self.task.path, *self.task.overrides, *sensors, *command]
 
     def _measured(self, size: int, seed: int) -> tuple[np.ndarray, float, int]:
         """Values, processor time of the whole process, and the size that was done."""

@@ -25,6 +25,11 @@ class Task:
         return folder / f"{self.scene}.toml"
 
     @property
+    def overrides(self) -> list[str]:
+        """Flags of stilb: Mitsuba has no luminaires with an opening, so that all programs take them as points."""
+        return ["--set", "defaults.lights.opening=point"] if self.scene in ("office", "hall") else []
+
+    @property
     def sensor(self) -> dict:
         """The table of the first sensor."""
         return tomllib.loads(self.path.read_text())["sensors"][self.sensors[0]]

@@ -71,7 +71,7 @@ struct RadianceLight {
                                   {"stilb_value", table, "luminaire.cal", "stilb_c", "stilb_gamma"},
                                   numbers_of(luminaire.c0, luminaire.c90, luminaire.nadir)) +
                radiance_primitive(id + "_solid", "light", id, {}, {radiance[0], radiance[1], radiance[2]}) +
-               radiance_shape(shape, id, id + "_opening");
+               radiance_opening(shape, id, id + "_opening");
     }
     std::string operator()(const AreaLight&) const { return ""; }
     std::string operator()(const EnvironmentLight& light) const {

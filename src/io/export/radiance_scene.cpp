@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "io/image/picture.h"
 
 namespace stilb::io::exporting {
 namespace {
 
 void add_polygon(std::string& text, const std::string& modifier, const std::string& name,
-                 std::initializer_list<Vec3> corners) {
+                 const std::vector<Vec3>& corners) {
     std::vector<double> numbers;
     for (const Vec3& corner : corners) numbers.insert(numbers.end(), {corner.x, corner.y, corner.z});
     text += radiance_primitive(modifier, "polygon", name, {}, numbers);
@@ -84,8 +86,23 @@ std::string radiance_primitive(std::string_view modifier, std::string_view type,
     return text + "\n\n";
 }
 
-std::string radiance_shape(const Shape& shape, const std::string& modifier, const std::string& name) {
-    return std::visit(RadianceShape{modifier, name}, shape);
+std::string radiance_opening(const Shape& shape, const std::string& modifier, const std::string& name) {
+    const auto* mesh = std::get_if<Mesh>(&shape);
+    if (!mesh) return std::visit(RadianceShape{modifier, name}, shape);
+    // The triangles of a face begin at its first vertex, and its vertices follow one another.
+    std::string text;
+    for (std::size_t t = 0; t < mesh->triangles.size();) {
+        const auto& [first, second, third] = mesh->triangles[t];
+        std::size_t end = t;
+        while (end < mesh->triangles.size() && mesh->triangles[end][0] == first) ++end;
+        const auto corners = static_cast<std::ptrdiff_t>(end - t + 2);
+        const auto begin = mesh->vertices.begin() + first;
+        std::vector<Vec3> face(begin, begin + corners);
+        if (second > third) std::ranges::reverse(face);
+        add_polygon(text, modifier, fmt::format("{}.{}", name, t), face);
+        t = end;
+    }
+    return text;
 }
 
 void write_radiance(const SceneFile& file, Output& output) {

@@ -19,8 +19,8 @@ std::string radiance_material(const NamedMaterial& material, const std::string& 
 
 /// A light that is not on a surface, with the files that it needs.
 std::string radiance_light(const Scene& scene, const Light& light, const std::string& id, Output& output);
-/// A shape of the modifier; nothing for bodies by harmonics, which surfaces_of() makes meshes.
-std::string radiance_shape(const Shape& shape, const std::string& modifier, const std::string& name);
+/// The surface of a luminaire's opening, with whole faces: rtrace samples triangles badly.
+std::string radiance_opening(const Shape& shape, const std::string& modifier, const std::string& name);
 
 /// The content of luminaire.cal: angles for tables over C and gamma. A1 to A9 are the axes of a luminaire
 /// towards C0, C90 and the nadir.
