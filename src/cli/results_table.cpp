@@ -138,7 +138,7 @@ std::string requirements_text(const SensorResult& result) {
 std::string sensor_table(const SensorResult& result) {
     const Sensor& sensor = result.sensor;
     const std::size_t readings = sensor.size();
-    if (result.readings.size() == 1)
+    if (readings == 1 || sensor.derived())
         return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0)) +
                requirements_text(result);
     std::string text = fmt::format("{:12}  {}", sensor.name, size_text(sensor));

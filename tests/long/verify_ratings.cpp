@@ -53,7 +53,10 @@ struct Tally {
     std::string name;
     double truth = 0;
     bool is_conservative = false;
-    std::size_t held = 0;
+    std::size_t held = 0, runs = 0;
+
+    double percent() const { return 100 * static_cast<double>(held) / static_cast<double>(runs); }
+    bool is_wrong() const { return percent() < kLeast || (!is_conservative && percent() > kMost); }
 };
 
 /// All estimates that are tested, in one order.
@@ -76,19 +79,33 @@ std::vector<std::pair<Tally, statistics::Estimate>> estimates_of(const RunResult
     return all;
 }
 
+/// Seeds first + 1 ... last.
 std::vector<RunResult> run_seeds(const Scene& scene, std::span<const Sensor> sensors, RunOptions options,
-                                 std::size_t seeds) {
-    std::vector<RunResult> results(seeds);
+                                 std::size_t first, std::size_t last) {
+    std::vector<RunResult> results(last - first);
     options.threads = 1;
-    parallel_for(seeds, [&](std::size_t i) {
+    parallel_for(results.size(), [&](std::size_t i) {
         RunOptions own = options;
-        own.seed = 1 + i;
+        own.seed = first + i + 1;
         results[i] = run::measure(scene, sensors, own);
     });
     return results;
 }
 
-/// Prints a table; returns whether all intervals hold as often as they should.
+void add_runs(const Scene& scene, const RunOptions& options, std::size_t first, std::size_t last,
+              std::vector<Tally>& tallies) {
+    for (const RunResult& result : run_seeds(scene, all_sensors(), options, first, last)) {
+        const auto estimates = estimates_of(result);
+        for (std::size_t t = 0; t < tallies.size(); ++t) {
+            const statistics::Estimate& estimate = estimates[t].second;
+            tallies[t].held += estimate.lower <= tallies[t].truth && tallies[t].truth <= estimate.upper;
+            ++tallies[t].runs;
+        }
+    }
+}
+
+/// Prints a table; returns whether all intervals hold as often as they should. Where one does not, four times
+/// as many seeds decide: 400 leave a standard error of 1.1 %.
 bool cover(std::string_view run, const Scene& scene, const RunOptions& options, const RunResult& truth,
            std::size_t seeds) {
     std::vector<Tally> tallies;
@@ -96,22 +113,14 @@ bool cover(std::string_view run, const Scene& scene, const RunOptions& options, 
         tallies.push_back(std::move(tally));
         tallies.back().truth = exact.value;
     }
-    for (const RunResult& result : run_seeds(scene, all_sensors(), options, seeds)) {
-        const auto estimates = estimates_of(result);
-        for (std::size_t t = 0; t < tallies.size(); ++t) {
-            const statistics::Estimate& estimate = estimates[t].second;
-            tallies[t].held += estimate.lower <= tallies[t].truth && tallies[t].truth <= estimate.upper;
-        }
-    }
-    bool all_hold = true;
+    add_runs(scene, options, 0, seeds, tallies);
+    if (std::ranges::any_of(tallies, &Tally::is_wrong)) add_runs(scene, options, seeds, 4 * seeds, tallies);
     for (const Tally& tally : tallies) {
-        const double share = 100 * static_cast<double>(tally.held) / static_cast<double>(seeds);
-        const bool holds = share >= kLeast && (tally.is_conservative || share <= kMost);
-        fmt::print("| {} | {} | {:.1f} % |{}\n", run, tally.name, share, holds ? "" : " WRONG");
-        all_hold = all_hold && holds;
+        fmt::print("| {} | {} | {:.1f} % |{}\n", run, tally.name, tally.percent(),
+                   tally.is_wrong() ? " WRONG" : "");
     }
     std::fflush(stdout);
-    return all_hold;
+    return std::ranges::none_of(tallies, &Tally::is_wrong);
 }
 
 /// How many runs come to a verdict though the true value is required.
@@ -123,7 +132,7 @@ bool judge(std::string_view key, const Sensor& sensor, double truth, const Scene
         {std::ranges::find(sensors::kCriteria, key, &sensors::Criterion::key), truth});
     options.time_s = 1e6;  // with it, the run looks at the requirement; the paths end it
     std::size_t passes = 0, fails = 0;
-    for (const RunResult& result : run_seeds(scene, required, options, seeds)) {
+    for (const RunResult& result : run_seeds(scene, required, options, 0, seeds)) {
         passes += verdict_of(result) == Verdict::pass;
         fails += verdict_of(result) == Verdict::fail;
     }
@@ -154,7 +163,7 @@ int verify(std::size_t seeds) {
     by_error.target = Target::mean;
     is_right = cover("auto, means to 2 %", scene, by_error, truth, seeds) && is_right;
     RunOptions looking;
-    looking.paths = 1 << 18;
+    looking.paths = 1 << 16;
     const auto of = [&](std::string_view name) -> const SensorResult& {
         return *std::ranges::find(truth.sensors, name, [](const SensorResult& s) { return s.sensor.name; });
     };
