@@ -213,8 +213,8 @@ TEST(SceneLights, RefusesFluxFromNoArea) {
 TEST(SceneLights, RefusesASphereWithTheNameOfAnObject) {
     EXPECT_REFUSAL(
         kPanel + std::string("[lights.panel]\ntype = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nflux = 9"),
-        "s.toml:9: lights.panel: a sphere light adds an object of its own name, but the scene already has an "
-        "object of this name. Allowed: another name.");
+        "s.toml:9: lights.panel: the light adds an object \"panel\", but the scene already has an object of this "
+        "name. Allowed: another name of the light or of the object.");
     EXPECT_REFUSAL(
         light("type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0\nflux = 9"),
         "s.toml:12: lights.a.radius: 0 is not allowed. Allowed: a length above 0 (from 1e-9 to 1e9 m).");
