@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <optional>
 
 #include "checks/checks.h"
+#include "checks/walks.h"
 #include "stilb/error.h"
 
 namespace stilb::checks {
