@@ -200,10 +200,10 @@ TEST(SceneFile, RefusesWrongRunOptions) {
     EXPECT_REFUSAL("[run]\nmethod = \"pth\"",
                    "s.toml:2: run.method: unknown method \"pth\". Did you mean \"path\"? Allowed: auto, "
                    "local, double-local, path, ray-bundle, radiosity, particles.");
-    EXPECT_REFUSAL(
-        "[run]\nmetod = \"auto\"",
-        "s.toml:2: run: unknown key \"metod\". Did you mean \"method\"? Allowed: method, error, target, time, paths, "
-        "bounces, seed, threads, maintenance.");
+    EXPECT_REFUSAL("[run]\nmetod = \"auto\"",
+                   "s.toml:2: run: unknown key \"metod\". Did you mean \"method\"? Allowed: method, error, "
+                   "target, time, paths, "
+                   "bounces, seed, threads, maintenance.");
     const std::string share = " is not allowed. Allowed: a share between 0 and 1, such as 0.01 or \"1%\".";
     EXPECT_REFUSAL("[run]\nerror = 0", "s.toml:2: run.error: 0" + share);
     EXPECT_REFUSAL("[run]\nerror = -0.1", "s.toml:2: run.error: -0.1" + share);

@@ -213,7 +213,8 @@ TEST(SceneLights, RefusesFluxFromNoArea) {
 TEST(SceneLights, RefusesASphereWithTheNameOfAnObject) {
     EXPECT_REFUSAL(
         kPanel + std::string("[lights.panel]\ntype = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nflux = 9"),
-        "s.toml:9: lights.panel: the light adds an object \"panel\", but the scene already has an object of this "
+        "s.toml:9: lights.panel: the light adds an object \"panel\", but the scene already has an object of "
+        "this "
         "name. Allowed: another name of the light or of the object.");
     EXPECT_REFUSAL(
         light("type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0\nflux = 9"),
@@ -277,6 +278,46 @@ TEST_F(ScenePhotometry, AimSpinDimmingAndFlux) {
     EXPECT_LT(length(light_of(dimmed).c0 - Vec3{0, 0, 1}), 1e-12);
     EXPECT_NEAR(flux_lm(read("file = \"half.ies\"\nflux = 50")), 50, 1e-9);
     EXPECT_NEAR(flux_lm(read("file = \"half.ies\"\nflux = 50\ndimming = 0.2")), 10, 1e-9);
+}
+
+TEST_F(ScenePhotometry, ShinesFromAnOpening) {
+    const auto shape_of = [&](const std::string& opening) {
+        const SceneFile file = read("file = \"half.ies\"\nopening = " + opening);
+        const auto& light = std::get<LuminousOpening>(file.scene.lights.at(0).source);
+        EXPECT_EQ(file.scene.object(light.object).name, "a (opening)");
+        EXPECT_NEAR(flux_lm(file), kFlux, 1e-3 * kFlux);
+        return file.scene.object(light.object).shape;
+    };
+    const Shape disk = shape_of("0.2");
+    EXPECT_DOUBLE_EQ(std::get<Disk>(disk).radius, 0.1);
+    EXPECT_EQ(std::get<Disk>(disk).center, (Vec3{1, 2, 3}));
+    EXPECT_EQ(std::get<Disk>(disk).normal, (Vec3{0, 0, -1}));
+    // The length lies along C90, which is y.
+    const Bounds panel = bounds_of(shape_of("[0.6, 0.3]"));
+    EXPECT_LT(length(panel.max - panel.min - Vec3{0.3, 0.6, 0}), 1e-12);
+    const Bounds box = bounds_of(shape_of("[0.6, 0.3, 0.1]"));
+    EXPECT_LT(length(box.min - Vec3{0.85, 1.7, 2.95}), 1e-12);
+    EXPECT_TRUE(std::holds_alternative<Luminaire>(
+        read("file = \"half.ies\"\nopening = \"point\"").scene.lights.at(0).source));
+}
+
+TEST_F(ScenePhotometry, TakesTheOpeningOfItsFile) {
+    std::ofstream(directory_ / "panel.ies")
+        << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0.6 0.3 0\n1 1 0\n0 45 90\n0\n100 100 100\n";
+    const SceneFile file = read("file = \"panel.ies\"");
+    const auto& light = std::get<LuminousOpening>(file.scene.lights.at(0).source);
+    EXPECT_NEAR(area_m2(file.scene.object(light.object).shape), 0.18, 1e-12);
+    EXPECT_TRUE(std::holds_alternative<Luminaire>(
+        read("file = \"panel.ies\"\nopening = \"point\"").scene.lights.at(0).source));
+}
+
+TEST_F(ScenePhotometry, RefusesWhatIsNoOpening) {
+    const std::string message = refusal(
+        "[lights.a]\ntype = \"photometry\"\nposition = [1, 2, 3]\nfile = \"half.ies\"\nopening = \"round\"",
+        directory_);
+    EXPECT_EQ(message,
+              "s.toml:5: lights.a.opening: \"round\" is no opening. Allowed: \"point\", a diameter, [length, "
+              "width] or [length, width, height] in metres.");
 }
 
 TEST_F(ScenePhotometry, LightsWithTheSameFileShareItsSolid) {
