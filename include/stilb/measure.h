@@ -28,7 +28,7 @@ struct Reading : Estimate {
 
 enum class Verdict { pass, fail, undecided };
 
-/// What a scene file requires of a sensor by `require`, and whether it is met, for certain at 95 %.
+/// One entry of a sensor's `require`, and its verdict: pass and fail are certain at 95 %.
 struct Requirement {
     std::string key;  ///< "mean", "uniformity" ...
     double limit = 0;

@@ -16,7 +16,7 @@ namespace {
 /// A lamp whose light is stopped within this distance, or within this share of the lamp's own size if that is
 /// less, cannot light a room: in such a gap almost all of the light is absorbed.
 constexpr double kNarrowGap_m = 0.1, kNarrowShare = 0.25;
-/// Of luminaires, what is farther away to the side is not in front.
+/// A surface that a ray of a luminaire meets only beyond this distance lies beside it, not in front of it.
 constexpr double kWidestGap_m = 1;
 constexpr int kLampRays = 32, kMostThatEscape = 3;
 constexpr std::size_t kMostLampsTested = 10'000;

@@ -113,7 +113,7 @@ bool surrounds(ObjectId object, const Vec3& point, const rays::RayCaster& caster
     return 2 * met > rays;
 }
 
-/// Those of which the object surrounds the first point.
+/// The names of the sensors whose first point lies inside of the object.
 std::vector<std::string> surrounded(std::span<const Sensor> sensors, ObjectId object,
                                     const rays::RayCaster& caster) {
     std::vector<std::string> names;

@@ -153,7 +153,7 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
     return render(file.scene, sensor, options, &progress, &watch_for_interrupt());
 }
 
-/// What --white asks for; with "auto" by the lights as they shine in the picture.
+/// The white that --white chooses. With "auto" it is that of the lights, with the factors of the picture.
 scene::WhiteRange whites(const RenderRequest& request, const Scene& scene) {
     if (request.white == "auto") {
         const LightGroups groups = scene::light_groups(scene);

@@ -78,7 +78,7 @@ double share_below(const PhotometricSolid& solid) {
     std::uint32_t below = 0;
     for (std::uint32_t i = 0; i < kDirections; ++i)
         below += solid.sample_direction((i + 0.5) / kDirections, math::sobol(i, 0) * 0x1p-32).z > 0;
-    return double{1} * below / kDirections;
+    return static_cast<double>(below) / kDirections;
 }
 
 bool is_circle(const Vec3& extent_m) {
@@ -137,7 +137,8 @@ OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const 
     if (is_flat) {
         const double below = share_below(solid);
         const double hidden = std::min(below, 1 - below);
-        if (hidden < kLeastShare) return {one_side({opening.form, size}, luminaire, below > 0.5), hidden};
+        if (hidden < kMostHiddenShare)
+            return {one_side({opening.form, size}, luminaire, below > 0.5), hidden};
         size.z = kPlateShare * std::min(size.x, size.y);
     }
     const Vec3 middle = luminaire.position + (is_flat ? size.z / 2 : 0) * luminaire.nadir;

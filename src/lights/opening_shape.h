@@ -22,12 +22,13 @@ struct Opening {
 /// The surface of an opening in the middle of which the luminaire is.
 struct OpeningShape {
     Shape shape;
-    /// The share of the luminaire's flux whose directions see nothing of the surface: less than kLeastShare.
+    /// The share of the luminaire's flux whose directions see nothing of the surface: less than
+    /// kMostHiddenShare.
     double hidden_share = 0;
 };
 /// A flat opening that sends all but this share of its flux to one side is one-sided, else a thin plate of
 /// two faces, the upper one in the plane of the luminaire.
-inline constexpr double kLeastShare = 1e-3;
+inline constexpr double kMostHiddenShare = 1e-3;
 
 /// Ellipses have 16 corners and their right area, and ellipsoids become balls of the same volume. Lines get a
 /// hundredth of their length as width. The opening must not be a point.

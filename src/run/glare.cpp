@@ -17,8 +17,8 @@ namespace {
 using statistics::Estimate;
 using transport::Glare;
 
-/// Of the glare in a view: sources of less need no warning.
-constexpr double kLeastShare = 0.01;
+/// Sources with a smaller share of the glare in a view need no warning.
+constexpr double kLeastShareOfGlare = 0.01;
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 double ugr(double glare, double background_lx) {
@@ -68,7 +68,7 @@ void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, cons
         double all = 0;
         for (const transport::GlareSource& source : view.sources) all += source.glare();
         for (const transport::GlareSource& source : view.sources) {
-            if (source.glare() < kLeastShare * all) continue;
+            if (source.glare() < kLeastShareOfGlare * all) continue;
             if (source.solid_angle_sr < transport::kLeastGlare_sr) small.insert(source.light);
             if (source.solid_angle_sr > transport::kMostGlare_sr) large.insert(source.light);
         }
@@ -81,7 +81,10 @@ void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, cons
     warn(sensor.name, "the solid angle", large, scene,
          "is more than 0.1 sr, for which UGR was not made: the rating is not valid.", warnings);
     warn(sensor.name, "the glare", points, scene,
-         "is missing from UGR, as it has no luminous area. Give it an opening.", warnings);
+         "is missing from UGR: a point has no luminous area. Give a luminaire an opening, and use a light of "
+         "type "
+         "\"sphere\" or \"area\" in place of a point.",
+         warnings);
 }
 
 }  // namespace

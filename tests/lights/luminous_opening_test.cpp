@@ -132,7 +132,7 @@ TEST(LuminousOpening, EmitsWhatDirectionsSee) {
             const auto [u1, u2] = own.next_two();
             exact_moment += solid.sample_direction(u1, u2).z / kParticles;
         }
-        EXPECT_NEAR(share, 1, kLeastShare) << c.name;
+        EXPECT_NEAR(share, 1, kMostHiddenShare) << c.name;
         EXPECT_NEAR(moment, exact_moment, 2e-3) << c.name;
         // Five standard errors of independent points at most.
         EXPECT_LT(length(across), 5 * length(bounds.max - bounds.min) / 2 / std::sqrt(kParticles)) << c.name;

@@ -53,7 +53,7 @@ struct Surface {
     std::optional<Rgb> luminance_cd_m2;  ///< of its front
 };
 
-/// Of all objects but the openings of luminaires.
+/// The surfaces of all objects. Openings of luminaires are left out, as they are written with their lights.
 std::vector<Surface> surfaces_of(const Scene& scene, Identifiers& identifiers, Output& output);
 
 /// Binary PLY; with normals where the mesh has them.

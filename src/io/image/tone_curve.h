@@ -66,7 +66,7 @@ class ToneCurve {
     const Rgb& white() const { return white_; }
     /// A description such as "linear to 0.5 / exposure, then Reinhard 2002, white at 8 / exposure".
     std::string description() const;
-    /// Of the white: its correlated colour temperature.
+    /// The correlated colour temperature of the white [K].
     double white_k() const;
 
     /// Display luminance, 0 to 1; monotonic; 0 for negative values and for NaN.

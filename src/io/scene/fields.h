@@ -80,7 +80,7 @@ using Keys = std::vector<std::string_view>;
 // The parts that do not depend on the type.
 
 Vec3 read_direction_field(const FieldSource& source, std::string_view key, bool warns_of_length);
-/// Of "position", "points", "positions" or "array".
+/// Reads the one of the keys "position", "points", "positions" and "array" that is given.
 std::vector<Vec3> read_positions(const TomlTable& table);
 std::vector<MeasuringPoint> read_measuring_points(const FieldSource& source);
 std::vector<Measurand> read_sights(const FieldSource& source);

@@ -23,7 +23,7 @@ namespace {
 constexpr Range kColourTemperature{lights::kMinColourTemperature_k, lights::kMaxColourTemperature_k,
                                    "from 1000 to 25000 K"};
 constexpr double kWholeTurnDeg = 360;
-/// Of the names of objects that are the openings of luminaires.
+/// The object of a luminaire's opening has the name of its light, with this ending.
 constexpr std::string_view kOpeningSuffix = " (opening)";
 constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
 
@@ -244,7 +244,8 @@ EnvironmentLight read_environment(TomlTable& table, const Context& context) {
 /// The reader of a type of light.
 struct Reader {
     std::string_view type;
-    std::string_view place;  ///< the key of its position, in place of which there may be several; or empty
+    std::string_view place;  ///< the key of its position, which `positions` and `array` replace; empty for
+                             ///< types without one
     std::string_view keys;   ///< the others, without those of all types
     lights::LightSource (*read)(TomlTable& table, const Context& context);
 };
