@@ -39,12 +39,12 @@ constexpr double kPlanningRayCost = 30, kPatchCost = 250;
 /// So few readings are planned only where path tracing takes more than kWorthPlanning times the work of
 /// planning: they may gain nothing by light paths.
 constexpr std::size_t kVeryFew = 16;
-constexpr double kWorthPlanning = 2;
+constexpr double kWorthPlanning = 3;
 /// A pilot's part by path tracing: so much work, but at least so many samples.
-constexpr double kPathPilotCost = 2000, kLeastPaths = 8;
+constexpr double kPathPilotCost = 1000, kLeastPaths = 4;
 /// A shorter pilot before that suffices where it promises less than this share of the work that would be
 /// worth planning. Over smooth metal it promises 7 times the work of planning, in a diffuse room 0.2 to 1.2.
-constexpr double kQuickPilotCost = 250, kLeastQuickPaths = 2, kClearly = 2. / 3;
+constexpr double kQuickPilotCost = 125, kLeastQuickPaths = 2, kClearly = 2. / 3;
 /// With many Sobol' points light paths have less noise than their pilots promise: under point lights, where
 /// the guess promised 1.5 times less work, both took equal time to the usual error.
 constexpr double kSobolGain = 2;

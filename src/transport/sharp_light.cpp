@@ -30,22 +30,36 @@ bool may_be_smooth(const Material& material) {
     return is_specular(material) || materials::split(material).gloss;
 }
 
-/// The area of a lamp as its light sees it [m2]; 0 for points and for light from infinity.
-double visible_area_m2(const Light& light, const Scene& scene) {
+/// A lamp as a particle from it sees it.
+struct VisibleLamp {
+    double area_m2 = 0;  ///< 0: a point
+    double distance_m = 0;
+};
+
+VisibleLamp visible_lamp(const Light& light, const Scene& scene) {
     const auto emission = lights::emitting_object(light);
-    if (!emission) return 0;
+    if (!emission) return {};
     const Shape& shape = scene.object(*emission).shape;
-    return std::holds_alternative<Sphere>(shape) ? area_m2(shape) / 4 : area_m2(shape);
+    return {std::holds_alternative<Sphere>(shape) ? area_m2(shape) / 4 : area_m2(shape)};
+}
+
+/// The part of light from infinity around a particle's direction that is about as bright: of a sun, the sun.
+VisibleLamp visible_part_of_outside(const EmittedParticle& particle, const LightSampler& lights) {
+    constexpr double far_m = 1e9;
+    const double pdf_per_sr =
+        lights.pdf_of_outside_light_per_sr(-particle.direction, {particle.origin, std::nullopt});
+    return {far_m * far_m / pdf_per_sr, far_m};
 }
 
 /// A particle that only smooth surfaces have reflected or refracted so far.
 class SharpParticle {
   public:
-    SharpParticle(const EmittedParticle& particle, double lamp_m2)
+    SharpParticle(const EmittedParticle& particle, const VisibleLamp& lamp)
         : origin_(particle.origin),
           direction_(particle.direction),
           flux_(particle.flux_lm),
-          blurred_m2_(lamp_m2) {}
+          length_m_(lamp.distance_m),
+          blurred_m2_(lamp.area_m2) {}
 
     /// Follows the particle, and adds the highlights that light surfaces.
     void trace(const Scene& scene, const rays::RayCaster& caster, math::SampleStream& stream,
@@ -102,7 +116,7 @@ class SharpParticle {
 
     Vec3 origin_, direction_;
     Rgb flux_;
-    double length_m_ = 0;
+    double length_m_;
     double blurred_m2_;               ///< of the lamp, blurred, at its distance
     std::optional<ObjectId> object_;  ///< the first smooth one
 };
@@ -114,15 +128,18 @@ SharpLight find_sharp_light(const Scene& scene, const rays::RayCaster& caster) {
     if (std::ranges::none_of(scene.materials, may_be_smooth, &NamedMaterial::material)) return {};
     const LightSampler lights(scene, caster);
     if (lights.count() == 0) return {};
-    std::vector<double> areas_m2;
-    for (const Light& light : scene.lights) areas_m2.push_back(visible_area_m2(light, scene));
+    std::vector<VisibleLamp> lamps;
+    for (const Light& light : scene.lights) lamps.push_back(visible_lamp(light, scene));
     std::vector<Highlight> highlights;
     double emitted_lm = 0;
     for (std::uint64_t i = 0; i < kParticles; ++i) {
         math::SampleStream stream(math::RandomKey{}, i);
         const EmittedParticle particle = lights.sample_emission(stream);
         emitted_lm += particle.flux_lm.luminance();
-        SharpParticle(particle, areas_m2[particle.light]).trace(scene, caster, stream, highlights);
+        const bool is_outside = location_of(scene.lights[particle.light]) == LightLocation::infinity;
+        const VisibleLamp lamp =
+            is_outside ? visible_part_of_outside(particle, lights) : lamps[particle.light];
+        SharpParticle(particle, lamp).trace(scene, caster, stream, highlights);
     }
     std::ranges::sort(highlights, {}, &Highlight::solid_angle_sr);
     double found_lm = 0;

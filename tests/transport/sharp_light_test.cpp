@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
+
 #include "support/scene_builder.h"
 
 namespace stilb::transport {
@@ -51,6 +54,28 @@ TEST(SharpLight, PassesGlassAndPanes) {
     Scene pane = room_with_floor(diffuse(0.5), 0.02);
     add_object(pane, Rectangle{{0, 0, 1.5}, {4, 0, 0}, {0, 4, 0}}, ThinDielectric{1.0, Rgb::grey(0.9)});
     EXPECT_EQ(samples_for(pane), 0);  // light that goes straight on is found by shadow rays
+}
+
+/// A sun of one pixel and of nine, half of the light, in a mirror on the ground.
+TEST(SharpLight, OfASunInAMirrorGoesWithItsSolidAngle) {
+    const auto samples_with_sun = [](int pixels) {
+        Panorama::Image image{256, 128, std::vector<std::array<float, 3>>(256 * 128, {1, 1, 1})};
+        for (int y = 0; y < pixels; ++y) {
+            for (int x = 0; x < pixels; ++x) image.rgb_cd_m2[(32 + y) * 256 + x].fill(1e5F);
+        }
+        Scene scene;
+        add_object(scene, Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, Mirror{Rgb::grey(0.9)});
+        add_object(scene, Box{{-1, -1, 1}, {1, 1, 1.1}}, diffuse(0.5));
+        EnvironmentLight sky;
+        sky.panorama = std::make_shared<const Panorama>(std::move(image));
+        scene.lights.push_back({"sky", sky});
+        return samples_for(scene);
+    };
+    const double pixel_sr = std::pow(2 * kPi / 256, 2) * std::sqrt(0.5);  // 45 degrees high
+    const double small = samples_with_sun(1), large = samples_with_sun(3);
+    EXPECT_GT(small, 40 * kPi / (2 * pixel_sr));
+    EXPECT_LT(small, 40 * kPi / (0.5 * pixel_sr));
+    EXPECT_NEAR(small / large, 9, 3);
 }
 
 TEST(SharpLight, OfPointsByMirrorsIsLeftOut) {

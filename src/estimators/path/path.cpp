@@ -143,15 +143,17 @@ class PathEstimator final : public Estimator {
     std::uint64_t first_check() const override { return 256; }
     double rays_per_sample() const override { return 10.0 * static_cast<double>(known_part_.size()); }
     double cost_per_sample() const override {
-        // As light paths are long, these will be.
+        // As light paths are long, these will be. Plain diffuse vertices are computed in packets.
         constexpr std::uint64_t light_paths = 64;
-        const std::size_t vertices =
-            transport::trace_light_paths(scene_, caster_, paths_.lights, max_reflections_, preparation_key_,
-                                         0, light_paths)
-                .size();
-        constexpr double of_segment = 8;
-        const double segments = 1 + static_cast<double>(vertices) / static_cast<double>(light_paths);
-        return of_segment * segments * stands_for_ * static_cast<double>(known_part_.size());
+        constexpr double of_plain = 2, of_general = 8;
+        double cost = of_plain;
+        for (const transport::LightVertex& vertex : transport::trace_light_paths(
+                 scene_, caster_, paths_.lights, max_reflections_, preparation_key_, 0, light_paths)) {
+            const bool is_plain =
+                std::holds_alternative<Diffuse>(*vertex.material) && vertex.shading_normal == vertex.normal;
+            cost += (is_plain ? of_plain : of_general) / static_cast<double>(light_paths);
+        }
+        return cost * stands_for_ * static_cast<double>(known_part_.size());
     }
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<PathPass>(*tracing_, paths_.tracer, pass);
