@@ -43,7 +43,7 @@ std::string end_text(const SensorResult& result, std::size_t j) {
 /// With a space before the unit, if there is one.
 std::string with_unit(const statistics::Estimate& estimate, const Sensor& sensor) {
     const std::string unit = unit_of(sensor);
-    return with_error(estimate) + (unit.empty() ? "" : " " + unit);
+    return with_error(estimate) + (unit.empty() || std::isnan(estimate.value) ? "" : " " + unit);
 }
 
 std::string reading_text(const SensorResult& result, const Sensor& sensor, std::size_t j) {
@@ -116,9 +116,7 @@ std::string summary_text(const statistics::GridSummary& summary, const Sensor& s
         if (!is_shown(statistic, sensor)) continue;
         const statistics::Estimate& value = summary[statistic];
         text += fmt::format("{} {} ", text.empty() ? "   " : "  ", name_of(statistic));
-        text += std::isnan(value.value) ? "-"
-                : is_ratio(statistic)   ? with_error(value)
-                                        : with_unit(value, sensor);
+        text += is_ratio(statistic) ? with_error(value) : with_unit(value, sensor);
     }
     return text + '\n';
 }
@@ -203,8 +201,7 @@ std::string power_line(const RunResult& result) {
     std::string text = "Installed power: " + power_text(result.power.power_w, result.power.unknown);
     if (const auto& density = result.power_density) {
         text += fmt::format("; {:.3g} W/m² of the task area ({:.4g} m²)", density->w_m2, density->area_m2);
-        if (!std::isnan(density->w_m2_per_100_lx.value))
-            text += fmt::format(", {} W/m² per 100 lx", with_error(density->w_m2_per_100_lx));
+        text += fmt::format(", {} W/m² per 100 lx", with_error(density->w_m2_per_100_lx));
     }
     return text + '\n';
 }
@@ -212,6 +209,13 @@ std::string power_line(const RunResult& result) {
 }  // namespace
 
 std::string with_error(const statistics::Estimate& estimate) {
+    // Ratings of glare where there may be no background.
+    if (std::isfinite(estimate.lower) && !std::isfinite(estimate.upper)) {
+        return std::isnan(estimate.value)
+                   ? fmt::format("above {:.1f}", estimate.lower)
+                   : fmt::format("{:.1f} (above {:.1f})", estimate.value, estimate.lower);
+    }
+    if (std::isnan(estimate.value)) return "-";
     const int decimals = decimals_for(estimate);
     return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, half_width(estimate), decimals);
 }
