@@ -90,8 +90,7 @@ TEST(UgrTable, IsTheFormula) {
     }
 }
 
-/// Of a ceiling that shines all over, the share that reaches the floor is that of parallel planes; the grid's
-/// is a midpoint rule for it. The background then does not depend on the spacing, and glare does little.
+/// Close luminaires are a ceiling that shines all over: with half the usual spacing, little changes.
 TEST(UgrTable, TendsToALimitForSmallSpacings) {
     const PhotometricSolid solid = diffuse_solid(1000);
     const UgrTable close = ugr_table(solid, kPanel, 0.125), usual = ugr_table(solid, kPanel, 0.25);
