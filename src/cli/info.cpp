@@ -15,7 +15,9 @@
 #include "cli/info_report.h"
 #include "cli/results_table.h"
 #include "cli/scene_argument.h"
+#include "cli/ugr_report.h"
 #include "io/text/file_kind.h"
+#include "stilb/error.h"
 
 namespace stilb::cli {
 
@@ -24,15 +26,17 @@ namespace {
 struct InfoRequest {
     std::string file;
     std::vector<std::string> overrides;
-    bool json = false;
+    bool json = false, has_ugr = false;
 };
 
 InfoReport report_file(const InfoRequest& request) {
     const std::string& file = request.file;
-    switch (io::kind_of_file(file)) {
-        case io::FileKind::ies_luminaire:
-        case io::FileKind::eulumdat_luminaire:
-            return report_luminaire(file);
+    const io::FileKind kind = io::kind_of_file(file);
+    if (kind == io::FileKind::ies_luminaire || kind == io::FileKind::eulumdat_luminaire)
+        return report_luminaire(file, request.has_ugr ? UgrTables::written : UgrTables::left_out);
+    if (request.has_ugr)
+        throw InputError("is no luminaire file. Allowed with --ugr: IES LM-63, EULUMDAT.", {file});
+    switch (kind) {
         case io::FileKind::obj_mesh:
         case io::FileKind::ply_mesh:
             return report_mesh(file);
@@ -49,6 +53,7 @@ void add_info(CommandLine& line) {
     command.set_examples(
         "  stilb info office.toml\n"
         "  stilb info downlight.ies\n"
+        "  stilb info panel.ldt --ugr\n"
         "  stilb info room.obj --json\n");
     auto request = std::make_shared<InfoRequest>();
     command
@@ -56,11 +61,15 @@ void add_info(CommandLine& line) {
              "Scene (TOML; - for standard input), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
         .required();
     add_overrides(command, request->overrides);
-    command.add("--json", request->json,
-                "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
-                "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"run\", \"warnings\", "
-                "\"memory\"}, as far as "
-                "the file has them; units are in the keys");
+    command.add("--ugr", request->has_ugr,
+                "Of a luminaire also the tables of its Unified Glare Rating: 19 rooms, five sets of "
+                "reflectances, crosswise and endwise");
+    command.add(
+        "--json", request->json,
+        "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
+        "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"run\", \"warnings\", "
+        "\"memory\"}, as far as "
+        "the file has them; units are in the keys");
     command.run([request] {
         const InfoReport report = report_file(*request);
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
@@ -145,8 +154,8 @@ std::string object_text(const Json& object) {
 /// "peak_intensity_cd" and a number become "peak intensity 80 cd", "object" and a text "object panel".
 std::string light_detail_text(std::string key, const Json& value) {
     std::string_view unit;
-    constexpr std::array<std::array<std::string_view, 2>, 4> units{
-        {{"_cd_m2", " cd/m2"}, {"_lm", " lm"}, {"_cd", " cd"}, {"_lx", " lx"}}};
+    constexpr std::array<std::array<std::string_view, 2>, 5> units{
+        {{"_cd_m2", " cd/m2"}, {"_lm", " lm"}, {"_cd", " cd"}, {"_lx", " lx"}, {"_w", " W"}}};
     for (const auto& [ending, name] : units) {
         if (!unit.empty() || !key.ends_with(ending)) continue;
         key.resize(key.size() - ending.size());
@@ -172,10 +181,13 @@ std::string luminaire_text(const Json& luminaire) {
         fmt::format("{} ({}): {}\n    {:.5g} lm, peak {:.5g} cd; {}", text(luminaire, "file"),
                     text(luminaire, "format"), text(luminaire, "name"), number(luminaire, "flux_lm"),
                     number(luminaire, "peak_intensity_cd"), text(luminaire, "flux_check"));
+    line += luminaire["power_w"].is_null() ? "; power not stated"
+                                           : fmt::format("; {:.4g} W", number(luminaire, "power_w"));
     if (luminaire.contains("planes")) {
         line += fmt::format("\n    {} planes of {} angles", count(luminaire, "planes"),
                             count(luminaire, "angles"));
     }
+    if (luminaire.contains("ugr")) line += ugr_text(luminaire["ugr"]);
     return line;
 }
 
@@ -232,6 +244,17 @@ std::string memory_text(const Json& memory) {
                        number(memory, "peak_bytes") / mega, number(memory, "meshes_bytes") / mega);
 }
 
+std::string installed_text(const Json& power) {
+    const auto unknown = power.at("unknown").get<std::vector<std::string>>();
+    std::optional<double> installed_w;
+    if (!power.at("installed_w").is_null()) installed_w = number(power, "installed_w");
+    std::string line = "Installed power: " + power_text(installed_w, unknown);
+    if (power.contains("w_m2"))
+        line += fmt::format("; {:.3g} W/m2 of the task area ({:.4g} m2)", number(power, "w_m2"),
+                            number(power, "task_area_m2"));
+    return line + "\n";
+}
+
 using Describe = std::string (*)(const Json&);
 
 /// The maintenance factors that the flux contains.
@@ -264,6 +287,7 @@ std::string to_text(const InfoReport& report) {
     result +=
         section_text(report, "warnings", "Warnings", [](const Json& w) { return w.get<std::string>(); });
     result += "\n";
+    if (report.contains("power")) result += installed_text(report["power"]);
     if (report.contains("run")) result += run_text(report["run"]);
     if (report.contains("memory")) result += memory_text(report["memory"]);
     return report["warnings"].empty() ? result + "No warnings\n" : result;

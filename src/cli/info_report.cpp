@@ -5,9 +5,11 @@
 
 #include "base/vec.h"
 #include "checks/checks.h"
+#include "cli/ugr_report.h"
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/mesh_file.h"
 #include "io/photometry/photometry_file.h"
+#include "scene/installed_power.h"
 
 namespace stilb::cli {
 namespace {
@@ -103,6 +105,7 @@ Json light_json(const Light& light, const Scene& scene) {
     }
     if (location_of(light) != LightLocation::infinity) json["flux_lm"] = flux_lm(scene, light).luminance();
     if (light.maintenance < 1) json["maintenance"] = light.maintenance;
+    if (light.power_w) json["power_w"] = *light.power_w;
     return json;
 }
 
@@ -112,7 +115,17 @@ Json luminaire_json(const NamedSolid& solid) {
             {"name", solid.luminaire},
             {"flux_lm", solid.solid.flux_lm()},
             {"peak_intensity_cd", solid.solid.peak_cd()},
-            {"flux_check", solid.flux_statement}};
+            {"flux_check", solid.flux_statement},
+            {"power_w", solid.power_w ? Json(*solid.power_w) : Json()}};
+}
+
+Json power_json(const scene::InstalledPower& power, std::span<const Sensor> sensors) {
+    Json json{{"installed_w", power.power_w ? Json(*power.power_w) : Json()}, {"unknown", power.unknown}};
+    const double area_m2 = sensors::task_area_m2(sensors);
+    if (!power.power_w || !(area_m2 > 0)) return json;
+    json["task_area_m2"] = area_m2;
+    json["w_m2"] = *power.power_w / area_m2;
+    return json;
 }
 
 Json camera_json(const Camera& camera) {
@@ -209,21 +222,25 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     json["luminaires"] = list_json(scene.solids, luminaire_json);
     const std::vector<Sensor> sensors = checks::without_hidden_points(scene, caster, file.sensors);
     json["sensors"] = list_json(sensors, sensor_json);
+    if (const auto power = scene::installed_power(scene); power.has_lamps())
+        json["power"] = power_json(power, sensors);
     json["run"] = run_json(file.run);
     json["warnings"] = checks::scene_warnings(file.scene, caster, enclosures, sensors, file.warnings);
     json["memory"] = {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}};
     return json;
 }
 
-InfoReport report_luminaire(const std::filesystem::path& path) {
+InfoReport report_luminaire(const std::filesystem::path& path, UgrTables ugr) {
     const io::PhotometryFile file = io::read_photometry_file(path);
     const PhotometricSolid solid(file.grid);
     const std::string statement = check_flux(file, solid.flux_lm()).description();
-    Json luminaire = luminaire_json({path.string(), file.luminaire, solid, file.format, statement});
+    Json luminaire =
+        luminaire_json({path.string(), file.luminaire, solid, file.format, statement, {}, file.power_w});
     luminaire["lamp_flux_lm"] = file.lamp_flux_lm;
     luminaire["opening_m"] = vector_json(file.opening_m);
     luminaire["planes"] = file.grid.planes_deg.size();
     luminaire["angles"] = file.grid.polar_deg.size();
+    if (ugr == UgrTables::written) luminaire["ugr"] = ugr_json(file, solid, path.string());
     return {{"stilb", STILB_VERSION},
             {"file", path.string()},
             {"luminaires", Json::array({luminaire})},

@@ -16,8 +16,9 @@ using InfoReport = nlohmann::ordered_json;
 /// The contents of the scene file, and the warnings of all checks of a scene (open edges, overlaps, unlit
 /// objects, placement).
 InfoReport report_scene(const io::SceneFile& file, const std::string& name);
+enum class UgrTables { written, left_out };
 /// The contents of a luminaire file (IES or EULUMDAT) or of a mesh file (OBJ or PLY).
-InfoReport report_luminaire(const std::filesystem::path& path);
+InfoReport report_luminaire(const std::filesystem::path& path, UgrTables ugr);
 InfoReport report_mesh(const std::filesystem::path& path);
 
 std::string to_text(const InfoReport& report);

@@ -2,6 +2,7 @@
 #include "cli/results_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -42,7 +43,7 @@ std::string end_text(const SensorResult& result, std::size_t j) {
 /// With a space before the unit, if there is one.
 std::string with_unit(const statistics::Estimate& estimate, const Sensor& sensor) {
     const std::string unit = unit_of(sensor);
-    return with_error(estimate) + (unit.empty() ? "" : " " + unit);
+    return with_error(estimate) + (unit.empty() || std::isnan(estimate.value) ? "" : " " + unit);
 }
 
 std::string reading_text(const SensorResult& result, const Sensor& sensor, std::size_t j) {
@@ -115,9 +116,7 @@ std::string summary_text(const statistics::GridSummary& summary, const Sensor& s
         if (!is_shown(statistic, sensor)) continue;
         const statistics::Estimate& value = summary[statistic];
         text += fmt::format("{} {} ", text.empty() ? "   " : "  ", name_of(statistic));
-        text += std::isnan(value.value) ? "-"
-                : is_ratio(statistic)   ? with_error(value)
-                                        : with_unit(value, sensor);
+        text += is_ratio(statistic) ? with_error(value) : with_unit(value, sensor);
     }
     return text + '\n';
 }
@@ -194,9 +193,29 @@ std::string verdicts_text(const RunResult& result) {
     return text.empty() ? text : text + '\n';
 }
 
+/// Where power is known, or asked for by a task area.
+std::string power_line(const RunResult& result) {
+    std::vector<Sensor> sensors;
+    for (const SensorResult& sensor : result.sensors) sensors.push_back(sensor.sensor);
+    if (!result.power.power_w && !(sensors::task_area_m2(sensors) > 0)) return "";
+    std::string text = "Installed power: " + power_text(result.power.power_w, result.power.unknown);
+    if (const auto& density = result.power_density) {
+        text += fmt::format("; {:.3g} W/m² of the task area ({:.4g} m²)", density->w_m2, density->area_m2);
+        text += fmt::format(", {} W/m² per 100 lx", with_error(density->w_m2_per_100_lx));
+    }
+    return text + '\n';
+}
+
 }  // namespace
 
 std::string with_error(const statistics::Estimate& estimate) {
+    // Ratings of glare where there may be no background.
+    if (std::isfinite(estimate.lower) && !std::isfinite(estimate.upper)) {
+        return std::isnan(estimate.value)
+                   ? fmt::format("above {:.1f}", estimate.lower)
+                   : fmt::format("{:.1f} (above {:.1f})", estimate.value, estimate.lower);
+    }
+    if (std::isnan(estimate.value)) return "-";
     const int decimals = decimals_for(estimate);
     return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, half_width(estimate), decimals);
 }
@@ -207,7 +226,7 @@ std::string to_table(const RunResult& result) {
     const std::string_view samples = estimators::find_estimator(result.method).samples;
     text += fmt::format("\n{}, {} {} in {:.2f} s: {}\n", result.method, result.samples, samples,
                         result.elapsed_s, ending_with_error(result, samples));
-    text += verdicts_text(result) + detail_text(result.levels_of_detail);
+    text += verdicts_text(result) + power_line(result) + detail_text(result.levels_of_detail);
     return result.patches ? text + patch_text(*result.patches) : text;
 }
 
@@ -238,6 +257,17 @@ std::string maintenance_text(const std::array<double, 2>& factors) {
 
 std::string maintenance_line(const RunSummary& result) {
     return result.maintenance ? fmt::format("maintained: {}\n", maintenance_text(*result.maintenance)) : "";
+}
+
+std::string power_text(std::optional<double> installed_w, std::span<const std::string> unknown) {
+    if (!installed_w) return "not known: no lamp and no luminaire file states it";
+    if (unknown.empty()) return fmt::format("{:.4g} W", *installed_w);
+    constexpr std::size_t most_names = 3;
+    const auto named = unknown.first(std::min(unknown.size(), most_names));
+    const std::string more =
+        unknown.size() > most_names ? fmt::format(" and {} more", unknown.size() - most_names) : "";
+    return fmt::format("{:.4g} W, without lamps of unknown power: {}{}", *installed_w, fmt::join(named, ", "),
+                       more);
 }
 
 std::string left_out_text(std::size_t points) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,8 @@ std::string detail_text(std::span<const run::LevelOfDetail> levels);
 /// "maintenance factor 0.8", or "maintenance factors 0.7 to 0.8", where lamps have different ones.
 std::string maintenance_text(const std::array<double, 2>& factors);
 /// A line that says so; empty where no lamp has one below 1.
+/// "243 W, without 2 lamps of unknown power (spot, globe)", or "not known".
+std::string power_text(std::optional<double> installed_w, std::span<const std::string> unknown);
 std::string maintenance_line(const RunSummary& result);
 
 // The end of a run as text.

@@ -22,6 +22,8 @@ struct Light {
     LightSource source;
     std::string group = {};  ///< of lights that are dimmed together; empty: it is one of its own
     double maintenance = 1;  ///< the maintenance factor, which its emission contains
+    /// The electric power at full output, where it is known.
+    std::optional<double> power_w = {};
 };
 
 template <typename Sources>

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "run/glare.h"
 #include "run/paces.h"
 #include "run/sensor_estimates.h"
 #include "stilb/error.h"
@@ -51,10 +52,11 @@ ReplicatePlan ReplicatePlan::of(std::span<const Sensor> sensors, const RunOption
 }
 
 Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors,
-                   std::size_t readings, math::RandomKey key, const ReplicatePlan& plan,
-                   std::uint64_t least_samples)
+                   const GlareViews& glare, std::size_t readings, math::RandomKey key,
+                   const ReplicatePlan& plan, std::uint64_t least_samples)
     : estimator_(estimator),
       sensors_(sensors),
+      glare_(glare),
       expected_largest_(estimator.expected_largest()),
       pools_errors_(plan.pools_errors),
       has_paces_(plan.has_paces),
@@ -174,7 +176,8 @@ double Campaign::attained_error() const {
 
 bool Campaign::is_decided() const {
     if (!sensors::has_requirements(sensors_)) return false;
-    const std::vector<SensorEstimates> all = estimate_all(*this, sensors_, statistics::kVerdictConfidence);
+    std::vector<SensorEstimates> all = estimate_all(*this, sensors_, statistics::kVerdictConfidence);
+    glare_.rate(all, statistics::kVerdictConfidence);
     for (std::size_t s = 0; s < all.size(); ++s) {
         const std::vector<RatedRequirement> rated = rate(sensors_[s].requirements, all[s].summary);
         if (std::ranges::any_of(rated, &RatedRequirement::is_undecided)) return false;

@@ -29,14 +29,17 @@ struct ReplicatePlan {
     static ReplicatePlan of(std::span<const Sensor> sensors, const RunOptions& options, bool lights_patches);
 };
 
-/// The sums of all replicates, and their progress. Keeps references to the estimator and the sensors, which
-/// may have no readings.
+class GlareViews;
+
+/// The sums of all replicates, and their progress. Keeps references to the estimator, to the sensors, which
+/// may have no readings, and to what their eyes see.
 class Campaign final : public Work {
   public:
     /// `readings`: of all sensors. `key`: of all replicates. `least_samples`: of all replicates, before the
     /// first error estimate.
-    Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, std::size_t readings,
-             math::RandomKey key, const ReplicatePlan& plan, std::uint64_t least_samples);
+    Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, const GlareViews& glare,
+             std::size_t readings, math::RandomKey key, const ReplicatePlan& plan,
+             std::uint64_t least_samples);
 
     std::uint64_t samples() const override { return samples_; }
     std::uint64_t samples_in_all() const override;
@@ -120,6 +123,7 @@ class Campaign final : public Work {
 
     const estimators::Estimator& estimator_;
     std::span<const Sensor> sensors_;
+    const GlareViews& glare_;
     std::vector<double> expected_largest_;
     bool pools_errors_, has_paces_;
     Target target_;

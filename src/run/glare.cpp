@@ -6,10 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "base/parallel.h"
-#include "transport/glare.h"
+#include "transport/light_sampler.h"
 
 namespace stilb::run {
 namespace {
@@ -20,33 +21,80 @@ using transport::Glare;
 /// Sources with a smaller share of the glare in a view need no warning.
 constexpr double kLeastShareOfGlare = 0.01;
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+constexpr Estimate kUndefinedEstimate{kUndefined, kUndefined, kUndefined, kUndefined};
 
-double ugr(double glare, double background_lx) {
-    return 8 * std::log10(0.25 * std::numbers::pi * glare / background_lx);
+/// The derivative of a rating by q is this over -q.
+constexpr double kPerRelative = 8 / std::numbers::ln10;
+/// The rating of this q is 0.
+constexpr double kNoGlare = 0.25 * std::numbers::pi;
+
+double rating(double q) {
+    return q > 0 ? 8 * std::log10(kNoGlare / q) : std::numeric_limits<double>::infinity();
 }
 
-/// The rating with the errors of illuminance, direct light and glare, each half-width in quadrature.
-Estimate rating_of(const Estimate& illuminance, const Glare& view, double confidence) {
-    const Estimate direct = statistics::estimate_from_replicates(view.direct_of_replicates_lx, confidence);
-    const Estimate glare = statistics::estimate_from_replicates(view.glare_of_replicates, confidence);
-    if (!(glare.value > 0)) return {};
-    const double background_lx = illuminance.value - direct.value;
-    if (!(background_lx > 0)) return {kUndefined, kUndefined, kUndefined, kUndefined};
-    const double value = ugr(glare.value, background_lx);
-    const double direct_half = direct.upper - direct.value;
-    const double more_lx = std::hypot(illuminance.upper - illuminance.value, direct_half),
-                 less_lx = std::hypot(illuminance.value - illuminance.lower, direct_half);
-    const double per_relative = 8 / std::numbers::ln10;
-    const double of_glare = per_relative * (glare.upper - glare.value) / glare.value;
-    const double relative_error =
-        std::hypot(std::hypot(illuminance.standard_error, direct.standard_error) / background_lx,
-                   glare.standard_error / glare.value);
-    // Where the background may be 0, there is no upper end.
-    const double brighter = value - ugr(glare.value, background_lx + more_lx);
-    const double darker = less_lx < background_lx ? ugr(glare.value, background_lx - less_lx) - value
-                                                  : std::numeric_limits<double>::infinity();
-    return {value, per_relative * relative_error, value - std::hypot(brighter, of_glare),
-            value + std::hypot(darker, of_glare)};
+Estimate rated(const Estimate& q) {
+    const double lower = rating(q.upper), upper = rating(q.lower);
+    if (!(q.value > 0)) return {kUndefined, kUndefined, lower, upper};
+    return {rating(q.value), kPerRelative * q.standard_error / q.value, lower, upper};
+}
+
+double mean_of(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Turns the illuminances of reading `j` into q, to first order in the error of the glare.
+void set_ratios(const Glare& view, std::size_t j, Campaign::Estimates& all) {
+    const std::size_t readings = all.readings.size(), replicates = all.replicate_means.size() / readings;
+    const bool sees_lamps = view.glare > 0;
+    const double per_lx = sees_lamps ? 1 / view.glare : 0;
+    // The run may have ended before all of its replicates began.
+    const auto direct_lx = std::span(view.direct_of_replicates_lx).first(replicates);
+    const auto glare = std::span(view.glare_of_replicates).first(replicates);
+    const double mean_glare = mean_of(glare);
+    const double q = (all.readings[j].value - mean_of(direct_lx)) * per_lx;
+    for (std::size_t r = 0; r < replicates; ++r) {
+        double& value = all.replicate_means[r * readings + j];
+        value = sees_lamps ? (value - direct_lx[r] - q * (glare[r] - mean_glare)) * per_lx : kNoGlare;
+    }
+    all.rare_light[j] *= per_lx;
+    if (all.bias) all.bias->of_readings[j] *= per_lx;
+}
+
+/// Turns q of all readings into ratings, to first order in all but their intervals. Returns their mean, which
+/// is undefined where the background of a view may be 0.
+Estimate set_ratings(Campaign::Estimates& all, double confidence) {
+    const std::size_t readings = all.readings.size();
+    std::vector<double> means(all.replicate_means.size() / readings);
+    double rare_light = 0, bias = 0;
+    bool is_defined = true;
+    for (std::size_t j = 0; j < readings; ++j) {
+        const double q = all.readings[j].value, slope = kPerRelative / q;
+        is_defined = is_defined && all.readings[j].lower > 0;
+        for (std::size_t r = 0; r < means.size(); ++r) {
+            double& value = all.replicate_means[r * readings + j];
+            value = rating(q) - slope * (value - q);
+            means[r] += value / static_cast<double>(readings);
+        }
+        rare_light += slope * all.rare_light[j] / static_cast<double>(readings);
+        if (all.bias) bias += (all.bias->of_readings[j] *= slope) / static_cast<double>(readings);
+        all.readings[j] = rated(all.readings[j]);
+    }
+    if (!is_defined) return kUndefinedEstimate;
+    Estimate mean = statistics::estimate_from_replicates(means, confidence);
+    mean.lower -= rare_light;  // with more light there is less glare
+    return statistics::widened(mean, bias);
+}
+
+void rate_views(const std::vector<Glare>& views, double confidence, SensorEstimates& estimates) {
+    Campaign::Estimates& all = estimates.readings;
+    for (std::size_t j = 0; j < views.size(); ++j) set_ratios(views[j], j, all);
+    all.readings =
+        statistics::estimate_readings({all.replicate_means, views.size()}, confidence, all.rare_light);
+    for (std::size_t j = 0; all.bias && j < views.size(); ++j)
+        all.readings[j] = statistics::widened(all.readings[j], all.bias->of_readings[j]);
+    const statistics::GridSummary ratios = summary_of(all, confidence);
+    estimates.summary = {set_ratings(all, confidence), rated(ratios.maximum), rated(ratios.minimum),
+                         kUndefinedEstimate, kUndefinedEstimate};
 }
 
 /// The lights of a kind of glare source, in all views.
@@ -89,29 +137,32 @@ void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, cons
 
 }  // namespace
 
-SensorResult with_glare_ratings(const SensorResult& illuminances, const Scene& scene,
-                                const rays::RayCaster& caster, double confidence, math::RandomKey key,
-                                std::vector<std::string>& warnings) {
-    const auto& eyes = std::get<Ugr>(illuminances.sensor.kind).eyes;
+GlareViews::GlareViews(const Scene& scene, const rays::RayCaster& caster, std::span<const Sensor> sensors,
+                       std::size_t replicates, math::RandomKey key)
+    : views_(sensors.size()) {
     const transport::LightSampler lights(scene, caster);
-    std::vector<Glare> views(eyes.size());
-    parallel_for(eyes.size(), [&](std::size_t j) {
-        views[j] = find_glare(eyes[j], scene, caster, lights, key.derived(j));
-    });
-    SensorResult result = illuminances;
-    for (std::size_t j = 0; j < eyes.size(); ++j)
-        result.readings[j] = {rating_of(illuminances.readings[j].estimate, views[j], confidence), {}};
-    for (std::size_t i = 0; i < result.replicate_means.size(); ++i) {
-        const Glare& view = views[i % eyes.size()];
-        double glare = 0;
-        for (const double of_replicate : view.glare_of_replicates)
-            glare += of_replicate / static_cast<double>(view.glare_of_replicates.size());
-        double& mean = result.replicate_means[i];
-        mean = glare > 0 ? ugr(glare, mean - view.direct_lx) : 0;
+    for (std::size_t s = 0; s < sensors.size(); ++s) {
+        const auto* ugr = std::get_if<Ugr>(&sensors[s].kind);
+        if (!ugr) continue;
+        views_[s].resize(ugr->eyes.size());
+        parallel_for(ugr->eyes.size(), [&](std::size_t j) {
+            views_[s][j] = find_glare(ugr->eyes[j], scene, caster, lights, key.derived(j), replicates);
+        });
     }
-    result.summary = statistics::summarize_grid({result.replicate_means, eyes.size()}, confidence);
-    warn_of_sources(result.sensor, views, scene, warnings);
-    return result;
+}
+
+void GlareViews::rate(std::span<SensorEstimates> estimates, double confidence) const {
+    for (std::size_t s = 0; s < views_.size(); ++s) {
+        if (!views_[s].empty()) rate_views(views_[s], confidence, estimates[s]);
+    }
+}
+
+std::vector<std::string> GlareViews::warnings(const Scene& scene, std::span<const Sensor> sensors) const {
+    std::vector<std::string> warnings;
+    for (std::size_t s = 0; s < views_.size(); ++s) {
+        if (!views_[s].empty()) warn_of_sources(sensors[s], views_[s], scene, warnings);
+    }
+    return warnings;
 }
 
 }  // namespace stilb::run

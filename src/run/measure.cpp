@@ -11,6 +11,7 @@
 #include "run/campaign.h"
 #include "run/glare.h"
 #include "run/level_of_detail.h"
+#include "run/power_density.h"
 #include "run/run.h"
 #include "run/sensor_estimates.h"
 #include "stilb/error.h"
@@ -79,6 +80,7 @@ std::vector<Sensor> with_units(std::vector<Sensor> sensors) {
     return sensors;
 }
 
+bool has_colour(const Sensor& sensor) { return !sensor.derived() && !sensor.rates_glare(); }
 Rgb unknown_colour() { return Rgb::grey(std::numeric_limits<double>::quiet_NaN()); }
 
 /// Warns where the error of the patches is much of the whole.
@@ -139,10 +141,9 @@ SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, Senso
     SensorResult result;
     result.sensor = sensor;
     result.summary = estimates.summary;
-    result.attained_error = statistics::attained_error(own.readings);
     result.replicate_means = std::move(own.replicate_means);
     const std::vector<Rgb> rgb =
-        sensor.derived() ? std::vector{unknown_colour()} : campaign.rgb(first, count);
+        has_colour(sensor) ? campaign.rgb(first, count) : std::vector(own.readings.size(), unknown_colour());
     for (std::size_t j = 0; j < rgb.size(); ++j) result.readings.push_back({own.readings[j], rgb[j]});
     if (own.bias) {
         result.patch_error = own.bias->relative;
@@ -162,38 +163,34 @@ double confidence_of(const RunOptions& options, StopReason reason) {
     return options.error ? statistics::kStoppedConfidence : kConfidence;
 }
 
-/// Adds the warnings of all sensors.
-std::vector<SensorResult> sensor_results(const Campaign& campaign, std::span<const Sensor> sensors,
-                                         const RunOptions& options, StopReason reason,
-                                         std::span<const std::optional<Vec3>> sight_ends,
-                                         std::vector<std::string>& warnings) {
+/// Sets the results of all sensors and the power density, and adds the warnings of all sensors.
+void set_results(const Campaign& campaign, std::span<const Sensor> sensors, const GlareViews& glare,
+                 const RunOptions& options, std::span<const std::optional<Vec3>> sight_ends,
+                 RunResult& result) {
     const bool has_looked = sensors::has_requirements(sensors) && ends_when_decided(options);
-    const double confidence = confidence_of(options, reason);
+    const double confidence = confidence_of(options, result.stop_reason);
     std::vector<SensorEstimates> estimates = estimate_all(campaign, sensors, confidence);
+    std::vector<double> attained;
+    for (std::size_t s = 0; s < sensors.size(); ++s) {
+        attained.push_back(statistics::attained_error(estimates[s].readings.readings));
+        std::ranges::move(rarity_warnings(estimates[s].readings, campaign.samples_in_all(), sensors[s]),
+                          std::back_inserter(result.warnings));
+    }
+    result.power_density = power_density(result.power, sensors, estimates, confidence);
+    glare.rate(estimates, confidence);
     std::vector<SensorEstimates> deciding;
-    if (has_looked) deciding = estimate_all(campaign, sensors, statistics::kVerdictConfidence);
-    std::vector<SensorResult> results;
+    if (has_looked) {
+        deciding = estimate_all(campaign, sensors, statistics::kVerdictConfidence);
+        glare.rate(deciding, statistics::kVerdictConfidence);
+    }
     std::size_t first = 0;
     for (std::size_t s = 0; s < sensors.size(); ++s) {
         const Sensor& sensor = sensors[s];
-        std::ranges::move(rarity_warnings(estimates[s].readings, campaign.samples_in_all(), sensor),
-                          std::back_inserter(warnings));
-        SensorResult& result =
-            results.emplace_back(sensor_result(campaign, sensor, std::move(estimates[s]), first, sight_ends));
-        result.requirements = rate(sensor.requirements, has_looked ? deciding[s].summary : result.summary);
+        SensorResult& own = result.sensors.emplace_back(
+            sensor_result(campaign, sensor, std::move(estimates[s]), first, sight_ends));
+        own.attained_error = attained[s];
+        own.requirements = rate(sensor.requirements, has_looked ? deciding[s].summary : own.summary);
         first += sensor.size();
-    }
-    return results;
-}
-
-/// Sensors that rate glare have illuminances up to here.
-void rate_glare(const Scene& scene, const rays::RayCaster& caster, const RunOptions& options,
-                RunResult& result) {
-    const math::RandomKey key = math::RandomKey{options.seed}.derived(kReadingGlare);
-    for (SensorResult& sensor : result.sensors) {
-        if (!sensor.sensor.rates_glare()) continue;
-        sensor = with_glare_ratings(sensor, scene, caster, confidence_of(options, result.stop_reason), key,
-                                    result.warnings);
     }
 }
 
@@ -252,9 +249,14 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     const transport::SharpLight sharp = method.lights_patches
                                             ? transport::SharpLight{}
                                             : transport::find_sharp_light(scene, session.caster());
-    Campaign campaign(*estimator, sensors, wanted.measurands.size(),
-                      math::RandomKey{options.seed}.derived(kReadingReplicates),
-                      ReplicatePlan::of(sensors, options, method.lights_patches),
+    const ReplicatePlan plan = ReplicatePlan::of(sensors, options, method.lights_patches);
+    std::optional<GlareViews> glare;
+    session.on_threads([&] {
+        glare.emplace(scene, session.caster(), sensors, plan.replicates,
+                      math::RandomKey{options.seed}.derived(kReadingGlare));
+    });
+    Campaign campaign(*estimator, sensors, *glare, wanted.measurands.size(),
+                      math::RandomKey{options.seed}.derived(kReadingReplicates), plan,
                       std::min(sharp.samples, kMostAwaited));
     RunResult result;
     session.on_threads([&] { session.run(campaign, result); });
@@ -267,9 +269,9 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
         std::ranges::move(more, std::back_inserter(result.warnings));
     };
     warn(std::move(of_scene));
-    result.sensors = sensor_results(campaign, sensors, options, result.stop_reason, estimator->sight_ends(),
-                                    result.warnings);
-    session.on_threads([&] { rate_glare(scene, session.caster(), options, result); });
+    result.power = scene::installed_power(scene);
+    set_results(campaign, sensors, *glare, options, estimator->sight_ends(), result);
+    warn(glare->warnings(scene, sensors));
     warn(sharp_light_warnings(sharp, result.samples, scene));
     warn(patch_error_warnings(result));
     session.finish(result);

@@ -40,10 +40,10 @@ struct RunOptions {
     estimators::PatchOptions patches;
 };
 
-/// Whether a run of readings ends as soon as all requirements are decided: unless it has a number of samples
-/// alone, of which it then does neither more nor less.
+/// Whether a run of readings ends as soon as all requirements are decided: unless an error is asked for, or a
+/// number of samples alone, of which it then does neither more nor less.
 inline bool ends_when_decided(const RunOptions& options) {
-    return !options.paths || options.error || options.time_s;
+    return !options.error && (!options.paths || options.time_s);
 }
 
 /// Throws InputError where an option is out of its range.

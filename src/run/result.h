@@ -11,6 +11,7 @@
 #include "base/rgb.h"
 #include "base/vec.h"
 #include "estimators/patch_light/patch_options.h"
+#include "scene/installed_power.h"
 #include "sensors/sensor.h"
 #include "statistics/grid_summary.h"
 #include "statistics/interval.h"
@@ -48,7 +49,7 @@ struct RunSummary {
     int replicates = 0;
     double elapsed_s = 0;
     StopReason stop_reason = StopReason::paths_done;
-    /// False where a requested error is not met, unless all requirements were decided before.
+    /// False where a requested error is not met, and after an interruption.
     bool converged = true;
     std::optional<double> requested_error;  ///< relative half-width, where there was a limit on it
     /// Relative half-width that 95 % meet: of the readings of the worst sensor, of the pixels, or of the
@@ -98,10 +99,19 @@ struct SensorResult {
     std::vector<RatedRequirement> requirements{};
 };
 
+/// The installed power over the task areas together (sensors::task_area_m2()).
+struct PowerDensity {
+    double area_m2 = 0;
+    double w_m2 = 0;
+    statistics::Estimate w_m2_per_100_lx;  ///< of the areas' mean illuminance
+};
+
 struct RunResult : RunSummary {
     std::string scene_name;             ///< may be empty
     std::uint64_t rays = 0;             ///< of the connections to receivers
     std::vector<SensorResult> sensors;  ///< in the order requested
+    scene::InstalledPower power;
+    std::optional<PowerDensity> power_density;
 };
 
 /// On all requirements together: a fail where one fails; nothing where there are none.

@@ -149,9 +149,8 @@ void Session::run(Work& work, RunSummary& summary) {
     summary.stop_reason = ending.reason;
     summary.attained_error = ending.attained_error;
     summary.requested_error = options_.error;
-    summary.converged = ending.reason == StopReason::requirements_decided ||
-                        (ending.reason != StopReason::interrupted &&
-                         (!options_.error || ending.attained_error <= *options_.error));
+    summary.converged = ending.reason != StopReason::interrupted &&
+                        (!options_.error || ending.attained_error <= *options_.error);
 }
 
 void Session::describe(const estimators::Estimator& estimator, RunSummary& summary) const {

@@ -33,10 +33,7 @@ void include_bias(const statistics::BiasBounds& bias, std::span<const statistics
 SensorEstimates estimates_of_meter(const Campaign& campaign, const Sensor& sensor, std::size_t first,
                                    double confidence) {
     SensorEstimates all{campaign.estimates(sensor, first, confidence), {}};
-    const Campaign::Estimates& own = all.readings;
-    all.summary = statistics::summarize_grid({own.replicate_means, sensor.size(), own.columns}, confidence,
-                                             own.rare_light);
-    if (own.bias) include_bias(*own.bias, own.readings, all.summary);
+    all.summary = summary_of(all.readings, confidence);
     return all;
 }
 
@@ -70,6 +67,14 @@ SensorEstimates estimates_of_derived(const Derived& derived, std::span<const Sen
 }
 
 }  // namespace
+
+GridSummary summary_of(const Campaign::Estimates& estimates, double confidence) {
+    GridSummary summary =
+        statistics::summarize_grid({estimates.replicate_means, estimates.readings.size(), estimates.columns},
+                                   confidence, estimates.rare_light);
+    if (estimates.bias) include_bias(*estimates.bias, estimates.readings, summary);
+    return summary;
+}
 
 std::vector<SensorEstimates> estimate_all(const Campaign& campaign, std::span<const Sensor> sensors,
                                           double confidence) {

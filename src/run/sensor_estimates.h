@@ -18,7 +18,11 @@ struct SensorEstimates {
     statistics::GridSummary summary;  ///< intervals with the error of the patches
 };
 
-/// One for each sensor of the campaign, in order. Throws InputError where a derived value does not fit.
+/// The summary of a sensor's readings; intervals with the error of the patches.
+statistics::GridSummary summary_of(const Campaign::Estimates& estimates, double confidence);
+
+/// One for each sensor of the campaign, in order; illuminances for sensors that rate glare (glare.h). Throws
+/// InputError where a derived value does not fit.
 std::vector<SensorEstimates> estimate_all(const Campaign& campaign, std::span<const Sensor> sensors,
                                           double confidence);
 

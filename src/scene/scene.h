@@ -36,9 +36,10 @@ struct NamedSolid {
     std::string file;
     std::string luminaire;  ///< the name that the file gives, may be empty
     PhotometricSolid solid;
-    std::string format = {};          ///< "EULUMDAT", "IES LM-63-2002"
-    std::string flux_statement = {};  ///< comparison of the file's stated flux with the integral, as text
-    lights::Opening opening = {};     ///< as the file states it; a point where it states none
+    std::string format = {};             ///< "EULUMDAT", "IES LM-63-2002"
+    std::string flux_statement = {};     ///< comparison of the file's stated flux with the integral, as text
+    lights::Opening opening = {};        ///< as the file states it; a point where it states none
+    std::optional<double> power_w = {};  ///< electric, where the file states it
 };
 
 struct Scene {

@@ -116,6 +116,12 @@ bool is_measured(const Region& region, const std::array<double, 2>& band_m, cons
 
 }  // namespace
 
+double area_m2(const PolygonInSpace& polygon) {
+    double doubled_m2 = length(doubled_area_vector(polygon.outline));
+    for (const std::vector<Vec3>& hole : polygon.holes) doubled_m2 -= length(doubled_area_vector(hole));
+    return doubled_m2 / 2;
+}
+
 double raster_spacing_m(double short_m, double long_m) {
     return std::min(10.0, 0.2 * std::pow(5, std::log10(deciding_side_m(short_m, long_m))));
 }

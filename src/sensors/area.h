@@ -22,6 +22,8 @@ struct PolygonInSpace {
     std::vector<std::vector<Vec3>> holes;
 };
 
+double area_m2(const PolygonInSpace& polygon);
+
 /// A band around an area, which is a sensor of its own.
 struct Band {
     double width_m = 0;

@@ -18,11 +18,12 @@ struct Criterion {
     Statistic statistic;
     Limit limit;
 };
-inline constexpr std::array<Criterion, 5> kCriteria{{{"mean", Statistic::mean, Limit::at_least},
+inline constexpr std::array<Criterion, 6> kCriteria{{{"mean", Statistic::mean, Limit::at_least},
                                                      {"minimum", Statistic::minimum, Limit::at_least},
                                                      {"maximum", Statistic::maximum, Limit::at_most},
                                                      {"uniformity", Statistic::uniformity, Limit::at_least},
-                                                     {"diversity", Statistic::diversity, Limit::at_least}}};
+                                                     {"diversity", Statistic::diversity, Limit::at_least},
+                                                     {"ugr", Statistic::maximum, Limit::at_most}}};
 
 struct Requirement {
     const Criterion* criterion = nullptr;  ///< one of kCriteria

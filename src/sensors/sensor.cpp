@@ -104,6 +104,23 @@ std::optional<std::array<int, 2>> Sensor::count() const {
         kind);
 }
 
+bool Sensor::takes(const Criterion& criterion) const {
+    if (rates_glare() || criterion.key == Ugr::kType) return rates_glare() && criterion.key == Ugr::kType;
+    return has_ratios() || !is_ratio(criterion.statistic);
+}
+
+double task_area_m2(std::span<const Sensor> sensors) {
+    constexpr double horizontal = 0.999;
+    double all_m2 = 0;
+    for (const Sensor& sensor : sensors) {
+        const auto* area = std::get_if<Area>(&sensor.kind);
+        const bool is_task = area && area->band_m[1] == 0 && !area->points.empty() &&
+                             area->points.front().normal.z > horizontal;
+        if (is_task) all_m2 += area_m2(area->polygon);
+    }
+    return all_m2;
+}
+
 bool has_requirements(std::span<const Sensor> sensors) {
     return !std::ranges::all_of(sensors, [](const Sensor& sensor) { return sensor.requirements.empty(); });
 }

@@ -57,6 +57,8 @@ struct Sensor {
     bool has_ratios() const { return !measures_luminance() && !derived() && !rates_glare(); }
     /// Whether its readings are ratings of glare, which are made of illuminances after the run.
     bool rates_glare() const { return std::holds_alternative<Ugr>(kind); }
+    /// Whether something can be required of it by this criterion: of ratings of glare by "ugr" alone.
+    bool takes(const Criterion& criterion) const;
 
     /// Number of readings; a camera, which makes a picture, and a derived value have none.
     std::size_t size() const;
@@ -79,6 +81,10 @@ struct Sensor {
 Derived resolved(const Derived& derived, std::span<const Sensor> sensors);
 /// The sensor of this name; null where there is none.
 const Sensor* find_sensor(std::span<const Sensor> sensors, std::string_view name);
+
+/// The area of all horizontal areas that receive light from above, without bands; where they overlap, the
+/// overlap counts twice.
+double task_area_m2(std::span<const Sensor> sensors);
 
 bool has_requirements(std::span<const Sensor> sensors);
 

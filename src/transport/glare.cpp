@@ -1,7 +1,6 @@
 #include "transport/glare.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,9 +9,8 @@
 namespace stilb::transport {
 namespace {
 
-constexpr double kMostIndex = 16;
-constexpr std::size_t kReplicates = 8;
-constexpr std::uint64_t kSamples = 256;  ///< of each lamp and replicate
+/// Of each lamp: in all, and in each replicate at least.
+constexpr std::uint64_t kSamples = 2048, kLeastSamples = 16;
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }
 
@@ -40,9 +38,10 @@ class Eye {
         : position_(at.position), sight_(at.normal), caster_(caster), lights_(lights) {}
 
     /// One replicate's samples of the lamp's surface.
-    Seen see(std::size_t light, const lights::EmitterSurface& surface, math::RandomKey key) const {
+    Seen see(std::size_t light, const lights::EmitterSurface& surface, math::RandomKey key,
+             std::uint64_t samples) const {
         Seen seen;
-        for (std::uint64_t i = 0; i < kSamples; ++i) {
+        for (std::uint64_t i = 0; i < samples; ++i) {
             math::SampleStream stream(key, i);
             const auto point = surface.sample_seen(position_, stream.next_two());
             if (!point) continue;
@@ -50,7 +49,7 @@ class Eye {
             if (!(cosine > 0)) continue;
             const double visible = caster_.transmittance({position_, point->lifted}).luminance();
             if (!(visible > 0)) continue;
-            const double solid_angle_sr = 1 / (point->pdf_per_sr * kSamples);
+            const double solid_angle_sr = 1 / (point->pdf_per_sr * static_cast<double>(samples));
             const double luminance_cd_m2 =
                 visible * lights_.front_luminance(light, -point->direction).luminance();
             seen.add({solid_angle_sr, solid_angle_sr * luminance_cd_m2,
@@ -79,17 +78,20 @@ class Eye {
 
 void add_lamp(const Eye& eye, std::uint32_t light, const lights::EmitterSurface& surface, math::RandomKey key,
               Glare& glare) {
-    std::array<Seen, kReplicates> of_replicates;
+    const std::size_t replicates = glare.glare_of_replicates.size();
+    const std::uint64_t samples = std::max(kSamples / replicates, kLeastSamples);
+    std::vector<Seen> of_replicates(replicates);
     Seen all;
-    for (std::size_t r = 0; r < kReplicates; ++r) {
-        of_replicates[r] = eye.see(light, surface, key.derived(r));
-        all.add(of_replicates[r], 1.0 / kReplicates);
+    for (std::size_t r = 0; r < replicates; ++r) {
+        of_replicates[r] = eye.see(light, surface, key.derived(r), samples);
+        all.add(of_replicates[r], 1 / static_cast<double>(replicates));
         glare.direct_of_replicates_lx[r] += of_replicates[r].direct_lx;
     }
     if (!(all.solid_angle_sr > 0)) return;
     glare.sources.push_back(all.source(light, eye.sight()));
     if (all.solid_angle_sr < kLeastGlare_sr) return;
-    for (std::size_t r = 0; r < kReplicates; ++r) {
+    glare.glare += glare.sources.back().glare();
+    for (std::size_t r = 0; r < replicates; ++r) {
         if (of_replicates[r].solid_angle_sr > 0)
             glare.glare_of_replicates[r] += of_replicates[r].source(light, eye.sight()).glare();
     }
@@ -105,22 +107,22 @@ double position_index(const Vec3& direction, const Vec3& line_of_sight) {
     const double across = std::hypot(beside, above);
     const double s = degrees(std::atan2(across, ahead));
     const double t = across > 0 ? degrees(std::acos(std::min(std::abs(above) / across, 1.0))) : 0;
-    if (s >= 90) return kMostIndex;
+    if (s >= 90) return kMostPositionIndex;
     if (above >= 0) {
         const double first = (35.2 - 0.31889 * t - 1.22 * std::exp(-2 * t / 9)) * 1e-3;
         const double second = (21 + 0.26667 * t - 0.002963 * t * t) * 1e-5;
-        return std::min(std::exp(first * s + second * s * s), kMostIndex);
+        return std::min(std::exp(first * s + second * s * s), kMostPositionIndex);
     }
     const double cosine = std::abs(above) / across;
     const double b = degrees(std::atan(across / ahead * std::sqrt(1 + 0.3225 * cosine * cosine)));
-    return std::min(std::exp(6.49e-3 * b + 21e-5 * b * b), kMostIndex);
+    return std::min(std::exp(6.49e-3 * b + 21e-5 * b * b), kMostPositionIndex);
 }
 
 Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCaster& caster,
-                 const LightSampler& lights, math::RandomKey key) {
+                 const LightSampler& lights, math::RandomKey key, std::size_t replicates) {
     Glare glare;
-    glare.direct_of_replicates_lx.resize(kReplicates);
-    glare.glare_of_replicates.resize(kReplicates);
+    glare.direct_of_replicates_lx.resize(replicates);
+    glare.glare_of_replicates.resize(replicates);
     const Eye eye(at, caster, lights);
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         if (const auto object = lights::emitting_object(scene.lights[i])) {
@@ -131,8 +133,6 @@ Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCa
             for (double& of_replicate : glare.direct_of_replicates_lx) of_replicate += direct_lx;
         }
     }
-    for (const double of_replicate : glare.direct_of_replicates_lx)
-        glare.direct_lx += of_replicate / kReplicates;
     return glare;
 }
 

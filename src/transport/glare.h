@@ -17,8 +17,10 @@
 
 namespace stilb::transport {
 
-/// Guth's position index p of a source in a unit direction, for a unit line of sight that is not vertical;
-/// at most 16.
+/// The largest position index that is tabulated.
+inline constexpr double kMostPositionIndex = 16;
+/// Guth's position index p of a source in a unit direction, for a unit line of sight that is not vertical; at
+/// most kMostPositionIndex.
 double position_index(const Vec3& direction, const Vec3& line_of_sight);
 
 /// Solid angles [sr] for which the Unified Glare Rating was made.
@@ -36,14 +38,14 @@ struct GlareSource {
 
 struct Glare {
     std::vector<GlareSource> sources;  ///< in front of the eye and seen by it
-    double direct_lx = 0;              ///< at the eye, by all lamps, points included
-    /// The same sums of several independent samples of the lamps: direct_lx and, over the sources of at least
-    /// kLeastGlare_sr, glare().
-    std::vector<double> direct_of_replicates_lx, glare_of_replicates;
+    double glare = 0;                  ///< the sum of glare() over the sources of at least kLeastGlare_sr
+    /// By independent samples of the lamps: `glare`, and the illuminance at the eye by all lamps, points
+    /// included.
+    std::vector<double> glare_of_replicates, direct_of_replicates_lx;
 };
 
 /// `eye`: its normal is the line of sight. The light from infinity is background.
 Glare find_glare(const MeasuringPoint& eye, const Scene& scene, const rays::RayCaster& caster,
-                 const LightSampler& lights, math::RandomKey key);
+                 const LightSampler& lights, math::RandomKey key, std::size_t replicates);
 
 }  // namespace stilb::transport

@@ -49,6 +49,7 @@ TEST(EulumdatFile, ReadsNamesUnitsAndFactors) {
     EXPECT_FALSE(file.absolute);
     EXPECT_DOUBLE_EQ(file.lamp_flux_lm, 1000);
     EXPECT_DOUBLE_EQ(file.stated_flux_lm, 800);
+    EXPECT_EQ(file.power_w, 12);
     EXPECT_EQ(file.opening_m, (Vec3{0.2, 0.5, 0.04}));
     EXPECT_TRUE(file.warnings.empty());
     EXPECT_DOUBLE_EQ(PhotometricSolid(file.grid).peak_cd(), 10);
@@ -179,6 +180,19 @@ TEST(PhotometryFile, IsReadByContent) {
                     12));
     expect_message([] { read_photometry_file("/nowhere/lamp.ies"); }, "/nowhere/lamp.ies: cannot be read");
     expect_message([] { read_photometry_file("/"); }, "/: cannot be read");
+}
+
+/// The set's power is optional, and that of the first set counts.
+TEST(EulumdatFile, ReadsThePowerOfTheFirstSet) {
+    Content content;
+    content.sets = 2;
+    for (const auto& [line, power_w] : {std::pair<const char*, std::optional<double>>{"31,5", 31.5},
+                                        {"0", std::nullopt},
+                                        {"", std::nullopt},
+                                        {"2 x 18", std::nullopt}}) {
+        content.lamps.back() = line;
+        EXPECT_EQ(read_eulumdat(text_of(content), "a.ldt").power_w, power_w) << line;
+    }
 }
 
 // The files are dummies: their distributions do not have the flux that they state, and the check says so.

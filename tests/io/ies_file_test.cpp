@@ -36,6 +36,9 @@ TEST(IesFile, ReadsNamesUnitsAndFactors) {
     EXPECT_FALSE(file.absolute);
     EXPECT_DOUBLE_EQ(file.lamp_flux_lm, 500);
     EXPECT_EQ(file.stated_flux_lm, 0);
+    EXPECT_EQ(file.power_w, 40);
+    EXPECT_EQ(read_ies(with(kFile, "0.5 1 40", "0.5 1 0"), "a.ies").power_w, std::nullopt);
+    EXPECT_EQ(read_ies(with(kFile, "0.5 1 40", "0.5 1 -1"), "a.ies").power_w, std::nullopt);
     EXPECT_EQ(file.opening_m, (Vec3{0.6, 0.3, 0.1}));
     EXPECT_TRUE(file.warnings.empty());
     const PhotometricSolid solid(file.grid);

@@ -4,6 +4,7 @@
 
 #include "io/image/picture_file.h"
 #include "io/scene_text.h"
+#include "scene/installed_power.h"
 
 namespace stilb::io {
 namespace {
@@ -164,7 +165,7 @@ TEST(SceneLights, RefusesUnknownTypesAndKeys) {
     EXPECT_REFUSAL(
         light("type = \"point\"\nflus = 1"),
         "s.toml:11: lights.a: unknown key \"flus\" for type \"point\". Did you mean \"flux\"? Allowed: "
-        "type, position, positions, array, flux, intensity, cct, color, group, maintenance.");
+        "type, position, positions, array, flux, intensity, cct, color, group, maintenance, power.");
 }
 
 TEST(SceneLights, RefusesWrongQuantities) {
@@ -309,6 +310,32 @@ TEST_F(ScenePhotometry, TakesTheOpeningOfItsFile) {
     EXPECT_NEAR(area_m2(file.scene.object(light.object).shape), 0.18, 1e-12);
     EXPECT_TRUE(std::holds_alternative<Luminaire>(
         read("file = \"panel.ies\"\nopening = \"point\"").scene.lights.at(0).source));
+}
+
+TEST_F(ScenePhotometry, HasThePowerOfItsFileOrItsOwn) {
+    std::ofstream(directory_ / "panel.ies")
+        << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0.6 0.3 0\n1 1 31.5\n0 45 90\n0\n100 100 100\n";
+    const auto power_w = [&](const std::string& keys) { return read(keys).scene.lights.at(0).power_w; };
+    EXPECT_EQ(power_w("file = \"panel.ies\""), 31.5);
+    EXPECT_EQ(power_w("file = \"panel.ies\"\nopening = \"point\""), 31.5);
+    EXPECT_EQ(power_w("file = \"panel.ies\"\ndimming = 0.5\nmaintenance = 0.8"), 31.5) << "installed";
+    EXPECT_EQ(power_w("file = \"panel.ies\"\nflux = 500"), std::nullopt) << "that of another flux";
+    EXPECT_EQ(power_w("file = \"panel.ies\"\nflux = 500\npower = 28"), 28);
+    EXPECT_EQ(power_w("file = \"half.ies\""), std::nullopt) << "its watts are 0";
+}
+
+TEST(SceneLights, PowerIsThatOfEachCopyAndMayBeUnknown) {
+    const std::string bulb = "type = \"point\"\nflux = 100\n";
+    const SceneFile file = read_text(
+        light(bulb + "positions = [[0, 0, 1], [1, 0, 1], [2, 0, 1]]\npower = 8\n") + "[lights.b]\n" + bulb +
+        "position = [0, 1, 1]\n" + "[lights.sky]\ntype = \"environment\"\nluminance = 10\n");
+    const scene::InstalledPower power = scene::installed_power(file.scene);
+    EXPECT_EQ(power.power_w, 24);
+    EXPECT_EQ(power.unknown, std::vector<std::string>{"b"}) << "daylight takes no power";
+    EXPECT_EQ(scene::installed_power(read_text(light(bulb + "position = [0, 1, 1]\n")).scene).power_w,
+              std::nullopt);
+    EXPECT_REFUSAL(light(bulb + "position = [0, 1, 1]\npower = 0"),
+                   "s.toml:13: lights.a.power: 0 is not allowed. Allowed: a power from 1e-6 to 1e9 W.");
 }
 
 TEST_F(ScenePhotometry, RefusesWhatIsNoOpening) {

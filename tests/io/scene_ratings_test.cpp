@@ -70,6 +70,25 @@ TEST(SceneDerived, RefusesFormulasThatDoNotFit) {
         "* 2.");
 }
 
+TEST(SceneRequirements, OfGlareAreRatings) {
+    const std::string eye =
+        "[sensors.eye]\ntype = \"ugr\"\nposition = [1, 2, 1.2]\ndirection = [1, 0, 0]\nrequire = ";
+    const SceneFile file = read_text(eye + "{ ugr = 19 }\n");
+    const Requirement& requirement = file.sensors.at(0).requirements.at(0);
+    EXPECT_EQ(requirement.criterion->key, "ugr");
+    EXPECT_EQ(requirement.criterion->statistic, Statistic::maximum);
+    EXPECT_EQ(requirement.criterion->limit, sensors::Limit::at_most);
+    EXPECT_EQ(requirement.limit, 19);
+    EXPECT_REFUSAL(eye + "{ mean = 19 }\n",
+                   "s.toml:5: sensors.eye.require: unknown key \"mean\" for type \"ugr\". Allowed: ugr.");
+    EXPECT_REFUSAL(eye + "{ ugr = -1 }\n",
+                   "s.toml:5: sensors.eye.require.ugr: -1 is not allowed. Allowed: a rating from 0 to 100.");
+    EXPECT_REFUSAL(with_sensors("[sensors.e]\ntype = \"spherical\"\nposition = [1, 2, 1.2]\n"
+                                "require = { ugr = 19 }\n"),
+                   "s.toml:23: sensors.e.require: unknown key \"ugr\" for type \"spherical\". Allowed: mean, "
+                   "minimum, maximum, uniformity, diversity.");
+}
+
 TEST(SceneRequirements, AreLimitsOfStatistics) {
     const SceneFile file =
         read_text(with_sensors("[sensors.d]\ntype = \"derived\"\nvalue = \"desk.mean / wall\"\n"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "run/run.h"
@@ -12,27 +13,30 @@
 namespace stilb {
 namespace {
 
+using run::Verdict;
+
 constexpr double kBackground = 20, kLamp = 5000, kRadius = 0.15;
 const MeasuringPoint kEye{{0, 0, 1.2}, {0, 1, 0}};
 const Vec3 kMiddle{0.5, 3, 2.2};
 
 /// A lamp that faces the eye in a uniform environment: E - Ed is what the lamp leaves of the environment.
-Scene lamp_in_an_environment() {
+Scene lamp_in_an_environment(double background = kBackground) {
     Scene scene;
     add_area_light(scene, Disk{kMiddle, normalized(kEye.position - kMiddle), kRadius}, Rgb::grey(kLamp));
-    add_environment(scene, Rgb::grey(kBackground));
+    add_environment(scene, Rgb::grey(background));
     return scene;
 }
 
-double exact_ugr() {
+/// For an eye at the same place, whatever it looks at.
+double exact_ugr(double background_cd_m2 = kBackground, const Vec3& sight = kEye.normal) {
     const Vec3 towards = kMiddle - kEye.position;
     const double distance = length(towards);
     const double solid_angle = 2 * kPi * (1 - distance / std::hypot(distance, kRadius));
-    const double p = transport::position_index(normalized(towards), kEye.normal);
+    const double p = transport::position_index(normalized(towards), sight);
     // Of the lamp's disk as seen from the eye: sin^2 of its angular radius times the cosine of its middle.
     const double sine_squared = kRadius * kRadius / (distance * distance + kRadius * kRadius);
-    const double hidden_sr = kPi * sine_squared * dot(normalized(towards), kEye.normal);
-    const double background = kBackground * (1 - hidden_sr / kPi);
+    const double hidden_sr = kPi * sine_squared * dot(normalized(towards), sight);
+    const double background = background_cd_m2 * (1 - hidden_sr / kPi);
     return 8 * std::log10(0.25 / background * kLamp * kLamp * solid_angle / (p * p));
 }
 
@@ -70,6 +74,71 @@ TEST(UnifiedGlareRating, HasIntervalsThatCover) {
     // 95 % of 200 within three standard deviations.
     EXPECT_GE(covered, 181);
     EXPECT_LE(covered, 199);
+}
+
+/// Nearly all light at the eye is the lamp's own, so that noise makes backgrounds of replicates negative.
+TEST(UnifiedGlareRating, HasHonestIntervalsWhereReplicatesAreNegative) {
+    constexpr double dim = 0.06;
+    const Scene scene = lamp_in_an_environment(dim);
+    RunOptions options;
+    options.method = "path";
+    options.paths = 32;
+    const Vec3 aside = normalized(Vec3{-0.3, 1, 0});  // away from the lamp: this rating is the lower one
+    const std::vector<Sensor> sensors{{"eyes", Ugr{{kEye, {kEye.position, aside}}}}};
+    const double exact = exact_ugr(dim), exact_aside = exact_ugr(dim, aside);
+    ASSERT_LT(exact_aside, exact);
+    const auto holds = [](const statistics::Estimate& estimate, double truth) {
+        return estimate.lower <= truth && truth <= estimate.upper;
+    };
+    constexpr int kSeeds = 200;
+    int covered = 0, of_smallest = 0, of_largest = 0, unbounded = 0;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+        options.seed = static_cast<std::uint64_t>(seed);
+        const run::SensorResult result = run::measure(scene, sensors, options).sensors.at(0);
+        covered += holds(result.readings.at(0).estimate, exact);
+        of_smallest += holds(result.summary.minimum, exact_aside);
+        of_largest += holds(result.summary.maximum, exact);
+        unbounded += std::isinf(result.summary.maximum.upper);
+        EXPECT_FALSE(std::isnan(result.summary.maximum.lower));
+    }
+    // 95 % of 200 less three standard deviations; extremes may be conservative.
+    EXPECT_GE(covered, 181);
+    EXPECT_GE(of_smallest, 181);
+    EXPECT_GE(of_largest, 181);
+    EXPECT_GT(unbounded, kSeeds / 10) << "the case that is tested";
+}
+
+Sensor eye_that_requires(double most) {
+    const auto ugr = std::ranges::find(sensors::kCriteria, "ugr", &sensors::Criterion::key);
+    return {"eye", Ugr{{kEye}}, {{&*ugr, most}}};
+}
+
+TEST(UnifiedGlareRating, DecidesARequirementAndEndsTheRun) {
+    const Scene scene = lamp_in_an_environment();
+    RunOptions options;
+    for (const auto& [most, verdict] :
+         {std::pair{exact_ugr() + 1, Verdict::pass}, {exact_ugr() - 1, Verdict::fail}}) {
+        const Sensor eye = eye_that_requires(most);
+        const run::RunResult result = run::measure(scene, {&eye, 1}, options);
+        EXPECT_EQ(result.stop_reason, StopReason::requirements_decided);
+        EXPECT_EQ(run::verdict_of(result), verdict);
+    }
+    const Sensor close = eye_that_requires(exact_ugr());
+    options.paths = 4096;
+    EXPECT_EQ(run::verdict_of(run::measure(scene, {&close, 1}, options)), Verdict::undecided);
+}
+
+/// The replicates, their mean and their spread are those of the rating.
+TEST(UnifiedGlareRating, HasReplicates) {
+    const run::RunResult result = rated(lamp_in_an_environment(), 1);
+    const run::SensorResult& eye = result.sensors.at(0);
+    ASSERT_EQ(eye.replicate_means.size(), static_cast<std::size_t>(result.replicates));
+    const auto again = statistics::estimate_from_replicates(eye.replicate_means);
+    EXPECT_NEAR(again.value, eye.readings[0].estimate.value, 1e-9);
+    EXPECT_NEAR(again.standard_error, eye.readings[0].estimate.standard_error, 1e-9);
+    // The extremes of one reading are the reading; their intervals allow for a choice among several.
+    EXPECT_EQ(eye.summary.maximum.value, eye.readings[0].estimate.value);
+    EXPECT_NEAR(eye.summary.maximum.upper, eye.readings[0].estimate.upper, 0.1 * again.standard_error);
 }
 
 TEST(UnifiedGlareRating, SaysWhatItLeavesOut) {

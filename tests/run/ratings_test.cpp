@@ -196,6 +196,18 @@ TEST(Requirements, EndARunOnceTheyAreDecided) {
     EXPECT_EQ(verdict_of(measure(room(), {&missed, 1}, options)), Verdict::fail);
 }
 
+TEST(Requirements, DoNotEndARunThatHasAnErrorToReach) {
+    const Sensor easy = required(desk(), "mean", 1);
+    RunOptions options;
+    options.method = "path";
+    options.error = 0.01;
+    const RunResult result = measure(room(), {&easy, 1}, options);
+    EXPECT_EQ(result.stop_reason, StopReason::target_reached);
+    EXPECT_TRUE(result.converged);
+    EXPECT_LE(result.attained_error, 0.01);
+    EXPECT_EQ(verdict_of(result), Verdict::pass);
+}
+
 TEST(Requirements, OfDerivedValuesAreDecidedToo) {
     const std::vector<Sensor> sensors{required(derived("eye / desk.mean"), "maximum", 0.9),
                                       required(desk(), "mean", 1), eye()};
@@ -300,6 +312,40 @@ TEST(Areas, MeasureAsGridsDo) {
     EXPECT_EQ(std::get<Area>(by_area.sensors[0].sensor.kind).left_out, 0U);
     EXPECT_EQ(by_area.sensors[0].summary.mean, by_grid.sensors[0].summary.mean);
     EXPECT_EQ(by_area.sensors[0].summary.diversity, by_grid.sensors[0].summary.diversity);
+}
+
+/// Against a derived value of the same formula.
+TEST(PowerDensity, IsOfAllTaskAreasTogether) {
+    Scene scene = room();
+    scene.lights.at(0).power_w = 90;
+    const Sensor left = area({{0.5, 2.5, 0.8}, {1.5, 2.5, 0.8}, {1.5, 3.5, 0.8}, {0.5, 3.5, 0.8}}, 0.5);
+    Sensor right = area({{2, 2.5, 0.8}, {3.5, 2.5, 0.8}, {3.5, 3.5, 0.8}, {2, 3.5, 0.8}}, 0.5);
+    right.name = "right";
+    Sensor wall = area({{0.01, 1, 1}, {0.01, 3, 1}, {0.01, 3, 2}, {0.01, 1, 2}}, 0.5);
+    wall.name = "wall";
+    const std::vector<Sensor> sensors{left, right, wall,
+                                      derived("9000 / (area.mean * 1 + right.mean * 1.5)")};
+    const RunResult result = measure(scene, sensors, options_for("path"));
+    ASSERT_TRUE(result.power_density);
+    EXPECT_EQ(result.power.power_w, 90);
+    EXPECT_DOUBLE_EQ(result.power_density->area_m2, 2.5) << "without the wall";
+    EXPECT_DOUBLE_EQ(result.power_density->w_m2, 36);
+    const statistics::Estimate& density = result.power_density->w_m2_per_100_lx;
+    const statistics::Estimate& formula = value_of(result.sensors.at(3));
+    EXPECT_NEAR(density.value, formula.value, 1e-12 * formula.value);
+    EXPECT_NEAR(density.standard_error, formula.standard_error, 1e-9 * formula.value);
+    EXPECT_NEAR(density.lower, formula.lower, 1e-9 * formula.value);
+    EXPECT_NEAR(density.upper, formula.upper, 1e-9 * formula.value);
+    EXPECT_GT(density.standard_error, 0);
+}
+
+TEST(PowerDensity, IsUnknownWithoutPowerOrArea) {
+    Scene scene = room();
+    const Sensor task = area({{0.5, 2.5, 0.8}, {1.5, 2.5, 0.8}, {1.5, 3.5, 0.8}, {0.5, 3.5, 0.8}}, 0.5);
+    EXPECT_FALSE(measure(scene, {&task, 1}, options_for("path")).power_density);
+    scene.lights.at(0).power_w = 90;
+    const Sensor grid = desk();
+    EXPECT_FALSE(measure(scene, {&grid, 1}, options_for("path")).power_density);
 }
 
 TEST(Areas, NeedAPointInTheOpen) {

@@ -130,6 +130,34 @@ flux = 1000
             luminaire = self.info(ROOT / "scenes/office" / name)["luminaires"][0]
             self.assertAlmostEqual(luminaire["flux_lm"], 3800, delta=20)
             self.assertIn("3800 lm", luminaire["flux_check"])
+            self.assertEqual(luminaire["power_w"], 31)
+            self.assertNotIn("ugr", luminaire)
+
+    def test_ugr_tables(self):
+        """Beside the tables that the Python package eulumdat-ugr 1.0.2 gives for the same file."""
+        path = ROOT / "scenes/office/luminaire.ldt"
+        ugr = json.loads(run("info", path, "--ugr", "--json").stdout)["luminaires"][0]["ugr"]
+        self.assertEqual((len(ugr["rooms_h"]), ugr["reflectances"][1]), (19, [0.7, 0.3, 0.2]))
+        self.assertAlmostEqual(ugr["flux_lm"], 3800)
+        self.assertAlmostEqual(ugr["correction"], 8 * math.log10(3.8))
+        usual, wide = ugr["tables"]
+        self.assertEqual((usual["spacing_h"], wide["spacing_h"]), (0.25, 1))
+        for room, crosswise, endwise in (([2, 2], (18.87, 20.47, 19.23, 20.78, 21.09), (17.63, 19.23, 17.99, 19.54, 19.85)),
+                                         ([4, 8], (19.85, 20.64, 20.32, 21.08, 21.55), (18.43, 19.22, 18.90, 19.66, 20.13)),
+                                         ([12, 8], (19.73, 20.25, 20.24, 20.74, 21.30), (18.35, 18.86, 18.86, 19.35, 19.92))):
+            for table, peer in ((usual["crosswise"], crosswise), (usual["endwise"], endwise)):
+                for rating, other in zip(table[ugr["rooms_h"].index(room)], peer, strict=True):
+                    self.assertAlmostEqual(rating, other, delta=0.3)
+        text = run("info", path, "--ugr").stdout
+        self.assertIn("UGR for 3800 lm (uncorrected, for 1000 lm: 4.6 less), luminaires 0.25 H apart\n", text)
+        self.assertRegex(text, r"\n +12H +8H( +[0-9]+\.[0-9]){10}\n")
+        self.assertRegex(text, r"\n +With luminaires 1 H apart: [+-][0-9.]+ to [+-][0-9.]+ crosswise, [^\n]+ endwise\n")
+
+    def test_ugr_needs_a_luminaire_with_an_opening(self):
+        self.expect_wrong_input(["info", self.scene, "--ugr"], "is no luminaire file. Allowed with --ugr: IES LM-63, EULUMDAT.")
+        panel = (ROOT / "scenes/office/luminaire.ies").read_text()
+        point = self.write("point.ies", panel.replace(" 0.55 0.55 0\n", " 0 0 0\n"))
+        self.expect_wrong_input(["info", point, "--ugr"], "point.ies: states no luminous opening")
 
     def test_mesh(self):
         mesh = self.write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng side\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 1 2\n")

@@ -50,6 +50,39 @@ class RatingsTest(CommandLineTest):
         self.assertRegex(table, r"   diversity 0\.[0-9]+ ± 0\.[0-9]+\n")
         self.assertRegex(table, r"\nratio +[0-9.]+ ± [0-9.]+   desk\.mean / wall\n")
 
+    def test_installed_power(self):
+        known = ROOM.replace("flux = 1000", "flux = 1000\npower = 11.2")
+        self.scene = self.write("power.toml", known + RATINGS)
+        document = self.measure("--paths", "4096")
+        power, task = document["power"], document["sensors"][2]
+        self.assertEqual((power["installed_w"], power["unknown"]), (11.2, []))
+        self.assertAlmostEqual(power["task_area_m2"], 2.8 * 1.6)  # without the band around it
+        self.assertAlmostEqual(power["w_m2"], 11.2 / (2.8 * 1.6))
+        per_100_lx = 100 * power["w_m2"] / task["summary"]["mean"]
+        self.assertAlmostEqual(power["w_m2_per_100_lx"], per_100_lx)
+        low, high = task["summary"]["mean_interval"]
+        relative = (high - low) / 2 / task["summary"]["mean"]
+        low, high = power["w_m2_per_100_lx_interval"]
+        self.assertAlmostEqual((high - low) / 2 / per_100_lx, relative, 6)
+        table = run("measure", self.scene, "--paths", "4096").stdout
+        self.assertRegex(table, r"\nInstalled power: 11\.2 W; 2\.5 W/m² of the task area \(4\.48 m²\), "
+                                r"[0-9.]+ ± [0-9.]+ W/m² per 100 lx\n")
+        report = json.loads(run("info", self.scene, "--json").stdout)
+        self.assertEqual(report["lights"][0]["power_w"], 11.2)
+        self.assertEqual(report["power"], {key: power[key] for key in ("installed_w", "unknown", "task_area_m2", "w_m2")})
+        self.assertIn("\nInstalled power: 11.2 W; 2.5 W/m2 of the task area (4.48 m2)\n", run("info", self.scene).stdout)
+
+    def test_unknown_power(self):
+        self.scene = self.write("power.toml", ROOM + RATINGS)
+        self.assertEqual(self.measure("--paths", "4096")["power"], {"installed_w": None, "unknown": ["bulb"]})
+        unknown = "\nInstalled power: not known: no lamp and no luminaire file states it\n"
+        self.assertIn(unknown, run("measure", self.scene, "--paths", "4096").stdout)
+        self.assertIn(unknown, run("info", self.scene).stdout)
+        spot = "[lights.spot]\ntype = \"point\"\nposition = [1, 2, 2]\nflux = 10\npower = 2\n"
+        self.scene = self.write("power.toml", ROOM + RATINGS + spot)
+        self.assertIn("\nInstalled power: 2 W, without lamps of unknown power: bulb; 0.446 W/m²",
+                      run("measure", self.scene, "--paths", "4096").stdout)
+
     def test_csv_of_derived_values(self):
         self.scene = self.write("ratings.toml", ROOM + RATINGS)
         with tempfile.TemporaryDirectory() as folder:
@@ -91,6 +124,33 @@ class RatingsTest(CommandLineTest):
         table = run("measure", self.scene, "--check").stdout
         self.assertRegex(table, r"\n    required: maximum at most 1 lx: fail\n")
         self.assertRegex(table, r": all requirements are decided; error [^\n]+\nRequirements: 1 fail\n$")
+
+    def test_a_check_of_glare(self):
+        glare = """
+[lights.globe]
+type = "sphere"
+center = [2, 2.4, 2.1]
+radius = 0.1
+flux = 1000
+
+[sensors.eye]
+type = "ugr"
+position = [2, 0.3, 1.2]
+direction = [0, 1, 0]
+"""
+        for limit, code, verdict in ((40, 0, "pass"), (10, 1, "fail")):
+            with self.subTest(limit=limit):
+                self.scene = self.write("glare.toml", ROOM + glare + f"require = {{ ugr = {limit} }}\n")
+                document = self.measure("--check", code=code)
+                self.assertEqual((document["verdict"], document["stopped"]), (verdict, "requirements decided"))
+                (requirement,) = document["sensors"][-1]["requirements"]
+                self.assertEqual((requirement["key"], requirement["at_most"]), ("ugr", limit))
+                self.assertEqual(requirement["value"], document["sensors"][-1]["values"][0]["value"])
+        table = run("measure", self.scene, "--check").stdout
+        self.assertRegex(table, r"\n    required: ugr at most 10: fail\n")
+        # An error that is asked for is reached, though all is decided before.
+        document = self.measure("--check", "--error", "1%", code=1)
+        self.assertEqual((document["verdict"], document["stopped"]), ("fail", "target reached"))
 
     def test_what_is_not_sure_yet(self):
         self.scene = self.write("free.toml", ROOM)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "statistics/interval.h"
 #include "support/scene_builder.h"
 
 namespace stilb::transport {
@@ -46,13 +47,18 @@ TEST(Glare, HasTheIntegralsOfADisk) {
     add_area_light(scene, Disk{{0, 2, 1.2}, {0, -1, 0}, 0.3}, Rgb::grey(5000));
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
-    const Glare glare = find_glare({{0, 0, 1.2}, kAhead}, scene, caster, lights, math::RandomKey{});
+    const Glare glare = find_glare({{0, 0, 1.2}, kAhead}, scene, caster, lights, math::RandomKey{}, 8);
     ASSERT_EQ(glare.sources.size(), 1u);
     const double cosine = 2 / std::hypot(2, 0.3);
     EXPECT_NEAR(glare.sources[0].solid_angle_sr, 2 * kPi * (1 - cosine), 1e-5);
     EXPECT_NEAR(glare.sources[0].luminance_cd_m2, 5000, 1e-9);
     EXPECT_NEAR(glare.sources[0].position_index, 1, 1e-3);
-    EXPECT_NEAR(glare.direct_lx, kPi * 5000 * (1 - cosine * cosine), 0.02);
+    ASSERT_EQ(glare.direct_of_replicates_lx.size(), 8u);
+    const statistics::Estimate direct = statistics::estimate_from_replicates(glare.direct_of_replicates_lx);
+    EXPECT_NEAR(direct.value, kPi * 5000 * (1 - cosine * cosine), 0.02);
+    EXPECT_EQ(glare.glare, glare.sources[0].glare());
+    const statistics::Estimate sum = statistics::estimate_from_replicates(glare.glare_of_replicates);
+    EXPECT_NEAR(sum.value, glare.glare, 1e-3 * glare.glare);
 }
 
 /// Half of a rectangle is hidden; a lamp behind the eye is none.
@@ -63,7 +69,7 @@ TEST(Glare, CountsWhatTheEyeSees) {
     add_object(scene, Rectangle{{-1, 2.999, 1}, {1, 0, 0}, {0, 0, 1}}, Black{});
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
-    const Glare glare = find_glare({{0, 0, 1.2}, kAhead}, scene, caster, lights, math::RandomKey{});
+    const Glare glare = find_glare({{0, 0, 1.2}, kAhead}, scene, caster, lights, math::RandomKey{}, 8);
     ASSERT_EQ(glare.sources.size(), 1u);
     EXPECT_NEAR(glare.sources[0].solid_angle_sr, 0.5 * 0.16 / 9, 2e-4);
     EXPECT_NEAR(glare.sources[0].luminance_cd_m2, 1000, 1e-9);

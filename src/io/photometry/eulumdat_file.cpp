@@ -24,15 +24,19 @@ class FieldReader {
         return trimmed(lines_[next_++]);
     }
 
-    /// A number, whose decimal sign may be a comma.
-    double number(std::string_view what) {
-        const std::string_view found = text(what);
-        std::string with_point(found);
+    /// A number, whose decimal sign may be a comma; nothing where the line is none.
+    std::optional<double> find_number(std::string_view what) {
+        std::string with_point(text(what));
         std::replace(with_point.begin(), with_point.end(), ',', '.');
-        const auto value = parse_number(with_point);
+        return parse_number(with_point);
+    }
+
+    double number(std::string_view what) {
+        const auto value = find_number(what);
         if (!value) {
-            throw InputError(
-                fmt::format("{} is not a number: the {} is expected here", in_quotes(found), what), here());
+            throw InputError(fmt::format("{} is not a number: the {} is expected here",
+                                         in_quotes(trimmed(lines_[next_ - 1])), what),
+                             here());
         }
         return *value;
     }
@@ -181,6 +185,7 @@ Vec3 read_opening(FieldReader& reader) {
 struct LampSet {
     bool absolute = false;
     double flux_lm = 0;
+    std::optional<double> power_w;  ///< with ballasts
 };
 
 /// The first set of lamps; the further sets are alternatives.
@@ -191,7 +196,9 @@ LampSet read_lamp_sets(FieldReader& reader, std::vector<std::string>& warnings) 
     first.absolute = reader.whole_number("number of lamps", -1'000'000, 1'000'000) < 0;
     const std::string type = printable(reader.text("type of lamps"));
     first.flux_lm = reader.positive_number("total luminous flux of the lamps");
-    reader.skip(3 + kLinesPerSet * (sets - 1), "data of the lamps");
+    reader.skip(2, "colour of the lamps");
+    first.power_w = stated_power_w(reader.find_number("power of the lamps"));
+    reader.skip(kLinesPerSet * (sets - 1), "data of the lamps");
     if (sets > 1) {
         warnings.push_back(
             fmt::format("the file has {} alternative sets of lamps: the first is used ({}, {} lm)", sets,
@@ -236,6 +243,7 @@ PhotometryFile read_eulumdat(std::string_view content, const std::string& name) 
     }
     const LampSet lamps = read_lamp_sets(reader, file.warnings);
     file.absolute = lamps.absolute;
+    file.power_w = lamps.power_w;
     if (!lamps.absolute) file.lamp_flux_lm = lamps.flux_lm;
     file.stated_flux_lm = lamps.flux_lm * output_ratio;
     reader.skip(10, "direct ratios");

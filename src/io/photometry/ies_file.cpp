@@ -187,6 +187,7 @@ struct Header {
     std::size_t vertical_angles = 0, horizontal_angles = 0;
     lights::PhotometryType type = lights::PhotometryType::C;
     Vec3 opening_m;
+    double input_watts = 0;
     double ballast_factor = 1;  ///< times the ballast-lamp photometric factor of 1986 and 1991
 };
 
@@ -224,7 +225,7 @@ Header read_header(NumberReader& reader, int year, std::vector<std::string>& war
                         "is not applied as a factor",
                         reserved, year));
     }
-    reader.number("input watts");
+    header.input_watts = reader.number("input watts");
     return header;
 }
 
@@ -331,6 +332,7 @@ PhotometryFile read_ies(std::string_view content, const std::string& name) {
     const Header header = read_header(reader, year, file.warnings);
     file.absolute = header.lumens_per_lamp < 0;
     if (!file.absolute) file.lamp_flux_lm = header.lamps * header.lumens_per_lamp * header.ballast_factor;
+    file.power_w = stated_power_w(header.input_watts);
     file.opening_m = header.opening_m;
     file.grid = read_grid(reader, header);
     return file;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct PhotometryFile {
     /// Luminous flux of the luminaire as the file states it, to be compared with the integral of the
     /// distribution. 0: none is stated, as in all IES files.
     double stated_flux_lm = 0;
+    /// The electric power of the luminaire, where the file states one above 0.
+    std::optional<double> power_w = {};
     /// Luminous opening along C0-C180 and C90-C270, and its height; a negative extent means round.
     Vec3 opening_m;
     PhotometricSolid::Grid grid;

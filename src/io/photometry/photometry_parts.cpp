@@ -66,6 +66,10 @@ std::string printable(std::string_view text) {
     return std::string(trimmed(result));
 }
 
+std::optional<double> stated_power_w(std::optional<double> number) {
+    return number && *number > 0 && std::isfinite(*number) ? number : std::nullopt;
+}
+
 std::vector<double> checked_angles(const std::vector<LocatedNumber>& numbers, std::string_view what,
                                    double least, double greatest, const std::string& file) {
     std::vector<double> angles;

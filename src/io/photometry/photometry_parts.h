@@ -24,6 +24,9 @@ struct LocatedNumber {
     std::size_t line = 0;
 };
 
+/// The power that a file states; 0 and less mean that it states none.
+std::optional<double> stated_power_w(std::optional<double> number);
+
 /// The numbers as angles. Throws InputError where they do not increase or leave [least, greatest] degrees;
 /// `what` names one of them in messages.
 std::vector<double> checked_angles(const std::vector<LocatedNumber>& numbers, std::string_view what,

@@ -73,6 +73,16 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     return json;
 }
 
+Json power_json(const scene::InstalledPower& power, const std::optional<run::PowerDensity>& density) {
+    Json json{{"installed_w", power.power_w ? Json(*power.power_w) : Json()}, {"unknown", power.unknown}};
+    if (!density) return json;
+    json["task_area_m2"] = density->area_m2;
+    json["w_m2"] = density->w_m2;
+    json["w_m2_per_100_lx"] = density->w_m2_per_100_lx.value;
+    json["w_m2_per_100_lx_interval"] = interval_json(density->w_m2_per_100_lx);
+    return json;
+}
+
 Json light_json(const estimators::FirstShotLight& light) {
     return {{"name", light.name},
             {"replaced", light.is_replaced},
@@ -251,6 +261,7 @@ std::string to_json(const RunResult& result, const std::string& scene, Replicate
     if (const auto verdict = run::verdict_of(result)) json["verdict"] = run::name_of(*verdict);
     json["warnings"] = result.warnings;
     if (result.maintenance) json["maintenance"] = *result.maintenance;
+    if (result.power.has_lamps()) json["power"] = power_json(result.power, result.power_density);
     if (result.patches) {
         json["first_shot_set_up_s"] = result.patches->set_up_s;
         json["patches"] = patches_json(*result.patches);

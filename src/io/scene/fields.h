@@ -237,7 +237,7 @@ Keys sensor_keys() {
     for_each_field<Kind>([&](const auto& field) {
         for (const std::string_view key : keys_of(field)) keys.push_back(key);
     });
-    if constexpr (!std::is_same_v<Kind, Camera> && !std::is_same_v<Kind, Ugr>) keys.push_back("require");
+    if constexpr (!std::is_same_v<Kind, Camera>) keys.push_back("require");
     return keys;
 }
 

@@ -26,6 +26,7 @@ constexpr double kWholeTurnDeg = 360;
 /// The object of a luminaire's opening has the name of its light, with this ending.
 constexpr std::string_view kOpeningSuffix = " (opening)";
 constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
+constexpr Range kPower{1e-6, 1e9, "a power from 1e-6 to 1e9 W"};
 
 /// The context of reading one light, besides its table.
 struct Context {
@@ -148,7 +149,7 @@ SolidId read_solid(const TomlItem& item, const Context& context) {
         const PhotometricSolid solid(file.grid);
         solids.push_back({path.string(), file.luminaire, solid, file.format,
                           check_flux(file, solid.flux_lm()).description(),
-                          lights::Opening::of_signed(file.opening_m)});
+                          lights::Opening::of_signed(file.opening_m), file.power_w});
         for (const std::string& warning : photometry_warnings(file, solid))
             context.file.warnings.push_back(fmt::format("{}: {}", item.where(), warning));
     }
@@ -271,7 +272,7 @@ constexpr bool all_have_readers(const std::variant<Kinds...>*) {
 }
 static_assert(all_have_readers(static_cast<const lights::LightSource*>(nullptr)));
 
-/// Daylight is not a lamp: it has no maintenance factor, and takes no defaults.
+/// Daylight is not a lamp: it has no maintenance factor, takes no power, and takes no defaults.
 bool is_lamp(const Reader& reader) { return reader.type != EnvironmentLight::kType; }
 
 std::vector<std::string_view> keys_of(const Reader& reader) {
@@ -280,7 +281,7 @@ std::vector<std::string_view> keys_of(const Reader& reader) {
     std::string_view others = reader.keys;
     while (!others.empty()) keys.push_back(next_word(others));
     keys.push_back("group");
-    if (is_lamp(reader)) keys.push_back("maintenance");
+    if (is_lamp(reader)) keys.insert(keys.end(), {"maintenance", "power"});
     return keys;
 }
 
@@ -297,6 +298,14 @@ std::string read_group(const TomlTable& table, std::string otherwise) {
     std::string name(group->text());
     if (name.empty()) group->fail("the name is empty. Allowed: a text with at least one character.");
     return name;
+}
+
+/// Electric, at full output. That of a luminaire file belongs to the flux of the file.
+std::optional<double> read_power(const TomlTable& table, const Light& light, const Scene& scene) {
+    if (const auto power = table.find("power")) return power->number(kPower);
+    const Luminaire* const luminaire = lights::luminaire_of(light);
+    if (!luminaire || table.has("flux")) return std::nullopt;
+    return scene.solids[index_of(luminaire->solid)].power_w;
 }
 
 }  // namespace
@@ -317,6 +326,7 @@ void read_lights(const TomlTable& section, LightContext context, SceneFile& file
         const double maintenance = is_lamp(reader) ? read_maintenance(table, context.maintenance) : 1;
         Light light{name, reader.read(table, {name, context.directory, context.parts, file}),
                     read_group(table, copy_of), maintenance};
+        light.power_w = read_power(table, light, file.scene);
         if (maintenance < 1) light.source = lights::scaled(light.source, Rgb::grey(maintenance));
         file.scene.lights.push_back(std::move(light));
     }

@@ -56,9 +56,11 @@ sensors::SensorKind read_sensor(TomlTable& table, Warnings& warnings) {
 constexpr Range kLimit{0, 1e15, "a number from 0 to 1e15"};
 constexpr Range kLimitOfDerived{-1e15, 1e15, "a number from -1e15 to 1e15"};
 constexpr Range kLimitOfRatio{0, 1, "a share from 0 to 1"};
+constexpr Range kLimitOfRating{0, 100, "a rating from 0 to 100"};
 
 const Range& range_of(const sensors::Criterion& criterion, const Sensor& sensor) {
     if (is_ratio(criterion.statistic)) return kLimitOfRatio;
+    if (sensor.rates_glare()) return kLimitOfRating;
     return sensor.derived() ? kLimitOfDerived : kLimit;
 }
 
@@ -186,7 +188,7 @@ std::vector<Requirement> read_requirements(const TomlTable& owner, const Sensor&
     TomlTable table = item->table();
     Keys keys;
     for (const sensors::Criterion& criterion : sensors::kCriteria) {
-        if (is_ratio(criterion.statistic) && !sensor.has_ratios()) continue;
+        if (!sensor.takes(criterion)) continue;
         keys.push_back(criterion.key);
         if (const auto limit = table.find(criterion.key))
             requirements.push_back({&criterion, limit->number(range_of(criterion, sensor))});
