@@ -186,14 +186,19 @@ std::vector<SensorResult> sensor_results(const Campaign& campaign, std::span<con
     return results;
 }
 
-/// Sensors that rate glare have illuminances up to here.
+/// Sensors that rate glare have illuminances up to here. `bright`: of all sensors.
 void rate_glare(const Scene& scene, const rays::RayCaster& caster, const RunOptions& options,
-                RunResult& result) {
+                const std::vector<std::vector<BrightParts>>& bright, RunResult& result) {
     const math::RandomKey key = math::RandomKey{options.seed}.derived(kReadingGlare);
-    for (SensorResult& sensor : result.sensors) {
-        if (!sensor.sensor.rates_glare()) continue;
-        sensor = with_glare_ratings(sensor, scene, caster, confidence_of(options, result.stop_reason), key,
-                                    result.warnings);
+    const double confidence = confidence_of(options, result.stop_reason);
+    for (std::size_t s = 0; s < result.sensors.size(); ++s) {
+        SensorResult& sensor = result.sensors[s];
+        if (std::holds_alternative<Ugr>(sensor.sensor.kind)) {
+            sensor = with_unified_ratings(sensor, scene, caster, confidence, key, result.warnings);
+        } else if (std::holds_alternative<Dgp>(sensor.sensor.kind)) {
+            sensor = with_daylight_probabilities(sensor, bright[s], scene, caster, confidence, key,
+                                                 result.warnings);
+        }
     }
 }
 
@@ -247,7 +252,11 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     problem.measurands = wanted.measurands;
     problem.weights = wanted.weights;
     std::unique_ptr<estimators::Estimator> estimator;
-    session.on_threads([&] { estimator = method.make(problem); });
+    std::vector<std::vector<BrightParts>> bright;
+    session.on_threads([&] {
+        bright = find_bright_parts(sensors, scene, session.caster(), options, session.monitor());
+        estimator = method.make(problem);
+    });
     // Patches store the light of highlights: each sample then contains it.
     const transport::SharpLight sharp = method.lights_patches
                                             ? transport::SharpLight{}
@@ -269,7 +278,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     warn(std::move(of_scene));
     result.sensors = sensor_results(campaign, sensors, options, result.stop_reason, estimator->sight_ends(),
                                     result.warnings);
-    session.on_threads([&] { rate_glare(scene, session.caster(), options, result); });
+    session.on_threads([&] { rate_glare(scene, session.caster(), options, bright, result); });
     warn(sharp_light_warnings(sharp, result.samples, scene));
     warn(patch_error_warnings(result));
     session.finish(result);

@@ -11,7 +11,6 @@ namespace stilb::transport {
 namespace {
 
 constexpr double kMostIndex = 16;
-constexpr std::size_t kReplicates = 8;
 constexpr std::uint64_t kSamples = 256;  ///< of each lamp and replicate
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }
@@ -79,19 +78,18 @@ class Eye {
 
 void add_lamp(const Eye& eye, std::uint32_t light, const lights::EmitterSurface& surface, math::RandomKey key,
               Glare& glare) {
-    std::array<Seen, kReplicates> of_replicates;
+    std::array<Seen, kGlareReplicates> of_replicates;
     Seen all;
-    for (std::size_t r = 0; r < kReplicates; ++r) {
+    for (std::size_t r = 0; r < kGlareReplicates; ++r) {
         of_replicates[r] = eye.see(light, surface, key.derived(r));
-        all.add(of_replicates[r], 1.0 / kReplicates);
+        all.add(of_replicates[r], 1.0 / kGlareReplicates);
         glare.direct_of_replicates_lx[r] += of_replicates[r].direct_lx;
     }
     if (!(all.solid_angle_sr > 0)) return;
-    glare.sources.push_back(all.source(light, eye.sight()));
-    if (all.solid_angle_sr < kLeastGlare_sr) return;
-    for (std::size_t r = 0; r < kReplicates; ++r) {
+    GlareSource& source = glare.sources.emplace_back(all.source(light, eye.sight()));
+    for (std::size_t r = 0; r < kGlareReplicates; ++r) {
         if (of_replicates[r].solid_angle_sr > 0)
-            glare.glare_of_replicates[r] += of_replicates[r].source(light, eye.sight()).glare();
+            source.glare_of_replicates[r] = of_replicates[r].source(light, eye.sight()).glare();
     }
 }
 
@@ -119,8 +117,6 @@ double position_index(const Vec3& direction, const Vec3& line_of_sight) {
 Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCaster& caster,
                  const LightSampler& lights, math::RandomKey key) {
     Glare glare;
-    glare.direct_of_replicates_lx.resize(kReplicates);
-    glare.glare_of_replicates.resize(kReplicates);
     const Eye eye(at, caster, lights);
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         if (const auto object = lights::emitting_object(scene.lights[i])) {
@@ -132,7 +128,7 @@ Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCa
         }
     }
     for (const double of_replicate : glare.direct_of_replicates_lx)
-        glare.direct_lx += of_replicate / kReplicates;
+        glare.direct_lx += of_replicate / kGlareReplicates;
     return glare;
 }
 

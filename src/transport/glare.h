@@ -8,6 +8,8 @@
 // p; the background is all light at the eye but E.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,9 +26,13 @@ double position_index(const Vec3& direction, const Vec3& line_of_sight);
 /// Solid angles [sr] for which the Unified Glare Rating was made.
 inline constexpr double kLeastGlare_sr = 0.0003, kMostGlare_sr = 0.1;
 
+inline constexpr std::size_t kGlareReplicates = 8;
+
 struct GlareSource {
     std::uint32_t light = 0;  ///< of Scene::lights
     double solid_angle_sr = 0, luminance_cd_m2 = 0, position_index = 16;
+    /// glare() of several independent samples of the lamp.
+    std::array<double, kGlareReplicates> glare_of_replicates{};
 
     /// L^2 w / p^2.
     double glare() const {
@@ -37,9 +43,18 @@ struct GlareSource {
 struct Glare {
     std::vector<GlareSource> sources;  ///< in front of the eye and seen by it
     double direct_lx = 0;              ///< at the eye, by all lamps, points included
-    /// The same sums of several independent samples of the lamps: direct_lx and, over the sources of at least
-    /// kLeastGlare_sr, glare().
-    std::vector<double> direct_of_replicates_lx, glare_of_replicates;
+    std::array<double, kGlareReplicates> direct_of_replicates_lx{};
+
+    /// The sums of glare() over the sources that count, of several independent samples.
+    template <typename Counts>
+    std::array<double, kGlareReplicates> glare_of_replicates(const Counts& counts) const {
+        std::array<double, kGlareReplicates> sums{};
+        for (const GlareSource& source : sources) {
+            if (!counts(source)) continue;
+            for (std::size_t r = 0; r < kGlareReplicates; ++r) sums[r] += source.glare_of_replicates[r];
+        }
+        return sums;
+    }
 };
 
 /// `eye`: its normal is the line of sight. The light from infinity is background.
