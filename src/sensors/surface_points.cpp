@@ -157,7 +157,8 @@ std::optional<Fault> place_on(std::span<const PlaneFace> faces, Area& area) {
     const PlaneExtent extent_of_largest = extent_of(largest);
     const auto [short_m, long_m] = std::minmax({extent_of_largest.width_m(), extent_of_largest.height_m()});
     const double spacing_m = area.spacing_m.value_or(raster_spacing_m(short_m, long_m));
-    area.cell_m = {spacing_m, spacing_m};
+    area.cell_m = {extent_of_largest.width_m() / cells_along(extent_of_largest.width_m(), spacing_m),
+                   extent_of_largest.height_m() / cells_along(extent_of_largest.height_m(), spacing_m)};
     double all_m2 = 0;
     for (const PlaneFace& face : faces) {
         all_m2 += face.area_m2;

@@ -1,4 +1,5 @@
 #include "io/scene_text.h"
+#include "run/run.h"
 
 namespace stilb::io {
 namespace {
@@ -120,6 +121,23 @@ TEST(SceneAreas, AreFacesOfObjects) {
     EXPECT_EQ(screen.size(), 8u);
     EXPECT_EQ(screen[0].normal, (Vec3{0, 1, 0}));
     EXPECT_EQ(points_of("object = [\"screen\", \"room\"]\npart = \"walls\"\nspacing = 1").size(), 2u + 28u);
+}
+
+/// A closed room absorbs the flux of its lamp: the mean over all faces is known.
+TEST(SceneAreas, OfAWholeRoomHaveTheMeanOfItsFlux) {
+    const SceneFile file = read_text(
+        "[materials.white]\ntype = \"diffuse\"\nreflectance = 0.7\n"
+        "[objects.room]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [4, 3, 2]\nmaterial = \"white\"\n"
+        "[lights.bulb]\ntype = \"point\"\nposition = [1.5, 1, 1.2]\nflux = 1000\n" +
+        area("object = \"room\"\nspacing = 0.25"));
+    RunOptions options;
+    options.paths = 1 << 14;
+    const RunResult result = run::measure(file.scene, file.sensors, options);
+    const statistics::Estimate& mean = result.sensors[0].summary.mean;
+    const double exact_lx = 1000 / (52 * (1 - 0.7));
+    EXPECT_NEAR(mean.value, exact_lx, 4 * mean.standard_error + 0.002 * exact_lx);  // of the raster
+    EXPECT_LT(mean.standard_error, 0.005 * exact_lx);
+    EXPECT_EQ(std::get<Area>(result.sensors[0].sensor.kind).left_out, 0u);
 }
 
 TEST(SceneAreas, RefuseObjectsWithoutSuchFaces) {

@@ -33,7 +33,7 @@ class LuminaireBody : public testing::Test {
         std::filesystem::create_directories(directory_);
         std::ofstream(directory_ / "housing.obj") << housing();
         const auto ies = [](const char* angles, const char* intensities, int count) {
-            return fmt::format("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {} 1 1 2 0.5 0.3 0\n1 1 0\n{}\n0\n{}\n",
+            return fmt::format("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {} 1 1 2 0.3 0.5 0\n1 1 0\n{}\n0\n{}\n",
                                count, angles, intensities);
         };
         std::ofstream(directory_ / "down.ies") << ies("0 45 90", "200 160 0", 3);
@@ -64,6 +64,7 @@ TEST_F(LuminaireBody, MovesAndTurnsWithItsLight) {
     EXPECT_LT(length(bounds.max - Vec3{1.3, 2.2, 3.1}), 1e-12);
     EXPECT_EQ(file.scene.materials[index_of(body.materials.front())].name, "trim");
     EXPECT_EQ(file.scene.materials[index_of(body.materials.back())].name, "white");
+    EXPECT_TRUE(file.warnings.empty()) << file.warnings[0];
     // Aimed along x and spun by a quarter turn: the body's x, C0, follows.
     const SceneFile aimed = read(
         "file = \"down.ies\"\nposition = [0, 0, 0]\naim = [1, 0, 0]\nspin = 90\ngeometry = \"housing.obj\"");

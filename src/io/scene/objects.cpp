@@ -165,10 +165,13 @@ void add_face(const TomlItem& face, MeshBuilder& builder) {
     builder.add_polygon(corners);
 }
 
-void warn_of_degenerate(const TomlTable& table, const MeshFile& mesh, SceneFile& file) {
+void warn_of_degenerate(const std::string& where, const MeshFile& mesh, SceneFile& file) {
     if (mesh.degenerate_triangles == 0) return;
-    file.warnings.push_back(
-        fmt::format("{}: {} triangles without area are left out.", table.where(), mesh.degenerate_triangles));
+    std::string warning =
+        fmt::format("{}: {} triangles without area are left out.", where, mesh.degenerate_triangles);
+    // Bodies of several luminaires have the same.
+    if (std::ranges::find(file.warnings, warning) == file.warnings.end())
+        file.warnings.push_back(std::move(warning));
 }
 
 Mesh read_polygons(const TomlTable& table, SceneFile& file) {
@@ -178,7 +181,7 @@ Mesh read_polygons(const TomlTable& table, SceneFile& file) {
         table.at("vertices").fail("found fewer than 3 vertices. Allowed: 3 or more.");
     for (const TomlItem& face : table.at("faces").elements()) add_face(face, builder);
     MeshFile mesh = std::move(builder).finish(table.where(), "give a face that has an area");
-    warn_of_degenerate(table, mesh, file);
+    warn_of_degenerate(table.where(), mesh, file);
     return std::move(mesh.mesh);
 }
 
@@ -290,7 +293,7 @@ std::vector<MaterialId> materials_by_name(const TomlItem& item, const MeshFile& 
 Object read_mesh_object(TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
                         MeshParts& parts) {
     MeshFile mesh = read_mesh(table.at("file"), directory, file);
-    warn_of_degenerate(table, mesh, file);
+    warn_of_degenerate(table.where(), mesh, file);
     std::vector<MaterialId> materials = read_materials_of(table, mesh, file.scene);
     parts = take_parts(mesh);
     return {"", std::move(mesh.mesh), std::move(materials)};
@@ -359,15 +362,20 @@ geometry::Transform transform_of(const Shape& shape, const TomlTable& table) {
 }  // namespace
 
 Object read_body(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
+    const auto read = [&](const TomlItem& name) {
+        MeshFile mesh = read_mesh(name, directory, file);
+        warn_of_degenerate(item.where(), mesh, file);
+        return mesh;
+    };
     if (!item.is_table()) {
-        MeshFile mesh = read_mesh(item, directory, file);
+        MeshFile mesh = read(item);
         std::vector<MaterialId> materials = materials_by_name(item, mesh, file.scene);
         return {"", std::move(mesh.mesh), std::move(materials)};
     }
     TomlTable table = item.table();
     table.expect_keys({"file", "material", "materials", "scale", "rotate", "translate", "transform"});
     const bool is_by_name = !table.has("material") && !table.has("materials");
-    MeshFile mesh = read_mesh(table.at("file"), directory, file);
+    MeshFile mesh = read(table.at("file"));
     std::vector<MaterialId> materials =
         is_by_name ? materials_by_name(item, mesh, file.scene) : read_materials_of(table, mesh, file.scene);
     return {"", transformed(std::move(mesh.mesh), read_transform(table)), std::move(materials)};
