@@ -256,8 +256,7 @@ int run_cie171(const VerifyRequest& request, RunOptions options) {
     } else {
         fmt::print(
             "\nMethod {}, 95 % intervals. {} of {} values are outside: more than {:g} standard errors from "
-            "the "
-            "reference.\n",
+            "the reference.\n",
             options.method, outside, rows, verification::kContradictionZ);
     }
     return outside == 0 ? kExitDone : kExitCheckFailed;

@@ -236,8 +236,7 @@ SensorResult with_daylight_probabilities(const SensorResult& illuminances,
     if (dim > 0) {
         warnings.push_back(
             fmt::format("sensor \"{}\": the illuminance at the eye is below {:g} lx in {} of {} views, for "
-                        "which DGP was not "
-                        "made: it may be too low.",
+                        "which DGP was not made: it may be too low.",
                         illuminances.sensor.name, kLeastIlluminance_lx, dim, views.size()));
     }
     warn_of_points(illuminances.sensor, scene, warnings);

@@ -100,8 +100,7 @@ void place_on_objects(const TomlTable& table, const Scene& scene, Area& area) {
     if (faces.empty()) {
         table.at("part").fail(
             fmt::format("no face of the object is part of the {}: closed objects are measured inside, others "
-                        "on their front. "
-                        "Allowed: another part or object.",
+                        "on their front. Allowed: another part or object.",
                         sensors::kSurfacePartNames[static_cast<std::size_t>(area.surfaces.part)]));
     }
     if (const auto fault = place_on(faces, area)) table.at(fault->key).fail(fault->message);
