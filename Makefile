@@ -45,15 +45,17 @@ install: build ## the program, the library with its CMake package, manual pages 
 	@cmake --build --preset release --target stilb_library
 	@cmake --install build/release --prefix $(PREFIX)
 
-verify-long: build ## all exact solutions at 0.2 %, closed meshes with 1e8 rays each, patches as they shrink, harmonics, coverage of readings, pixels and ratings, time limits
+verify-long: build ## all exact solutions at 0.2 %, CIE 171, closed meshes with 1e8 rays each, patches as they shrink, harmonics, coverage of readings, pixels and ratings, time limits
 	$(RELEASE)/stilb verify --error 0.2%
-	@cmake --build --preset release --target verify_watertight verify_patches verify_harmonics verify_coverage verify_pooled verify_ratings
+	$(RELEASE)/stilb verify --cie171 --error 0.5%
+	@cmake --build --preset release --target verify_watertight verify_patches verify_harmonics verify_coverage verify_pooled verify_ratings verify_glare
 	$(RELEASE)/verify_watertight 100000000
 	$(RELEASE)/verify_patches
 	$(RELEASE)/verify_harmonics
 	$(RELEASE)/verify_coverage
 	$(RELEASE)/verify_pooled
 	$(RELEASE)/verify_ratings
+	$(RELEASE)/verify_glare
 	tests/long/verify_limits.py
 
 web: setup ## check and build the page of `stilb view` alone: build/release/page/dist

@@ -17,6 +17,7 @@
 #include "estimators/estimator_list.h"
 #include "run/options.h"
 #include "stilb/error.h"
+#include "verification/cie171.h"
 #include "verification/verification.h"
 
 namespace stilb::cli {
@@ -28,7 +29,7 @@ struct VerifyRequest {
     std::optional<double> time_s;
     std::uint64_t seed = 1;
     int threads = 0;
-    bool all = false, json = false;
+    bool all = false, json = false, cie171 = false;
 };
 
 constexpr const char* kTableHeader =
@@ -56,20 +57,25 @@ std::string reading_rows(const verification::Verification& v) {
 
 std::array<double, 3> components_of(const Vec3& v) { return {v.x, v.y, v.z}; }
 
+/// Adds both values of a reading.
+void add_values(const verification::CheckedReading& reading, nlohmann::ordered_json& json) {
+    const statistics::Estimate& measured = reading.measured;
+    json["exact"] = reading.exact.value;
+    json["tolerance"] = reading.exact.tolerance;
+    json["value"] = measured.value;
+    json["standard_error"] = measured.standard_error;
+    json["interval"] = {measured.lower, measured.upper};
+    json["z"] = reading.z;
+}
+
 nlohmann::ordered_json to_json(const verification::Verification& v) {
     nlohmann::ordered_json readings = nlohmann::ordered_json::array();
     for (const verification::CheckedReading& reading : v.readings) {
-        const statistics::Estimate& measured = reading.measured;
         const Location location = location_of(reading.exact.measurand);
         nlohmann::ordered_json json{{"position", components_of(location.position)}};
         for (const Location::Direction& direction : location.directions)
             json[std::string(direction.name)] = components_of(direction.value);
-        json["exact"] = reading.exact.value;
-        json["tolerance"] = reading.exact.tolerance;
-        json["value"] = measured.value;
-        json["standard_error"] = measured.standard_error;
-        json["interval"] = {measured.lower, measured.upper};
-        json["z"] = reading.z;
+        add_values(reading, json);
         readings.push_back(std::move(json));
     }
     return {{"case", v.name},
@@ -197,8 +203,68 @@ std::vector<verification::Verification> verify_all(const VerifyRequest& request,
     return results;
 }
 
+// The test cases of CIE 171
+
+constexpr const char* kCie171Header =
+    "case                                 point              reference      value  unit           interval"
+    "          z\n";
+
+std::string cie171_row(const verification::Cie171Case& c, const std::string& point,
+                       const verification::CheckedReading& reading) {
+    const statistics::Estimate& measured = reading.measured;
+    return fmt::format("{:4} {:31} {:16} {:11.3f} {:10.3f}  {:4} {:10.3f} to {:8.3f} {:6.2f}\n", c.number,
+                       c.variant, point, reading.exact.value, measured.value, c.unit, measured.lower,
+                       measured.upper, reading.z);
+}
+
+nlohmann::ordered_json cie171_json(const verification::Cie171Case& c, const std::string& method,
+                                   const std::string& point, const verification::CheckedReading& reading) {
+    nlohmann::ordered_json json{
+        {"case", c.number}, {"variant", c.variant}, {"method", method}, {"point", point}, {"unit", c.unit}};
+    add_values(reading, json);
+    return json;
+}
+
+int run_cie171(const VerifyRequest& request, RunOptions options) {
+    if (!request.cases.empty()) throw InputError("--case and --cie171: give one of them");
+    if (request.methods.size() > 1) throw InputError("--cie171: give one --method at most");
+    if (!request.methods.empty()) options.method = estimators::find_estimator(request.methods[0]).name;
+    const std::atomic<bool>& interrupt = watch_for_interrupt();
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    std::size_t outside = 0, rows = 0;
+    if (!request.json) fmt::print("{}", kCie171Header);
+    for (const verification::Cie171Case& c : verification::cie171_cases()) {
+        if (interrupt) break;
+        std::vector<verification::CheckedReading> readings;
+        {
+            TerminalProgress progress;
+            readings = verify(c, options, &progress, &interrupt);
+        }
+        for (std::size_t i = 0; i < readings.size(); ++i) {
+            outside += readings[i].contradicts();
+            if (request.json) {
+                all.push_back(cie171_json(c, options.method, c.rows[i].point, readings[i]));
+            } else {
+                fmt::print("{}", cie171_row(c, c.rows[i].point, readings[i]));
+            }
+        }
+        rows += readings.size();
+        std::fflush(stdout);
+    }
+    if (request.json) {
+        fmt::print("{}\n", all.dump(2));
+    } else {
+        fmt::print(
+            "\nMethod {}, 95 % intervals. {} of {} values are outside: more than {:g} standard errors from "
+            "the reference.\n",
+            options.method, outside, rows, verification::kContradictionZ);
+    }
+    return outside == 0 ? kExitDone : kExitCheckFailed;
+}
+
 int run_verify(const VerifyRequest& request) {
     const RunOptions options = run_options(request);
+    if (request.cie171) return run_cie171(request, options);
     const std::vector<estimators::EstimatorEntry> methods = chosen_methods(request.methods);
     const std::vector<verification::VerificationCase> cases = chosen_cases(request.cases, methods);
     const std::vector<verification::Verification> results = verify_all(request, cases, methods, options);
@@ -219,6 +285,7 @@ void add_verify(CommandLine& line) {
     command.set_examples(
         "  stilb verify\n"
         "  stilb verify --error 0.2%\n"
+        "  stilb verify --cie171\n"
         "  stilb verify --case \"photometric sphere\" --method auto --all\n");
     auto request = std::make_shared<VerifyRequest>();
     command.add("--case", request->cases, "Check only this exact solution (may be repeated)")
@@ -237,6 +304,8 @@ void add_verify(CommandLine& line) {
         .add("--seed", request->seed, "Seed of the random numbers: another seed gives an independent result")
         .value_name("N");
     command.add("--threads", request->threads, "Processor threads (default: all)").value_name("N");
+    command.add("--cie171", request->cie171,
+                "The test cases of CIE 171 instead, by one method (default: auto)");
     command.add("--all", request->all, "Show all readings, not only the worst of each row");
     command.add("--json", request->json, "One JSON document on stdout instead of the table");
     command.run([request] { return run_verify(*request); });

@@ -126,7 +126,8 @@ Opening Opening::of_signed(const Vec3& e) {
     return opening;
 }
 
-OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const PhotometricSolid& solid) {
+OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const PhotometricSolid& solid,
+                      const BodyExtent& body) {
     Vec3 size = opening.extent_m;
     if (opening.form == Opening::Form::ball) {
         return {Sphere{luminaire.position, std::cbrt(size.x * size.y * size.z) / 2}, 0};
@@ -134,14 +135,19 @@ OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const 
     const double thin_m = kThinShare * std::max({size.x, size.y, size.z});
     size.x = std::max(size.x, thin_m), size.y = std::max(size.y, thin_m);
     const bool is_flat = !(size.z > 0);
+    Vec3 middle = luminaire.position;
     if (is_flat) {
         const double below = share_below(solid);
         const double hidden = std::min(below, 1 - below);
-        if (hidden < kMostHiddenShare)
-            return {one_side({opening.form, size}, luminaire, below > 0.5), hidden};
-        size.z = kPlateShare * std::min(size.x, size.y);
+        if (hidden < kMostHiddenShare) {
+            Luminaire moved = luminaire;
+            moved.position += (below > 0.5 ? body.below_m : -body.above_m) * luminaire.nadir;
+            return {one_side({opening.form, size}, moved, below > 0.5), hidden};
+        }
+        const double lower_m = std::max(body.below_m, kPlateShare * std::min(size.x, size.y));
+        size.z = lower_m + body.above_m;
+        middle += (lower_m - body.above_m) / 2 * luminaire.nadir;
     }
-    const Vec3 middle = luminaire.position + (is_flat ? size.z / 2 : 0) * luminaire.nadir;
     const Axes axes = axes_of(opening.form, size, luminaire);
     return {prism(middle, axes, opening.form != Opening::Form::box, is_flat ? Sides::none : Sides::all), 0};
 }

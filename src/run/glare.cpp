@@ -42,14 +42,30 @@ double mean_of(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// The sums of a view over the sources that UGR was made for.
+struct UnifiedGlare {
+    explicit UnifiedGlare(const Glare& view) : of_replicates(view.direct_of_replicates_lx.size()) {
+        for (const transport::GlareSource& source : view.sources) {
+            if (source.solid_angle_sr < transport::kLeastGlare_sr) continue;
+            sum += source.glare();
+            for (std::size_t r = 0; r < of_replicates.size(); ++r)
+                of_replicates[r] += source.glare_of_replicates[r];
+        }
+    }
+
+    double sum = 0;
+    std::vector<double> of_replicates;
+};
+
 /// Turns the illuminances of reading `j` into q, to first order in the error of the glare.
 void set_ratios(const Glare& view, std::size_t j, Campaign::Estimates& all) {
     const std::size_t readings = all.readings.size(), replicates = all.replicate_means.size() / readings;
-    const bool sees_lamps = view.glare > 0;
-    const double per_lx = sees_lamps ? 1 / view.glare : 0;
+    const UnifiedGlare in_all(view);
+    const bool sees_lamps = in_all.sum > 0;
+    const double per_lx = sees_lamps ? 1 / in_all.sum : 0;
     // The run may have ended before all of its replicates began.
     const auto direct_lx = std::span(view.direct_of_replicates_lx).first(replicates);
-    const auto glare = std::span(view.glare_of_replicates).first(replicates);
+    const auto glare = std::span(in_all.of_replicates).first(replicates);
     const double mean_glare = mean_of(glare);
     const double q = (all.readings[j].value - mean_of(direct_lx)) * per_lx;
     for (std::size_t r = 0; r < replicates; ++r) {
@@ -111,7 +127,7 @@ void warn(const std::string& sensor, std::string_view what, const LightNumbers& 
 
 void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, const Scene& scene,
                      std::vector<std::string>& warnings) {
-    LightNumbers small, large, points;
+    LightNumbers small, large;
     for (const Glare& view : views) {
         double all = 0;
         for (const transport::GlareSource& source : view.sources) all += source.glare();
@@ -121,46 +137,75 @@ void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, cons
             if (source.solid_angle_sr > transport::kMostGlare_sr) large.insert(source.light);
         }
     }
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        if (location_of(scene.lights[i]) == LightLocation::point) points.insert(i);
-    }
     warn(sensor.name, "the solid angle", small, scene,
          "is less than 0.0003 sr, for which UGR was not made: its glare is left out.", warnings);
     warn(sensor.name, "the solid angle", large, scene,
          "is more than 0.1 sr, for which UGR was not made: the rating is not valid.", warnings);
+}
+
+void warn_of_points(const Sensor& sensor, const Scene& scene, std::vector<std::string>& warnings) {
+    LightNumbers points;
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        if (location_of(scene.lights[i]) == LightLocation::point) points.insert(i);
+    }
     warn(sensor.name, "the glare", points, scene,
-         "is missing from UGR: a point has no luminous area. Give a luminaire an opening, and use a light of "
-         "type "
-         "\"sphere\" or \"area\" in place of a point.",
+         fmt::format(
+             "is missing from {}: a point has no luminous area. Give a luminaire an opening, and use a "
+             "light of type \"sphere\" or \"area\" in place of a point.",
+             sensor.quantity().name),
          warnings);
+}
+
+void warn_of_dim_views(const Sensor& sensor, const SensorEstimates& illuminances,
+                       std::vector<std::string>& warnings) {
+    const auto& readings = illuminances.readings.readings;
+    const auto dim = std::ranges::count_if(
+        readings, [](double lx) { return lx < kLeastDaylight_lx; }, &Estimate::value);
+    if (dim == 0) return;
+    warnings.push_back(
+        fmt::format("sensor \"{}\": the illuminance at the eye is below {:g} lx in {} of {} "
+                    "views, for which DGP was not made: it may be too low.",
+                    sensor.name, kLeastDaylight_lx, dim, readings.size()));
 }
 
 }  // namespace
 
-GlareViews::GlareViews(const Scene& scene, const rays::RayCaster& caster, std::span<const Sensor> sensors,
-                       std::size_t replicates, math::RandomKey key)
-    : views_(sensors.size()) {
-    const transport::LightSampler lights(scene, caster);
+GlareViews::GlareViews(std::span<const Sensor> sensors, const PictureSetting& setting, std::size_t replicates,
+                       math::RandomKey key)
+    : views_(sensors.size()), daylight_views_(sensors.size()) {
+    const transport::LightSampler lights(setting.scene, setting.caster);
     for (std::size_t s = 0; s < sensors.size(); ++s) {
-        const auto* ugr = std::get_if<Ugr>(&sensors[s].kind);
-        if (!ugr) continue;
-        views_[s].resize(ugr->eyes.size());
-        parallel_for(ugr->eyes.size(), [&](std::size_t j) {
-            views_[s][j] = find_glare(ugr->eyes[j], scene, caster, lights, key.derived(j), replicates);
-        });
+        if (const auto* ugr = std::get_if<Ugr>(&sensors[s].kind)) {
+            views_[s].resize(ugr->eyes.size());
+            parallel_for(ugr->eyes.size(), [&](std::size_t j) {
+                views_[s][j] = find_glare(ugr->eyes[j], setting.scene, setting.caster, lights, key.derived(j),
+                                          replicates);
+            });
+        }
+        if (const auto* dgp = std::get_if<Dgp>(&sensors[s].kind)) {
+            for (std::size_t j = 0; j < dgp->eyes.size(); ++j) {
+                daylight_views_[s].push_back(
+                    find_daylight_glare(dgp->eyes[j], dgp->threshold_cd_m2, setting, lights, key.derived(j)));
+            }
+        }
     }
 }
 
 void GlareViews::rate(std::span<SensorEstimates> estimates, double confidence) const {
     for (std::size_t s = 0; s < views_.size(); ++s) {
         if (!views_[s].empty()) rate_views(views_[s], confidence, estimates[s]);
+        if (!daylight_views_[s].empty()) rate_daylight(daylight_views_[s], confidence, estimates[s]);
     }
 }
 
-std::vector<std::string> GlareViews::warnings(const Scene& scene, std::span<const Sensor> sensors) const {
+std::vector<std::string> GlareViews::warnings(const Scene& scene, std::span<const Sensor> sensors,
+                                              std::span<const SensorEstimates> illuminances) const {
     std::vector<std::string> warnings;
     for (std::size_t s = 0; s < views_.size(); ++s) {
-        if (!views_[s].empty()) warn_of_sources(sensors[s], views_[s], scene, warnings);
+        if (!sensors[s].rates_glare()) continue;
+        warn_of_sources(sensors[s], views_[s], scene, warnings);
+        if (!daylight_views_[s].empty()) warn_of_dim_views(sensors[s], illuminances[s], warnings);
+        warn_of_points(sensors[s], scene, warnings);
     }
     return warnings;
 }

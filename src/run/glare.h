@@ -15,28 +15,33 @@
 
 #include "math/random.h"
 #include "rays/ray_caster.h"
+#include "run/daylight_glare.h"
 #include "run/sensor_estimates.h"
 #include "transport/glare.h"
 
 namespace stilb::run {
 
-/// What the eyes of all sensors of type "ugr" see of the lamps, found once for a run.
+/// What the eyes of all sensors that rate glare see of its sources, found once for a run.
 class GlareViews {
   public:
-    /// `replicates`: the largest number of the run's.
-    GlareViews(const Scene& scene, const rays::RayCaster& caster, std::span<const Sensor> sensors,
-               std::size_t replicates, math::RandomKey key);
+    /// `replicates`: the largest number of the run's. Throws Cancelled where the monitor ends the run.
+    GlareViews(std::span<const Sensor> sensors, const PictureSetting& setting, std::size_t replicates,
+               math::RandomKey key);
 
-    /// Makes the illuminances of sensors that rate glare into ratings, with the errors of E, Ed and G. A
-    /// rating is 0 where the eye sees no lamp. Where the background may be 0, it has no upper end, and the
-    /// value is NaN where the background is not above 0. `estimates`: of all sensors.
+    /// Makes the illuminances of sensors that rate glare into ratings. The intervals of UGR contain the
+    /// errors of E, Ed and G; a rating is 0 where the eye sees no lamp. Where the background may be 0, it has
+    /// no upper end, and the value is NaN where the background is not above 0. `estimates`: of all sensors.
     void rate(std::span<SensorEstimates> estimates, double confidence) const;
 
-    /// Warns of sources for which the rating was not made.
-    std::vector<std::string> warnings(const Scene& scene, std::span<const Sensor> sensors) const;
+    /// Warns of sources and views for which the ratings were not made. `illuminances`: the estimates of all
+    /// sensors before rate().
+    std::vector<std::string> warnings(const Scene& scene, std::span<const Sensor> sensors,
+                                      std::span<const SensorEstimates> illuminances) const;
 
   private:
-    std::vector<std::vector<transport::Glare>> views_;  ///< of each sensor; none of those of other types
+    // Of each sensor; none of those of other types.
+    std::vector<std::vector<transport::Glare>> views_;
+    std::vector<std::vector<DaylightView>> daylight_views_;
 };
 
 }  // namespace stilb::run

@@ -10,6 +10,7 @@
 #include "estimators/estimator_list.h"
 #include "run/campaign.h"
 #include "run/glare.h"
+#include "run/glare_picture.h"
 #include "run/level_of_detail.h"
 #include "run/power_density.h"
 #include "run/run.h"
@@ -164,9 +165,9 @@ double confidence_of(const RunOptions& options, StopReason reason) {
 }
 
 /// Sets the results of all sensors and the power density, and adds the warnings of all sensors.
-void set_results(const Campaign& campaign, std::span<const Sensor> sensors, const GlareViews& glare,
-                 const RunOptions& options, std::span<const std::optional<Vec3>> sight_ends,
-                 RunResult& result) {
+void set_results(const Campaign& campaign, const Scene& scene, std::span<const Sensor> sensors,
+                 const GlareViews& glare, const RunOptions& options,
+                 std::span<const std::optional<Vec3>> sight_ends, RunResult& result) {
     const bool has_looked = sensors::has_requirements(sensors) && ends_when_decided(options);
     const double confidence = confidence_of(options, result.stop_reason);
     std::vector<SensorEstimates> estimates = estimate_all(campaign, sensors, confidence);
@@ -177,6 +178,7 @@ void set_results(const Campaign& campaign, std::span<const Sensor> sensors, cons
                           std::back_inserter(result.warnings));
     }
     result.power_density = power_density(result.power, sensors, estimates, confidence);
+    std::ranges::move(glare.warnings(scene, sensors, estimates), std::back_inserter(result.warnings));
     glare.rate(estimates, confidence);
     std::vector<SensorEstimates> deciding;
     if (has_looked) {
@@ -252,7 +254,9 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     const ReplicatePlan plan = ReplicatePlan::of(sensors, options, method.lights_patches);
     std::optional<GlareViews> glare;
     session.on_threads([&] {
-        glare.emplace(scene, session.caster(), sensors, plan.replicates,
+        const PictureSetting setting{scene, session.caster(), options.bounces.value_or(transport::kUnlimited),
+                                     options.seed, session.monitor()};
+        glare.emplace(sensors, setting, plan.replicates,
                       math::RandomKey{options.seed}.derived(kReadingGlare));
     });
     Campaign campaign(*estimator, sensors, *glare, wanted.measurands.size(),
@@ -270,8 +274,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     };
     warn(std::move(of_scene));
     result.power = scene::installed_power(scene);
-    set_results(campaign, sensors, *glare, options, estimator->sight_ends(), result);
-    warn(glare->warnings(scene, sensors));
+    set_results(campaign, scene, sensors, *glare, options, estimator->sight_ends(), result);
     warn(sharp_light_warnings(sharp, result.samples, scene));
     warn(patch_error_warnings(result));
     session.finish(result);

@@ -65,6 +65,11 @@ double PictureSums::luminance_cd_m2(std::size_t pixel) const {
     return sum / weights();
 }
 
+double PictureSums::luminance_of_replicate_cd_m2(std::uint64_t replicate, std::size_t pixel) const {
+    const auto [scale, weight] = share_of(replicate, pixel);
+    return double{luminance_[pixel * plan_.replicates + replicate]} * scale / weight;
+}
+
 std::array<float, 3> PictureSums::rgb_cd_m2(std::size_t pixel) const {
     std::array<float, 3> sum{};
     for (std::uint64_t c = 0; c < std::min(colours_, replicates()); ++c) {

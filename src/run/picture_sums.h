@@ -44,6 +44,8 @@ class PictureSums {
     const PicturePaces* paces() const { return paces_ ? &*paces_ : nullptr; }
 
     double luminance_cd_m2(std::size_t pixel) const;
+    /// The mean of one replicate, which has at least one pass.
+    double luminance_of_replicate_cd_m2(std::uint64_t replicate, std::size_t pixel) const;
     /// The standard error from the pixel's own replicates; infinite for a single replicate.
     double own_standard_error_cd_m2(std::size_t pixel) const;
 

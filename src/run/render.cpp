@@ -32,16 +32,6 @@ constexpr double kDefaultTime_s = 60;
 constexpr std::uint64_t kSmoothingPasses = 16;
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
-/// The number of pixels outside of the camera's field.
-std::vector<bool> blind_pixels(const Camera& camera) {
-    const sensors::CameraView view(camera);
-    std::vector<bool> blind;
-    for (int y = 0; y < camera.resolution[1]; ++y) {
-        for (int x = 0; x < camera.resolution[0]; ++x) blind.push_back(!view.direction_at(x + 0.5, y + 0.5));
-    }
-    return blind;
-}
-
 void add_geometry(const Camera& camera, const rays::RayCaster& caster, RenderResult& result) {
     const sensors::CameraView view(camera);
     const auto width = static_cast<std::size_t>(camera.resolution[0]);
@@ -119,7 +109,7 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
     const Camera& camera = *sensor.camera();
     Session session(scene, asked, options, sink, interrupt);
     std::vector<std::string> of_scene = session.scene_warnings({&sensor, 1});
-    const std::vector<bool> blind = blind_pixels(camera);
+    const std::vector<bool> blind = sensors::blind_pixels(camera);
     RenderResult result;
     session.on_threads([&] {
         estimators::Problem problem =

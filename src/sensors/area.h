@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -24,6 +25,16 @@ struct PolygonInSpace {
 
 double area_m2(const PolygonInSpace& polygon);
 
+/// Which faces of objects: by the direction that the measured side faces.
+enum class SurfacePart { all, walls, ceiling, floor };
+inline constexpr std::array<std::string_view, 4> kSurfacePartNames{"all", "walls", "ceiling", "floor"};
+
+/// Faces of objects, such as the walls of a room.
+struct Surfaces {
+    std::vector<std::string> objects;  ///< their names; none where the area is a polygon
+    SurfacePart part = SurfacePart::all;
+};
+
 /// A band around an area, which is a sensor of its own.
 struct Band {
     double width_m = 0;
@@ -35,9 +46,11 @@ struct Band {
 /// longer is twice as long or more.
 double raster_spacing_m(double short_m, double long_m);
 
-/// Illuminance at the middles of the cells of a raster that lie in a polygon, or in a band around it.
+/// Illuminance at the middles of the cells of a raster that lie in a polygon, in a band around it, or on
+/// faces of objects.
 struct Area {
     PolygonInSpace polygon;
+    Surfaces surfaces{};
     /// A unit vector for all points; by default upwards for a horizontal polygon, else the side from which
     /// the corners run counterclockwise.
     std::optional<Vec3> normal{};
@@ -46,7 +59,7 @@ struct Area {
     /// Of a band: its distances from the polygon; 0, 0 for the polygon itself.
     std::array<double, 2> band_m{};
 
-    // From settle() on.
+    // From settle() on; of faces of objects from place_on() on (surface_points.h).
     std::vector<MeasuringPoint> points{};
     std::array<double, 2> cell_m{};  ///< the distances of neighbouring points along both axes of the raster
     std::size_t left_out = 0;  ///< points inside of bodies, which are not measured (checks/hidden_points.cpp)
@@ -57,6 +70,7 @@ struct Area {
     static constexpr auto fields() {
         return std::tuple{
             PolygonField{&Area::polygon, "the measured area"},
+            SurfacesField{&Area::surfaces, "faces of objects as the measured area"},
             DirectionField{"normal", &Area::normal,
                            "the side that receives light; by default upwards, or where the corners run "
                            "counterclockwise",

@@ -87,4 +87,13 @@ std::optional<Vec3> CameraView::direction_at(double x, double y) const {
     return std::nullopt;
 }
 
+std::vector<bool> blind_pixels(const Camera& camera) {
+    const CameraView view(camera);
+    std::vector<bool> blind;
+    for (int y = 0; y < camera.resolution[1]; ++y) {
+        for (int x = 0; x < camera.resolution[0]; ++x) blind.push_back(!view.direction_at(x + 0.5, y + 0.5));
+    }
+    return blind;
+}
+
 }  // namespace stilb::sensors

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "sensors/fields.h"
 
@@ -87,6 +88,9 @@ class CameraView {
     Projection projection_;
     double per_pixel_;  ///< at the middle: length on a plane at distance 1, or angle [rad]
 };
+
+/// The pixels outside of the camera's field, row by row from the top.
+std::vector<bool> blind_pixels(const Camera& camera);
 
 }  // namespace stilb::sensors
 

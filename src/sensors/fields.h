@@ -152,10 +152,11 @@ template <typename Owner>
 FormulaField(std::string_view, Expression Owner::*, std::string_view) -> FormulaField<Owner>;
 
 struct PolygonInSpace;
+struct Surfaces;
 struct Band;
 
 /// A plane polygon by "corners" (in the plane z = "height" where they are pairs) and "holes", or by "corner",
-/// "edge_u" and "edge_v".
+/// "edge_u" and "edge_v"; nothing where "object" is given.
 template <typename Owner>
 struct PolygonField {
     PolygonInSpace Owner::*member;
@@ -163,6 +164,15 @@ struct PolygonField {
 };
 template <typename Owner>
 PolygonField(PolygonInSpace Owner::*, std::string_view) -> PolygonField<Owner>;
+
+/// The faces of an "object", or of several, of which "part" picks some.
+template <typename Owner>
+struct SurfacesField {
+    Surfaces Owner::*member;
+    std::string_view meaning;
+};
+template <typename Owner>
+SurfacesField(Surfaces Owner::*, std::string_view) -> SurfacesField<Owner>;
 
 /// A width, or a table of "width" and "require".
 template <typename Owner>

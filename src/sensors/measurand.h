@@ -82,8 +82,6 @@ struct Quantity {
     std::string_view name, unit;
 };
 inline constexpr Quantity kIlluminance{"illuminance", "lx"}, kLuminance{"luminance", "cd/m2"};
-/// A rating without a unit.
-inline constexpr Quantity kUgr{"UGR", ""};
 
 /// The surface that a point lies on, on the side of its normal.
 std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster);

@@ -105,7 +105,8 @@ std::optional<std::array<int, 2>> Sensor::count() const {
 }
 
 bool Sensor::takes(const Criterion& criterion) const {
-    if (rates_glare() || criterion.key == Ugr::kType) return rates_glare() && criterion.key == Ugr::kType;
+    const bool rates_ugr = std::holds_alternative<Ugr>(kind), limits_ugr = criterion.key == Ugr::kType;
+    if (rates_glare() || limits_ugr) return rates_ugr && limits_ugr;
     return has_ratios() || !is_ratio(criterion.statistic);
 }
 
@@ -114,8 +115,8 @@ double task_area_m2(std::span<const Sensor> sensors) {
     double all_m2 = 0;
     for (const Sensor& sensor : sensors) {
         const auto* area = std::get_if<Area>(&sensor.kind);
-        const bool is_task = area && area->band_m[1] == 0 && !area->points.empty() &&
-                             area->points.front().normal.z > horizontal;
+        const bool is_task = area && area->surfaces.objects.empty() && area->band_m[1] == 0 &&
+                             !area->points.empty() && area->points.front().normal.z > horizontal;
         if (is_task) all_m2 += area_m2(area->polygon);
     }
     return all_m2;

@@ -32,7 +32,7 @@
 namespace stilb::sensors {
 
 using SensorKind = std::variant<IlluminancePoints, Grid, Area, Cylindrical, Semicylindrical, Hemispherical,
-                                Spherical, Luminance, Goniometer, Ugr, Derived, Camera>;
+                                Spherical, Luminance, Goniometer, Ugr, Dgp, Derived, Camera>;
 
 template <typename... Kinds>
 constexpr std::array<std::string_view, sizeof...(Kinds)> type_names(
@@ -56,7 +56,9 @@ struct Sensor {
     /// Whether uniformity and diversity are defined, as those of an illuminated area are.
     bool has_ratios() const { return !measures_luminance() && !derived() && !rates_glare(); }
     /// Whether its readings are ratings of glare, which are made of illuminances after the run.
-    bool rates_glare() const { return std::holds_alternative<Ugr>(kind); }
+    bool rates_glare() const {
+        return std::visit([]<typename Kind>(const Kind&) { return kRatesGlare<Kind>; }, kind);
+    }
     /// Whether something can be required of it by this criterion: of ratings of glare by "ugr" alone.
     bool takes(const Criterion& criterion) const;
 

@@ -27,8 +27,11 @@ struct Seen {
     }
     /// Of a lamp that is seen.
     GlareSource source(std::uint32_t light, const Vec3& line_of_sight) const {
-        return {light, solid_angle_sr, intensity / solid_angle_sr,
-                position_index(normalized(middle), line_of_sight)};
+        return {light,
+                solid_angle_sr,
+                intensity / solid_angle_sr,
+                position_index(normalized(middle), line_of_sight),
+                {}};
     }
 };
 
@@ -78,7 +81,7 @@ class Eye {
 
 void add_lamp(const Eye& eye, std::uint32_t light, const lights::EmitterSurface& surface, math::RandomKey key,
               Glare& glare) {
-    const std::size_t replicates = glare.glare_of_replicates.size();
+    const std::size_t replicates = glare.direct_of_replicates_lx.size();
     const std::uint64_t samples = std::max(kSamples / replicates, kLeastSamples);
     std::vector<Seen> of_replicates(replicates);
     Seen all;
@@ -88,12 +91,10 @@ void add_lamp(const Eye& eye, std::uint32_t light, const lights::EmitterSurface&
         glare.direct_of_replicates_lx[r] += of_replicates[r].direct_lx;
     }
     if (!(all.solid_angle_sr > 0)) return;
-    glare.sources.push_back(all.source(light, eye.sight()));
-    if (all.solid_angle_sr < kLeastGlare_sr) return;
-    glare.glare += glare.sources.back().glare();
-    for (std::size_t r = 0; r < replicates; ++r) {
-        if (of_replicates[r].solid_angle_sr > 0)
-            glare.glare_of_replicates[r] += of_replicates[r].source(light, eye.sight()).glare();
+    GlareSource& source = glare.sources.emplace_back(all.source(light, eye.sight()));
+    for (const Seen& seen : of_replicates) {
+        source.glare_of_replicates.push_back(seen.solid_angle_sr > 0 ? seen.source(light, eye.sight()).glare()
+                                                                     : 0);
     }
 }
 
@@ -122,7 +123,6 @@ Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCa
                  const LightSampler& lights, math::RandomKey key, std::size_t replicates) {
     Glare glare;
     glare.direct_of_replicates_lx.resize(replicates);
-    glare.glare_of_replicates.resize(replicates);
     const Eye eye(at, caster, lights);
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         if (const auto object = lights::emitting_object(scene.lights[i])) {

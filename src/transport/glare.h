@@ -29,6 +29,7 @@ inline constexpr double kLeastGlare_sr = 0.0003, kMostGlare_sr = 0.1;
 struct GlareSource {
     std::uint32_t light = 0;  ///< of Scene::lights
     double solid_angle_sr = 0, luminance_cd_m2 = 0, position_index = 16;
+    std::vector<double> glare_of_replicates;  ///< glare() by independent samples of the lamp
 
     /// L^2 w / p^2.
     double glare() const {
@@ -38,10 +39,8 @@ struct GlareSource {
 
 struct Glare {
     std::vector<GlareSource> sources;  ///< in front of the eye and seen by it
-    double glare = 0;                  ///< the sum of glare() over the sources of at least kLeastGlare_sr
-    /// By independent samples of the lamps: `glare`, and the illuminance at the eye by all lamps, points
-    /// included.
-    std::vector<double> glare_of_replicates, direct_of_replicates_lx;
+    /// The illuminance at the eye by all lamps, points included, by independent samples of them.
+    std::vector<double> direct_of_replicates_lx;
 };
 
 /// `eye`: its normal is the line of sight. The light from infinity is background.

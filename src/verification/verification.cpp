@@ -36,7 +36,7 @@ double Verification::widest_interval() const {
     return widest;
 }
 
-bool Verification::contradicts() const { return !(std::abs(worst().z) < kContradictionZ); }
+bool Verification::contradicts() const { return worst().contradicts(); }
 
 CheckedReading check(const ExactReading& exact, const statistics::Estimate& measured, int replicates,
                      double patch_error) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <span>
@@ -55,6 +56,8 @@ struct CheckedReading {
     ExactReading exact;
     statistics::Estimate measured;
     double z = 0;  ///< as a normal deviate, for any number of replicates
+
+    bool contradicts() const { return !(std::abs(z) < kContradictionZ); }
 };
 
 /// The result of one method for one case.

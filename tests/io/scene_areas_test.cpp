@@ -1,4 +1,5 @@
 #include "io/scene_text.h"
+#include "run/run.h"
 
 namespace stilb::io {
 namespace {
@@ -45,8 +46,9 @@ TEST(SceneAreas, HaveBandsAsSensorsOfTheirOwn) {
 }
 
 TEST(SceneAreas, RefuseWrongKeys) {
-    EXPECT_REFUSAL(area("height = 1"),
-                   "s.toml:1: sensors.task: key \"corners\" or \"corner\" is missing for type \"area\".");
+    EXPECT_REFUSAL(
+        area("height = 1"),
+        "s.toml:1: sensors.task: key \"corners\", \"corner\" or \"object\" is missing for type \"area\".");
     EXPECT_REFUSAL(
         area("corners = [[0, 0], [1, 0], [1, 1]]"),
         "s.toml:3: sensors.task.corners[0]: found a pair [x, y], but no \"height\". Allowed: triples "
@@ -87,6 +89,89 @@ TEST(SceneAreas, RefuseWrongKeys) {
             area(kCorners + "surround = 0.5"),
         "s.toml:1: sensors.\"task.surround\": has the name of a band around an area, which is a sensor, "
         "too. Allowed: another name.");
+}
+
+const std::string kRoom =
+    "[materials.white]\ntype = \"diffuse\"\nreflectance = 0.7\n"
+    "[objects.room]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [4, 3, 2]\nmaterial = \"white\"\n"
+    "[objects.screen]\nshape = \"rectangle\"\ncorner = [1, 1, 0]\nedge_u = [0, 0, 1]\nedge_v = [2, 0, 0]\n"
+    "material = \"white\"\n"
+    "[objects.ball]\nshape = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nmaterial = \"white\"\n";
+
+std::vector<MeasuringPoint> points_of(const std::string& keys) {
+    return std::get<Area>(read_text(kRoom + area(keys)).sensors.at(0).kind).points;
+}
+
+TEST(SceneAreas, AreFacesOfObjects) {
+    // The largest wall is 4 m x 2 m: d = 2, p = 0.325, 6 cells of 0.333 m upwards.
+    const std::vector<MeasuringPoint> walls = points_of("object = \"room\"\npart = \"walls\"");
+    EXPECT_EQ(walls.size(), 2u * (12 + 9) * 6);
+    for (const auto& [position, normal] : walls) {
+        EXPECT_EQ(normal.z, 0);
+        EXPECT_GT(dot(Vec3{2, 1.5, 1} - position, normal), 1);  // inside
+    }
+    for (const auto& [position, normal] : points_of("object = \"room\"\npart = \"ceiling\"\nspacing = 1")) {
+        EXPECT_NEAR(position.z, 2, 1e-12);
+        EXPECT_EQ(normal, (Vec3{0, 0, -1}));
+    }
+    EXPECT_EQ(points_of("object = \"room\"\npart = \"ceiling\"\nspacing = 1").size(), 12u);
+    EXPECT_EQ(points_of("object = \"room\"\nspacing = 1").size(), 2u * (12 + 8 + 6));
+    // A rectangle is measured on its front.
+    const std::vector<MeasuringPoint> screen = points_of("object = \"screen\"\nspacing = 0.5");
+    EXPECT_EQ(screen.size(), 8u);
+    EXPECT_EQ(screen[0].normal, (Vec3{0, 1, 0}));
+    EXPECT_EQ(points_of("object = [\"screen\", \"room\"]\npart = \"walls\"\nspacing = 1").size(), 2u + 28u);
+}
+
+/// A closed room absorbs the flux of its lamp: the mean over all faces is known.
+TEST(SceneAreas, OfAWholeRoomHaveTheMeanOfItsFlux) {
+    const SceneFile file = read_text(
+        "[materials.white]\ntype = \"diffuse\"\nreflectance = 0.7\n"
+        "[objects.room]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [4, 3, 2]\nmaterial = \"white\"\n"
+        "[lights.bulb]\ntype = \"point\"\nposition = [1.5, 1, 1.2]\nflux = 1000\n" +
+        area("object = \"room\"\nspacing = 0.25"));
+    RunOptions options;
+    options.paths = 1 << 11;
+    const RunResult result = run::measure(file.scene, file.sensors, options);
+    const statistics::Estimate& mean = result.sensors[0].summary.mean;
+    const double exact_lx = 1000 / (52 * (1 - 0.7));
+    EXPECT_NEAR(mean.value, exact_lx, 4 * mean.standard_error + 0.002 * exact_lx);  // of the raster
+    EXPECT_LT(mean.standard_error, 0.01 * exact_lx);
+    EXPECT_EQ(std::get<Area>(result.sensors[0].sensor.kind).left_out, 0u);
+}
+
+TEST(SceneAreas, RefuseObjectsWithoutSuchFaces) {
+    const auto refusal_of = [](const std::string& keys) { return refusal(kRoom + area(keys)); };
+    EXPECT_EQ(refusal_of("object = \"rom\""),
+              "s.toml:22: sensors.task.object: unknown object \"rom\". Did you mean \"room\"? Allowed: room, "
+              "screen, ball.");
+    EXPECT_EQ(
+        refusal_of("object = \"ball\""),
+        "s.toml:22: sensors.task.object: object \"ball\" has no plane faces. Allowed: meshes, polygons, "
+        "boxes and rectangles.");
+    EXPECT_EQ(
+        refusal_of("object = \"screen\"\npart = \"ceiling\""),
+        "s.toml:23: sensors.task.part: no face of the object is part of the ceiling: closed objects are "
+        "measured inside, others on their front. Allowed: another part or object.");
+    EXPECT_EQ(
+        refusal_of("object = \"room\"\npart = \"wall\""),
+        "s.toml:23: sensors.task.part: unknown part \"wall\". Did you mean \"all\"? Allowed: all, walls, "
+        "ceiling, floor.");
+    EXPECT_EQ(
+        refusal_of("object = \"room\"\nsurround = 0.5"),
+        "s.toml:23: sensors.task.surround: does not go with \"object\": faces of objects have normals of "
+        "their own, and no bands around them. Allowed: one of the two.");
+    EXPECT_EQ(
+        refusal_of("object = \"room\"\nheight = 1"),
+        "s.toml:23: sensors.task.height: contradicts \"object\", which is given too. Allowed: one of the "
+        "two.");
+    EXPECT_EQ(
+        refusal_of(kCorners + "part = \"walls\""),
+        "s.toml:24: sensors.task.part: picks faces of objects. Needed: \"object\", the name of one, or a "
+        "list of names.");
+    EXPECT_EQ(refusal_of("object = []"),
+              "s.toml:22: sensors.task.object: found no object. Allowed: the name of an object, or a list of "
+              "names.");
 }
 
 }  // namespace

@@ -227,6 +227,10 @@ class HelpTest(CommandLineTest):
             self.assertIn(f"  stilb {command} ", examples)
             self.assertIn("Options:", rest)
 
+    def test_verify_takes_cases_or_those_of_cie171(self):
+        self.expect_wrong_input(["verify", "--cie171", "--case", "sobolev"], "--case and --cie171", "one of them")
+        self.expect_wrong_input(["verify", "--cie171", "--method", "path", "--method", "auto"], "one --method at most")
+
     def test_a_flag_that_may_be_repeated_takes_one_value_at_a_time(self):
         for command, flag in (("measure", "--sensor"), ("verify", "--case"), ("verify", "--method")):
             self.assertRegex(run(command, "--help").stdout, f"{flag} NAME +[A-Z].* \\(may be repeated\\)\n")

@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "io/scene/fields.h"
+#include "io/text/text.h"
+#include "sensors/surface_points.h"
 
 namespace stilb::io {
 namespace {
@@ -34,7 +37,12 @@ std::vector<Vec3> read_corners(const TomlItem& list, const std::optional<double>
 }  // namespace
 
 sensors::PolygonInSpace read_polygon(const TomlTable& table) {
-    if (table.one_of({"corners", "corner"}).key == "corner") {
+    const std::string_view given = table.one_of({"corners", "corner", "object"}).key;
+    if (given == "object") {
+        for (const char* key : {"height", "holes", "edge_u", "edge_v"}) table.expect_not_both("object", key);
+        return {};
+    }
+    if (given == "corner") {
         for (const char* key : {"height", "holes"}) table.expect_not_both("corner", key);
         const auto [corner, u, v] = read_rectangle(table);
         return {{corner, corner + u, corner + u + v, corner + v}, {}};
@@ -47,6 +55,55 @@ sensors::PolygonInSpace read_polygon(const TomlTable& table) {
         for (const TomlItem& hole : holes->elements()) polygon.holes.push_back(read_corners(hole, height_m));
     }
     return polygon;
+}
+
+sensors::Surfaces read_surfaces(const TomlTable& table) {
+    sensors::Surfaces surfaces;
+    if (const auto object = table.find("object")) {
+        if (object->is_array()) {
+            for (const TomlItem& name : object->elements()) surfaces.objects.emplace_back(name.text());
+            if (surfaces.objects.empty())
+                object->fail("found no object. Allowed: the name of an object, or a list of names.");
+        } else {
+            surfaces.objects.emplace_back(object->text());
+        }
+    }
+    if (const auto part = table.find("part"))
+        surfaces.part = static_cast<sensors::SurfacePart>(part->index_in(sensors::kSurfacePartNames, "part"));
+    return surfaces;
+}
+
+namespace {
+
+/// The triangles of an object with plane faces.
+Mesh mesh_of(const TomlItem& item, const Object& object) {
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) return *mesh;
+    if (const auto* box = std::get_if<Box>(&object.shape)) return triangulated(*box);
+    if (const auto* rectangle = std::get_if<Rectangle>(&object.shape)) return triangulated(*rectangle);
+    item.fail(fmt::format("object {} has no plane faces. Allowed: meshes, polygons, boxes and rectangles.",
+                          in_quotes(object.name)));
+}
+
+}  // namespace
+
+void place_on_objects(const TomlTable& table, const Scene& scene, Area& area) {
+    std::vector<std::string_view> names;
+    for (const Object& object : scene.objects) names.push_back(object.name);
+    const TomlItem item = table.at("object");
+    std::vector<sensors::PlaneFace> faces;
+    for (const TomlItem& name : item.is_array() ? item.elements() : std::vector{item}) {
+        const Object& object = scene.objects[name.index_in(names, "object")];
+        std::ranges::copy_if(
+            sensors::plane_faces(mesh_of(name, object)), std::back_inserter(faces),
+            [&](const sensors::PlaneFace& face) { return is_of_part(face, area.surfaces.part); });
+    }
+    if (faces.empty()) {
+        table.at("part").fail(
+            fmt::format("no face of the object is part of the {}: closed objects are measured inside, others "
+                        "on their front. Allowed: another part or object.",
+                        sensors::kSurfacePartNames[static_cast<std::size_t>(area.surfaces.part)]));
+    }
+    if (const auto fault = place_on(faces, area)) table.at(fault->key).fail(fault->message);
 }
 
 sensors::Band read_band(const TomlItem& item) {

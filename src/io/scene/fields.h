@@ -86,6 +86,9 @@ std::vector<MeasuringPoint> read_measuring_points(const FieldSource& source);
 std::vector<Measurand> read_sights(const FieldSource& source);
 Expression read_formula(const TomlItem& item);
 sensors::PolygonInSpace read_polygon(const TomlTable& table);
+sensors::Surfaces read_surfaces(const TomlTable& table);
+/// Makes the points of an area on faces of objects, which the scene has by now.
+void place_on_objects(const TomlTable& table, const Scene& scene, Area& area);
 sensors::Band read_band(const TomlItem& item);
 /// The table "require" of a sensor, or of a band; empty where there is none.
 std::vector<Requirement> read_requirements(const TomlTable& owner, const Sensor& sensor);
@@ -146,6 +149,10 @@ Keys keys_of(const sensors::FormulaField<Owner>& field) {
 template <typename Owner>
 Keys keys_of(const sensors::PolygonField<Owner>&) {
     return {"corners", "height", "holes", "corner", "edge_u", "edge_v"};
+}
+template <typename Owner>
+Keys keys_of(const sensors::SurfacesField<Owner>&) {
+    return {"object", "part"};
 }
 template <typename Owner>
 Keys keys_of(const sensors::BandField<Owner>& field) {
@@ -226,6 +233,10 @@ void read_field(const sensors::PolygonField<Owner>& field, const FieldSource& so
     owner.*field.member = read_polygon(source.table);
 }
 template <typename Owner>
+void read_field(const sensors::SurfacesField<Owner>& field, const FieldSource& source, Owner& owner) {
+    owner.*field.member = read_surfaces(source.table);
+}
+template <typename Owner>
 void read_field(const sensors::BandField<Owner>& field, const FieldSource& source, Owner& owner) {
     if (const auto item = source.table.find(field.key)) owner.*field.member = read_band(*item);
 }
@@ -237,7 +248,7 @@ Keys sensor_keys() {
     for_each_field<Kind>([&](const auto& field) {
         for (const std::string_view key : keys_of(field)) keys.push_back(key);
     });
-    if constexpr (!std::is_same_v<Kind, Camera>) keys.push_back("require");
+    if constexpr (!std::is_same_v<Kind, Camera> && !std::is_same_v<Kind, Dgp>) keys.push_back("require");
     return keys;
 }
 

@@ -23,8 +23,8 @@ namespace {
 constexpr Range kColourTemperature{lights::kMinColourTemperature_k, lights::kMaxColourTemperature_k,
                                    "from 1000 to 25000 K"};
 constexpr double kWholeTurnDeg = 360;
-/// The object of a luminaire's opening has the name of its light, with this ending.
-constexpr std::string_view kOpeningSuffix = " (opening)";
+/// The objects of a luminaire's opening and of its body have the name of its light, with these endings.
+constexpr std::string_view kOpeningSuffix = " (opening)", kBodySuffix = " (body)";
 constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
 constexpr Range kPower{1e-6, 1e9, "a power from 1e-6 to 1e9 W"};
 
@@ -116,24 +116,29 @@ MaterialId black_of_lights(Scene& scene) {
     return MaterialId{index};
 }
 
-/// The object of a light that comes with a surface of its own.
-ObjectId add_object(const TomlTable& table, const std::string& name, Shape shape, Scene& scene) {
-    for (const Object& object : scene.objects) {
-        if (object.name != name) continue;
+/// Adds an object that comes with a light.
+ObjectId add_object(const TomlTable& table, Object object, Scene& scene) {
+    for (const Object& other : scene.objects) {
+        if (other.name != object.name) continue;
         table.fail(fmt::format(
             "the light adds an object {}, but the scene already has an object of this name. Allowed: "
             "another name of the light or of the object.",
-            in_quotes(name)));
+            in_quotes(object.name)));
     }
     const ObjectId id{static_cast<std::uint32_t>(scene.objects.size())};
-    scene.objects.push_back({name, std::move(shape), {black_of_lights(scene)}});
+    scene.objects.push_back(std::move(object));
     return id;
+}
+
+/// The object of a light that comes with a surface of its own.
+ObjectId add_emitter(const TomlTable& table, const std::string& name, Shape shape, Scene& scene) {
+    return add_object(table, {name, std::move(shape), {black_of_lights(scene)}}, scene);
 }
 
 AreaLight read_sphere(TomlTable& table, const Context& context) {
     const Sphere sphere{table.at("center").vector(), table.at("radius").number(kRadius)};
     const Rgb luminance_cd_m2 = read_luminance(table, sphere) * read_colour(table);
-    return {add_object(table, context.name, sphere, context.file.scene), luminance_cd_m2};
+    return {add_emitter(table, context.name, sphere, context.file.scene), luminance_cd_m2};
 }
 
 /// Lights with the same file share one photometric solid.
@@ -178,6 +183,24 @@ lights::Opening read_opening(const TomlItem& item) {
     return {Form::vertical_cylinder, {diameter_m, diameter_m, 0}};
 }
 
+/// Adds the body of a luminaire: its x points to C0, its y to C90, its z against the nadir. Returns how far
+/// it reaches beyond the plane of the opening.
+lights::BodyExtent add_body(const TomlTable& table, const TomlItem& geometry, const Luminaire& luminaire,
+                            const Context& context) {
+    constexpr double gap_m = 1e-4;  // between the body and the opening
+    Object body = read_body(geometry, context.directory, context.file);
+    body.name = context.name + std::string(kBodySuffix);
+    const geometry::Transform placed{luminaire.c0, luminaire.c90, -luminaire.nadir, luminaire.position};
+    lights::BodyExtent extent;
+    for (const Vec3& vertex : std::get<Mesh>(body.shape).vertices) {
+        extent.below_m = std::max(extent.below_m, gap_m - vertex.z);
+        extent.above_m = std::max(extent.above_m, gap_m + vertex.z);
+    }
+    body.shape = transformed(body.shape, placed);
+    add_object(table, std::move(body), context.file.scene);
+    return extent;
+}
+
 lights::LightSource read_photometry(TomlTable& table, const Context& context) {
     const Vec3 position = table.at("position").vector();
     const auto aim = table.find("aim"), spin = table.find("spin"), dimming = table.find("dimming"),
@@ -192,11 +215,20 @@ lights::LightSource read_photometry(TomlTable& table, const Context& context) {
     Luminaire luminaire{position, solid, c0, c90, nadir, factor};
     const auto opening = table.find("opening");
     const lights::Opening of_light = opening ? read_opening(*opening) : scene.solids[index_of(solid)].opening;
+    lights::BodyExtent body;
+    if (const auto geometry = table.find("geometry")) {
+        if (!of_light.is_flat()) {
+            geometry->fail(
+                "a body needs a flat opening, which is moved out of it so that it hides none of its light. "
+                "Allowed: opening = [length, width] or a diameter.");
+        }
+        body = add_body(table, *geometry, luminaire, context);
+    }
     if (of_light.is_point()) return luminaire;
-    auto [shape, hidden_share] = lights::shape_of(of_light, luminaire, scene.solid(solid));
+    auto [shape, hidden_share] = lights::shape_of(of_light, luminaire, scene.solid(solid), body);
     luminaire.scale(Rgb::grey(1 / (1 - hidden_share)));
     return LuminousOpening{
-        add_object(table, context.name + std::string(kOpeningSuffix), std::move(shape), scene), luminaire};
+        add_emitter(table, context.name + std::string(kOpeningSuffix), std::move(shape), scene), luminaire};
 }
 
 /// The map from an OpenEXR or Radiance picture, in cd/m2 as the picture reader gives them.
@@ -257,7 +289,7 @@ constexpr std::array kReaders{
            [](TomlTable& t, const Context& c) -> lights::LightSource { return read_area(t, c); }},
     Reader{"sphere", "center", "radius flux luminance cct color",
            [](TomlTable& t, const Context& c) -> lights::LightSource { return read_sphere(t, c); }},
-    Reader{"photometry", "position", "file opening aim spin dimming flux cct color",
+    Reader{"photometry", "position", "file opening geometry aim spin dimming flux cct color",
            [](TomlTable& t, const Context& c) -> lights::LightSource { return read_photometry(t, c); }},
     Reader{"environment", "", "luminance file up rotation dimming cct color",
            [](TomlTable& t, const Context& c) -> lights::LightSource { return read_environment(t, c); }},

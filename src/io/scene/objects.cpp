@@ -165,10 +165,13 @@ void add_face(const TomlItem& face, MeshBuilder& builder) {
     builder.add_polygon(corners);
 }
 
-void warn_of_degenerate(const TomlTable& table, const MeshFile& mesh, SceneFile& file) {
+void warn_of_degenerate(const std::string& where, const MeshFile& mesh, SceneFile& file) {
     if (mesh.degenerate_triangles == 0) return;
-    file.warnings.push_back(
-        fmt::format("{}: {} triangles without area are left out.", table.where(), mesh.degenerate_triangles));
+    std::string warning =
+        fmt::format("{}: {} triangles without area are left out.", where, mesh.degenerate_triangles);
+    // Bodies of several luminaires have the same.
+    if (std::ranges::find(file.warnings, warning) == file.warnings.end())
+        file.warnings.push_back(std::move(warning));
 }
 
 Mesh read_polygons(const TomlTable& table, SceneFile& file) {
@@ -178,7 +181,7 @@ Mesh read_polygons(const TomlTable& table, SceneFile& file) {
         table.at("vertices").fail("found fewer than 3 vertices. Allowed: 3 or more.");
     for (const TomlItem& face : table.at("faces").elements()) add_face(face, builder);
     MeshFile mesh = std::move(builder).finish(table.where(), "give a face that has an area");
-    warn_of_degenerate(table, mesh, file);
+    warn_of_degenerate(table.where(), mesh, file);
     return std::move(mesh.mesh);
 }
 
@@ -192,12 +195,12 @@ MaterialId read_material(const TomlItem& item, const Scene& scene) {
     return MaterialId{static_cast<std::uint32_t>(item.index_in(names_of(scene.materials), "material"))};
 }
 
-MeshFile read_mesh(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file) {
-    const TomlItem item = table.at("file");
+MeshFile read_mesh(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
     if (kind_of_name(item.text()) == FileKind::gltf_scene)
         item.fail("meshes in glTF are not supported yet. Allowed: OBJ (.obj) and PLY (.ply).");
-    file.sources.push_back(item.existing_file(directory));
-    return read_mesh_file(file.sources.back());
+    const std::filesystem::path path = item.existing_file(directory);
+    if (std::ranges::find(file.sources, path) == file.sources.end()) file.sources.push_back(path);
+    return read_mesh_file(path);
 }
 
 /// The assignment of the scene's materials to the parts of a mesh, by the names in the mesh file.
@@ -263,16 +266,35 @@ class PartMaterials {
     std::optional<MaterialId> rest_;
 };
 
+std::vector<MaterialId> read_materials_of(const TomlTable& table, const MeshFile& mesh, const Scene& scene) {
+    if (table.has("materials")) return PartMaterials(table, mesh, scene).of_triangles(table);
+    return {read_material(table.at("material"), scene)};
+}
+
+/// The materials of the scene that have the names in the mesh file.
+std::vector<MaterialId> materials_by_name(const TomlItem& item, const MeshFile& mesh, const Scene& scene) {
+    const Names known = names_of(scene.materials);
+    std::vector<MaterialId> of_names;
+    for (const std::string& name : mesh.material_names) {
+        const auto found = std::ranges::find(known, name);
+        if (found == known.end()) {
+            item.fail(fmt::format(
+                "the scene has no material {}, which the mesh file names.{} Or give the body materials: "
+                "geometry = {{ file = ..., material = ... }}.",
+                in_quotes(name), suggestion(name, known)));
+        }
+        of_names.push_back(MaterialId{static_cast<std::uint32_t>(found - known.begin())});
+    }
+    std::vector<MaterialId> of_triangles;
+    for (const std::uint32_t material : mesh.material_of_triangle) of_triangles.push_back(of_names[material]);
+    return of_triangles;
+}
+
 Object read_mesh_object(TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
                         MeshParts& parts) {
-    MeshFile mesh = read_mesh(table, directory, file);
-    warn_of_degenerate(table, mesh, file);
-    std::vector<MaterialId> materials;
-    if (table.has("materials")) {
-        materials = PartMaterials(table, mesh, file.scene).of_triangles(table);
-    } else {
-        materials = {read_material(table.at("material"), file.scene)};
-    }
+    MeshFile mesh = read_mesh(table.at("file"), directory, file);
+    warn_of_degenerate(table.where(), mesh, file);
+    std::vector<MaterialId> materials = read_materials_of(table, mesh, file.scene);
     parts = take_parts(mesh);
     return {"", std::move(mesh.mesh), std::move(materials)};
 }
@@ -338,6 +360,26 @@ geometry::Transform transform_of(const Shape& shape, const TomlTable& table) {
 }
 
 }  // namespace
+
+Object read_body(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
+    const auto read = [&](const TomlItem& name) {
+        MeshFile mesh = read_mesh(name, directory, file);
+        warn_of_degenerate(item.where(), mesh, file);
+        return mesh;
+    };
+    if (!item.is_table()) {
+        MeshFile mesh = read(item);
+        std::vector<MaterialId> materials = materials_by_name(item, mesh, file.scene);
+        return {"", std::move(mesh.mesh), std::move(materials)};
+    }
+    TomlTable table = item.table();
+    table.expect_keys({"file", "material", "materials", "scale", "rotate", "translate", "transform"});
+    const bool is_by_name = !table.has("material") && !table.has("materials");
+    MeshFile mesh = read(table.at("file"));
+    std::vector<MaterialId> materials =
+        is_by_name ? materials_by_name(item, mesh, file.scene) : read_materials_of(table, mesh, file.scene);
+    return {"", transformed(std::move(mesh.mesh), read_transform(table)), std::move(materials)};
+}
 
 PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory,
                             SceneFile& file) {

@@ -175,12 +175,12 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     const TomlTable materials = section_of(root, "materials", none);
     file.scene.materials = read_materials(materials, defaults("materials", material_types()));
     PartsOfObjects parts = read_objects(section_of(root, "objects", none), directory, file);
-    warn_of_unused_materials(materials, file);
     const TomlTable run = section_of(root, "run", none);
     file.run = read_run(run);
     read_lights(section_of(root, "lights", none),
                 {defaults("lights", light_types()), read_maintenance(run, 1), std::move(parts), directory},
                 file);
+    warn_of_unused_materials(materials, file);
     scene::put_lamps_in_front(file.scene);
     if (file.scene.lights.empty())
         file.warnings.emplace_back(InputError("no light: the scene is dark.", {name}).what());

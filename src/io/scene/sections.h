@@ -49,6 +49,10 @@ std::vector<TypeKeys> material_types();
 std::vector<TypeKeys> light_types();
 std::vector<TypeKeys> sensor_types();
 
+/// The body of a luminaire in its own coordinates, a mesh: the name of its file, or a table of the keys of
+/// such an object.
+Object read_body(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file);
+
 /// The keys scale, rotate, translate or transform of an object.
 geometry::Transform read_transform(const TomlTable& object);
 

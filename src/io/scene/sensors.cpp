@@ -211,6 +211,8 @@ void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile&
     for (auto [name, table, copy_of] : tables) {
         Warnings warnings;
         Sensor& sensor = file.sensors.emplace_back(Sensor{name, read_sensor(table, warnings)});
+        if (auto* area = std::get_if<Area>(&sensor.kind); area && !area->surfaces.objects.empty())
+            place_on_objects(table, file.scene, *area);
         sensor.requirements = read_requirements(table, sensor);
         const std::size_t own = file.sensors.size() - 1;
         add_bands(table, Sensor(sensor), file.sensors);
