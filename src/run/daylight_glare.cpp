@@ -11,10 +11,10 @@ namespace {
 
 using statistics::Estimate;
 
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double kOfIlluminance = 5.87e-5, kOfGlare = 0.0918, kOffset = 0.16, kExponent = 1.87;
 /// A place brighter than so many times the mean of the view is a source of glare, by default.
 constexpr double kTimesMean = 5;
+
 double dgp(double illuminance_lx, double glare) {
     return kOfIlluminance * illuminance_lx +
            kOfGlare * std::log10(1 + glare / std::pow(illuminance_lx, kExponent)) + kOffset;
@@ -22,7 +22,8 @@ double dgp(double illuminance_lx, double glare) {
 
 /// With the errors of both, to first order, in quadrature.
 Estimate dgp_estimate(const Estimate& illuminance, const Estimate& glare) {
-    if (!(illuminance.value > 0)) return {kUndefined, kUndefined, kUndefined, kUndefined};
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (!(illuminance.value > 0)) return {none, none, none, none};
     const double ratio = glare.value / std::pow(illuminance.value, kExponent);
     const double per_glare =
         kOfGlare / std::numbers::ln10 / (1 + ratio) / std::pow(illuminance.value, kExponent);

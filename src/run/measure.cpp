@@ -17,6 +17,7 @@
 #include "run/sensor_estimates.h"
 #include "stilb/error.h"
 #include "transport/line_of_sight.h"
+#include "transport/receiver.h"
 #include "transport/sharp_light.h"
 
 namespace stilb::run {

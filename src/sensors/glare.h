@@ -41,7 +41,7 @@ struct Ugr {
     std::vector<MeasuringPoint> eyes;
 
     static constexpr std::string_view kType = "ugr";
-    static constexpr Quantity kQuantity = kUgr;
+    static constexpr Quantity kQuantity{"UGR", ""};
     static constexpr Noun kReadings = kViews;
     static constexpr auto fields() { return std::tuple{EyesField{&Ugr::eyes, kEyesMeaning}}; }
     std::optional<Fault> settle(const GivenKeys& given) const { return fault_of_eyes(eyes, given); }
