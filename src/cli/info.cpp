@@ -15,6 +15,7 @@
 #include "cli/info_report.h"
 #include "cli/results_table.h"
 #include "cli/scene_argument.h"
+#include "io/results/results_text.h"
 #include "io/text/file_kind.h"
 
 namespace stilb::cli {
@@ -195,7 +196,8 @@ std::string readings_text(const Json& sensor) {
     const std::size_t readings = count(sensor, "points");
     const sensors::Noun noun = sensors::readings_of_type(text(sensor, "type"));
     const std::size_t left_out = sensor.contains("left_out") ? count(sensor, "left_out") : 0;
-    return fmt::format("{} {}{}", readings, readings == 1 ? noun.one : noun.many, left_out_text(left_out));
+    return fmt::format("{} {}{}", readings, readings == 1 ? noun.one : noun.many,
+                       io::left_out_text(left_out));
 }
 
 std::string required_text(const Json& sensor) {
@@ -237,7 +239,7 @@ using Describe = std::string (*)(const Json&);
 /// The maintenance factors that the flux contains.
 std::string maintained(const Json& report) {
     if (!report.contains("maintenance")) return "";
-    return fmt::format(" ({})", maintenance_text(report["maintenance"].get<std::array<double, 2>>()));
+    return fmt::format(" ({})", io::maintenance_text(report["maintenance"].get<std::array<double, 2>>()));
 }
 
 std::string section_text(const Json& report, const char* key, const char* title, Describe describe) {
