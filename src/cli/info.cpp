@@ -17,6 +17,7 @@
 #include "cli/scene_argument.h"
 #include "io/results/results_text.h"
 #include "io/text/file_kind.h"
+#include "io/text/text.h"
 
 namespace stilb::cli {
 
@@ -144,18 +145,10 @@ std::string object_text(const Json& object) {
 }
 
 /// "peak_intensity_cd" and a number become "peak intensity 80 cd", "object" and a text "object panel".
-std::string light_detail_text(std::string key, const Json& value) {
-    std::string_view unit;
-    constexpr std::array<std::array<std::string_view, 2>, 4> units{
-        {{"_cd_m2", " cd/m2"}, {"_lm", " lm"}, {"_cd", " cd"}, {"_lx", " lx"}}};
-    for (const auto& [ending, name] : units) {
-        if (!unit.empty() || !key.ends_with(ending)) continue;
-        key.resize(key.size() - ending.size());
-        unit = name;
-    }
-    std::ranges::replace(key, '_', ' ');
-    return value.is_string() ? fmt::format("{} {}", key, value.get<std::string>())
-                             : fmt::format("{} {:.5g}{}", key, value.get<double>(), unit);
+std::string light_detail_text(const std::string& key, const Json& value) {
+    const auto [words, unit] = io::words_of_key(key);
+    if (value.is_string()) return fmt::format("{} {}", words, value.get<std::string>());
+    return fmt::format("{} {:.5g}{}{}", words, value.get<double>(), unit.empty() ? "" : " ", unit);
 }
 
 std::string light_text(const Json& light) {

@@ -30,8 +30,6 @@ namespace stilb::cli {
 namespace {
 
 constexpr double kPreviewEvery_s = 3;
-/// Seconds a pixel that statistics and files take after the last pass. Two threads were measured.
-constexpr double kFinishingPicture_s = 3e-7;
 
 struct RenderRequest {
     std::string scene, solution, sensor, output, preview, command;
@@ -145,9 +143,8 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
         return render_solution(file.scene, sensor, std::move(stored->solution), request.factors, threads,
                                &progress, &watch_for_interrupt());
     }
-    const auto [width, height] = sensor.camera()->resolution;
     const RunOptions options =
-        with_reserve(request.flags.over(file.run), kFinishingPicture_s * width * height);
+        with_picture_reserve(request.flags.over(file.run), sensor.camera()->resolution);
     origin.method = options.method;
     origin.seed = options.seed;
     RenderProgress progress(request, *sensor.camera(), origin);

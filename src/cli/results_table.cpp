@@ -135,13 +135,17 @@ std::string ending_with_error(const RunResult& result, std::string_view samples)
 std::string to_table(const RunResult& result) {
     std::string text = title_of(result) + ", with 95 % intervals\n\n";
     for (const SensorResult& sensor : result.sensors) text += sensor_table(sensor);
+    text += '\n' + end_of_table(result) + io::detail_text(result.levels_of_detail);
+    return result.patches ? text + io::patch_text(*result.patches) : text;
+}
+
+std::string end_of_table(const RunResult& result) {
     const std::string_view samples = estimators::find_estimator(result.method).samples;
-    text += fmt::format("\n{}, {} {} in {:.2f} s: {}\n", result.method, result.samples, samples,
-                        result.elapsed_s, ending_with_error(result, samples));
+    std::string text = fmt::format("{}, {} {} in {:.2f} s: {}\n", result.method, result.samples, samples,
+                                   result.elapsed_s, ending_with_error(result, samples));
     if (const std::string verdicts = io::verdicts_text(result); !verdicts.empty())
         text += fmt::format("Requirements: {}\n", verdicts);
-    text += io::detail_text(result.levels_of_detail);
-    return result.patches ? text + io::patch_text(*result.patches) : text;
+    return text;
 }
 
 std::string maintenance_line(const RunSummary& result) {

@@ -14,6 +14,8 @@ namespace stilb::cli {
 
 /// A table with the summary of every sensor, the values of small grids, and the end of the run.
 std::string to_table(const RunResult& result);
+/// Its last lines: how the run ended, and with how many verdicts on requirements.
+std::string end_of_table(const RunResult& result);
 
 /// A line that says so; empty where no lamp has one below 1.
 std::string maintenance_line(const RunSummary& result);

@@ -50,11 +50,6 @@ struct Input {
     std::optional<io::StoredSolution> stored;
 };
 
-bool is_page(const std::string& output) {
-    const std::string extension = io::extension_of(output);
-    return extension == ".html" || extension == ".htm";
-}
-
 /// The scene of a solution, which lies where it lay when it was solved.
 std::string scene_of(const io::StoredSolution& stored, const std::string& solution) {
     const auto scene = std::filesystem::path(solution).parent_path() / stored.scene;

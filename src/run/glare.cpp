@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -87,6 +88,17 @@ void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, cons
          warnings);
 }
 
+/// The sources that glare most first.
+GlareView described(Glare view, double illuminance_lx, const Scene& scene) {
+    GlareView result{(illuminance_lx - view.direct_lx) / std::numbers::pi, {}};
+    std::ranges::stable_sort(view.sources, std::ranges::greater{}, &transport::GlareSource::glare);
+    for (const transport::GlareSource& source : view.sources)
+        result.sources.push_back({scene.lights[source.light].name, source.luminance_cd_m2,
+                                  source.solid_angle_sr, source.position_index,
+                                  source.solid_angle_sr >= transport::kLeastGlare_sr});
+    return result;
+}
+
 }  // namespace
 
 SensorResult with_glare_ratings(const SensorResult& illuminances, const Scene& scene,
@@ -99,6 +111,8 @@ SensorResult with_glare_ratings(const SensorResult& illuminances, const Scene& s
         views[j] = find_glare(eyes[j], scene, caster, lights, key.derived(j));
     });
     SensorResult result = illuminances;
+    for (std::size_t j = 0; j < eyes.size(); ++j)
+        result.glare.push_back(described(views[j], illuminances.readings[j].estimate.value, scene));
     for (std::size_t j = 0; j < eyes.size(); ++j)
         result.readings[j] = {rating_of(illuminances.readings[j].estimate, views[j], confidence), {}};
     for (std::size_t i = 0; i < result.replicate_means.size(); ++i) {

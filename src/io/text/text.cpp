@@ -122,6 +122,19 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
+KeyWords words_of_key(std::string key) {
+    constexpr std::array<std::array<std::string_view, 2>, 5> kUnits{
+        {{"_cd_m2", "cd/m2"}, {"_m2", "m2"}, {"_lm", "lm"}, {"_cd", "cd"}, {"_lx", "lx"}}};
+    KeyWords result{std::move(key), {}};
+    for (const auto& [ending, unit] : kUnits) {
+        if (!result.unit.empty() || !result.words.ends_with(ending)) continue;
+        result.words.resize(result.words.size() - ending.size());
+        result.unit = unit;
+    }
+    std::ranges::replace(result.words, '_', ' ');
+    return result;
+}
+
 bool TextLines::next() {
     if (rest_.empty()) return false;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());

@@ -55,6 +55,13 @@ class TextLines {
     std::size_t number_;
 };
 
+/// The words and the unit of a key of results: "peak_intensity_cd" is "peak intensity" in "cd".
+struct KeyWords {
+    std::string words;
+    std::string_view unit;  ///< may be empty
+};
+KeyWords words_of_key(std::string key);
+
 // Common wording of error messages.
 
 /// ` Did you mean "wall"? Allowed: wall, floor.` (the question only where a name is near), to follow a
