@@ -54,10 +54,10 @@ void Drawing::path(std::string_view css_class, const std::string& path) {
 }
 
 void Drawing::filled_path(std::string_view css_class, const std::string& path, const io::Colour& fill) {
-    shapes_ +=
-        element("path",
-                {{"class", std::string(css_class)}, {"style", "fill:" + hexadecimal(fill)}, {"d", path}}) +
-        raw("\n");
+    shapes_ += element("path", {{"class", std::string(css_class)},
+                                {"style", fmt::format("fill:{0};stroke:{0}", hexadecimal(fill))},
+                                {"d", path}}) +
+               raw("\n");
 }
 
 void Drawing::stroked_path(std::string_view css_class, const std::string& path, double width) {
@@ -125,7 +125,8 @@ Point ScaledFrame::at(double x, double y) const {
 }
 
 double usual_ratio(double width_m, double height_m, double most_width, double most_height) {
-    const double least = kPixelsPerMetre * std::max(width_m / most_width, height_m / most_height);
+    const double least =
+        kPixelsPerMetre * std::max({width_m / most_width, height_m / most_height, 1 / kPixelsPerMetre});
     for (double decade = std::pow(10, std::floor(std::log10(least)));; decade *= 10) {
         for (const double step : {1.0, 2.0, 2.5, 5.0, 7.5}) {
             if (step * decade >= least) return step * decade;

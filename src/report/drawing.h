@@ -62,7 +62,7 @@ struct ScaledFrame {
     Point at(double x_m, double y_m) const;
 };
 
-/// The smallest usual ratio (10, 20, 25, 50, 100 ...) at which the lengths are at most so many pixels.
+/// The smallest usual ratio from 1 on (10, 20, 25, 50 ...) at which the lengths are at most so many pixels.
 double usual_ratio(double width_m, double height_m, double most_width, double most_height);
 
 /// Above and to the right of a frame.

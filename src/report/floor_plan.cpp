@@ -29,7 +29,8 @@ class FloorPlan {
         : scene_(scene),
           frame_(frame_of(bounds)),
           drawing_(frame_.rectangle().right() + kDrawingMargin, frame_.rectangle().bottom() + kAxisBelow,
-                   "Floor plan with luminaires and isolux lines") {}
+                   "Floor plan with luminaires and isolux lines"),
+          labels_(frame_.rectangle()) {}
 
     double ratio() const { return frame_.ratio; }
 
@@ -58,12 +59,11 @@ class FloorPlan {
 
     void draw_isolines(const MeasuredPlane& plane, std::span<const plot::Tick> levels) {
         const plot::FalseColourPanel& panel = plane.panel;
-        plot::LabelPlacer labels(frame_.rectangle());
         for (const auto& [level, label] : levels) {
             for (std::vector<Point> line : plot::find_isolines(panel.values, panel.nu, panel.nv, level)) {
                 for (Point& point : line) point = on_plan(plane.at(point.x, point.y));
                 drawing_.path("isoline", path_of(line));
-                const auto place = labels.place(line, plot::text_width(label, kTextSize));
+                const auto place = labels_.place(line, plot::text_width(label, kTextSize));
                 if (!place) continue;
                 const double half_height = 0.36 * kTextSize;
                 const Point base{place->center.x - half_height * std::sin(-place->angle_rad),
@@ -90,7 +90,8 @@ class FloorPlan {
                                               pixels(at.y - kSymbol), pixels(at.y + kSymbol)));
             if (!location.directions.empty()) draw_arrow("mark", at, location.directions.front().value);
             const std::string number = sensor.size() > 1 ? fmt::format(" {}", j + 1) : "";
-            drawing_.text("mark-label", {at.x + kSymbol + 2, at.y - 2}, sensor.name + number);
+            drawing_.text("mark-label", {at.x + kSymbol + 2, at.y - 2 + lines_below(at) * kTextSize},
+                          sensor.name + number);
         }
     }
 
@@ -104,10 +105,19 @@ class FloorPlan {
         constexpr double kShare = 0.02;  // of the extent
         const Vec3 extent = bounds.max - bounds.min;
         const double around_m = std::max(kShare * std::max(extent.x, extent.y), 1e-3);
-        return {{bounds.min.x - around_m, bounds.max.x + around_m},
-                {bounds.min.y - around_m, bounds.max.y + around_m},
-                usual_ratio(extent.x + 2 * around_m, extent.y + 2 * around_m, kMostPlanWidth, kMostPlanHeight),
-                {kAxisLeft, kDrawingMargin}};
+        return {
+            {bounds.min.x - around_m, bounds.max.x + around_m},
+            {bounds.min.y - around_m, bounds.max.y + around_m},
+            usual_ratio(extent.x + 2 * around_m, extent.y + 2 * around_m, kMostPlanWidth, kMostPlanHeight),
+            {kAxisLeft, kDrawingMargin}};
+    }
+
+    /// The number of earlier marks in this place, below whose names that of the next one stands.
+    double lines_below(const Point& at) {
+        const auto earlier = std::ranges::count_if(
+            marks_, [&](const Point& mark) { return std::hypot(mark.x - at.x, mark.y - at.y) < kSymbol; });
+        marks_.push_back(at);
+        return static_cast<double>(earlier);
     }
 
     Point on_plan(const Vec3& position) const { return frame_.at(position.x, position.y); }
@@ -170,11 +180,13 @@ class FloorPlan {
     const Scene& scene_;
     ScaledFrame frame_;
     Drawing drawing_;
+    plot::LabelPlacer labels_;
+    std::vector<Point> marks_;
 };
 
 Html legend(const PlanLines& lines, double ratio, bool has_isolines) {
-    std::string words = fmt::format(
-        "Scale 1 : {:g} in print. Section {:.4g} m above the origin of the heights", ratio, lines.height_m);
+    std::string words =
+        fmt::format("Scale 1 : {:g} in print. Section at z = {:.4g} m", ratio, lines.height_m);
     words += ": walls and high things are cut (bold), lower ones are seen from above. ";
     words += "Luminaires with their luminous openings; arrows: their aim where it is not vertical. ";
     if (has_isolines) words += "Blue: measured areas and isolux lines [lx]. ";

@@ -53,7 +53,7 @@ class Table {
     /// Columns of numbers are aligned to the right.
     enum class Column { words, numbers };
     struct Heading {
-        std::string_view title;
+        std::string title;
         Column column = Column::words;
     };
     /// `css_class`: of the table; may be empty.

@@ -89,11 +89,10 @@ Html sheet(const Scene& scene, std::size_t index) {
     Facts facts;
     facts.add("File", std::filesystem::path(solid.file).filename().string());
     facts.add("Format", solid.format);
-    facts.add("Flux of the file",
-              fmt::format("{:.5g} lm (integral of the intensities)", solid.solid.flux_lm()));
-    facts.add("Flux statement", solid.flux_statement);
+    facts.add("Flux of the file", fmt::format("{:.5g} lm", solid.solid.flux_lm()));
+    facts.add("Check of the flux", solid.flux_statement);
     facts.add("Largest intensity", fmt::format("{:.4g} cd", solid.solid.peak_cd()));
-    facts.add("Luminous opening of the file", extent_text(solid.opening));
+    facts.add("Opening of the file", extent_text(solid.opening));
     facts.add("Count", fmt::format("{}", lights.size()));
     if (!lights.empty()) {
         std::vector<double> fluxes_lm, maintenance;
@@ -103,10 +102,11 @@ Html sheet(const Scene& scene, std::size_t index) {
             maintenance.push_back(light->maintenance);
             total_lm += fluxes_lm.back();
         }
-        facts.add("Flux of each in the scene", range_text(fluxes_lm, 5) + " lm");
-        facts.add("Flux of all in the scene", fmt::format("{:.6g} lm", total_lm));
-        facts.add("Maintenance factor", range_text(maintenance, 3) + " (contained in these fluxes)");
-        facts.add("Luminous area in the scene", openings_text(scene, lights));
+        facts.add("Flux of each", range_text(fluxes_lm, 5) + " lm");
+        facts.add("Flux of all", fmt::format("{:.5g} lm", total_lm));
+        const std::string factors = range_text(maintenance, 3);
+        facts.add("Maintenance factor", factors == "1" ? "none" : factors + " (within these fluxes)");
+        facts.add("Area of the opening", openings_text(scene, lights));
         facts.add("Names", names_text(lights));
     }
     const std::string file = std::filesystem::path(solid.file).filename().string();
@@ -169,7 +169,7 @@ Html table_of_lights(const Scene& scene) {
                    text(details_text(scene, light))});
     }
     return element("h3", "All lights") + table.html() +
-           element("p", fmt::format("Luminous flux of all lamps: {:.6g} lm, with their maintenance factors.",
+           element("p", fmt::format("Luminous flux of all lamps: {:.5g} lm, with their maintenance factors.",
                                     total_lm));
 }
 

@@ -81,7 +81,8 @@ Html materials_table(const Scene& scene) {
         std::string parameters = parameters_text(material);
         if (passes_straight(material))
             parameters += fmt::format(", transmittance {}", number_text(straight_transmittance(material, 1)));
-        table.add({swatch(reflectance) + text(name), text(type), text(number_text(reflectance)),
+        table.add({swatch(reflectance) + text(name), text(type),
+                   text(fmt::format("{:.2f}", reflectance.luminance())),
                    text(fmt::format("{:.2f} {:.2f} {:.2f}", reflectance[0], reflectance[1], reflectance[2])),
                    text(fmt::format("{:.4g}", area_of(scene, i))), text(parameters)});
     }

@@ -59,15 +59,14 @@ Html view_figure(const View& view) {
             ? fmt::format(", mean standard error of a pixel {:.2g} cd/m²", view.mean_standard_error_cd_m2)
             : "";
     const std::string words = fmt::format(
-        "{} × {} pixels, {} passes; mean luminance {:.4g} cd/m²{}. Exposure {:.3g} per cd/m², white {:.0f} "
+        ": {} × {} pixels, {} passes; mean luminance {:.4g} cd/m²{}. Exposure {:.3g} per cd/m², white {:.0f} "
         "K.",
         view.width, view.height, view.run.samples, view.mean_luminance_cd_m2, error, view.exposure,
         view.white_k);
     return element("figure", {{"class", "view"}},
-                   element("h3", view.sensor) +
-                       void_element("img", {{"alt", "View of camera " + view.sensor},
-                                            {"src", "data:image/png;base64," + io::base64(view.png)}}) +
-                       element("figcaption", words)) +
+                   void_element("img", {{"alt", "View of camera " + view.sensor},
+                                        {"src", "data:image/png;base64," + io::base64(view.png)}}) +
+                       element("figcaption", element("b", view.sensor) + text(words))) +
            raw("\n");
 }
 
@@ -132,6 +131,7 @@ Html body(const Report& report) {
     if (report.readings)
         html +=
             section("Summary", requirements(*report.readings) + certainty(*report.readings, report.options));
+    html += section("Views", views(report));
     const rays::RayCaster caster(scene);
     html += section("Floor plan", floor_plan(scene, caster, results, planes));
     html += section("Illuminance of areas", plane_pictures(planes));
@@ -139,7 +139,6 @@ Html body(const Report& report) {
         html += section("Measured values", measured_values(*report.readings));
         html += section("Glare", glare(*report.readings));
     }
-    html += section("Views", views(report));
     html += section("Luminaires", luminaires_section(scene));
     html += section("Materials", materials_table(scene));
     html += section("Warnings", warnings(report));

@@ -95,7 +95,8 @@ Html figure_of(const MeasuredPlane& plane, double ratio, const plot::Scale& scal
 Html colour_bar(const plot::Scale& scale, const plot::ColourMap& colours, double ratio) {
     constexpr int kSteps = 128;
     constexpr double kWidth = 420, kHeight = 12;
-    Drawing drawing(kAxisLeft + kWidth + 60, kDrawingMargin + kHeight + kAxisBelow, "The colours of illuminances");
+    Drawing drawing(kAxisLeft + kWidth + 60, kDrawingMargin + kHeight + kAxisBelow,
+                    "The colours of illuminances");
     for (int i = 0; i < kSteps; ++i) {
         drawing.filled_path(
             "cells",
@@ -109,11 +110,12 @@ Html colour_bar(const plot::Scale& scale, const plot::ColourMap& colours, double
         drawing.text("axis", {x, kDrawingMargin + kHeight + 14}, label, Drawing::Anchor::middle);
     }
     drawing.text("axis", {kAxisLeft + kWidth + 16, kDrawingMargin + kHeight}, "lx");
-    return element("figure", drawing.html() +
-                                 element("figcaption",
-                                         fmt::format("All areas at one scale of illuminance and of 1 : {:g} "
-                                                     "in print.",
-                                                     ratio)));
+    return element(
+        "figure", {{"class", "colours"}},
+        drawing.html() +
+            element("figcaption", fmt::format("All areas at one scale of illuminance and of 1 : {:g} "
+                                              "in print.",
+                                              ratio)));
 }
 
 }  // namespace

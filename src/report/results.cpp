@@ -71,8 +71,13 @@ std::string numbered(const SensorResult& result, std::size_t j) {
     return result.readings.size() == 1 ? result.sensor.name : fmt::format("{} {}", result.sensor.name, j + 1);
 }
 
+std::string readings_text(const SensorResult& result) {
+    return fmt::format("{} {}", result.readings.size(), sensors::readings_of_type(result.sensor.type()).many);
+}
+
 Html statistics_table(const RunResult& result) {
     Table table({{"Sensor"},
+                 {"Readings"},
                  {"Quantity"},
                  {"Mean", numbers},
                  {"Minimum", numbers},
@@ -81,9 +86,8 @@ Html statistics_table(const RunResult& result) {
                  {"Diversity", numbers}});
     for (const SensorResult& sensor : result.sensors) {
         if (sensor.readings.size() <= 1) continue;
-        std::vector<Html> cells{
-            element("b", sensor.sensor.name) + element("small", io::size_text(sensor.sensor)),
-            text(quantity_text(sensor.sensor))};
+        std::vector<Html> cells{text(sensor.sensor.name), text(readings_text(sensor)),
+                                text(quantity_text(sensor.sensor))};
         for (std::size_t i = 0; i < kStatisticNames.size(); ++i) {
             const auto statistic = static_cast<Statistic>(i);
             const bool is_defined = !is_ratio(statistic) || sensor.sensor.has_ratios();
@@ -120,8 +124,7 @@ Html sources_table(const run::GlareView& view) {
                  {"Luminance [cd/m²]", numbers},
                  {"Solid angle [sr]", numbers},
                  {"Position index", numbers},
-                 {"Share of the glare", numbers},
-                 {"Remark"}});
+                 {"Share of the glare", numbers}});
     const auto glare_of = [](const run::GlareSource& source) {
         return source.is_counted ? source.luminance_cd_m2 * source.luminance_cd_m2 * source.solid_angle_sr /
                                        (source.position_index * source.position_index)
@@ -130,45 +133,58 @@ Html sources_table(const run::GlareView& view) {
     double all = 0;
     for (const run::GlareSource& source : view.sources) all += glare_of(source);
     for (const run::GlareSource& source : view.sources) {
-        table.add({text(source.light), text(fmt::format("{:.0f}", source.luminance_cd_m2)),
+        table.add({text(source.light) + element("small", remark_on(source)),
+                   text(fmt::format("{:.0f}", source.luminance_cd_m2)),
                    text(fmt::format("{:.2g}", source.solid_angle_sr)),
                    text(fmt::format("{:.2f}", source.position_index)),
-                   text(all > 0 ? io::percent(glare_of(source) / all) : "–"), text(remark_on(source))});
+                   text(all > 0 ? io::percent(glare_of(source) / all) : "–")});
     }
     return table.is_empty() ? element("p", "The eye sees no luminaire.") : table.html();
 }
 
-/// A table of the readings of one sensor, with its columns of directions and angles.
-Html readings_table(const SensorResult& result) {
-    const Sensor& sensor = result.sensor;
-    std::vector<Table::Heading> headings{{"", numbers}, {"Position [m]"}};
-    const Location first = sensor.location(0);
+/// The directions of readings in results; the points of rasters all have the same.
+std::size_t count_directions(const Sensor& sensor, const Location& location) {
     const bool is_raster =
         std::holds_alternative<Grid>(sensor.kind) || std::holds_alternative<Area>(sensor.kind);
-    const std::size_t directions = is_raster ? 0 : first.directions.size();
-    std::vector<std::string> names;
-    for (std::size_t d = 0; d < directions; ++d) headings.push_back({first.directions[d].name});
-    for (const Location::Angle& angle : first.angles) names.push_back(fmt::format("{} [°]", angle.name));
-    for (const std::string& name : names) headings.push_back({name, numbers});
+    return is_raster ? 0 : location.directions.size();
+}
+
+std::vector<Table::Heading> reading_headings(const Sensor& sensor) {
+    std::vector<Table::Heading> headings{
+        {"", numbers}, {"x [m]", numbers}, {"y [m]", numbers}, {"z [m]", numbers}};
+    const Location location = sensor.location(0);
+    for (std::size_t d = 0; d < count_directions(sensor, location); ++d)
+        headings.push_back({std::string(location.directions[d].name), numbers});
+    for (const Location::Angle& angle : location.angles)
+        headings.push_back({fmt::format("{} [°]", angle.name), numbers});
     const std::string unit = io::unit_of(sensor);
-    const std::string value = unit.empty() ? "Value" : fmt::format("Value [{}]", unit);
-    headings.insert(headings.end(),
-                    {{value, numbers}, {"Standard error", numbers}, {"95 % interval", numbers}});
-    Table table(std::move(headings), "readings");
-    for (std::size_t j = 0; j < result.readings.size(); ++j) {
-        const Location location = sensor.location(j);
-        const statistics::Estimate& estimate = result.readings[j].estimate;
-        std::vector<Html> cells{text(fmt::format("{}", j + 1)), text(io::location_text(location.position))};
-        for (std::size_t d = 0; d < directions; ++d)
-            cells.push_back(text(io::direction_text(location.directions[d].value)));
-        for (const Location::Angle& angle : location.angles)
-            cells.push_back(text(fmt::format("{:g}", angle.value_deg)));
-        cells.push_back(text(estimate_text(estimate)));
-        cells.push_back(
-            text(std::isnan(estimate.standard_error) ? "–" : fmt::format("{:.2g}", estimate.standard_error)));
-        cells.push_back(text(interval_text(estimate)));
-        table.add(cells);
-    }
+    headings.push_back({unit.empty() ? "Value" : fmt::format("Value [{}]", unit), numbers});
+    headings.push_back({"Standard error", numbers});
+    headings.push_back({"95 % interval", numbers});
+    return headings;
+}
+
+std::vector<Html> reading_cells(const SensorResult& result, std::size_t j) {
+    const Location location = result.sensor.location(j);
+    const statistics::Estimate& estimate = result.readings[j].estimate;
+    std::vector<Html> cells{text(fmt::format("{}", j + 1))};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        cells.push_back(text(fmt::format("{:.3f}", location.position[axis])));
+    for (std::size_t d = 0; d < count_directions(result.sensor, location); ++d)
+        cells.push_back(text(io::direction_text(location.directions[d].value)));
+    for (const Location::Angle& angle : location.angles)
+        cells.push_back(text(fmt::format("{:g}", angle.value_deg)));
+    cells.push_back(text(estimate_text(estimate)));
+    cells.push_back(text(std::isnan(estimate.standard_error)
+                             ? "–"
+                             : fmt::format("{:.{}f}", estimate.standard_error, decimals_of(estimate))));
+    cells.push_back(text(interval_text(estimate)));
+    return cells;
+}
+
+Html readings_table(const SensorResult& result) {
+    Table table(reading_headings(result.sensor), "readings");
+    for (std::size_t j = 0; j < result.readings.size(); ++j) table.add(reading_cells(result, j));
     return table.html();
 }
 
