@@ -13,7 +13,6 @@
 
 #include "cli/command_line.h"
 #include "cli/info_report.h"
-#include "cli/results_table.h"
 #include "cli/scene_argument.h"
 #include "io/results/results_text.h"
 #include "io/text/file_kind.h"

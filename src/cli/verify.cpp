@@ -13,7 +13,6 @@
 
 #include "cli/command_line.h"
 #include "cli/progress.h"
-#include "cli/results_table.h"
 #include "estimators/estimator_list.h"
 #include "io/results/results_text.h"
 #include "run/options.h"

@@ -64,6 +64,12 @@ Html element(std::string_view tag, std::string_view plain) { return element(tag,
 
 Html void_element(std::string_view tag, Attributes attributes) { return raw(opening(tag, attributes)); }
 
+void Facts::add(std::string_view name, const Html& value) {
+    rows_ += element("dt", name) + element("dd", value) + raw("\n");
+}
+
+Html Facts::html() const { return element("dl", {{"class", "facts"}}, rows_); }
+
 Table::Table(std::vector<Heading> headings, std::string_view css_class)
     : headings_(std::move(headings)), css_class_(css_class) {}
 

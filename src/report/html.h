@@ -47,6 +47,16 @@ Html element(std::string_view tag, std::string_view plain);
 /// An element that has no content in HTML: <img ...>, <meta ...>.
 Html void_element(std::string_view tag, Attributes attributes);
 
+/// Names with values.
+class Facts {
+  public:
+    void add(std::string_view name, const Html& value);
+    Html html() const;
+
+  private:
+    Html rows_;
+};
+
 /// A table, row by row.
 class Table {
   public:

@@ -72,28 +72,20 @@ std::string names_text(std::span<const Light* const> lights) {
     return text;
 }
 
-class Facts {
-  public:
-    void add(std::string_view name, std::string_view value) {
-        if (!value.empty()) rows_ += element("dt", name) + element("dd", value) + raw("\n");
-    }
-    Html html() const { return element("dl", {{"class", "facts"}}, rows_); }
-
-  private:
-    Html rows_;
-};
-
 Html sheet(const Scene& scene, std::size_t index) {
     const NamedSolid& solid = scene.solids[index];
     const std::vector<const Light*> lights = lights_of(scene, index);
     Facts facts;
-    facts.add("File", std::filesystem::path(solid.file).filename().string());
-    facts.add("Format", solid.format);
-    facts.add("Flux of the file", fmt::format("{:.5g} lm", solid.solid.flux_lm()));
-    facts.add("Check of the flux", solid.flux_statement);
-    facts.add("Largest intensity", fmt::format("{:.4g} cd", solid.solid.peak_cd()));
-    facts.add("Opening of the file", extent_text(solid.opening));
-    facts.add("Count", fmt::format("{}", lights.size()));
+    const auto add = [&](std::string_view name, std::string_view value) {
+        if (!value.empty()) facts.add(name, text(value));
+    };
+    add("File", std::filesystem::path(solid.file).filename().string());
+    add("Format", solid.format);
+    add("Flux of the file", fmt::format("{:.5g} lm", solid.solid.flux_lm()));
+    add("Check of the flux", solid.flux_statement);
+    add("Largest intensity", fmt::format("{:.4g} cd", solid.solid.peak_cd()));
+    add("Opening of the file", extent_text(solid.opening));
+    add("Count", fmt::format("{}", lights.size()));
     if (!lights.empty()) {
         std::vector<double> fluxes_lm, maintenance;
         double total_lm = 0;
@@ -102,12 +94,12 @@ Html sheet(const Scene& scene, std::size_t index) {
             maintenance.push_back(light->maintenance);
             total_lm += fluxes_lm.back();
         }
-        facts.add("Flux of each", range_text(fluxes_lm, 5) + " lm");
-        facts.add("Flux of all", fmt::format("{:.5g} lm", total_lm));
+        add("Flux of each", range_text(fluxes_lm, 5) + " lm");
+        add("Flux of all", fmt::format("{:.5g} lm", total_lm));
         const std::string factors = range_text(maintenance, 3);
-        facts.add("Maintenance factor", factors == "1" ? "none" : factors + " (within these fluxes)");
-        facts.add("Area of the opening", openings_text(scene, lights));
-        facts.add("Names", names_text(lights));
+        add("Maintenance factor", factors == "1" ? "none" : factors + " (within these fluxes)");
+        add("Area of the opening", openings_text(scene, lights));
+        add("Names", names_text(lights));
     }
     const std::string file = std::filesystem::path(solid.file).filename().string();
     return element("div", {{"class", "sheet"}},

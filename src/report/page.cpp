@@ -34,22 +34,19 @@ std::string title_of(const Report& report) {
 /// What differs between runs with the same seed.
 Html varying(std::string_view plain) { return element("time", plain); }
 
-Html fact(std::string_view name, const Html& value) {
-    return element("dt", name) + element("dd", value) + raw("\n");
-}
-
 Html header(const Report& report) {
-    Html facts = fact("Date", varying(report.date)) + fact("Scene", text(report.scene)) +
-                 fact("Program", text(fmt::format("Stilb {}", STILB_VERSION)));
+    Facts facts;
+    facts.add("Date", varying(report.date));
+    facts.add("Scene", text(report.scene));
+    facts.add("Program", text(fmt::format("Stilb {}", STILB_VERSION)));
     if (report.readings) {
         const auto& maintenance = report.readings->maintenance;
-        facts += fact("Values",
-                      text(maintenance ? fmt::format("maintained, {}", io::maintenance_text(*maintenance))
-                                       : "initial, without a maintenance factor"));
+        facts.add("Values",
+                  text(maintenance ? fmt::format("maintained, {}", io::maintenance_text(*maintenance))
+                                   : "initial, without a maintenance factor"));
     }
     return element("header", element("p", {{"class", "kicker"}}, text("Lighting calculation")) +
-                                 element("h1", title_of(report)) +
-                                 element("dl", {{"class", "facts"}}, facts)) +
+                                 element("h1", title_of(report)) + facts.html()) +
            raw("\n");
 }
 
@@ -83,15 +80,14 @@ Html warnings(const Report& report) {
     return element("ul", {{"class", "warnings"}}, items);
 }
 
-/// The names, values and times of one run.
-void add_run(const RunSummary& run, std::string_view name, std::string_view samples, Html& facts) {
-    facts += fact(name, text(fmt::format("method {}, seed {}, {} {}, {} replicates, ", run.method, run.seed,
-                                         run.samples, samples, run.replicates)) +
-                            varying(fmt::format("{:.1f} s", run.elapsed_s)) +
-                            text(fmt::format("; {}", end_of(run.stop_reason))));
-    if (run.patches) facts += fact("Patches", text(io::patch_text(*run.patches)));
+void add_run(const RunSummary& run, std::string_view name, std::string_view samples, Facts& facts) {
+    facts.add(name, text(fmt::format("method {}, seed {}, {} {}, {} replicates, ", run.method, run.seed,
+                                     run.samples, samples, run.replicates)) +
+                        varying(fmt::format("{:.1f} s", run.elapsed_s)) +
+                        text(fmt::format("; {}", end_of(run.stop_reason))));
+    if (run.patches) facts.add("Patches", text(io::patch_text(*run.patches)));
     if (!run.levels_of_detail.empty())
-        facts += fact("Series of bodies", text(io::detail_text(run.levels_of_detail)));
+        facts.add("Series of bodies", text(io::detail_text(run.levels_of_detail)));
 }
 
 Html files_table(const io::SceneFile& file) {
@@ -104,22 +100,22 @@ Html files_table(const io::SceneFile& file) {
 }
 
 Html origin(const Report& report) {
-    Html facts = fact("Program", text(fmt::format("Stilb {}", STILB_VERSION))) +
-                 fact("Command", element("code", report.command));
+    Facts facts;
+    facts.add("Program", text(fmt::format("Stilb {}", STILB_VERSION)));
+    facts.add("Command", element("code", report.command));
     if (report.readings) {
         const RunResult& run = *report.readings;
         add_run(run, "Readings", estimators::find_estimator(run.method).samples, facts);
-        facts += fact("Rays", text(fmt::format("{}", run.rays)));
-        facts += fact("Reflections",
-                      text(report.options.bounces ? fmt::format("{} at most", *report.options.bounces)
-                                                  : "without a limit"));
+        facts.add("Rays", text(fmt::format("{}", run.rays)));
+        facts.add("Reflections",
+                  text(report.options.bounces ? fmt::format("{} at most", *report.options.bounces)
+                                              : "without a limit"));
     }
     for (const View& view : report.views)
         add_run(view.run, fmt::format("View {}", view.sensor), "passes", facts);
     if (!report.file.overrides.empty())
-        facts +=
-            fact("Values set", element("code", fmt::format("{}", fmt::join(report.file.overrides, " "))));
-    return element("dl", {{"class", "facts"}}, facts) + files_table(report.file);
+        facts.add("Values set", element("code", fmt::format("{}", fmt::join(report.file.overrides, " "))));
+    return facts.html() + files_table(report.file);
 }
 
 Html body(const Report& report) {

@@ -270,6 +270,11 @@ class ReportTest(CommandLineTest):
         sources = [r for r in page.rows if len(r) == 5 and r[0].startswith("panel_") and r[4].endswith(" %")]
         self.assertGreater(len(sources), 3)
         self.assertAlmostEqual(sum(float(r[4].removesuffix(" %")) for r in sources), 100, delta=3)
+        # The formula of CIE 117 with the numbers of the table, which are rounded.
+        glare = sum(float(r[1]) ** 2 * float(r[2]) / float(r[3]) ** 2 for r in sources)
+        background = float(re.search(r"background luminance ([\d.]+) cd/m²", page.text)[1])
+        rating = float(re.search(r"teacher: UGR ([\d.]+)", page.text)[1])
+        self.assertAlmostEqual(8 * math.log10(0.25 / background * glare), rating, delta=0.2)
         self.assertIn("Stilb example panel 600", page.text)
         self.assertRegex(page.text, r"Count\s+9\s")
         self.assertRegex(page.text, r"Maintenance factor\s+0\.8 ")
