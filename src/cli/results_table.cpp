@@ -61,11 +61,20 @@ std::string grid_values(const SensorResult& result, const std::array<int, 2>& co
     return text;
 }
 
+/// Diversity is shown of areas, and where something is required of it.
+bool is_shown(Statistic statistic, const Sensor& sensor) {
+    if (statistic != Statistic::diversity) return !is_ratio(statistic) || sensor.has_ratios();
+    return std::holds_alternative<Area>(sensor.kind) ||
+           std::ranges::any_of(sensor.requirements, [](const Requirement& requirement) {
+               return requirement.criterion->statistic == Statistic::diversity;
+           });
+}
+
 std::string summary_text(const statistics::GridSummary& summary, const Sensor& sensor) {
     std::string text;
     for (std::size_t i = 0; i < kStatisticNames.size(); ++i) {
         const auto statistic = static_cast<Statistic>(i);
-        if (!io::is_shown(statistic, sensor)) continue;
+        if (!is_shown(statistic, sensor)) continue;
         const statistics::Estimate& value = summary[statistic];
         text += fmt::format("{} {} ", text.empty() ? "   " : "  ", name_of(statistic));
         text += std::isnan(value.value) ? "-"

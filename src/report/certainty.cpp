@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "io/results/results_text.h"
 #include "report/results.h"
@@ -28,22 +27,13 @@ Count count_readings(const RunResult& result, double error) {
     return count;
 }
 
-bool has_intervals(const RunResult& result) {
-    return std::ranges::all_of(result.sensors, [](const SensorResult& sensor) {
-        return std::ranges::none_of(sensor.readings, [](const Reading& reading) {
-            return !std::isnan(reading.estimate.value) && std::isnan(reading.estimate.standard_error);
-        });
-    });
-}
-
-std::string meaning_text(const RunResult& result) {
-    if (!has_intervals(result))
-        return fmt::format("Method {} is deterministic: its values have no intervals.", result.method);
-    return "The values are computed by random samples of light. Each has a 95 % interval, written ±: in 95 "
-           "of 100 "
-           "repetitions with other random numbers, such an interval contains the true value of the room as "
-           "it is described here.";
-}
+constexpr std::string_view kMeaning =
+    "The values are computed by random samples of light. Each has a 95 % interval, written ±: in 95 of 100 "
+    "repetitions with other random numbers, such an interval contains the true value of the room as it is "
+    "described here.";
+constexpr std::string_view kLimits =
+    "The intervals do not contain what differs between this description and the real room: reflectances, "
+    "furniture, tolerances and ageing of luminaires.";
 
 std::string reached_text(const RunResult& result, const RunOptions& options) {
     const std::string attained = io::percent(result.attained_error);
@@ -102,13 +92,11 @@ std::string_view end_of(StopReason reason) {
 
 Html certainty(const RunResult& result, const RunOptions& options) {
     const std::string_view css_class = result.converged ? "" : "attention";
-    Html html = element("p", meaning_text(result)) +
-                element("p", {{"class", std::string(css_class)}},
-                        text(reached_text(result, options) + " " + end_text(result)));
+    Html html =
+        element("p", kMeaning) + element("p", {{"class", std::string(css_class)}},
+                                         text(reached_text(result, options) + " " + end_text(result)));
     if (const std::string verdicts = verdict_text(result); !verdicts.empty()) html += element("p", verdicts);
-    return html + element("p",
-                          "The intervals do not contain what differs between this description and the real "
-                          "room: reflectances, furniture, tolerances and ageing of luminaires.");
+    return html + element("p", kLimits);
 }
 
 }  // namespace stilb::report

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "plot/isolines.h"
 #include "report/drawing.h"
@@ -33,17 +34,25 @@ class FloorPlan {
           labels_(frame_.rectangle()) {}
 
     double ratio() const { return frame_.ratio; }
+    bool has_marks() const { return !marks_.empty(); }
 
-    /// A line of twice a band's width about the area covers the band; that within it is covered later.
+    /// A line of twice a band's width about the area, of which then the part within the area is covered. Wide
+    /// bands come first.
     void draw_bands(std::span<const MeasuredPlane> planes) {
+        std::vector<const MeasuredPlane*> bands;
         for (const MeasuredPlane& plane : planes) {
-            if (plane.is_whole() || !plane.is_horizontal()) continue;
-            const auto& area = std::get<Area>(plane.result->sensor.kind);
-            const double width = 2 * area.band_m[1] * frame_.pixels_per_m();
-            const std::string path = outline_path(plane);
-            drawing_.stroked_path("band-edge", path, width + 1);
-            drawing_.stroked_path("band", path, width - 1);
+            if (!plane.is_whole() && plane.is_horizontal()) bands.push_back(&plane);
         }
+        const auto width_m = [](const MeasuredPlane* plane) {
+            return std::get<Area>(plane->result->sensor.kind).band_m[1];
+        };
+        std::ranges::stable_sort(bands, std::ranges::greater{}, width_m);
+        for (const MeasuredPlane* band : bands) {
+            const double width = 2 * width_m(band) * frame_.pixels_per_m();
+            drawing_.stroked_path("band-edge", outline_path(*band), width + 1);
+            drawing_.stroked_path("band", outline_path(*band), width - 1);
+        }
+        for (const MeasuredPlane* band : bands) drawing_.path("paper", outline_path(*band));
     }
 
     void draw_areas(std::span<const MeasuredPlane> planes) {
@@ -66,7 +75,7 @@ class FloorPlan {
                 const auto place = labels_.place(line, plot::text_width(label, kTextSize));
                 if (!place) continue;
                 const double half_height = 0.36 * kTextSize;
-                const Point base{place->center.x - half_height * std::sin(-place->angle_rad),
+                const Point base{place->center.x - half_height * std::sin(place->angle_rad),
                                  place->center.y + half_height * std::cos(place->angle_rad)};
                 drawing_.text("isoline-label", base, label, Drawing::Anchor::middle, place->angle_rad);
             }
@@ -184,13 +193,13 @@ class FloorPlan {
     std::vector<Point> marks_;
 };
 
-Html legend(const PlanLines& lines, double ratio, bool has_isolines) {
+Html legend(const PlanLines& lines, const FloorPlan& plan, bool has_isolines) {
     std::string words =
-        fmt::format("Scale 1 : {:g} in print. Section at z = {:.4g} m", ratio, lines.height_m);
+        fmt::format("Scale 1 : {:g} in print. Section at z = {:.4g} m", plan.ratio(), lines.height_m);
     words += ": walls and high things are cut (bold), lower ones are seen from above. ";
     words += "Luminaires with their luminous openings; arrows: their aim where it is not vertical. ";
     if (has_isolines) words += "Blue: measured areas and isolux lines [lx]. ";
-    words += "Crosses: single sensors with their directions.";
+    if (plan.has_marks()) words += "Crosses: single sensors with their directions.";
     return element("figcaption", words);
 }
 
@@ -216,7 +225,7 @@ Html floor_plan(const Scene& scene, const rays::RayCaster& caster, std::span<con
         }
     }
     for (const SensorResult& result : results) plan.draw_marks(result);
-    return element("figure", {{"class", "plan"}}, plan.finish() + legend(lines, plan.ratio(), has_isolines));
+    return element("figure", {{"class", "plan"}}, plan.finish() + legend(lines, plan, has_isolines));
 }
 
 }  // namespace stilb::report

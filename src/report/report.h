@@ -36,8 +36,8 @@ struct Report {
     std::vector<std::string> warnings;  ///< of the file and of all runs
 };
 
-/// The same report gives the same page. Parts that differ between runs with the same seed and the same number
-/// of samples are in elements <time>.
+/// The same report gives the same page. What differs between runs with the same seed and the same number of
+/// samples, as durations do, is in elements <time>.
 std::string to_html(const Report& report);
 
 }  // namespace stilb::report

@@ -29,12 +29,10 @@ Html chip(Verdict verdict) {
 }
 
 std::string estimate_text(const statistics::Estimate& estimate) {
-    if (std::isnan(estimate.value)) return "–";
-    return std::isnan(estimate.standard_error) ? fmt::format("{:.5g}", estimate.value)
-                                               : io::with_error(estimate);
+    return std::isnan(estimate.value) ? "–" : io::with_error(estimate);
 }
 
-/// The end of the text of an estimate that has so many decimals.
+/// The decimals of an estimate as text.
 std::size_t decimals_of(const statistics::Estimate& estimate) {
     const std::string words = estimate_text(estimate);
     const std::string value = words.substr(0, words.find(' '));
@@ -43,7 +41,7 @@ std::size_t decimals_of(const statistics::Estimate& estimate) {
 }
 
 std::string interval_text(const statistics::Estimate& estimate) {
-    if (std::isnan(estimate.lower) || std::isnan(estimate.upper)) return "–";
+    if (std::isnan(estimate.value)) return "–";
     return fmt::format("{0:.{2}f} to {1:.{2}f}", estimate.lower, estimate.upper, decimals_of(estimate));
 }
 

@@ -253,6 +253,16 @@ class ReportTest(CommandLineTest):
         self.assertAlmostEqual(metres["x"](float(lamp.get("cx"))), 2.5, delta=0.005)
         self.assertAlmostEqual(metres["y"](float(lamp.get("cy"))), 1.5, delta=0.005)
 
+    def test_bands_lie_around_their_area(self):
+        self.scene = self.write("ratings.toml", ROOM + RATINGS)
+        markup, _ = self.report("--paths", "2048")
+        (width,) = re.findall(r'<path class="band" stroke-width="([\d.]+)"', markup)
+        (ratio,) = re.findall(r"<figcaption>Scale 1 : (\d+) in print", markup)
+        self.assertAlmostEqual(float(width) + 1, 2 * 0.4 * 96 / 0.0254 / int(ratio), delta=0.01)
+        outlines = re.findall(r'<path class="(band|band-edge|paper)"[^>]* d="([^"]+)"', markup)
+        self.assertEqual([name for name, _ in outlines], ["band-edge", "band", "paper"])
+        self.assertEqual(len({d for _, d in outlines}), 1)
+
     def test_wrong_names_of_pages(self):
         self.expect_wrong_input(["report", self.scene], "--output FILE is missing. It gives the page to write")
         self.expect_wrong_input(["report", self.scene, "-o", "r.pdf"], "-o r.pdf", "End the name in .html")

@@ -36,14 +36,6 @@ std::string with_unit(const statistics::Estimate& estimate, const Sensor& sensor
     return with_error(estimate) + (unit.empty() ? "" : " " + unit);
 }
 
-bool is_shown(Statistic statistic, const Sensor& sensor) {
-    if (statistic != Statistic::diversity) return !is_ratio(statistic) || sensor.has_ratios();
-    return std::holds_alternative<Area>(sensor.kind) ||
-           std::ranges::any_of(sensor.requirements, [](const Requirement& requirement) {
-               return requirement.criterion->statistic == Statistic::diversity;
-           });
-}
-
 std::string requirement_text(const Requirement& requirement, const Sensor& sensor) {
     const sensors::Criterion& criterion = *requirement.criterion;
     const std::string unit = is_ratio(criterion.statistic) ? "" : unit_of(sensor);

@@ -24,9 +24,6 @@ std::string unit_of(const Sensor& sensor);
 std::string with_unit(const statistics::Estimate& estimate, const Sensor& sensor);
 /// "0.65 %": a share with two digits, or all of those before the point.
 std::string percent(double share);
-/// Whether a statistic of a sensor belongs to its results. Diversity is shown of areas, and where something
-/// is required of it.
-bool is_shown(Statistic statistic, const Sensor& sensor);
 /// "mean at least 500 lx".
 std::string requirement_text(const Requirement& requirement, const Sensor& sensor);
 /// The number of requirements with each verdict: "2 pass, 1 not sure yet"; empty where there are none.
