@@ -111,10 +111,11 @@ SensorResult with_glare_ratings(const SensorResult& illuminances, const Scene& s
         views[j] = find_glare(eyes[j], scene, caster, lights, key.derived(j));
     });
     SensorResult result = illuminances;
-    for (std::size_t j = 0; j < eyes.size(); ++j)
-        result.glare.push_back(described(views[j], illuminances.readings[j].estimate.value, scene));
-    for (std::size_t j = 0; j < eyes.size(); ++j)
-        result.readings[j] = {rating_of(illuminances.readings[j].estimate, views[j], confidence), {}};
+    for (std::size_t j = 0; j < eyes.size(); ++j) {
+        const Estimate& illuminance = illuminances.readings[j].estimate;
+        result.readings[j] = {rating_of(illuminance, views[j], confidence), {}};
+        result.glare.push_back(described(views[j], illuminance.value, scene));
+    }
     for (std::size_t i = 0; i < result.replicate_means.size(); ++i) {
         const Glare& view = views[i % eyes.size()];
         double glare = 0;
