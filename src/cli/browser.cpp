@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "io/text/text.h"
+
 namespace stilb::cli {
 namespace {
 
@@ -41,6 +43,11 @@ void open_browser(const std::string& address) {
     posix_spawnp(&process, program.c_str(), &files, &attributes, arguments.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
+}
+
+bool is_page(const std::string& name) {
+    const std::string extension = io::extension_of(name);
+    return extension == ".html" || extension == ".htm";
 }
 
 }  // namespace stilb::cli

@@ -106,6 +106,7 @@ void add_view(CommandLine& line);
 void add_fit(CommandLine& line);
 void add_info(CommandLine& line);
 void add_falsecolor(CommandLine& line);
+void add_report(CommandLine& line);
 void add_export(CommandLine& line);
 void add_verify(CommandLine& line);
 

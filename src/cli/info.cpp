@@ -13,10 +13,11 @@
 
 #include "cli/command_line.h"
 #include "cli/info_report.h"
-#include "cli/results_table.h"
 #include "cli/scene_argument.h"
 #include "cli/ugr_report.h"
+#include "io/results/results_text.h"
 #include "io/text/file_kind.h"
+#include "io/text/text.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
@@ -152,18 +153,10 @@ std::string object_text(const Json& object) {
 }
 
 /// "peak_intensity_cd" and a number become "peak intensity 80 cd", "object" and a text "object panel".
-std::string light_detail_text(std::string key, const Json& value) {
-    std::string_view unit;
-    constexpr std::array<std::array<std::string_view, 2>, 5> units{
-        {{"_cd_m2", " cd/m2"}, {"_lm", " lm"}, {"_cd", " cd"}, {"_lx", " lx"}, {"_w", " W"}}};
-    for (const auto& [ending, name] : units) {
-        if (!unit.empty() || !key.ends_with(ending)) continue;
-        key.resize(key.size() - ending.size());
-        unit = name;
-    }
-    std::ranges::replace(key, '_', ' ');
-    return value.is_string() ? fmt::format("{} {}", key, value.get<std::string>())
-                             : fmt::format("{} {:.5g}{}", key, value.get<double>(), unit);
+std::string light_detail_text(const std::string& key, const Json& value) {
+    const auto [words, unit] = io::words_of_key(key);
+    if (value.is_string()) return fmt::format("{} {}", words, value.get<std::string>());
+    return fmt::format("{} {:.5g}{}{}", words, value.get<double>(), unit.empty() ? "" : " ", unit);
 }
 
 std::string light_text(const Json& light) {
@@ -207,7 +200,8 @@ std::string readings_text(const Json& sensor) {
     const std::size_t readings = count(sensor, "points");
     const sensors::Noun noun = sensors::readings_of_type(text(sensor, "type"));
     const std::size_t left_out = sensor.contains("left_out") ? count(sensor, "left_out") : 0;
-    return fmt::format("{} {}{}", readings, readings == 1 ? noun.one : noun.many, left_out_text(left_out));
+    return fmt::format("{} {}{}", readings, readings == 1 ? noun.one : noun.many,
+                       io::left_out_text(left_out));
 }
 
 std::string required_text(const Json& sensor) {
@@ -248,7 +242,7 @@ std::string installed_text(const Json& power) {
     const auto unknown = power.at("unknown").get<std::vector<std::string>>();
     std::optional<double> installed_w;
     if (!power.at("installed_w").is_null()) installed_w = number(power, "installed_w");
-    std::string line = "Installed power: " + power_text(installed_w, unknown);
+    std::string line = "Installed power: " + io::power_text(installed_w, unknown);
     if (power.contains("w_m2"))
         line += fmt::format("; {:.3g} W/m2 of the task area ({:.4g} m2)", number(power, "w_m2"),
                             number(power, "task_area_m2"));
@@ -260,7 +254,7 @@ using Describe = std::string (*)(const Json&);
 /// The maintenance factors that the flux contains.
 std::string maintained(const Json& report) {
     if (!report.contains("maintenance")) return "";
-    return fmt::format(" ({})", maintenance_text(report["maintenance"].get<std::array<double, 2>>()));
+    return fmt::format(" ({})", io::maintenance_text(report["maintenance"].get<std::array<double, 2>>()));
 }
 
 std::string section_text(const Json& report, const char* key, const char* title, Describe describe) {

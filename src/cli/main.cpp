@@ -22,6 +22,7 @@ int run_commands(int argument_count, const char* const* arguments) {
     cli::add_fit(line);
     cli::add_info(line);
     cli::add_falsecolor(line);
+    cli::add_report(line);
     cli::add_export(line);
     cli::add_verify(line);
     papers::add_reproduce(line);

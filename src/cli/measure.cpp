@@ -1,18 +1,15 @@
 // stilb measure: readings of all sensors of a scene.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "cli/command_line.h"
+#include "cli/measure_flags.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"
-#include "cli/run_flags.h"
 #include "cli/scene_argument.h"
 #include "estimators/estimator_list.h"
 #include "io/results/results_writer.h"
@@ -28,17 +25,12 @@ namespace {
 
 struct MeasureRequest {
     std::string scene;
-    std::vector<std::string> overrides, sensors;
     /// Where JSON goes: "-" is standard output, which then gets no table.
     std::optional<std::string> json;
     std::string output, csv_directory, picture;
-    std::optional<std::string> target;
-    bool has_replicates = false, checks = false;
-    RunFlags flags;
+    bool has_replicates = false;
+    MeasureFlags flags;
 };
-
-/// Seconds a reading that statistics and files take after the last sample. Two threads were measured.
-constexpr double kFinishing_s = 3e-6;
 
 /// In `stilb measure --json office.toml`, --json has taken the scene for its own value: gives it back.
 void take_scene_back(MeasureRequest& request) {
@@ -72,44 +64,13 @@ void write_files(const RunResult& result, const MeasureRequest& request) {
     }
 }
 
-run::Target target_of(const std::string& name) {
-    const auto found = std::ranges::find(run::kTargetNames, name);
-    if (found == run::kTargetNames.end()) {
-        throw InputError(fmt::format("--target {}: there is no such value.{} Allowed: {}.", name,
-                                     did_you_mean(name, run::kTargetNames),
-                                     fmt::join(run::kTargetNames, ", ")));
-    }
-    return static_cast<run::Target>(found - run::kTargetNames.begin());
-}
-
-/// Refuses flags that have nothing to act on.
-void require_purpose(const MeasureRequest& request, std::span<const Sensor> sensors) {
+int run_measure(const MeasureRequest& request) {
+    const MeasureFlags& flags = request.flags;
     if (request.has_replicates && json_files(request).empty())
         throw InputError("--replicates writes into the JSON document: give --json or -o as well.");
-    if (request.checks && !sensors::has_requirements(sensors)) {
-        throw InputError(
-            "--check: no measured sensor has a key \"require\", such as require = { mean = 500 }.",
-            {request.scene});
-    }
-}
-
-/// With --check, requirements decide.
-int exit_code_of(const RunResult& result, const MeasureRequest& request) {
-    if (!request.checks) return result.converged ? kExitDone : kExitStoppedEarly;
-    const Verdict verdict = run::verdict_of(result).value_or(Verdict::undecided);
-    if (verdict == Verdict::fail) return kExitCheckFailed;
-    return verdict == Verdict::pass ? kExitDone : kExitStoppedEarly;
-}
-
-int run_measure(const MeasureRequest& request) {
-    const io::SceneFile file = read_scene(request.scene, request.overrides);
-    const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, request.sensors, request.scene);
-    require_purpose(request, sensors);
-    std::size_t readings = 0;
-    for (const Sensor& sensor : sensors) readings += sensor.size();
-    RunOptions options =
-        with_reserve(request.flags.over(file.run), kFinishing_s * static_cast<double>(readings));
-    if (request.target) options.target = target_of(*request.target);
+    const io::SceneFile file = read_scene(request.scene, flags.overrides);
+    const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, flags.sensors, request.scene);
+    const RunOptions options = flags.options_for(sensors, file.run, request.scene);
     for (const std::string& output : json_files(request))
         io::require_output(output, io::FileKind::results, file.sources);
     if (!request.picture.empty()) plot::require_picture_path(request.picture, file.sources);
@@ -117,16 +78,16 @@ int run_measure(const MeasureRequest& request) {
     RunResult result;
     {
         TerminalProgress progress(std::string(estimators::find_estimator(options.method).samples),
-                                  request.flags.off_terminal());
-        result = run::measure(file.scene, sensors, options, request.flags.quiet ? nullptr : &progress,
+                                  flags.run.off_terminal());
+        result = run::measure(file.scene, sensors, options, flags.run.quiet ? nullptr : &progress,
                               &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
     write_files(result, request);  // before all messages: the terminal may be closed by now
-    if (!request.flags.quiet) print_warnings(result.warnings);
+    if (!flags.run.quiet) print_warnings(result.warnings);
     if (std::ranges::none_of(json_files(request), io::is_standard_output))
         fmt::print("{}", to_table(result) + shortfall_text(result, ""));
-    return exit_code_of(result, request);
+    return flags.exit_code_of(result);
 }
 
 }  // namespace
@@ -142,9 +103,6 @@ void add_measure(CommandLine& line) {
         "  stilb measure office.toml --check --time 60\n");
     auto request = std::make_shared<MeasureRequest>();
     command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input (required)");
-    command.add("--sensor", request->sensors, "Measure only this sensor (may be repeated)")
-        .value_name("NAME")
-        .repeatable();
     command
         .add("--json", request->json,
              "One JSON document on stdout instead of the table, or beside it into this file")
@@ -159,19 +117,8 @@ void add_measure(CommandLine& line) {
     command
         .add("--falsecolor", request->picture, "Write also a false-colour picture of the grids (.png, .svg)")
         .value_name("FILE");
-    command.add(
-        "--check", request->checks,
-        "Exit with code 1 where a requirement of a sensor (require = ...) is not met, with code 3 where "
-        "it is not sure yet, else with 0");
     command.add("--replicates", request->has_replicates,
                 "Write also the values of all replicates into the JSON document");
-    command
-        .add("--target", request->target,
-             "Readings (default: 95 % of each sensor's) or mean (means and minima of the sensors) have the "
-             "error "
-             "of --error")
-        .value_name("NAME");
-    add_overrides(command, request->overrides);
     request->flags.add_to(command);
     command.run([request] {
         take_scene_back(*request);

@@ -16,6 +16,7 @@
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
 #include "io/image/picture_file.h"
+#include "io/results/results_text.h"
 #include "io/results/solution_file.h"
 #include "io/scene/overrides.h"
 #include "io/text/text.h"
@@ -29,8 +30,6 @@ namespace stilb::cli {
 namespace {
 
 constexpr double kPreviewEvery_s = 3;
-/// Seconds a pixel that statistics and files take after the last pass. Two threads were measured.
-constexpr double kFinishingPicture_s = 3e-7;
 
 struct RenderRequest {
     std::string scene, solution, sensor, output, preview, command;
@@ -84,7 +83,7 @@ std::string passes_text(const RenderResult& result) {
 std::string share_text(const RenderResult& result) {
     if (!(result.mean_luminance_cd_m2 > 0)) return "";
     return fmt::format(", {} of the mean luminance",
-                       percent(result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2));
+                       io::percent(result.mean_standard_error_cd_m2 / result.mean_luminance_cd_m2));
 }
 
 void print_summary(const RenderResult& result, const Sensor& sensor, const std::string& output) {
@@ -96,13 +95,13 @@ void print_summary(const RenderResult& result, const Sensor& sensor, const std::
         fmt::print(stream, "mean standard error of a pixel: {:.3g} cd/m²{}\n",
                    result.mean_standard_error_cd_m2, share_text(result));
         fmt::print(stream, "95 % of the pixels have a 95 % interval within {} of their value\n",
-                   percent(result.attained_error));
+                   io::percent(result.attained_error));
     }
     fmt::print(stream, "{}, {} in {:.1f} s: {}\n", result.method, passes_text(result), result.elapsed_s,
-               ending(result.stop_reason, "passes"));
+               io::ending(result.stop_reason, "passes"));
     fmt::print(stream, "{}{}", shortfall_text(result, output), maintenance_line(result));
-    fmt::print(stream, "{}", detail_text(result.levels_of_detail));
-    if (result.patches) fmt::print(stream, "{}", patch_text(*result.patches));
+    fmt::print(stream, "{}", io::detail_text(result.levels_of_detail));
+    if (result.patches) fmt::print(stream, "{}", io::patch_text(*result.patches));
 }
 
 /// Refuses flags of the light computation, which a stored solution cannot follow.
@@ -144,9 +143,8 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
         return render_solution(file.scene, sensor, std::move(stored->solution), request.factors, threads,
                                &progress, &watch_for_interrupt());
     }
-    const auto [width, height] = sensor.camera()->resolution;
     const RunOptions options =
-        with_reserve(request.flags.over(file.run), kFinishingPicture_s * width * height);
+        with_picture_reserve(request.flags.over(file.run), sensor.camera()->resolution);
     origin.method = options.method;
     origin.seed = options.seed;
     RenderProgress progress(request, *sensor.camera(), origin);

@@ -1,6 +1,7 @@
 // The flags that all computing commands share.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -61,5 +62,7 @@ struct RunFlags {
 
 /// Keeps `time_s` seconds of a time limit, but half of it at most, for statistics and files.
 RunOptions with_reserve(RunOptions options, double time_s);
+/// The same for the statistics and the file of a picture of so many pixels.
+RunOptions with_picture_reserve(RunOptions options, const std::array<int, 2>& resolution);
 
 }  // namespace stilb::cli

@@ -13,6 +13,7 @@
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
+#include "io/results/results_text.h"
 #include "io/results/solution_file.h"
 #include "io/text/file_kind.h"
 
@@ -35,11 +36,11 @@ void print_summary(const SolveResult& result, const io::StoredSolution& stored, 
                solution.groups.size() == 1 ? "group" : "groups", 1e-6 * static_cast<double>(bytes));
     fmt::print(stream,
                "95 % of the light falls on places with a 95 % interval within {} of their illuminance\n",
-               percent(result.attained_error));
+               io::percent(result.attained_error));
     fmt::print(stream, "ray-bundle, {} steps in {:.1f} s: {}\n", result.samples, result.elapsed_s,
-               ending(result.stop_reason, "steps"));
+               io::ending(result.stop_reason, "steps"));
     fmt::print(stream, "{}{}", shortfall_text(result, output), maintenance_line(result));
-    fmt::print(stream, "{}", patch_text(*result.patches));
+    fmt::print(stream, "{}", io::patch_text(*result.patches));
 }
 
 int run_solve(const SolveRequest& request) {

@@ -13,8 +13,8 @@
 
 #include "cli/command_line.h"
 #include "cli/progress.h"
-#include "cli/results_table.h"
 #include "estimators/estimator_list.h"
+#include "io/results/results_text.h"
 #include "run/options.h"
 #include "stilb/error.h"
 #include "verification/cie171.h"
@@ -48,7 +48,7 @@ std::string reading_rows(const verification::Verification& v) {
     std::string text;
     for (const verification::CheckedReading& reading : v.readings) {
         text += fmt::format("    {:63} {:8.5g} {:10.5g}  {:5} {:7.2g} {:6.2f}\n",
-                            location_text(location_of(reading.exact.measurand)), reading.exact.value,
+                            io::location_text(location_of(reading.exact.measurand)), reading.exact.value,
                             reading.measured.value, v.unit, 100 * relative_half_width(reading.measured),
                             reading.z);
     }

@@ -17,6 +17,7 @@
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
+#include "io/results/results_text.h"
 #include "io/results/solution_file.h"
 #include "io/text/compression.h"
 #include "io/text/file_kind.h"
@@ -48,11 +49,6 @@ struct Input {
     io::SceneFile file;
     std::optional<io::StoredSolution> stored;
 };
-
-bool is_page(const std::string& output) {
-    const std::string extension = io::extension_of(output);
-    return extension == ".html" || extension == ".htm";
-}
 
 /// The scene of a solution, which lies where it lay when it was solved.
 std::string scene_of(const io::StoredSolution& stored, const std::string& solution) {
@@ -176,9 +172,9 @@ void conclude(const ViewRequest& request, const Input& input, SolveResult& resul
             request.output);
     }
     if (!request.flags.quiet) print_warnings(summary.warnings);
-    fmt::print("95 % of the light is exact within {}\n", percent(summary.attained_error));
+    fmt::print("95 % of the light is exact within {}\n", io::percent(summary.attained_error));
     fmt::print("ray-bundle, {} steps in {:.1f} s: {}\n", summary.samples, summary.elapsed_s,
-               ending(summary.stop_reason, "steps"));
+               io::ending(summary.stop_reason, "steps"));
     fmt::print("{}{}", shortfall_text(summary, is_kept ? request.output : ""), maintenance_line(summary));
     if (bytes)
         fmt::print("{}: the solution, {:.1f} MB\n", request.output, 1e-6 * static_cast<double>(*bytes));

@@ -168,6 +168,17 @@ void warn_of_dim_views(const Sensor& sensor, const SensorEstimates& illuminances
                     sensor.name, kLeastDaylight_lx, dim, readings.size()));
 }
 
+/// The sources that glare most first.
+GlareView described(Glare view, double illuminance_lx, const Scene& scene) {
+    GlareView result{(illuminance_lx - mean_of(view.direct_of_replicates_lx)) / std::numbers::pi, {}};
+    std::ranges::stable_sort(view.sources, std::ranges::greater{}, &transport::GlareSource::glare);
+    for (const transport::GlareSource& source : view.sources)
+        result.sources.push_back({scene.lights[source.light].name, source.luminance_cd_m2,
+                                  source.solid_angle_sr, source.position_index,
+                                  source.solid_angle_sr >= transport::kLeastGlare_sr});
+    return result;
+}
+
 }  // namespace
 
 GlareViews::GlareViews(std::span<const Sensor> sensors, const PictureSetting& setting, std::size_t replicates,
@@ -208,6 +219,14 @@ std::vector<std::string> GlareViews::warnings(const Scene& scene, std::span<cons
         warn_of_points(sensors[s], scene, warnings);
     }
     return warnings;
+}
+
+std::vector<GlareView> GlareViews::described_views(std::size_t sensor, const SensorEstimates& illuminances,
+                                                   const Scene& scene) const {
+    std::vector<GlareView> all;
+    for (std::size_t j = 0; j < views_[sensor].size(); ++j)
+        all.push_back(described(views_[sensor][j], illuminances.readings.readings[j].value, scene));
+    return all;
 }
 
 }  // namespace stilb::run

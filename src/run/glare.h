@@ -38,6 +38,11 @@ class GlareViews {
     std::vector<std::string> warnings(const Scene& scene, std::span<const Sensor> sensors,
                                       std::span<const SensorEstimates> illuminances) const;
 
+    /// What the views of a sensor of type "ugr" see, for reports; none of other sensors. `illuminances`: its
+    /// estimates before rate().
+    std::vector<GlareView> described_views(std::size_t sensor, const SensorEstimates& illuminances,
+                                           const Scene& scene) const;
+
   private:
     // Of each sensor; none of those of other types.
     std::vector<std::vector<transport::Glare>> views_;

@@ -173,7 +173,9 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
     const double confidence = confidence_of(options, result.stop_reason);
     std::vector<SensorEstimates> estimates = estimate_all(campaign, sensors, confidence);
     std::vector<double> attained;
+    std::vector<std::vector<GlareView>> views;
     for (std::size_t s = 0; s < sensors.size(); ++s) {
+        views.push_back(glare.described_views(s, estimates[s], scene));
         attained.push_back(statistics::attained_error(estimates[s].readings.readings));
         std::ranges::move(rarity_warnings(estimates[s].readings, campaign.samples_in_all(), sensors[s]),
                           std::back_inserter(result.warnings));
@@ -192,6 +194,7 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
         SensorResult& own = result.sensors.emplace_back(
             sensor_result(campaign, sensor, std::move(estimates[s]), first, sight_ends));
         own.attained_error = attained[s];
+        own.glare = std::move(views[s]);
         own.requirements = rate(sensor.requirements, has_looked ? deciding[s].summary : own.summary);
         first += sensor.size();
     }

@@ -82,6 +82,18 @@ struct RatedRequirement {
     bool is_undecided() const { return verdict == Verdict::undecided; }
 };
 
+/// A lamp that a view sees, as a source of glare.
+struct GlareSource {
+    std::string light;
+    double luminance_cd_m2 = 0, solid_angle_sr = 0;
+    double position_index = 0;  ///< Guth's
+    bool is_counted = true;     ///< false where it is too small for the rating
+};
+struct GlareView {
+    double background_cd_m2 = 0;
+    std::vector<GlareSource> sources;
+};
+
 struct SensorResult {
     Sensor sensor;
     /// In the order of the sensor's measurands; one of a derived value, whose colour is unknown.
@@ -97,6 +109,7 @@ struct SensorResult {
     /// runs with other seeds can be combined with them.
     std::vector<double> replicate_means{};
     std::vector<RatedRequirement> requirements{};
+    std::vector<GlareView> glare{};  ///< of each reading of a sensor that rates glare
 };
 
 /// The installed power over the task areas together (sensors::task_area_m2()).

@@ -171,6 +171,11 @@ std::optional<Fault> Area::settle(const GivenKeys& given) {
     }
     cell_m = {(most.x - least.x) / nx, (most.y - least.y) / ny};
     const Vec3 facing = normal.value_or(plane->frame.w);
+    raster = {plane->at(least.x, least.y),
+              (most.x - least.x) * plane->frame.u,
+              (most.y - least.y) * plane->frame.v,
+              {static_cast<int>(nx), static_cast<int>(ny)},
+              facing};
     points.clear();
     for (double row = 0; row < ny; ++row) {
         for (double column = 0; column < nx; ++column) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sensors/fields.h"
+#include "sensors/illuminance.h"
 #include "sensors/measurand.h"
 #include "sensors/plane_region.h"
 #include "sensors/requirement.h"
@@ -61,6 +62,7 @@ struct Area {
 
     // From settle() on; of faces of objects from place_on() on (surface_points.h).
     std::vector<MeasuringPoint> points{};
+    Grid raster{};  ///< its cells have the points in their middles, and others beyond the area
     std::array<double, 2> cell_m{};  ///< the distances of neighbouring points along both axes of the raster
     std::size_t left_out = 0;  ///< points inside of bodies, which are not measured (checks/hidden_points.cpp)
 

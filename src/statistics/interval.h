@@ -20,6 +20,8 @@ struct Estimate {
 
     bool operator==(const Estimate&) const = default;
 };
+/// Half the width of the interval.
+inline double half_width(const Estimate& estimate) { return (estimate.upper - estimate.lower) / 2; }
 
 /// The means of R independent replicates for each of many readings: row r holds replicate r's mean of every
 /// reading. Errors of one replicate's readings may be correlated (they share light paths); those of different

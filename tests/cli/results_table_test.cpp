@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "io/luminance_results.h"
 
 namespace stilb::cli {
@@ -126,14 +124,6 @@ TEST(ResultsTable, SaysWhichErrorIsNotReached) {
     summary.requested_error.reset();
     EXPECT_EQ(shortfall_text(summary, "x.exr"), "x.exr has the result so far.\n");
     EXPECT_EQ(shortfall_text(summary, ""), "");
-}
-
-TEST(ResultsTable, PercentHasTwoDigitsOrAllBeforeThePoint) {
-    EXPECT_EQ(percent(0.00654), "0.65 %");
-    EXPECT_EQ(percent(0.99), "99 %");
-    EXPECT_EQ(percent(0.996), "100 %");
-    EXPECT_EQ(percent(3.14), "314 %");
-    EXPECT_EQ(percent(std::numeric_limits<double>::infinity()), "inf %");
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ TEST(FileKind, IsToldByTheBeginning) {
     EXPECT_EQ(kind_of_content("<?xml version=\"1.0\"?>\n<svg width=\"1\"/>"), FileKind::svg_drawing);
     EXPECT_EQ(kind_of_content("STILBSOL\x01"), FileKind::solution);
     EXPECT_EQ(kind_of_content("<!doctype html>\n<head>\n" + std::string(kWalkMark)), FileKind::walk);
+    EXPECT_EQ(kind_of_content("<!DOCTYPE html>\n<head>" + std::string(kReportMark)), FileKind::report);
     EXPECT_EQ(kind_of_content("<!doctype html>\n<head>\n<title>x</title>"), FileKind::other);
     EXPECT_EQ(kind_of_content("{\n\"format\": \"stilb-harmonics\""), FileKind::series);
     EXPECT_EQ(kind_of_content("{ \"stilb\": \"0.1.0\", \"attained_error\": 0.01"), FileKind::results);

@@ -58,6 +58,9 @@ double kelvin_of(const Picture& picture, const scene::WhiteRange& whites) {
 TEST(ChooseWhite, IsTheLampsWhateverThePictureShows) {
     const Picture wood = picture_of({{45, 33, 22}, {9, 3, 1}});
     EXPECT_EQ(choose_white(wood, {at(4000), at(4000)}), at(4000));
+    // Lamps of one colour and several fluxes, divided by their luminances.
+    EXPECT_NEAR(kelvin_of(wood, {at(4000) * (1 + 1e-16), at(4000) * (1 - 1e-15)}), 4000, 1);
+    EXPECT_NEAR(kelvin_of(wood, {at(4000), at(4000) + Rgb{{1e-15, 0, -1e-15}}}), 4000, 1);
 }
 
 TEST(ChooseWhite, LiesBetweenTheLampsNearestToThePicture) {

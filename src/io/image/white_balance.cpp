@@ -41,12 +41,13 @@ double PictureLuminances::quantile(double share) {
 }
 
 Rgb choose_white(const Picture& picture, const scene::WhiteRange& whites) {
-    if (whites.warmest == whites.coolest) return whites.warmest;
     const lights::ChromaticityUv warm = lights::chromaticity_of(whites.warmest);
     const lights::ChromaticityUv cool = lights::chromaticity_of(whites.coolest);
     const lights::ChromaticityUv mean = lights::chromaticity_of(mean_colour(picture));
     // Mixtures lie on the straight line between both.
     const double du = cool.u - warm.u, dv = cool.v - warm.v;
+    constexpr double kRounding = 1e-9;  // far below what can be seen
+    if (std::hypot(du, dv) < kRounding) return whites.warmest;
     const double along = ((mean.u - warm.u) * du + (mean.v - warm.v) * dv) / (du * du + dv * dv);
     const double share = std::clamp(along, 0.0, 1.0);
     return lights::colour_of({warm.u + share * du, warm.v + share * dv});

@@ -70,6 +70,7 @@ constexpr std::array kDescriptions{
     Description{FileKind::solution, "a solution",
                 "Pictures are made from it, with the scene that was solved."},
     Description{FileKind::walk, "a page to walk through a scene", "A browser opens it."},
+    Description{FileKind::report, "a report", "A browser opens it."},
     Description{FileKind::series, "a surface by spherical harmonics",
                 R"(A scene refers to it as the file of an object of shape "harmonics".)"},
     Description{FileKind::results, "a document with results", ""},
@@ -114,6 +115,7 @@ FileKind kind_of_content(std::string_view beginning) {
     if (first == beginning.npos) return FileKind::other;
     if (beginning[first] == '{') return kind_of_json(beginning);
     if (beginning[first] == '<' && contains(beginning, kWalkMark)) return FileKind::walk;
+    if (beginning[first] == '<' && contains(beginning, kReportMark)) return FileKind::report;
     if (beginning[first] == '<' && contains(beginning, "<svg")) return FileKind::svg_drawing;
     return FileKind::other;
 }

@@ -17,6 +17,7 @@ enum class FileKind {
     svg_drawing,
     solution,
     walk,     ///< a page to walk through a scene
+    report,   ///< a page with the results of a scene
     series,   ///< a surface by spherical harmonics
     results,  ///< of measurements
     json,     ///< of no kind above
@@ -32,6 +33,8 @@ enum class FileKind {
 inline constexpr std::string_view kSolutionBeginning = "STILBSOL";
 /// How the head of a page to walk through a scene names its origin.
 inline constexpr std::string_view kWalkMark = R"(<meta name="generator" content="stilb view">)";
+/// The same of a report.
+inline constexpr std::string_view kReportMark = R"(<meta name="generator" content="stilb report">)";
 /// The value of "format" in a file with a surface by spherical harmonics.
 inline constexpr std::string_view kSeriesFormat = "stilb-harmonics";
 

@@ -107,6 +107,34 @@ std::string_view next_word(std::string_view& text) {
     return {begin, end};
 }
 
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::string_view three = bytes.substr(i, 3);
+        std::uint32_t bits = 0;
+        for (std::size_t j = 0; j < 3; ++j)
+            bits = bits << 8 | (j < three.size() ? static_cast<unsigned char>(three[j]) : 0u);
+        for (std::size_t j = 0; j < 4; ++j)
+            text += j <= three.size() ? kDigits[bits >> (18 - 6 * j) & 63] : '=';
+    }
+    return text;
+}
+
+KeyWords words_of_key(std::string key) {
+    constexpr std::array<std::array<std::string_view, 2>, 6> kUnits{
+        {{"_cd_m2", "cd/m2"}, {"_m2", "m2"}, {"_lm", "lm"}, {"_cd", "cd"}, {"_lx", "lx"}, {"_w", "W"}}};
+    KeyWords result{std::move(key), {}};
+    for (const auto& [ending, unit] : kUnits) {
+        if (!result.unit.empty() || !result.words.ends_with(ending)) continue;
+        result.words.resize(result.words.size() - ending.size());
+        result.unit = unit;
+    }
+    std::ranges::replace(result.words, '_', ' ');
+    return result;
+}
+
 bool TextLines::next() {
     if (rest_.empty()) return false;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());

@@ -32,6 +32,9 @@ std::string_view trimmed(std::string_view text);
 /// Takes the next word off the front of `text`: words are separated by blanks and tabs. Empty at the end.
 std::string_view next_word(std::string_view& text);
 
+/// Bytes as text, as data URIs have them [RFC 4648, section 4].
+std::string base64(std::string_view bytes);
+
 /// Reads a text line by line; lines end with LF or CR LF.
 class TextLines {
   public:
@@ -51,6 +54,13 @@ class TextLines {
     std::string_view rest_, line_;
     std::size_t number_;
 };
+
+/// The words and the unit of a key of results: "peak_intensity_cd" is "peak intensity" in "cd".
+struct KeyWords {
+    std::string words;
+    std::string_view unit;  ///< may be empty
+};
+KeyWords words_of_key(std::string key);
 
 // Common wording of error messages.
 

@@ -14,6 +14,7 @@
 #include "estimators/patch_light/solution/light_vertices.h"
 #include "estimators/patch_light/solution/reflection_table.h"
 #include "io/text/compression.h"
+#include "io/text/text.h"
 #include "run/solution_errors.h"
 #include "scene/light_groups.h"
 #include "walk/data/container.h"
@@ -253,21 +254,6 @@ class SceneContainer {
 
 // The page.
 
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::string_view three = bytes.substr(i, 3);
-        std::uint32_t bits = 0;
-        for (std::size_t j = 0; j < 3; ++j)
-            bits = bits << 8 | (j < three.size() ? static_cast<unsigned char>(three[j]) : 0u);
-        for (std::size_t j = 0; j < 4; ++j)
-            text += j <= three.size() ? kDigits[bits >> (18 - 6 * j) & 63] : '=';
-    }
-    return text;
-}
-
 std::string with_replaced(std::string text, std::string_view from, std::string_view to) {
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
         text.replace(at, from.size(), to);
@@ -283,7 +269,7 @@ void substitute(std::string& page, std::string_view part, const std::string& tex
 
 std::string data_tag(std::string_view id, std::string_view container) {
     return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", id,
-                       base64(io::gzip(container)));
+                       io::base64(io::gzip(container)));
 }
 
 }  // namespace

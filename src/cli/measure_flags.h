@@ -1,0 +1,30 @@
+// The flags of the commands that measure sensors: `measure` and `report`.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/run_flags.h"
+#include "run/result.h"
+#include "sensors/sensor.h"
+
+namespace stilb::cli {
+
+struct MeasureFlags {
+    std::vector<std::string> overrides, sensors;
+    std::optional<std::string> target;
+    bool checks = false;
+    RunFlags run;
+
+    void add_to(Command& command);
+    /// The options with the typed flags applied, for these sensors. `scene`: the name of its file. Throws
+    /// InputError where --check has nothing to act on.
+    RunOptions options_for(std::span<const Sensor> measured, const RunOptions& of_file,
+                           const std::string& scene) const;
+    /// With --check, requirements decide.
+    int exit_code_of(const RunResult& result) const;
+};
+
+}  // namespace stilb::cli

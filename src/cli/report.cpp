@@ -1,0 +1,193 @@
+// stilb report: the results of a scene as a page to hand on.
+#include "report/report.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cli/browser.h"
+#include "cli/command_line.h"
+#include "cli/measure_flags.h"
+#include "cli/progress.h"
+#include "cli/results_table.h"
+#include "cli/scene_argument.h"
+#include "estimators/estimator_list.h"
+#include "io/text/file_kind.h"
+#include "io/text/table.h"
+#include "run/run.h"
+#include "scene/whites.h"
+#include "stilb/error.h"
+
+namespace stilb::cli {
+namespace {
+
+constexpr double kUsualViewTime_s = 60;
+
+struct ReportRequest {
+    std::string scene, output, command;
+    std::optional<double> view_time_s;
+    std::optional<std::uint64_t> view_passes;
+    MeasureFlags flags;
+};
+
+struct ChosenSensors {
+    std::vector<Sensor> meters, cameras;
+};
+
+/// The sensors of these names, or all.
+ChosenSensors choose_sensors(const io::SceneFile& file, const std::vector<std::string>& names,
+                             const std::string& scene) {
+    ChosenSensors chosen;
+    const auto is_named = [&](const Sensor& sensor) {
+        return names.empty() || std::ranges::find(names, sensor.name) != names.end();
+    };
+    std::vector<std::string> meters = names;
+    for (const Sensor& sensor : file.sensors) {
+        if (!sensor.camera() || !is_named(sensor)) continue;
+        chosen.cameras.push_back(sensor);
+        std::erase(meters, sensor.name);
+    }
+    const bool has_meters = std::ranges::any_of(file.sensors, [](const Sensor& s) { return !s.camera(); });
+    if (names.empty() ? has_meters : !meters.empty())
+        chosen.meters = sensors::choose_meters(file.sensors, meters, scene);
+    if (chosen.meters.empty() && chosen.cameras.empty())
+        throw InputError("there is nothing to report: the scene needs a sensor under [sensors].", {scene});
+    return chosen;
+}
+
+void require_page(const std::string& output, std::span<const std::filesystem::path> inputs) {
+    if (!io::is_standard_output(output) && !is_page(output)) {
+        throw InputError(fmt::format(
+            "-o {}: a report is a page. End the name in .html; a browser prints the page as PDF.", output));
+    }
+    io::require_output(output, io::FileKind::report, inputs);
+}
+
+/// Those of the readings, with the limits of pictures.
+RunOptions view_options(const ReportRequest& request, const RunOptions& of_readings, const Camera& camera) {
+    RunOptions options = of_readings;
+    options.error.reset();
+    options.paths = request.view_passes;
+    options.time_s = request.view_time_s;
+    if (!options.paths && !options.time_s) options.time_s = kUsualViewTime_s;
+    return with_picture_reserve(std::move(options), camera.resolution);
+}
+
+void add_new(const std::vector<std::string>& more, std::vector<std::string>& warnings) {
+    for (const std::string& warning : more) {
+        if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+    }
+}
+
+class Reporting {
+  public:
+    Reporting(const ReportRequest& request, const io::SceneFile& file, const RunOptions& options)
+        : request_(request), report_{file, request.scene, request.command, {}, options, {},
+                                     {},   file.warnings} {}
+
+    void measure(const std::vector<Sensor>& meters) {
+        const std::string_view samples = estimators::find_estimator(report_.options.method).samples;
+        TerminalProgress progress(std::string(samples), request_.flags.run.off_terminal());
+        report_.readings = run::measure(report_.file.scene, meters, report_.options, shown(progress),
+                                        &watch_for_interrupt());
+        add_new(report_.readings->warnings, report_.warnings);
+    }
+
+    /// Where there is no time for a picture, the report does without it.
+    void render(const Sensor& camera) {
+        const Scene& scene = report_.file.scene;
+        TerminalProgress progress("passes", request_.flags.run.off_terminal());
+        try {
+            const RenderResult result =
+                run::render(scene, camera, view_options(request_, report_.options, *camera.camera()),
+                            shown(progress), &watch_for_interrupt());
+            report_.views.push_back(report::make_view(result, camera, scene, whites_of_lights(scene)));
+            add_new(result.warnings, report_.warnings);
+        } catch (const Cancelled& cancelled) {
+            lacks_views_ = true;
+            add_new({fmt::format("camera \"{}\": no picture: {}", camera.name, cancelled.what())},
+                    report_.warnings);
+        }
+    }
+
+    report::Report& report() { return report_; }
+    int exit_code() const {
+        const int of_readings = report_.readings ? request_.flags.exit_code_of(*report_.readings) : kExitDone;
+        return of_readings == kExitDone && lacks_views_ ? kExitStoppedEarly : of_readings;
+    }
+
+  private:
+    PictureSink* shown(TerminalProgress& progress) const {
+        return request_.flags.run.quiet ? nullptr : &progress;
+    }
+
+    const ReportRequest& request_;
+    report::Report report_;
+    bool lacks_views_ = false;
+};
+
+void print_summary(const report::Report& report, const std::string& output, std::size_t bytes) {
+    std::FILE* const stream = messages_beside(output);
+    if (report.readings) {
+        fmt::print(stream, "{}{}", end_of_table(*report.readings), shortfall_text(*report.readings, output));
+    }
+    fmt::print(stream, "{}: {:.1f} MB, opens in any browser and prints on A4\n", output,
+               1e-6 * static_cast<double>(bytes));
+}
+
+int run_report(const ReportRequest& request) {
+    const io::SceneFile file = read_scene(request.scene, request.flags.overrides);
+    const auto [meters, cameras] = choose_sensors(file, request.flags.sensors, request.scene);
+    const RunOptions options = request.flags.options_for(meters, file.run, request.scene);
+    require_page(request.output, file.sources);
+    Reporting reporting(request, file, options);
+    if (!meters.empty()) reporting.measure(meters);
+    for (const Sensor& camera : cameras) reporting.render(camera);
+    report::Report& report = reporting.report();
+    report.date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
+    const std::string page = to_html(report);
+    io::replace_file(request.output, page);  // before all messages: the terminal may be closed by now
+    if (!request.flags.run.quiet) print_warnings(report.warnings);
+    print_summary(report, request.output, page.size());
+    return reporting.exit_code();
+}
+
+}  // namespace
+
+void add_report(CommandLine& line) {
+    Command command = line.add_command(
+        "report", "Write a report of a scene for clients: plan, results, glare, luminaires, views");
+    command.set_examples(
+        "  stilb report office.toml -o office.html\n"
+        "  stilb report office.toml -o office.html --error 0.5% --time 120 --view-time 60\n"
+        "  stilb report office.toml -o desks.html --sensor desk_a --sensor desk_b --check\n");
+    auto request = std::make_shared<ReportRequest>();
+    command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input").required();
+    command.add("-o,--output", request->output, "Page to write (.html); - is stdout")
+        .required()
+        .value_name("FILE");
+    command
+        .add("--view-time", request->view_time_s,
+             fmt::format("Render each camera for so many seconds (default: {:g})", kUsualViewTime_s))
+        .above_zero()
+        .value_name("S");
+    command
+        .add("--view-passes", request->view_passes,
+             "Render each camera with so many passes, at least 2; the picture then does not depend on the "
+             "time")
+        .from_to(2, 1'000'000)
+        .value_name("N");
+    request->flags.add_to(command);
+    command.find("--sensor").description("Report only this sensor or camera (may be repeated)");
+    command.run([request, &line] {
+        request->command = line.text();
+        return run_report(*request);
+    });
+}
+
+}  // namespace stilb::cli

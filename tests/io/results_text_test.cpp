@@ -1,0 +1,54 @@
+#include "io/results/results_text.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <utility>
+
+#include "io/text/text.h"
+
+namespace stilb::io {
+namespace {
+
+TEST(ResultsText, PercentHasTwoDigitsOrAllBeforeThePoint) {
+    EXPECT_EQ(percent(0.00654), "0.65 %");
+    EXPECT_EQ(percent(0.99), "99 %");
+    EXPECT_EQ(percent(0.996), "100 %");
+    EXPECT_EQ(percent(3.14), "314 %");
+    EXPECT_EQ(percent(std::numeric_limits<double>::infinity()), "inf %");
+}
+
+TEST(ResultsText, WordsOfRequirementsAndVerdicts) {
+    RunResult result;
+    EXPECT_EQ(verdicts_text(result), "");
+    SensorResult task;
+    task.sensor = {"task", Grid{{}, {1, 0, 0}, {0, 1, 0}}};
+    const Requirement mean{&sensors::kCriteria[0], 500}, uniformity{&sensors::kCriteria[3], 0.6};
+    task.requirements = {{mean, Verdict::pass}, {uniformity, Verdict::undecided}, {mean, Verdict::pass}};
+    result.sensors = {task};
+    EXPECT_EQ(verdicts_text(result), "2 pass, 1 not sure yet");
+    EXPECT_EQ(requirement_text(mean, task.sensor), "mean at least 500 lx");
+    EXPECT_EQ(requirement_text(uniformity, task.sensor), "uniformity at least 0.6");
+}
+
+TEST(Text, TakesWordsAndUnitsOfKeys) {
+    const auto expect = [](const std::string& key, const std::string& words, const std::string& unit) {
+        EXPECT_EQ(words_of_key(key).words, words);
+        EXPECT_EQ(words_of_key(key).unit, unit);
+    };
+    expect("peak_intensity_cd", "peak intensity", "cd");
+    expect("luminance_cd_m2", "luminance", "cd/m2");
+    expect("opening_m2", "opening", "m2");
+    expect("object", "object", "");
+}
+
+TEST(Text, EncodesBytesAsBase64) {  // the test vectors of RFC 4648
+    const std::pair<std::string, std::string> vectors[] = {
+        {"", ""},        {"f", "Zg=="},        {"fo", "Zm8="},
+        {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"foobar", "Zm9vYmFy"}};
+    for (const auto& [bytes, text] : vectors) EXPECT_EQ(base64(bytes), text);
+    EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+}  // namespace
+}  // namespace stilb::io
