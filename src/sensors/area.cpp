@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sensors/raster.h"
+
 namespace stilb::sensors {
 namespace {
 
@@ -83,9 +85,6 @@ Extent extent_of(const Ring& ring, double margin_m) {
 double deciding_side_m(double short_m, double long_m) {
     return long_m >= 2 * short_m * (1 - kRounding) ? short_m : long_m;
 }
-
-/// Cells along a side; more than memory holds where they are small.
-double cells_along(double side_m, double spacing_m) { return std::max(1.0, std::round(side_m / spacing_m)); }
 
 /// The numbers of cells along both sides. By default [EN 12464-1, 4.4] the whole number nearest to d / p
 /// along the side d that the spacing p follows from, and cells that are nearly square.

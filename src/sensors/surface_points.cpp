@@ -8,6 +8,7 @@
 
 #include "geometry/mesh_topology.h"
 #include "math/disjoint_sets.h"
+#include "sensors/raster.h"
 
 namespace stilb::sensors {
 namespace {
@@ -61,7 +62,7 @@ Vec3 longest_edge(const PlaneFace& face) {
     return longest;
 }
 
-PlaneExtent extent_of(const PlaneFace& face) {
+PlaneExtent plane_extent_of(const PlaneFace& face) {
     PlaneExtent extent;
     const Vec3 edge = longest_edge(face);
     extent.u = normalized(edge - dot(edge, face.normal) * face.normal);
@@ -78,7 +79,7 @@ PlaneExtent extent_of(const PlaneFace& face) {
     return extent;
 }
 
-bool contains(const PlaneFace& face, const Vec3& point) {
+bool covers(const PlaneFace& face, const Vec3& point) {
     return std::ranges::any_of(face.triangles, [&](const std::array<Vec3, 3>& t) {
         const Vec3 front = area_vector(t);
         const auto is_left = [&](const Vec3& from, const Vec3& to) {
@@ -87,8 +88,6 @@ bool contains(const PlaneFace& face, const Vec3& point) {
         return is_left(t[0], t[1]) && is_left(t[1], t[2]) && is_left(t[2], t[0]);
     });
 }
-
-double cells_along(double side_m, double spacing_m) { return std::max(1.0, std::round(side_m / spacing_m)); }
 
 std::vector<MeasuringPoint> points_on(const PlaneFace& face, const PlaneExtent& extent, double spacing_m) {
     const double nu = cells_along(extent.width_m(), spacing_m),
@@ -101,7 +100,7 @@ std::vector<MeasuringPoint> points_on(const PlaneFace& face, const PlaneExtent& 
             const double u = extent.least_u + (column + 0.5) / nu * extent.width_m(),
                          v = extent.least_v + (row + 0.5) / nv * extent.height_m();
             const Vec3 point = origin + u * extent.u + v * extent.v;
-            if (contains(face, point)) points.push_back({point, face.normal});
+            if (covers(face, point)) points.push_back({point, face.normal});
         }
     }
     return points;
@@ -154,7 +153,7 @@ bool is_of_part(const PlaneFace& face, SurfacePart part) {
 
 std::optional<Fault> place_on(std::span<const PlaneFace> faces, Area& area) {
     const PlaneFace& largest = *std::ranges::max_element(faces, {}, &PlaneFace::area_m2);
-    const PlaneExtent extent_of_largest = extent_of(largest);
+    const PlaneExtent extent_of_largest = plane_extent_of(largest);
     const auto [short_m, long_m] = std::minmax({extent_of_largest.width_m(), extent_of_largest.height_m()});
     const double spacing_m = area.spacing_m.value_or(raster_spacing_m(short_m, long_m));
     area.cell_m = {extent_of_largest.width_m() / cells_along(extent_of_largest.width_m(), spacing_m),
@@ -167,7 +166,7 @@ std::optional<Fault> place_on(std::span<const PlaneFace> faces, Area& area) {
                 area.spacing_m ? "spacing" : "object",
                 fmt::format("asks for more than {} points. Allowed: a larger spacing.", kMostReadings)};
         }
-        const PlaneExtent extent = extent_of(face);
+        const PlaneExtent extent = plane_extent_of(face);
         std::vector<MeasuringPoint> points = points_on(face, extent, spacing_m);
         const bool is_narrow = std::min(extent.width_m(), extent.height_m()) < spacing_m / 2;
         const double points_with_half =

@@ -76,7 +76,7 @@ sensors::Surfaces read_surfaces(const TomlTable& table) {
 namespace {
 
 /// The triangles of an object with plane faces.
-Mesh mesh_of(const TomlItem& item, const Object& object) {
+Mesh plane_mesh_of(const TomlItem& item, const Object& object) {
     if (const auto* mesh = std::get_if<Mesh>(&object.shape)) return *mesh;
     if (const auto* box = std::get_if<Box>(&object.shape)) return triangulated(*box);
     if (const auto* rectangle = std::get_if<Rectangle>(&object.shape)) return triangulated(*rectangle);
@@ -94,7 +94,7 @@ void place_on_objects(const TomlTable& table, const Scene& scene, Area& area) {
     for (const TomlItem& name : item.is_array() ? item.elements() : std::vector{item}) {
         const Object& object = scene.objects[name.index_in(names, "object")];
         std::ranges::copy_if(
-            sensors::plane_faces(mesh_of(name, object)), std::back_inserter(faces),
+            sensors::plane_faces(plane_mesh_of(name, object)), std::back_inserter(faces),
             [&](const sensors::PlaneFace& face) { return is_of_part(face, area.surfaces.part); });
     }
     if (faces.empty()) {
