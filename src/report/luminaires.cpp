@@ -85,6 +85,7 @@ Html sheet(const Scene& scene, std::size_t index) {
     add("Check of the flux", solid.flux_statement);
     add("Largest intensity", fmt::format("{:.4g} cd", solid.solid.peak_cd()));
     add("Opening of the file", extent_text(solid.opening));
+    if (solid.power_w) add("Power of the file", fmt::format("{:.4g} W", *solid.power_w));
     add("Count", fmt::format("{}", lights.size()));
     if (!lights.empty()) {
         std::vector<double> fluxes_lm, maintenance;

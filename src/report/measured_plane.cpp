@@ -13,11 +13,11 @@ constexpr int kMostTicks = 9;
 /// The sine of the steepest slope that counts as horizontal.
 constexpr double kLevel = 1e-3;
 
-/// The raster; null for sensors without one.
+/// The raster; null for sensors without one, such as areas on objects.
 const Grid* raster_of(const Sensor& sensor) {
     if (const auto* grid = std::get_if<Grid>(&sensor.kind)) return grid;
     const auto* area = std::get_if<Area>(&sensor.kind);
-    return area ? &area->raster : nullptr;
+    return area && area->surfaces.objects.empty() ? &area->raster : nullptr;
 }
 
 /// An axis of a raster, perhaps against its direction.

@@ -44,6 +44,8 @@ Html header(const Report& report) {
         facts.add("Values",
                   text(maintenance ? fmt::format("maintained, {}", io::maintenance_text(*maintenance))
                                    : "initial, without a maintenance factor"));
+        const std::string power = io::installed_power_text(*report.readings);
+        if (!power.empty()) facts.add("Installed power", text(power));
     }
     return element("header", element("p", {{"class", "kicker"}}, text("Lighting calculation")) +
                                  element("h1", title_of(report)) + facts.html()) +
