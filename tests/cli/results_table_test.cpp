@@ -28,14 +28,6 @@ TEST(ResultsTable, ShowsLinesOfSightAndDirections) {
               "auto, 0 paths in 0.00 s: all paths done; error 0 %\n");
 }
 
-TEST(ResultsTable, ShowsIntervalsWithoutAnUpperEnd) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(with_error({21.34, 1.2, 18.96, infinite}), "21.3 (above 19.0)");
-    EXPECT_EQ(with_error({none, none, 27.1, infinite}), "above 27.1");
-    EXPECT_EQ(with_error({none, none, none, none}), "-");
-}
-
 TEST(ResultsTable, OneLineOfSightIsOneLine) {
     RunResult made = io::luminance_results();
     made.sensors.resize(1);

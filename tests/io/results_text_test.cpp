@@ -10,6 +10,14 @@
 namespace stilb::io {
 namespace {
 
+TEST(ResultsText, ShowsIntervalsWithoutAnUpperEnd) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(with_error({21.34, 1.2, 18.96, infinite}), "21.3 (above 19.0)");
+    EXPECT_EQ(with_error({none, none, 27.1, infinite}), "above 27.1");
+    EXPECT_EQ(with_error({none, none, none, none}), "-");
+}
+
 TEST(ResultsText, PercentHasTwoDigitsOrAllBeforeThePoint) {
     EXPECT_EQ(percent(0.00654), "0.65 %");
     EXPECT_EQ(percent(0.99), "99 %");
