@@ -3,7 +3,7 @@
 // where many readings share them, and where path tracing finds light rarely; a guess pays where still more
 // readings share it, and where it lacks little of the light.
 //
-// Pilots of the methods give their variances. Chosen is the method that takes the least work to a usual
+// Pilots of the methods give their variances. Chosen is the method that takes the least work to the wanted
 // error, with the work of its set-up; a method whose set-up alone takes more than all of the other is not
 // tried. All are unbiased, and the choice depends on samples with random keys of their own: the result is
 // unbiased, too.
@@ -32,21 +32,19 @@ constexpr math::RandomKey kPilotKey{0x5ee0f7e57a11ed00};
 enum PilotPurpose : std::uint64_t { kPath, kBalanced, kGuided };
 /// Independent parts of a pilot, for its variances.
 constexpr std::size_t kPilots = 16;
-/// The usual error: the relative standard error of an interval of 1 %, as a run without targets has it.
-constexpr double kError = 0.005;
 /// Costs as Estimator's: of a planning ray with its path, and of a patch of a guess.
 constexpr double kPlanningRayCost = 30, kPatchCost = 250;
 /// So few readings are planned only where path tracing takes more than kWorthPlanning times the work of
 /// planning: they may gain nothing by light paths.
 constexpr std::size_t kVeryFew = 16;
-constexpr double kWorthPlanning = 3;
+constexpr double kWorthPlanning = 2;
 /// A pilot's part by path tracing: so much work, but at least so many samples.
 constexpr double kPathPilotCost = 1000, kLeastPaths = 4;
 /// A shorter pilot before that suffices where it promises less than this share of the work that would be
 /// worth planning. Over smooth metal it promises 7 times the work of planning, in a diffuse room 0.2 to 1.2.
 constexpr double kQuickPilotCost = 125, kLeastQuickPaths = 2, kClearly = 2. / 3;
 /// With many Sobol' points light paths have less noise than their pilots promise: under point lights, where
-/// the guess promised 1.5 times less work, both took equal time to the usual error.
+/// the guess promised 1.5 times less work, both took equal time to 1 %.
 constexpr double kSobolGain = 2;
 /// Samples of a pilot's part by the guess.
 constexpr std::uint64_t kGuidedSamples = 4;
@@ -87,9 +85,10 @@ Pilot run_pilot(const Estimator& method, std::uint64_t samples, PilotPurpose pur
     return pilot;
 }
 
-/// The work to the usual error on average over the readings, which have about these values. Not to a mean of
-/// squares: few readings in corners would outweigh all others.
-double sampling_cost(const Pilot& pilot, std::span<const double> values, std::span<const double> weights) {
+/// The work to the problem's error on average over the readings, which have about these values. Not to a mean
+/// of squares: few readings in corners would outweigh all others.
+double sampling_cost(const Pilot& pilot, std::span<const double> values, const Problem& problem) {
+    const std::span<const double> weights = problem.weights;
     double sum = 0, all = 0;
     for (std::size_t j = 0; j < values.size(); ++j) {
         const double weight = weights.empty() ? 1 : weights[j];
@@ -97,7 +96,8 @@ double sampling_cost(const Pilot& pilot, std::span<const double> values, std::sp
         if (values[j] > 0) sum += weight * pilot.deviations[j] / values[j];
     }
     const double error_of_part = sum / all;
-    return pilot.cost * error_of_part * error_of_part / (kError * kError);
+    const double wanted = problem.error / 2;  // half of an interval is about two standard errors
+    return pilot.cost * error_of_part * error_of_part / (wanted * wanted);
 }
 
 /// The larger means: what a method finds rarely, its pilot may have missed.
@@ -122,7 +122,7 @@ std::unique_ptr<Estimator> make_for_few(Problem problem) {
         return run_pilot(*path, static_cast<std::uint64_t>(std::max(least_paths, cost / path_cost)), kPath);
     };
     const auto is_path_cheaper = [&](const Pilot& of_path, double work) {
-        return finds_light(of_path) && sampling_cost(of_path, of_path.means, problem.weights) < work;
+        return finds_light(of_path) && sampling_cost(of_path, of_path.means, problem) < work;
     };
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
     const double worth_planning = planning * (problem.measurands.size() <= kVeryFew ? kWorthPlanning : 1);
@@ -135,7 +135,7 @@ std::unique_ptr<Estimator> make_for_few(Problem problem) {
     const Pilot of_balanced = run_pilot(*balanced, balanced->batch_granularity(), kBalanced);
     const std::vector<double> values = values_of(of_path, of_balanced);
     const bool path_pays =
-        sampling_cost(of_path, values, problem.weights) < sampling_cost(of_balanced, values, problem.weights);
+        sampling_cost(of_path, values, problem) < sampling_cost(of_balanced, values, problem);
     return path_pays ? std::move(path) : std::move(balanced);
 }
 
@@ -174,13 +174,12 @@ std::unique_ptr<Estimator> make_for_many(const Problem& problem) {
     const Pilot of_balanced = run_pilot(*balanced_part, balanced_part->batch_granularity(), kBalanced);
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
     const double guess = kPatchCost * LightGuess::patch_count(problem.scene);
-    if (planning + sampling_cost(of_balanced, of_balanced.means, part.weights) < guess)
-        return make_balanced(problem);
+    if (planning + sampling_cost(of_balanced, of_balanced.means, part) < guess) return make_balanced(problem);
     const EstimatorMaker make_guided_part = with_guess(part);
     const Pilot of_guided = run_pilot(*make_guided_part(part), kGuidedSamples, kGuided);
     const std::vector<double> values = values_of(of_balanced, of_guided);
-    const bool guess_pays = kSobolGain * sampling_cost(of_guided, values, part.weights) <
-                            planning + sampling_cost(of_balanced, values, part.weights);
+    const bool guess_pays = kSobolGain * sampling_cost(of_guided, values, part) <
+                            planning + sampling_cost(of_balanced, values, part);
     return guess_pays ? make_guided_part(problem) : make_balanced(problem);
 }
 
@@ -243,7 +242,8 @@ std::unique_ptr<Estimator> make_for_picture(const Problem& problem) {
     const double pass_cost = has_gloss(problem.scene) ? kGlossyPassCost : kGuidedPassCost;
     const Pilot of_guided = run_picture_pilot(*guided, resolution, pass_cost, kGuided);
     const std::vector<double> values = values_of(of_balanced, of_guided);
-    const bool guess_pays = sampling_cost(of_guided, values, {}) < sampling_cost(of_balanced, values, {});
+    const bool guess_pays =
+        sampling_cost(of_guided, values, problem) < sampling_cost(of_balanced, values, problem);
     return guess_pays ? std::move(guided) : std::move(balanced);
 }
 

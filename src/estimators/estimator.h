@@ -35,6 +35,9 @@ struct Problem {
     std::span<const double> weights = {};
     /// Each measurand is one of so many: plans and costs are those of all of them.
     double stands_for = 1;
+    /// The relative half-width of the intervals that are wanted, for choices by work: 1 % where a run asks
+    /// for none.
+    double error = 0.01;
     std::optional<Camera> camera = {};
     /// Options of methods on patches, and of first shot.
     PatchOptions patches = {};

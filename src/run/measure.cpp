@@ -249,6 +249,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kReadingPreparation));
     problem.measurands = wanted.measurands;
     problem.weights = wanted.weights;
+    problem.error = options.error.value_or(problem.error);
     std::unique_ptr<estimators::Estimator> estimator;
     session.on_threads([&] { estimator = method.make(problem); });
     // Patches store the light of highlights: each sample then contains it.
