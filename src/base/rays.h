@@ -55,10 +55,6 @@ struct alignas(64) RayPacket {
     }
 };
 
-/// Where segments between two lifted points end, in units of their length: rounding of a far origin must not
-/// take the end behind the surface that it was lifted off.
-inline constexpr float kSegmentEnd = 1 - 0x1p-20f;
-
 /// The certain results in single precision for a ray and a part of a surface.
 enum class Classification : std::int32_t {
     unclear,

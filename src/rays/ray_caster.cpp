@@ -349,7 +349,7 @@ struct RayCaster::Implementation {
 
     /// Between positions relative to the centre.
     bool occluded(const Vec3& from, const Vec3& to) const {
-        RTCRay ray = ray_from(from, to - from, kSegmentEnd);
+        RTCRay ray = ray_from(from, to - from, 1);
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         rtcOccluded1(embree_scene, &context, &ray);
@@ -478,7 +478,7 @@ void RayCaster::transmittances(std::span<const Segment> segments, Coherence cohe
         LaneMask lanes{};
         for (std::size_t i = 0; i < count; ++i) {
             const Segment& segment = segments[first + i];
-            packet.set(i, segment.from - center(), segment.to - segment.from, kSegmentEnd);
+            packet.set(i, segment.from - center(), segment.to - segment.from, 1);
             lanes[i] = -1;
         }
         occlude(packet, lanes, coherence);

@@ -60,7 +60,7 @@ STILB_VECTORIZED void connect_diffuse(const PathPacket& __restrict paths, const 
         segments.direction_x[i] = lane_direction(light.source.x[i] - surface.lifted.x[i]);
         segments.direction_y[i] = lane_direction(light.source.y[i] - surface.lifted.y[i]);
         segments.direction_z[i] = lane_direction(light.source.z[i] - surface.lifted.z[i]);
-        segments.end[i] = kSegmentEnd;
+        segments.end[i] = 1;
     }
 }
 

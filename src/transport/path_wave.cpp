@@ -137,7 +137,7 @@ void PathWave::reflect_generally(PathPacket& paths, std::size_t lane, LaneMask& 
     luminances_cd_m2_[paths.number[lane]] += path.luminance_cd_m2;
     if (step.connection) {
         const auto& [from, to] = step.connection->segment;
-        connections.segments.set(lane, from - center, to - from, kSegmentEnd);
+        connections.segments.set(lane, from - center, to - from, 1);
         connections.lanes[lane] = -1;
         set_rgb(connections.luminance_cd_m2, lane, step.connection->luminance_cd_m2);
     }

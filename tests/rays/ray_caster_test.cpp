@@ -253,35 +253,6 @@ TEST(RayCaster, FlatSurfacesDoNotShadowThemselves) {
     }
 }
 
-/// Points on a small tilted plate in the middle of the scene are lifted little; far origins round much.
-TEST(RayCaster, PlatesInTheMiddleDoNotShadowThemselvesFromAfar) {
-    RandomPairs random(16);
-    int tested = 0, occluded = 0;
-    for (int scene_number = 0; scene_number < 20; ++scene_number) {
-        const auto [tilt_u, tilt_v] = random.next_pair();
-        const Frame plate = Frame::around(math::sample_sphere(tilt_u, tilt_v).direction);
-        Scene scene;
-        add_object(scene, Rectangle{-0.25 * (plate.u + plate.v), 0.5 * plate.u, 0.5 * plate.v}, diffuse(0.5));
-        add_object(scene, Sphere{{0, 0, 0}, 25}, diffuse(0.5));
-        const RayCaster caster(scene);
-        for (int i = 0; i < 5'000; ++i) {
-            const auto [x, y] = random.next_pair();
-            const Vec3 on_plate = 0.4 * ((x - 0.5) * plate.u + (y - 0.5) * plate.v);
-            const Vec3 normal = plate.to_world({0, 0, 1});
-            const auto [u1, u2] = random.next_pair();
-            const Vec3 far = 24 * plate.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
-            if (dot(far, normal) < 0.02 * 24) continue;  // too flat for single precision; hardly any light
-            const Vec3 lifted = on_plate + caster.offset_m(on_plate, 0.5) * normal;
-            Rgb transmittance;
-            caster.transmittances(std::array{Segment{far, lifted}}, Coherence::coherent, {&transmittance, 1});
-            tested += 2;
-            occluded += caster.occluded(far, lifted) + (transmittance.luminance() == 0);
-        }
-    }
-    EXPECT_GT(tested, 199'000);
-    EXPECT_EQ(occluded, 0);
-}
-
 TEST(RayCaster, LiftsPointsOfAHouseAsFarFromTheMiddleOfItsGround) {
     // In a room of 8 m, points are lifted by 8 micrometres; here by no more than the ground's parts of 8 m.
     constexpr double kMost_m = 16e-6;

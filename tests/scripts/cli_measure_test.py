@@ -105,8 +105,8 @@ class MeasureTest(CommandLineTest):
 
     def test_paths_are_rounded_up_as_the_help_says(self):
         text = run("measure", "--help").stdout
-        for method, multiple in (("auto", 2048), ("local", 2048), ("path", 32), ("radiosity", 32), ("ray-bundle", 512),
-                                 ("particles", 131072)):
+        for method, multiple in (("auto", 32), ("local", 2048), ("double-local", 2048), ("path", 32),
+                                 ("radiosity", 32), ("ray-bundle", 512), ("particles", 131072)):
             with self.subTest(method=method):
                 self.assertRegex(text, rf"\b{method}\b[^;]* to a multiple of {multiple}\b")
                 patch = ("--patch", "1") if method in ("radiosity", "ray-bundle", "particles") else ()

@@ -17,7 +17,7 @@ STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std:
         segments.direction_x[i] = tile.lifted_x[i] - origin.lifted_x;
         segments.direction_y[i] = tile.lifted_y[i] - origin.lifted_y;
         segments.direction_z[i] = tile.lifted_z[i] - origin.lifted_z;
-        segments.end[i] = kSegmentEnd;
+        segments.end[i] = 1;
         const float squared = dx * dx + dy * dy + dz * dz;
         const float cos_origin = origin.normal_x * dx + origin.normal_y * dy + origin.normal_z * dz;
         const float cos_point = -(tile.normal_x[i] * dx + tile.normal_y[i] * dy + tile.normal_z[i] * dz);
