@@ -30,6 +30,10 @@ constexpr std::size_t kMostInPilots = 128, kRun = 16;
 /// The same for all seeds, so that a scene is measured by one method, and a number of paths means the same.
 constexpr math::RandomKey kPilotKey{0x5ee0f7e57a11ed00};
 enum PilotPurpose : std::uint64_t { kPath, kBalanced, kGuided };
+/// The smallest run by light paths takes about so much work after planning.
+constexpr double kLeastOfLightPaths = 200'000;
+/// Of runs with few readings.
+constexpr double kReplicates = 32;
 /// Independent parts of a pilot, for its variances.
 constexpr std::size_t kPilots = 16;
 /// Costs as Estimator's: of a planning ray with its path, and of a patch of a guess.
@@ -61,6 +65,7 @@ constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.8;
 struct Pilot {
     std::vector<double> means, deviations;  ///< of each reading: mean and standard deviation of the parts
     double cost = 0;                        ///< of a part
+    double least_cost = 0;                  ///< of the smallest run
 };
 
 Pilot run_pilot(const Estimator& method, std::uint64_t samples, PilotPurpose purpose) {
@@ -97,7 +102,13 @@ double sampling_cost(const Pilot& pilot, std::span<const double> values, const P
     }
     const double error_of_part = sum / all;
     const double wanted = problem.error / 2;  // half of an interval is about two standard errors
-    return pilot.cost * error_of_part * error_of_part / (wanted * wanted);
+    return std::max(pilot.least_cost, pilot.cost * error_of_part * error_of_part / (wanted * wanted));
+}
+
+Pilot run_pilot_of_few(const Estimator& method, std::uint64_t samples, PilotPurpose purpose) {
+    Pilot pilot = run_pilot(method, samples, purpose);
+    pilot.least_cost = kReplicates * static_cast<double>(method.first_check()) * method.cost_per_sample();
+    return pilot;
 }
 
 /// The larger means: what a method finds rarely, its pilot may have missed.
@@ -119,10 +130,12 @@ std::unique_ptr<Estimator> make_for_few(Problem problem) {
     std::unique_ptr<Estimator> path = make_path(problem);
     const double path_cost = path->cost_per_sample();
     const auto path_pilot = [&](double cost, double least_paths) {
-        return run_pilot(*path, static_cast<std::uint64_t>(std::max(least_paths, cost / path_cost)), kPath);
+        return run_pilot_of_few(*path, static_cast<std::uint64_t>(std::max(least_paths, cost / path_cost)),
+                                kPath);
     };
     const auto is_path_cheaper = [&](const Pilot& of_path, double work) {
-        return finds_light(of_path) && sampling_cost(of_path, of_path.means, problem) < work;
+        return finds_light(of_path) &&
+               sampling_cost(of_path, of_path.means, problem) < work + kLeastOfLightPaths;
     };
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
     const double worth_planning = planning * (problem.measurands.size() <= kVeryFew ? kWorthPlanning : 1);
@@ -132,7 +145,7 @@ std::unique_ptr<Estimator> make_for_few(Problem problem) {
     if (is_path_cheaper(of_path, worth_planning)) return path;
     std::unique_ptr<Estimator> balanced = make_balanced(problem);
     if (!finds_light(of_path)) return balanced;
-    const Pilot of_balanced = run_pilot(*balanced, balanced->batch_granularity(), kBalanced);
+    const Pilot of_balanced = run_pilot_of_few(*balanced, balanced->batch_granularity(), kBalanced);
     const std::vector<double> values = values_of(of_path, of_balanced);
     const bool path_pays =
         sampling_cost(of_path, values, problem) < sampling_cost(of_balanced, values, problem);
