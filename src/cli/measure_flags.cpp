@@ -37,8 +37,7 @@ void MeasureFlags::add_to(Command& command) {
     command
         .add("--target", target,
              "Readings (default: 95 % of each sensor's) or mean (means and minima of the sensors) have the "
-             "error "
-             "of --error")
+             "error of --error")
         .value_name("NAME");
     add_overrides(command, overrides);
     run.add_to(command);

@@ -77,10 +77,8 @@ void RunFlags::add_those_of_all(Command& command) {
             "--paths", paths,
             "Stop after this many samples, rounded up: light paths (auto, local, double-local) to a multiple "
             "of 2048 (of more or less with many points), paths per reading (path, and auto with few points) "
-            "or "
-            "samples (radiosity) to a multiple of 32, steps (ray-bundle) to a multiple of 512 or more, "
-            "particles (particles) to a "
-            "multiple of 131072; pictures: passes, at least 2")
+            "or samples (radiosity) to a multiple of 32, steps (ray-bundle) to a multiple of 512 or more, "
+            "particles (particles) to a multiple of 131072; pictures: passes, at least 2")
         .from_to(1, kMostPaths)
         .value_name("N");
     command.add("--seed", seed, "Seed of the random numbers: another seed gives an independent result")

@@ -30,9 +30,9 @@ constexpr std::size_t kMostInPilots = 128, kRun = 16;
 /// The same for all seeds, so that a scene is measured by one method, and a number of paths means the same.
 constexpr math::RandomKey kPilotKey{0x5ee0f7e57a11ed00};
 enum PilotPurpose : std::uint64_t { kPath, kBalanced, kGuided };
-/// The smallest run by light paths takes about so much work after planning.
+/// The smallest run by light paths takes about so much work after planning (as Estimator's costs).
 constexpr double kLeastOfLightPaths = 200'000;
-/// Of runs with few readings.
+/// A run with few readings has so many replicates.
 constexpr double kReplicates = 32;
 /// Independent parts of a pilot, for its variances.
 constexpr std::size_t kPilots = 16;

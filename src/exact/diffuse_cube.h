@@ -42,7 +42,7 @@ class DiffuseCube {
     /// After one or more reflections. Throws std::domain_error for a reflectance that is not from 0 to below
     /// 1, and places outside of the face.
     double indirect_illuminance_lx(double reflectance, double x_m, double y_m) const;
-    /// Of all faces, with all reflections.
+    /// The mean over all six faces [lx], direct light and all reflections together.
     double mean_illuminance_lx(double reflectance) const;
 
   private:

@@ -6,7 +6,7 @@
 
 #include "geometry/harmonics/cells.h"
 #include "geometry/harmonics/surface.h"
-#include "lights/solid_angle.h"
+#include "lights/solid_angle/solid_angle.h"
 #include "math/sampling.h"
 
 namespace stilb::lights {

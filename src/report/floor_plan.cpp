@@ -36,8 +36,8 @@ class FloorPlan {
     double ratio() const { return frame_.ratio; }
     bool has_marks() const { return !marks_.empty(); }
 
-    /// A line of twice a band's width about the area, of which then the part within the area is covered. Wide
-    /// bands come first.
+    /// Draws the outline of each area with a line of twice the band's width, then covers what lies inside of
+    /// the area. Wide bands come first.
     void draw_bands(std::span<const MeasuredPlane> planes) {
         std::vector<const MeasuredPlane*> bands;
         for (const MeasuredPlane& plane : planes) {

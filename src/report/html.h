@@ -31,7 +31,7 @@ class Html {
 
 /// A text, with references in place of the characters that markup consists of.
 Html text(std::string_view plain);
-/// What is markup already, such as a style sheet.
+/// A text that is markup already, such as a style sheet.
 Html raw(std::string markup);
 
 struct Attribute {

@@ -31,7 +31,7 @@ std::string title_of(const Report& report) {
     return name.empty() ? std::filesystem::path(report.scene).filename().string() : name;
 }
 
-/// What differs between runs with the same seed.
+/// A text that differs between runs with the same seed, such as a duration.
 Html varying(std::string_view plain) { return element("time", plain); }
 
 Html header(const Report& report) {

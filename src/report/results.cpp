@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "io/results/results_text.h"
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 namespace stilb::report {
 namespace {

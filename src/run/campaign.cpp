@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "run/glare.h"
+#include "run/glare/glare.h"
 #include "run/paces.h"
 #include "run/sensor_estimates.h"
 #include "stilb/error.h"

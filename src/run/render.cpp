@@ -15,7 +15,7 @@
 #include "estimators/patch_light/solution/solution_picture.h"
 #include "run/level_of_detail.h"
 #include "run/passes.h"
-#include "run/picture_comparison.h"
+#include "run/pictures/picture_comparison.h"
 #include "run/run.h"
 #include "run/schedule.h"
 #include "statistics/interval.h"

@@ -89,6 +89,7 @@ struct GlareSource {
     double position_index = 0;  ///< Guth's
     bool is_counted = true;     ///< false where it is too small for the rating
 };
+/// What the eye of a sensor of type "ugr" sees.
 struct GlareView {
     double background_cd_m2 = 0;
     std::vector<GlareSource> sources;
@@ -109,7 +110,7 @@ struct SensorResult {
     /// runs with other seeds can be combined with them.
     std::vector<double> replicate_means{};
     std::vector<RatedRequirement> requirements{};
-    std::vector<GlareView> glare{};  ///< of each reading of a sensor that rates glare
+    std::vector<GlareView> glare{};  ///< of each reading of a sensor of type "ugr"
 };
 
 /// The installed power over the task areas together (sensors::task_area_m2()).

@@ -14,7 +14,7 @@
 namespace stilb::sensors {
 
 // Eyes with a direction of view each: the normal of a measuring point. What is measured is the illuminance
-// at the eye; run/glare.h makes the ratings of it.
+// at the eye; run/glare/glare.h makes the ratings of it.
 
 /// A vertical line of sight has no upper side.
 inline std::optional<Fault> fault_of_eyes(const std::vector<MeasuringPoint>& eyes, const GivenKeys& given) {

@@ -4,11 +4,11 @@
 //
 //     response x luminance x projected solid angle x visible fraction.
 //
-// The projected solid angle has a closed form (lights/projected_solid_angle.h). The fraction is 1 for
-// certain where no surface lies in the shaft between tile and lamp (rays/shaft_query.h), and for readings 0
-// where one flat face hides all of the lamp: then no ray is traced. Elsewhere one shadow ray goes to a point
-// that is drawn by projected solid angle, so that it is 0 or 1 but for panes: there is no noise where all of
-// the lamp is seen, or nothing of it. The shadow rays of a tile form packets.
+// The projected solid angle has a closed form (lights/solid_angle/projected_solid_angle.h). The fraction is 1
+// for certain where no surface lies in the shaft between tile and lamp (rays/shaft_query.h), and for readings
+// 0 where one flat face hides all of the lamp: then no ray is traced. Elsewhere one shadow ray goes to a
+// point that is drawn by projected solid angle, so that it is 0 or 1 but for panes: there is no noise where
+// all of the lamp is seen, or nothing of it. The shadow rays of a tile form packets.
 //
 // Point lights are exact, one packet of shadow rays each. Where there are many of them, pictures choose
 // kChosen by a tree for the whole tile, with exact probabilities. All other lights, and receivers whose

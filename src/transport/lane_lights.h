@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "lights/lane_rectangle.h"
+#include "lights/solid_angle/lane_rectangle.h"
 #include "math/random_lanes.h"
 #include "rays/ray_caster.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lights/projected_solid_angle.h"
+#include "lights/solid_angle/projected_solid_angle.h"
 #include "rays/ray_caster.h"
 #include "rays/shaft_query.h"
 #include "scene/scene.h"

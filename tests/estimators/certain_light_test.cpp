@@ -10,7 +10,7 @@
 #include "estimators/estimator_list.h"
 #include "estimators/local/guess/guided_light.h"
 #include "estimators/receivers.h"
-#include "lights/projected_solid_angle.h"
+#include "lights/solid_angle/projected_solid_angle.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 

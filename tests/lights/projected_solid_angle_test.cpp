@@ -1,4 +1,4 @@
-#include "lights/projected_solid_angle.h"
+#include "lights/solid_angle/projected_solid_angle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lights/solid_angle.h"
+#include "lights/solid_angle/solid_angle.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "statistics/hypothesis.h"
 #include "support/lamp_in_environment.h"
 #include "support/scene_builder.h"
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 namespace stilb {
 namespace {

@@ -1,5 +1,5 @@
 // The sum over the bright pixels of a view, with noise: it is that without noise.
-#include "run/glare_picture.h"
+#include "run/glare/glare_picture.h"
 
 #include <gtest/gtest.h>
 

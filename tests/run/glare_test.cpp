@@ -1,5 +1,5 @@
 // The Unified Glare Rating against its formula, where all of its parts are known.
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 #include <gtest/gtest.h>
 

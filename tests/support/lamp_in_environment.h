@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "support/scene_builder.h"
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 namespace stilb {
 

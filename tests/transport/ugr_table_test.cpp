@@ -1,5 +1,5 @@
 // UGR tables against CIE's transfer factors, closed forms, and ratings worked out one luminaire at a time.
-#include "transport/ugr_table.h"
+#include "transport/glare/ugr_table.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 namespace stilb::transport {
 namespace {

@@ -1,4 +1,4 @@
-#include "run/picture_paces.h"
+#include "run/pictures/picture_paces.h"
 
 #include <map>
 

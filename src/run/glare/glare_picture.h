@@ -15,7 +15,7 @@
 #include "base/monitor.h"
 #include "rays/ray_caster.h"
 #include "sensors/measurand.h"
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 namespace stilb::run {
 

@@ -1,4 +1,4 @@
-#include "cli/ugr_report.h"
+#include "cli/info/ugr_report.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "stilb/error.h"
-#include "transport/ugr_table.h"
+#include "transport/glare/ugr_table.h"
 
 namespace stilb::cli {
 namespace {
@@ -15,7 +15,7 @@ using Json = InfoReport;
 using transport::kUgrReflectances;
 using transport::kUgrRooms;
 
-/// Of the luminaires, in H: that of data sheets, and that of CIE 190.
+/// The spacing of the luminaires in units of H: data sheets use the first, CIE 190 the second.
 constexpr double kUsualSpacing = 0.25, kWideSpacing = 1;
 constexpr double kReferenceFlux_lm = 1000;
 

@@ -1,4 +1,4 @@
-#include "transport/ugr_table.h"
+#include "transport/glare/ugr_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "lights/emitter_surface.h"
 #include "lights/luminaire.h"
 #include "math/random.h"
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 namespace stilb::transport {
 namespace {

@@ -9,13 +9,13 @@
 #include <optional>
 #include <span>
 
-#include "run/glare_picture.h"
+#include "run/glare/glare_picture.h"
 #include "run/sensor_estimates.h"
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 namespace stilb::run {
 
-/// What an eye sees of bright things.
+/// The lamps and bright places that an eye sees.
 struct DaylightView {
     transport::Glare lamps;      ///< by kGlareReplicates samples
     double threshold_cd_m2 = 0;  ///< from here on a place is a source of glare

@@ -1,4 +1,4 @@
-#include "lights/projected_parallelogram.h"
+#include "lights/solid_angle/projected_parallelogram.h"
 
 #include <algorithm>
 #include <cmath>

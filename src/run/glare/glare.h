@@ -15,13 +15,13 @@
 
 #include "math/random.h"
 #include "rays/ray_caster.h"
-#include "run/daylight_glare.h"
+#include "run/glare/daylight_glare.h"
 #include "run/sensor_estimates.h"
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 namespace stilb::run {
 
-/// What the eyes of all sensors that rate glare see of its sources, found once for a run.
+/// The sources of glare that the eyes of all sensors see. They are found once for a run.
 class GlareViews {
   public:
     /// `replicates`: the largest number of the run's. Throws Cancelled where the monitor ends the run.

@@ -1,4 +1,4 @@
-#include "run/picture_sums.h"
+#include "run/pictures/picture_sums.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "lights/seen_polygon.h"
+#include "lights/solid_angle/seen_polygon.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "run/glare.h"
+#include "run/glare/glare.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "run/picture_comparison.h"
+#include "run/pictures/picture_comparison.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // Where the solid angle is too small for the spherical formulas to be exact in double precision, points are
 // are sampled uniformly by area instead; the density of their direction is then d^2 / (cos A). Both
 // techniques are unbiased.
-#include "lights/solid_angle.h"
+#include "lights/solid_angle/solid_angle.h"
 
 #include <algorithm>
 #include <cmath>

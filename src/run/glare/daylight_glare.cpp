@@ -1,4 +1,4 @@
-#include "run/daylight_glare.h"
+#include "run/glare/daylight_glare.h"
 
 #include <algorithm>
 #include <cmath>

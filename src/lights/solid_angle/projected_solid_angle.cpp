@@ -1,12 +1,12 @@
-#include "lights/projected_solid_angle.h"
+#include "lights/solid_angle/projected_solid_angle.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <type_traits>
 
-#include "lights/projected_parallelogram.h"
-#include "lights/seen_polygon.h"
+#include "lights/solid_angle/projected_parallelogram.h"
+#include "lights/solid_angle/seen_polygon.h"
 #include "math/gauss_legendre.h"
 #include "math/sampling.h"
 

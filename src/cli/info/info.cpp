@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "cli/command_line.h"
-#include "cli/info_report.h"
+#include "cli/info/info_report.h"
+#include "cli/info/ugr_report.h"
 #include "cli/scene_argument.h"
-#include "cli/ugr_report.h"
 #include "io/results/results_text.h"
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
@@ -63,14 +63,13 @@ void add_info(CommandLine& line) {
         .required();
     add_overrides(command, request->overrides);
     command.add("--ugr", request->has_ugr,
-                "Of a luminaire also the tables of its Unified Glare Rating: 19 rooms, five sets of "
+                "For a luminaire, print the tables of its Unified Glare Rating, too: 19 rooms, five sets of "
                 "reflectances, crosswise and endwise");
     command.add(
         "--json", request->json,
         "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
         "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"run\", \"warnings\", "
-        "\"memory\"}, as far as "
-        "the file has them; units are in the keys");
+        "\"memory\"}, as far as the file has them; units are in the keys");
     command.run([request] {
         const InfoReport report = report_file(*request);
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));

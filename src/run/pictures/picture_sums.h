@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "run/picture_paces.h"
+#include "run/pictures/picture_paces.h"
 #include "run/result.h"
 #include "statistics/pooled_errors.h"
 

@@ -1,4 +1,4 @@
-#include "run/glare_picture.h"
+#include "run/glare/glare_picture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "transport/glare.h"
+#include "transport/glare/glare.h"
 
 #include <algorithm>
 #include <cmath>

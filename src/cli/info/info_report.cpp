@@ -1,11 +1,11 @@
-#include "cli/info_report.h"
+#include "cli/info/info_report.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "base/vec.h"
 #include "checks/checks.h"
-#include "cli/ugr_report.h"
+#include "cli/info/ugr_report.h"
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/mesh_file.h"
 #include "io/photometry/photometry_file.h"
