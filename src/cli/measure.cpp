@@ -73,7 +73,10 @@ int run_measure(const MeasureRequest& request) {
     const RunOptions options = flags.options_for(sensors, file.run, request.scene);
     for (const std::string& output : json_files(request))
         io::require_output(output, io::FileKind::results, file.sources);
-    if (!request.picture.empty()) plot::require_picture_path(request.picture, file.sources);
+    if (!request.picture.empty()) {
+        plot::require_picture_path(request.picture, file.sources);
+        plot::require_grids(sensors);
+    }
     if (!request.csv_directory.empty()) io::prepare_results_csv(sensors, request.csv_directory);
     RunResult result;
     {

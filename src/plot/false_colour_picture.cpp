@@ -266,7 +266,18 @@ void require_errors(const io::MeasuredGrid& grid) {
         fmt::format("the values of '{}' have no intervals to write. Leave --errors out.", grid.name));
 }
 
+void require_some(bool has_grids) {
+    if (has_grids) return;
+    throw InputError(
+        "the results contain no grid, and only grids can be drawn. Measure a sensor of type \"grid\".");
+}
+
 }  // namespace
+
+void require_grids(std::span<const Sensor> sensors) {
+    require_some(std::ranges::any_of(
+        sensors, [](const Sensor& sensor) { return std::holds_alternative<Grid>(sensor.kind); }));
+}
 
 FalseColour picture_of(const RunResult& result, const std::string& scene, const FalseColourOptions& options) {
     io::ResultsFile results{scene, result.scene_name, {}};
@@ -278,10 +289,7 @@ FalseColour picture_of(const RunResult& result, const std::string& scene, const 
 }
 
 FalseColour picture_of(const io::ResultsFile& results, const FalseColourOptions& options) {
-    if (results.grids.empty()) {
-        throw InputError(
-            "the results contain no grid, and only grids can be drawn. Measure a sensor of type \"grid\".");
-    }
+    require_some(!results.grids.empty());
     const io::MeasuredGrid& first = results.grids.front();
     const std::string& scene = results.scene_name.empty() ? results.scene : results.scene_name;
     FalseColour picture{fmt::format("{}: {}", scene, first.quantity), first.unit, {}};

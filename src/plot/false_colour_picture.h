@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "io/image/picture.h"
@@ -20,6 +21,9 @@ void draw_false_colour(const io::Picture& picture, const std::string& title,
                        const FalseColourOptions& options, const std::filesystem::path& path);
 
 // Measured grids as a false-colour picture.
+
+/// Throws InputError where the results of these sensors will contain no grid to draw.
+void require_grids(std::span<const Sensor> sensors);
 
 /// A panel for each grid, with mean, minimum and uniformity, entitled with the scene's name, or its file
 /// where it has none. Throws InputError where there is no grid, where their units differ, because they have

@@ -223,6 +223,13 @@ class MeasureTest(CommandLineTest):
         self.assertEqual(straight.read_bytes(), read.read_bytes())
         self.assertEqual(json.loads(document)["scene_name"], "A room")
 
+    def test_picture_without_a_grid_is_refused_before_the_run(self):
+        start = time.monotonic()
+        result = run("measure", self.scene, "--sensor", "wall", "--falsecolor", self.folder / "x.png", "--time", "30")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("only grids can be drawn", result.stderr)
+        self.assertLess(time.monotonic() - start, 20)
+
     def test_picture_with_errors(self):
         results, plain, numbers = (self.folder / name for name in ("room.json", "plain.svg", "numbers.svg"))
         self.measure("--paths", "4096", "-o", results)
