@@ -72,7 +72,8 @@ struct PacketPlacement {
 // Lifting of points off their surfaces, so that rays from there do not meet these again.
 
 /// Ray queries work in single precision on coordinates relative to a centre: 2^-19 of the largest number
-/// involved is some 30 times the rounding error.
+/// involved is some 30 times the rounding error. Things near the centre are seen from as far as the scene's
+/// edge, where rounding is coarser: see least_size_m().
 class Lift {
   public:
     Lift() = default;
@@ -81,17 +82,23 @@ class Lift {
 
     const Vec3& center() const { return center_; }
     double half_extent_m() const { return half_extent_m_; }
+    /// Points on smaller things that are nearer to the centre are lifted as if on something of this size: the
+    /// rounding error of a shadow ray to them is that of its far end. In scenes of more than 64 m it is that
+    /// of ends up to 32 m away, so that a house on a large ground is as exact as one alone.
+    double least_size_m() const { return std::min(half_extent_m_, kFarthestEnd_m) / 4; }
     /// The distance by which a point near `position` on something of size `size_m` is lifted.
     double offset_m(const Vec3& position, double size_m) const {
         return relative_offset_m(position - center_, size_m);
     }
     /// The same for a position relative to the centre.
-    static double relative_offset_m(const Vec3& relative, double size_m) {
-        constexpr double share = 0x1p-19;
-        return share * std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z), size_m});
+    double relative_offset_m(const Vec3& relative, double size_m) const {
+        return kShare * std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z), size_m,
+                                  least_size_m()});
     }
+    static constexpr double kShare = 0x1p-19;
 
   private:
+    static constexpr double kFarthestEnd_m = 32;
     Vec3 center_;
     double half_extent_m_ = 0;
 };

@@ -327,7 +327,7 @@ struct RayCaster::Implementation {
 
     /// As RayCaster::offset_m, for a position relative to the centre.
     double offset(const Vec3& relative, double size_m) const {
-        return Lift::relative_offset_m(relative, size_m);
+        return lift_rule.relative_offset_m(relative, size_m);
     }
 
     /// Origin relative to the centre.
@@ -444,7 +444,7 @@ void RayCaster::surfaces(const RayHitPacket& hits, SurfacePacket& surfaces) cons
         surfaces.material[i] = index_of(met.material_of(hits.primitive[i]));
         surfaces.is_smooth[i] = met.is_smooth ? -1 : 0;
     }
-    find_surfaces(hits, corners, surfaces, is_inside);
+    find_surfaces(hits, corners, lift(), surfaces, is_inside);
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         if (hits.object[i] == kNothing || (is_curved[i] == 0 && is_inside[i] != 0)) continue;
         surfaces.set(i, hit(hits, i), center());

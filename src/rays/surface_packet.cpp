@@ -16,7 +16,8 @@ double largest(double a, double b, double c) {
 STILB_VECTORIZED void find_points(const RayPacket& __restrict ray, const RayPacket::Floats& __restrict us,
                                   const RayPacket::Floats& __restrict vs, const LaneVectors& __restrict a,
                                   const LaneVectors& __restrict b, const LaneVectors& __restrict c,
-                                  LaneVectors& __restrict position, LaneVectors& __restrict normal,
+                                  double least_size_m, LaneVectors& __restrict position,
+                                  LaneVectors& __restrict normal,
                                   LaneVectors& __restrict lifted, LaneMask& __restrict is_on_front,
                                   LaneMask& __restrict is_inside) {
     for (int i = 0; i < kPacketWidth; ++i) {
@@ -28,7 +29,7 @@ STILB_VECTORIZED void find_points(const RayPacket& __restrict ray, const RayPack
         const double u = us[i], v = vs[i];
         const double px = ax + u * bx + v * cx, py = ay + u * by + v * cy, pz = az + u * bz + v * cz;
         const double size = std::max(largest(bx, by, bz), largest(cx, cy, cz));
-        const double offset_m = 0x1p-19 * std::max(largest(px, py, pz), size);
+        const double offset_m = Lift::kShare * std::max(std::max(largest(px, py, pz), size), least_size_m);
         const double facing = nx * double{ray.direction_x[i]} + ny * double{ray.direction_y[i]} +
                               nz * double{ray.direction_z[i]};
         const double scale = (facing < 0 ? 1 : -1) / doubled_area;
@@ -60,10 +61,10 @@ void SurfacePacket::set(std::size_t lane, const Hit& hit, const Vec3& center) {
     is_on_front[lane] = hit.on_front ? -1 : 0;
 }
 
-void find_surfaces(const RayHitPacket& hits, const CornerPacket& corners, SurfacePacket& surfaces,
-                   LaneMask& is_inside) {
+void find_surfaces(const RayHitPacket& hits, const CornerPacket& corners, const Lift& lift,
+                   SurfacePacket& surfaces, LaneMask& is_inside) {
     const auto& [a, b, c] = corners.corner;
-    find_points(hits.ray, hits.u, hits.v, a, b, c, surfaces.position, surfaces.normal, surfaces.lifted,
+    find_points(hits.ray, hits.u, hits.v, a, b, c, lift.least_size_m(), surfaces.position, surfaces.normal, surfaces.lifted,
                 surfaces.is_on_front, is_inside);
 }
 

@@ -52,8 +52,8 @@ struct alignas(64) CornerPacket {
 
 /// The surface points of hits on triangles, by their corners. Sets `is_inside` where a hit is so far from all
 /// edges that its lifted point needs no care (ray_caster.h); other lanes are not finished.
-void find_surfaces(const RayHitPacket& hits, const CornerPacket& corners, SurfacePacket& surfaces,
-                   LaneMask& is_inside);
+void find_surfaces(const RayHitPacket& hits, const CornerPacket& corners, const Lift& lift,
+                   SurfacePacket& surfaces, LaneMask& is_inside);
 
 /// Hits are moved away from edges by so many offsets: lifted points stay on this side of neighbours at up to
 /// 7 degrees.

@@ -31,7 +31,10 @@ constexpr std::size_t kFew = 16;
 constexpr double kLongestShare = 0.3;
 constexpr int kDeepest = 48;
 
-double offset_m(const Scene& scene) { return Lift::relative_offset_m({}, lift_of(scene).half_extent_m()); }
+double offset_m(const Scene& scene) {
+    const Lift lift = lift_of(scene);
+    return lift.offset_m(lift.center(), lift.half_extent_m());
+}
 
 /// The triangles of flat shapes; of a disk those of a polygon. Curved shapes have none.
 Mesh mesh_of(const Shape& shape) {

@@ -59,9 +59,11 @@ struct alignas(64) LaneLights::Chosen {
     }
 };
 
-std::optional<LaneLights> LaneLights::of(const Scene& scene, const Vec3& center) {
+std::optional<LaneLights> LaneLights::of(const Scene& scene, const Lift& lift) {
     if (scene.lights.empty() || scene.lights.size() > kMost) return std::nullopt;
+    const Vec3& center = lift.center();
     LaneLights all;
+    all.least_size_m_ = static_cast<float>(lift.least_size_m());
     all.light_of_object_.resize(scene.objects.size());
     for (const stilb::Light& light : scene.lights) {
         Light lane{};
@@ -135,7 +137,8 @@ void LaneLights::choose(const rays::SurfacePacket& at, const math::NumberPacket&
 STILB_VECTORIZED void LaneLights::sample_chosen(const Chosen& __restrict chosen,
                                                 const rays::SurfacePacket& __restrict at,
                                                 const math::NumberPacket& __restrict numbers,
-                                                LightPacket& __restrict light) {
+                                                LightPacket& __restrict light) const {
+    const float least_size_m = least_size_m_;
     for (int i = 0; i < kPacketWidth; ++i) {
         const LaneRectangle rectangle{{chosen.corner.x[i], chosen.corner.y[i], chosen.corner.z[i]},
                                       {chosen.u.x[i], chosen.u.y[i], chosen.u.z[i]},
@@ -155,9 +158,9 @@ STILB_VECTORIZED void LaneLights::sample_chosen(const Chosen& __restrict chosen,
         const float inverse_density = 1 / density;
         const float inverse = density > 0 ? inverse_density : 0;
         // As Lift::relative_offset_m.
-        const float size = std::max(rectangle.width, rectangle.depth);
+        const float size = std::max(std::max(rectangle.width, rectangle.depth), least_size_m);
         const float farthest = std::max(std::max(std::abs(point.x), std::abs(point.y)), std::abs(point.z));
-        const float lift_m = is_point ? 0 : 0x1p-19f * std::max(farthest, size);
+        const float lift_m = is_point ? 0 : static_cast<float>(Lift::kShare) * std::max(farthest, size);
         light.source.x[i] = point.x + lift_m * rectangle.normal.x;
         light.source.y[i] = point.y + lift_m * rectangle.normal.y;
         light.source.z[i] = point.z + lift_m * rectangle.normal.z;

@@ -35,7 +35,7 @@ class LaneLights {
     static constexpr std::size_t kMost = 32;
 
     /// Nothing where some light is of another kind, or where there are none or too many.
-    static std::optional<LaneLights> of(const Scene& scene, const Vec3& center);
+    static std::optional<LaneLights> of(const Scene& scene, const Lift& lift);
 
     /// Samples one light at each point by the first two numbers.
     void sample(const rays::SurfacePacket& at, const math::NumberPacket& numbers, LightPacket& light) const;
@@ -56,13 +56,14 @@ class LaneLights {
     static void add_rough(const Light& light, const rays::SurfacePacket& at, RayPacket::Floats& rough,
                           RayPacket::Floats& sum);
     void choose(const rays::SurfacePacket& at, const math::NumberPacket& numbers, Chosen& chosen) const;
-    static void sample_chosen(const Chosen& chosen, const rays::SurfacePacket& at,
-                              const math::NumberPacket& numbers, LightPacket& light);
+    void sample_chosen(const Chosen& chosen, const rays::SurfacePacket& at,
+                       const math::NumberPacket& numbers, LightPacket& light) const;
     static float rough_lx(const Light& light, const lights::LanePoint& from, const lights::LanePoint& normal);
 
     std::vector<Light> lights_;
     std::vector<std::uint32_t> light_of_object_;
     std::shared_ptr<const Chosen> only_;  ///< the choice where there is one light; else null
+    float least_size_m_ = 0;  ///< see Lift
 };
 
 }  // namespace stilb::transport

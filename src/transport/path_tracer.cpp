@@ -40,7 +40,7 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
         for (std::size_t b = 0; b < kBands; ++b)
             plain_materials_[i].reflectance[b] = static_cast<float>(diffuse->reflectance[b]);
     }
-    if (!lights.leaves_out_lights()) lane_lights_ = LaneLights::of(scene, caster.center());
+    if (!lights.leaves_out_lights()) lane_lights_ = LaneLights::of(scene, caster.lift());
 }
 
 void PathTracer::trace(std::span<Path> paths, rays::Coherence first) const {

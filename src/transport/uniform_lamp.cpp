@@ -51,7 +51,7 @@ LiftRange lifts_of(const lights::EmitterElement& element, const std::vector<Vec3
     const auto nearest_to_0 = [](double low, double high) { return std::max({0.0, low, -high}); };
     nearest = {nearest_to_0(bounds.min.x, bounds.max.x), nearest_to_0(bounds.min.y, bounds.max.y),
                nearest_to_0(bounds.min.z, bounds.max.z)};
-    return {Lift::relative_offset_m(nearest, element.size_m), most_m};
+    return {lift.relative_offset_m(nearest, element.size_m), most_m};
 }
 
 bool has_convex_faces(const Shape& shape) {

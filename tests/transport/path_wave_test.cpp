@@ -132,7 +132,7 @@ TEST(LaneLights, AgreeWithLightSampler) {
     add_area_light(scene, Rectangle{{0.1, 1, 1}, {0, 1, 0}, {0, 0, 0.4}}, 40 * kWhite);
     add_point_light(scene, {2.5, 2.5, 2}, 5 * kWhite);
     const Traced traced(scene);
-    const auto lanes = LaneLights::of(scene, traced.caster.center());
+    const auto lanes = LaneLights::of(scene, traced.caster.lift());
     ASSERT_TRUE(lanes);
     rays::SurfacePacket at{};
     std::vector<rays::Hit> points;
@@ -172,7 +172,7 @@ TEST(LaneLights, HaveOneDensity) {
     add_area_light(scene, panel({1.2, 1.1, 2.9}, 0.6, 0.5), 100 * kWhite);
     add_area_light(scene, panel({0.2, 0.1, 2.8}, 0.3, 1.5), 100 * kWhite);
     const Traced traced(scene);
-    const auto lanes = LaneLights::of(scene, traced.caster.center());
+    const auto lanes = LaneLights::of(scene, traced.caster.lift());
     rays::SurfacePacket at{};
     std::size_t lane = 0;
     for (const Path& path : traced.paths({5}, 0, kPacketWidth))
@@ -197,11 +197,11 @@ TEST(LaneLights, HaveOneDensity) {
 
 TEST(LaneLights, LeaveOtherLightsToLightSampler) {
     Scene scene;
-    EXPECT_FALSE(LaneLights::of(scene, {}));
+    EXPECT_FALSE(LaneLights::of(scene, Lift{}));
     add_area_light(scene, panel({1.2, 1.1, 2.9}, 0.6, 0.5), 100 * kWhite);
-    EXPECT_TRUE(LaneLights::of(scene, {}));
+    EXPECT_TRUE(LaneLights::of(scene, Lift{}));
     add_area_light(scene, Rectangle{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}}, kWhite);  // not right-angled
-    EXPECT_FALSE(LaneLights::of(scene, {}));
+    EXPECT_FALSE(LaneLights::of(scene, Lift{}));
 }
 
 }  // namespace
