@@ -36,8 +36,9 @@ class LightHash : public testing::Test {
     std::string hash_with(const std::string& old = "", const std::string& text = "") {
         std::string scene = kScene;
         scene.replace(scene.find(old), old.size(), text);
-        const auto path = std::filesystem::path(testing::TempDir()) / "hashed.toml";
-        const auto mesh = std::filesystem::path(testing::TempDir()) / "hashed.obj";
+        const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+        const auto path = std::filesystem::path(testing::TempDir()) / (name + ".toml");
+        const auto mesh = std::filesystem::path(testing::TempDir()) / (name + ".obj");
         write_file(path, scene);
         write_file(mesh, mesh_);
         return light_hash(std::vector{path, mesh});

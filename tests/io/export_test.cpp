@@ -72,7 +72,9 @@ resolution = [64, 48]
 
 class Export : public testing::Test {
   protected:
-    Export() : folder_(std::filesystem::path(testing::TempDir()) / "stilb-export") {
+    Export()
+        : folder_(std::filesystem::path(testing::TempDir()) /
+                  testing::UnitTest::GetInstance()->current_test_info()->name()) {
         std::filesystem::remove_all(folder_);
     }
     ~Export() override { std::filesystem::remove_all(folder_); }
