@@ -17,9 +17,8 @@ STILB_VECTORIZED void find_points(const RayPacket& __restrict ray, const RayPack
                                   const RayPacket::Floats& __restrict vs, const LaneVectors& __restrict a,
                                   const LaneVectors& __restrict b, const LaneVectors& __restrict c,
                                   double least_size_m, LaneVectors& __restrict position,
-                                  LaneVectors& __restrict normal,
-                                  LaneVectors& __restrict lifted, LaneMask& __restrict is_on_front,
-                                  LaneMask& __restrict is_inside) {
+                                  LaneVectors& __restrict normal, LaneVectors& __restrict lifted,
+                                  LaneMask& __restrict is_on_front, LaneMask& __restrict is_inside) {
     for (int i = 0; i < kPacketWidth; ++i) {
         const double ax = a.x[i], ay = a.y[i], az = a.z[i];
         const double bx = b.x[i] - ax, by = b.y[i] - ay, bz = b.z[i] - az;
@@ -64,8 +63,8 @@ void SurfacePacket::set(std::size_t lane, const Hit& hit, const Vec3& center) {
 void find_surfaces(const RayHitPacket& hits, const CornerPacket& corners, const Lift& lift,
                    SurfacePacket& surfaces, LaneMask& is_inside) {
     const auto& [a, b, c] = corners.corner;
-    find_points(hits.ray, hits.u, hits.v, a, b, c, lift.least_size_m(), surfaces.position, surfaces.normal, surfaces.lifted,
-                surfaces.is_on_front, is_inside);
+    find_points(hits.ray, hits.u, hits.v, a, b, c, lift.least_size_m(), surfaces.position, surfaces.normal,
+                surfaces.lifted, surfaces.is_on_front, is_inside);
 }
 
 }  // namespace stilb::rays

@@ -1,6 +1,7 @@
 #include "transport/direct_light.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -34,6 +35,13 @@ struct DirectLight::ShadowRays {
     }
 };
 
+double DirectLight::Remainder::rays(std::size_t receivers) const {
+    int of_lamps = 0;
+    for (const std::uint32_t bits : lamps) of_lamps += std::popcount(bits);
+    const double each = (by_directions ? 1 : 0) + (points ? double{kChosen} : 0);
+    return of_lamps + each * static_cast<double>(receivers);
+}
+
 DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights)
     : scene_(scene), caster_(caster), lights_(lights) {
     std::vector<LightTree::Light> leaves;
@@ -46,14 +54,16 @@ DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, cons
             leaves.back().bounds.include(origin->position);
         } else if (auto lamp = UniformLamp::of(scene, light, caster.lift())) {
             lamps_.push_back(std::move(*lamp));
+        } else if (auto opening = OpeningLamp::of(scene, light, caster.lift())) {
+            openings_.push_back(std::move(*opening));
         } else {
             others_.push_back(i);
         }
     }
     if (points_.size() > kFewPoints) tree_of_points_ = LightTree(std::move(leaves));
     chooses_lamps_ = lights.chooses_extended();
-    if (chooses_lamps_) lamps_.clear();
-    if (!lamps_.empty()) shafts_.emplace(scene, caster.center());
+    if (chooses_lamps_) lamps_.clear(), openings_.clear();
+    if (lamp_count() > 0) shafts_.emplace(scene, caster.center());
 }
 
 DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
@@ -84,7 +94,23 @@ auto DirectLight::add_certain(std::span<const Receiver> tile, TileLight& light) 
     return remainder;
 }
 
-/// Lamps that are seen for certain; the others, unless they give no light, remain.
+const LampHull& DirectLight::hull_of(std::size_t lamp) const {
+    return lamp < lamps_.size() ? lamps_[lamp].hull() : openings_[lamp - lamps_.size()].hull();
+}
+
+/// Of all of the lamp, where that is known.
+std::optional<Rgb> DirectLight::whole_lx(std::size_t lamp, const lights::LitPoint& at) const {
+    if (lamp < lamps_.size()) return lamps_[lamp].illuminance_lx(at);
+    return openings_[lamp - lamps_.size()].illuminance_lx(at);
+}
+
+std::optional<LampSample> DirectLight::sample_lamp(std::size_t lamp, const lights::LitPoint& at,
+                                                   math::SampleStream& stream) const {
+    if (lamp < lamps_.size()) return lamps_[lamp].sample(at, stream);
+    return openings_[lamp - lamps_.size()].sample(at, stream);
+}
+
+/// Uniform lamps that are seen for certain; the others, unless they give no light, remain.
 DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, TileLight& light) const {
     Remainder remainder;
     for (const Receiver& receiver : tile) {
@@ -92,42 +118,50 @@ DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, Ti
             has_closed_form(receiver) ? !others_.empty() : lights_.has_visible_lights();
     }
     for (std::size_t l = 0; l < lamps_.size(); ++l) {
-        std::array<double, kPacketWidth> projected_sr{};
+        std::array<Rgb, kPacketWidth> whole_lx{};
         std::array<Vec3, kPacketWidth> lit;
         std::size_t count = 0;
         for (std::size_t i = 0; i < tile.size(); ++i) {
             if (!has_closed_form(tile[i])) continue;
-            projected_sr[i] = lamps_[l].projected_solid_angle_sr(lit_point(tile[i]));
-            if (projected_sr[i] > 0) lit[count++] = tile[i].lifted();
+            whole_lx[i] = lamps_[l].illuminance_lx(lit_point(tile[i]));
+            if (whole_lx[i].max() > 0) lit[count++] = tile[i].lifted();
         }
         if (count == 0) continue;
-        if (!lamps_[l].is_seen_from(std::span(lit).first(count), *shafts_)) {
+        if (!lamps_[l].hull().is_seen_from(std::span(lit).first(count), *shafts_)) {
             for (std::size_t i = 0; i < tile.size(); ++i) {
-                if (projected_sr[i] > 0) remainder.lamps[i] |= 1u << l;
+                if (whole_lx[i].max() > 0) remainder.lamps[i] |= 1u << l;
             }
             continue;
         }
         for (std::size_t i = 0; i < tile.size(); ++i) {
-            if (projected_sr[i] > 0)
-                light[i] += projected_sr[i] * lamps_[l].luminance_cd_m2() * *tile[i].constant_response();
+            if (whole_lx[i].max() > 0) light[i] += whole_lx[i] * *tile[i].constant_response();
+        }
+    }
+    for (std::size_t o = 0; o < openings_.size(); ++o) {
+        for (std::size_t i = 0; i < tile.size(); ++i) {
+            if (has_closed_form(tile[i]) && openings_[o].may_light(lit_point(tile[i])))
+                remainder.lamps[i] |= 1u << (lamps_.size() + o);
         }
     }
     return remainder;
 }
 
 /// From one receiver the shaft to a lamp is narrower than from all of them, and one face may hide the lamp.
+/// The light of openings that are seen for certain is integrated here.
 void DirectLight::settle_one_by_one(std::span<const Receiver> tile, Remainder& remainder,
                                     TileLight& light) const {
     for (std::size_t i = 0; i < tile.size(); ++i) {
-        for (std::size_t l = 0; l < lamps_.size(); ++l) {
+        for (std::size_t l = 0; l < lamp_count(); ++l) {
             const std::uint32_t bit = 1u << l;
             if ((remainder.lamps[i] & bit) == 0) continue;
-            const bool is_hidden = lamps_[l].is_hidden_from(tile[i].lifted(), scene_, caster_);
-            if (!is_hidden && !lamps_[l].is_seen_from(std::span(&tile[i].lifted(), 1), *shafts_)) continue;
+            std::optional<Rgb> received_lx;
+            if (hull_of(l).is_hidden_from(tile[i].lifted(), scene_, caster_))
+                received_lx = Rgb{};
+            else if (hull_of(l).is_seen_from(std::span(&tile[i].lifted(), 1), *shafts_))
+                received_lx = whole_lx(l, lit_point(tile[i]));
+            if (!received_lx) continue;
             remainder.lamps[i] &= ~bit;
-            if (is_hidden) continue;
-            light[i] += lamps_[l].projected_solid_angle_sr(lit_point(tile[i])) * lamps_[l].luminance_cd_m2() *
-                        *tile[i].constant_response();
+            light[i] += *received_lx * *tile[i].constant_response();
         }
     }
 }
@@ -135,7 +169,7 @@ void DirectLight::settle_one_by_one(std::span<const Receiver> tile, Remainder& r
 void DirectLight::add_sample(std::span<const Receiver> tile, const Remainder& remainder,
                              std::span<math::SampleStream> streams, TileLight& light) const {
     if (remainder.has_lamps()) {
-        for (std::size_t l = 0; l < lamps_.size(); ++l) add_shadowed(tile, l, remainder, streams, light);
+        for (std::size_t l = 0; l < lamp_count(); ++l) add_shadowed(tile, l, remainder, streams, light);
     }
     if (remainder.by_directions) add_by_directions(tile, streams, light);
     if (remainder.points) add_chosen_points(tile, streams[0], light);
@@ -143,14 +177,12 @@ void DirectLight::add_sample(std::span<const Receiver> tile, const Remainder& re
 
 void DirectLight::add_shadowed(std::span<const Receiver> tile, std::size_t lamp, const Remainder& remainder,
                                std::span<math::SampleStream> streams, TileLight& light) const {
-    const Rgb& luminance_cd_m2 = lamps_[lamp].luminance_cd_m2();
     ShadowRays shadow_rays;
     for (std::size_t i = 0; i < tile.size(); ++i) {
         if ((remainder.lamps[i] >> lamp & 1u) == 0) continue;
-        const auto sample = lamps_[lamp].sample(lit_point(tile[i]), streams[i]);
-        if (!sample) continue;
-        shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
-                        sample->projected_solid_angle_sr * luminance_cd_m2 * *tile[i].constant_response());
+        if (const auto sample = sample_lamp(lamp, lit_point(tile[i]), streams[i]))
+            shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
+                            sample->illuminance_lx * *tile[i].constant_response());
     }
     shadow_rays.trace(caster_, light);
 }

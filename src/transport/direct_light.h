@@ -10,6 +10,9 @@
 // point that is drawn by projected solid angle, so that it is 0 or 1 but for panes: there is no noise where
 // all of the lamp is seen, or nothing of it. The shadow rays of a tile form packets.
 //
+// A luminaire's opening that a reading sees for certain is integrated by quadrature, once
+// (transport/opening_lamp.h).
+//
 // Point lights are exact, one packet of shadow rays each. Where there are many of them, pictures choose
 // kChosen by a tree for the whole tile, with exact probabilities. All other lights, and receivers whose
 // response depends on direction, are sampled as in sample_direct_from_areas() (receiver.h).
@@ -24,6 +27,7 @@
 
 #include "base/monitor.h"
 #include "rays/shaft_query.h"
+#include "transport/opening_lamp.h"
 #include "transport/receiver.h"
 #include "transport/uniform_lamp.h"
 
@@ -39,13 +43,15 @@ class DirectLight {
 
     /// The parts of a tile's light that have to be sampled.
     struct Remainder {
-        /// For each receiver, one bit for each lamp that may be partly hidden.
+        /// For each receiver, one bit for each lamp that may be partly hidden: uniform lamps, then openings.
         std::array<std::uint32_t, kPacketWidth> lamps{};
         bool by_directions = false;  ///< lights without closed form, or receivers with gloss
         bool points = false;         ///< point lights that are chosen by the tree
         bool has_lamps() const {
             return std::ranges::any_of(lamps, [](std::uint32_t bits) { return bits != 0; });
         }
+        /// Shadow rays of a sample, roughly; `receivers` of the tile.
+        double rays(std::size_t receivers) const;
         bool is_empty() const { return !has_lamps() && !by_directions && !points; }
     };
     struct Prepared {
@@ -83,6 +89,11 @@ class DirectLight {
     void add_point(std::span<const Receiver> tile, std::size_t point, double factor, TileLight& light) const;
     void add_chosen_points(std::span<const Receiver> tile, math::SampleStream& stream,
                            TileLight& light) const;
+    std::size_t lamp_count() const { return lamps_.size() + openings_.size(); }
+    const LampHull& hull_of(std::size_t lamp) const;
+    std::optional<Rgb> whole_lx(std::size_t lamp, const lights::LitPoint& at) const;
+    std::optional<LampSample> sample_lamp(std::size_t lamp, const lights::LitPoint& at,
+                                          math::SampleStream& stream) const;
     void add_shadowed(std::span<const Receiver> tile, std::size_t lamp, const Remainder& remainder,
                       std::span<math::SampleStream> streams, TileLight& light) const;
     void add_by_directions(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
@@ -94,7 +105,8 @@ class DirectLight {
     const rays::RayCaster& caster_;
     const LightSampler& lights_;
     std::vector<UniformLamp> lamps_;
-    std::vector<std::size_t> points_, others_;  ///< lights without closed form
+    std::vector<OpeningLamp> openings_;
+    std::vector<std::size_t> points_, others_;  ///< the numbers of other lights
     LightTree tree_of_points_;
     std::optional<rays::ShaftQuery> shafts_;
     bool chooses_lamps_ = false;  ///< extended lights are so many that some are chosen

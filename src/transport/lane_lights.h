@@ -56,14 +56,14 @@ class LaneLights {
     static void add_rough(const Light& light, const rays::SurfacePacket& at, RayPacket::Floats& rough,
                           RayPacket::Floats& sum);
     void choose(const rays::SurfacePacket& at, const math::NumberPacket& numbers, Chosen& chosen) const;
-    void sample_chosen(const Chosen& chosen, const rays::SurfacePacket& at,
-                       const math::NumberPacket& numbers, LightPacket& light) const;
+    void sample_chosen(const Chosen& chosen, const rays::SurfacePacket& at, const math::NumberPacket& numbers,
+                       LightPacket& light) const;
     static float rough_lx(const Light& light, const lights::LanePoint& from, const lights::LanePoint& normal);
 
     std::vector<Light> lights_;
     std::vector<std::uint32_t> light_of_object_;
     std::shared_ptr<const Chosen> only_;  ///< the choice where there is one light; else null
-    float least_size_m_ = 0;  ///< see Lift
+    float least_size_m_ = 0;              ///< see Lift
 };
 
 }  // namespace stilb::transport

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "exact/configuration_factors.h"
+#include "lights/opening_shape.h"
 #include "support/scene_builder.h"
 
 namespace stilb::transport {
@@ -17,6 +18,27 @@ Scene room(const Shape& lamp) {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 4, 3}}, diffuse(0.5));
     add_area_light(scene, lamp, Rgb{{1000, 800, 600}});
+    return scene;
+}
+
+/// Unequal planes, so that the light varies over an opening.
+PhotometricSolid uneven_solid() {
+    PhotometricSolid::Grid grid;
+    grid.planes_deg = {0, 90, 180, 270, 360};
+    grid.polar_deg = {0, 30, 60, 90};
+    grid.intensity_cd = {300, 250, 150, 5,   300, 350, 90,  5,   300, 100,
+                         50,  5,   300, 250, 20,  5,   300, 250, 150, 5};
+    return PhotometricSolid(grid);
+}
+
+const Vec3 kOpeningMiddle{2, 2, 2.9};
+constexpr double kOpeningWidth_m = 0.6, kOpeningDepth_m = 0.3;
+
+/// A room with a luminaire that shines down from an opening.
+Scene room_with_opening(const lights::Opening& opening) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 4, 3}}, diffuse(0.5));
+    add_opening(scene, kOpeningMiddle, uneven_solid(), opening);
     return scene;
 }
 
@@ -244,6 +266,62 @@ TEST(DirectLight, LampsBehindOneFaceAreHidden) {
         EXPECT_GT(hidden, 10);
         EXPECT_GT(hidden, dark / 2);
     }
+}
+
+TEST(DirectLight, IntegratesOpeningsThatAreSeen) {
+    Setting s(room_with_opening({lights::Opening::Form::box, {kOpeningWidth_m, kOpeningDepth_m, 0}}));
+    s.add_tile(0.3, 0.5, 0.8);
+    const auto prepared = s.direct.prepare(s.receivers, Monitor::none());
+    EXPECT_TRUE(prepared.remainders[0].is_empty());
+    const auto& luminaire = std::get<LuminousOpening>(s.scene.lights[0].source).luminaire;
+    const PhotometricSolid solid = uneven_solid();
+    for (std::size_t j = 0; j < s.receivers.size(); ++j) {
+        // Many points that share the file's intensity.
+        constexpr int cells = 400;
+        double expected = 0;
+        for (int k = 0; k < cells * cells; ++k) {
+            const double x = (k % cells + 0.5) / cells - 0.5, y = (k / cells + 0.5) / cells - 0.5;
+            const Vec3 towards = kOpeningMiddle + kOpeningWidth_m * x * luminaire.c0 +
+                                 kOpeningDepth_m * y * luminaire.c90 - s.receivers[j].position();
+            const Vec3 direction = normalized(towards);
+            expected += solid.intensity_cd(luminaire.in_solid(-direction)) * direction.z /
+                        squared_length(towards) / (cells * cells);
+        }
+        // Beside the sum's error of 1e-5, the agreement of rules.
+        EXPECT_NEAR(prepared.known[j].luminance(), expected, OpeningLamp::kAgreement * expected);
+    }
+}
+
+TEST(DirectLight, AgreesWithSamplingOfOpenings) {
+    using Form = lights::Opening::Form;
+    for (const lights::Opening& opening : {lights::Opening{Form::box, {0.6, 0.3, 0}},
+                                           {Form::box, {0.6, 0.3, 0.2}},
+                                           {Form::vertical_cylinder, {0.5, 0.5, 0}},
+                                           {Form::ball, {0.3, 0.3, 0.3}}}) {
+        Setting open(room_with_opening(opening));
+        open.add_tile(0.3, 0.5, 0.01, 0.3);
+        expect_agreement(open);
+
+        Scene scene = room_with_opening(opening);
+        add_object(scene, Rectangle{{0.8, 0.8, 1.2}, {0.8, 0, 0}, {0, 0.8, 0.2}}, diffuse(0.5));
+        Setting hidden(std::move(scene));
+        hidden.add_tile(0.3, 0.3, 0.01, 0.4);
+        EXPECT_TRUE(hidden.direct.prepare(hidden.receivers, Monitor::none()).remainders[0].has_lamps() ||
+                    opening.form == Form::ball);
+        expect_agreement(hidden);
+    }
+}
+
+TEST(DirectLight, OpeningsAreSampledWhereTheHorizonOrTheirNearnessSpoilsTheIntegral) {
+    Setting s(room_with_opening({lights::Opening::Form::box, {kOpeningWidth_m, kOpeningDepth_m, 0}}));
+    s.add(kOpeningMiddle - Vec3{0.29, 0, 0.001}, {0, 0, 1});
+    s.add(kOpeningMiddle - Vec3{0, 0, 0.5}, normalized(Vec3{1, 0, 0.1}));
+    s.add(kOpeningMiddle - Vec3{1, 0.7, 1}, {0, 0, 1});
+    const auto prepared = s.direct.prepare(s.receivers, Monitor::none());
+    EXPECT_EQ(prepared.remainders[0].lamps[0], 1u);
+    EXPECT_EQ(prepared.remainders[0].lamps[1], 1u);
+    EXPECT_EQ(prepared.remainders[0].lamps[2], 0u);
+    expect_agreement(s);
 }
 
 TEST(DirectLight, BodiesAndLightFromOutsideAreSampledByDirections) {

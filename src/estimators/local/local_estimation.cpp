@@ -23,6 +23,7 @@
 // by a mirror or glass last; the run warns of it.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -30,6 +31,7 @@
 
 #include "estimators/estimator_list.h"
 #include "estimators/local/connection.h"
+#include "estimators/local/direct_plan.h"
 #include "estimators/local/gather.h"
 #include "estimators/local/local_picture.h"
 #include "estimators/local/node_pool.h"
@@ -40,8 +42,8 @@ namespace {
 
 /// Vertices are connected to the points after so many light paths per selected one (below).
 constexpr std::uint64_t kPathBlock = 512;
-/// Light paths (divided by the selection's share) for each sample of direct light from area lights.
-constexpr std::uint64_t kPathsPerDirectSample = 2;
+/// Selected light paths for each sample of direct light, where nothing plans them, and at most.
+constexpr std::uint64_t kPathsPerDirectSample = 2, kMostPathsPerDirectSample = 32;
 /// Samples of direct light for each sample with a guess: in penumbrae the rest has less noise.
 constexpr std::uint64_t kDirectWithGuess = 2;
 /// Light paths for each ray that `local` sends out where there are mirrors or glass.
@@ -141,9 +143,12 @@ class LocalReadings {
                2.0 * static_cast<double>(seen_.receivers.size()) / static_cast<double>(paths_per_selected_);
     }
     double cost_per_sample() const {
-        constexpr double of_shadow_ray = 1. / 3, of_direct = 3;
-        const double direct =
-            of_direct * stands_for_ * open_receivers() / static_cast<double>(light_paths_per_direct_sample());
+        constexpr double of_shadow_ray = 1. / 3;
+        double direct = 0;
+        for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
+            direct += of_shadow_ray * kDirectRayCost * stands_for_ * remainder.rays(tile.size()) /
+                      static_cast<double>(light_paths_per_direct_sample(t));
+        });
         if (guided_)
             return static_cast<double>(kDirectWithGuess) * direct + guided_->cost_per_sample(stands_for_);
         return direct + of_shadow_ray * plans_.cost_per_path;
@@ -155,14 +160,11 @@ class LocalReadings {
         return static_cast<std::size_t>(
             std::lround(stands_for_ * static_cast<double>(seen_.receivers.size())));
     }
-    std::uint64_t light_paths_per_direct_sample() const {
-        return guided_ ? 1 : kPathsPerDirectSample * paths_per_selected_;
-    }
-    /// The number of those whose direct light has to be sampled.
-    double open_receivers() const {
-        std::size_t count = 0;
-        for_each_open_tile([&](const auto& tile, const auto&, std::size_t) { count += tile.size(); });
-        return static_cast<double>(count);
+    std::uint64_t light_paths_per_direct_sample(std::size_t tile) const {
+        if (guided_) return 1;
+        const std::uint64_t selected =
+            paths_per_direct_.empty() ? kPathsPerDirectSample : paths_per_direct_[tile];
+        return selected * paths_per_selected_;
     }
 
     enum Purpose : std::uint64_t { kLightPaths, kSelection, kDirect, kGather, kPilot, kPlan, kFaint };
@@ -225,9 +227,9 @@ class LocalReadings {
 
     void add_direct_light(const Batch& batch, ReadingSums& sums) const {
         const math::RandomKey key = batch.key.derived(kDirect);
-        const std::uint64_t light_paths = light_paths_per_direct_sample();
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
+            const std::uint64_t light_paths = light_paths_per_direct_sample(t);
             const Batch own = batch.of_packet(t);
             const std::uint64_t repeated = guided_ ? kDirectWithGuess : 1;
             const double weight = static_cast<double>(light_paths) / static_cast<double>(repeated);
@@ -286,7 +288,8 @@ class LocalReadings {
         }
     }
 
-    SplitPlans plans(const Problem& problem, const GuidedLight* guide) const {
+    /// Also plans the samples of direct light.
+    SplitPlans plans(const Problem& problem, const GuidedLight* guide) {
         if (seen_.receivers.empty()) return {};
         if (is_guided_)
             return {std::vector<SplitPlan>(seen_.receivers.size(),
@@ -298,42 +301,51 @@ class LocalReadings {
         const math::RandomKey key = problem.preparation_key;
         const std::vector<transport::LightVertex> nodes =
             transport_.trace_light_paths(key.derived(kPilot), 0, kPilotPaths);
-        const std::vector<double> direct = pilot_direct(key.derived(kDirect));
-        const std::span<const double> weights = problem.weights;
-        const std::vector<double> alike(weights.empty() ? direct.size() : 0, 1.0);
+        const DirectPilot of_direct = pilot_direct(key.derived(kDirect));
+        const std::vector<double> alike(problem.weights.empty() ? of_direct.direct.size() : 0, 1.0);
+        const std::span<const double> weights = problem.weights.empty() ? alike : problem.weights;
         const PilotLight pilot{nodes,
                                kPilotPaths,
-                               direct,
+                               of_direct.direct,
                                surface_area_m2(transport_.scene),
                                transport_.max_reflections,
                                paths_per_selected_,
                                selected_per_ray_,
                                stands_for_};
-        SplitPlans plans =
-            plan_splits(transport_.caster, transport_.tracer, seen_.receivers,
-                        weights.empty() ? alike : weights, pilot, key.derived(kPlan), problem.monitor);
+        SplitPlans plans = plan_splits(transport_.caster, transport_.tracer, seen_.receivers, weights, pilot,
+                                       key.derived(kPlan), problem.monitor);
+        paths_per_direct_ = plan_direct(seen_.receivers, seen_.direct.remainders, weights, of_direct, plans,
+                                        std::min(kMostPathsPerDirectSample, selected_per_ray_));
         for (SplitPlan& plan : plans.of_receivers) plan.paths_per_ray *= paths_per_selected_;
         return plans;
     }
 
-    std::vector<double> pilot_direct(math::RandomKey key) const {
+    DirectPilot pilot_direct(math::RandomKey key) const {
         // Few samples of a sky with a sun, or of lamps in a gloss, may be wrong by a factor.
         constexpr std::size_t in_all = 1u << 14;
         const auto samples =
             static_cast<int>(std::clamp<std::size_t>(in_all / (seen_.receivers.size() + 1), 4, 64));
-        std::vector<double> direct;
-        for (const Rgb& known : seen_.known_part) direct.push_back(known.luminance());
+        DirectPilot pilot{{}, std::vector<double>(seen_.receivers.size()), samples};
+        for (const Rgb& known : seen_.known_part) pilot.direct.push_back(known.luminance());
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
+            std::array<double, kPacketWidth> sums{}, squares{};
             for (int i = 0; i < samples; ++i) {
                 std::vector<math::SampleStream> streams =
                     streams_of(key, t, tile.size(), static_cast<std::uint64_t>(i));
                 transport::DirectLight::TileLight light{};
                 transport_.direct.add_sample(tile, remainder, streams, light);
-                for (std::size_t j = 0; j < tile.size(); ++j)
-                    direct[tile[j].reading()] += light[j].luminance() / samples;
+                for (std::size_t j = 0; j < tile.size(); ++j) {
+                    const double sample = light[j].luminance();
+                    sums[j] += sample, squares[j] += sample * sample;
+                }
+            }
+            for (std::size_t j = 0; j < tile.size(); ++j) {
+                pilot.direct[tile[j].reading()] += sums[j] / samples;
+                pilot.variances[t * kPacketWidth + j] =
+                    std::max(squares[j] - sums[j] * sums[j] / samples, 0.0) / (samples - 1);
             }
         });
-        return direct;
+        return pilot;
     }
 
     static std::vector<double> constants_per_m2(std::span<const SplitPlan> plans) {
@@ -347,6 +359,7 @@ class LocalReadings {
     double stands_for_;
     std::uint64_t paths_per_selected_, selected_per_ray_;
     bool is_guided_ = false;
+    std::vector<std::uint64_t> paths_per_direct_;  ///< selected ones, for each tile; of a plan
     SplitPlans plans_;
     std::vector<PointTile> tiles_;
     Connections connections_;

@@ -98,7 +98,7 @@ Choice best_constant(const PointModel& point, std::uint64_t paths_per_ray, doubl
         const double loss = prediction.variance + price * prediction.cost;
         if (loss < least) {
             least = loss;
-            best = {prediction, {outcome.k_per_m2, paths_per_ray, outcome.largest_of_rays}};
+            best = {prediction, {outcome.k_per_m2, paths_per_ray, outcome.largest_of_rays, 0}};
         }
     }
     return best;
@@ -328,8 +328,11 @@ constexpr std::size_t kMostSurveyed = 1024;
 SplitPlans plan_surveyed(const rays::RayCaster& caster, const transport::PathTracer& tracer,
                          std::span<const transport::Receiver> receivers, std::span<const double> weights,
                          const PilotLight& pilot, math::RandomKey key, const Monitor& monitor) {
-    const std::vector<PointModel> models = weighted_models(
-        model_receivers(caster, tracer, receivers, pilot, key, monitor), receivers, weights, pilot.direct);
+    std::vector<ReceiverModel> unweighted = model_receivers(caster, tracer, receivers, pilot, key, monitor);
+    std::vector<double> indirect;
+    for (const ReceiverModel& model : unweighted) indirect.push_back(model.indirect);
+    const std::vector<PointModel> models =
+        weighted_models(std::move(unweighted), receivers, weights, pilot.direct);
     // About half of the vertices face a point; all points share the cost of tracing.
     const double vertices_per_path =
         (static_cast<double>(pilot.nodes.size()) + 1) / static_cast<double>(pilot.light_paths);
@@ -357,7 +360,8 @@ SplitPlans plan_surveyed(const rays::RayCaster& caster, const transport::PathTra
         price = sum.variance / sum.cost;
         cost = sum.cost;
     }
-    return {std::move(plans), cost * pilot.stands_for / static_cast<double>(pilot.paths_per_selected)};
+    for (std::size_t j = 0; j < plans.size(); ++j) plans[j].indirect = indirect[j];
+    return {std::move(plans), cost * pilot.stands_for / static_cast<double>(pilot.paths_per_selected), price};
 }
 
 }  // namespace
@@ -382,14 +386,14 @@ SplitPlans plan_splits(const rays::RayCaster& caster, const transport::PathTrace
     }
     PilotLight of_surveyed = pilot;
     of_surveyed.stands_for *= static_cast<double>(stride);
-    const auto [plans_of_surveyed, cost_per_path] =
-        plan_surveyed(caster, tracer, surveyed, weights, of_surveyed, key, monitor);
+    SplitPlans of_some = plan_surveyed(caster, tracer, surveyed, weights, of_surveyed, key, monitor);
     std::vector<SplitPlan> plans(receivers.size());
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const std::size_t packet = i / kPacketWidth / stride;
-        plans[i] = plans_of_surveyed[packet * kPacketWidth + i % kPacketWidth];
+        plans[i] = of_some.of_receivers[packet * kPacketWidth + i % kPacketWidth];
     }
-    return {std::move(plans), cost_per_path};
+    of_some.of_receivers = std::move(plans);
+    return of_some;
 }
 
 double plan_constant(const rays::RayCaster& caster, const transport::PathTracer& tracer,

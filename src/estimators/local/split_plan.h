@@ -18,6 +18,7 @@ struct SplitPlan {
     std::uint64_t paths_per_ray = 1;  ///< light paths for each gathering ray: a power of two
     /// The largest contribution of a gathering ray to the reading that the pilot has met [lx or cd/m2].
     double largest_of_rays = 0;
+    double indirect = 0;  ///< light that is not direct, by the pilot [lx or cd/m2]
 };
 
 struct SplitPlans {
@@ -25,6 +26,9 @@ struct SplitPlans {
     /// The processor time of a light path, its connections and its share of the gathering rays. The unit is
     /// the time of a shadow ray.
     double cost_per_path = 1;
+    /// Of a light path whose vertices are connected: the sum over the readings of weight variance / value^2,
+    /// over its cost. The best plan makes other samples as worthwhile.
+    double variance_per_cost = 0;
 };
 
 /// An estimate of the light before planning, and its sampling.
