@@ -69,7 +69,8 @@ int run_measure(const MeasureRequest& request) {
     if (request.has_replicates && json_files(request).empty())
         throw InputError("--replicates writes into the JSON document: give --json or -o as well.");
     const io::SceneFile file = read_scene(request.scene, flags.overrides);
-    const std::vector<Sensor> sensors = sensors::choose_meters(file.sensors, flags.sensors, request.scene);
+    const std::vector<Sensor> sensors =
+        sensors::choose_meters(flags.all_sensors(file, request.scene), flags.sensors, request.scene);
     const RunOptions options = flags.options_for(sensors, file.run, request.scene);
     for (const std::string& output : json_files(request))
         io::require_output(output, io::FileKind::results, file.sources);

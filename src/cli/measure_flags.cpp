@@ -6,6 +6,9 @@
 #include <algorithm>
 
 #include "cli/scene_argument.h"
+#include "io/text/text.h"
+#include "rays/ray_caster.h"
+#include "sensors/working_planes.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
@@ -24,12 +27,75 @@ run::Target target_of(const std::string& name) {
     return static_cast<run::Target>(found - run::kTargetNames.begin());
 }
 
+/// What --grid asks for.
+struct GridRequest {
+    sensors::WorkingPlaneOptions planes;
+    std::optional<double> spacing_m;
+};
+
+double length_of(std::string_view key, std::string_view text, double least) {
+    const auto number = io::parse_number(text);
+    if (number && *number >= least && *number <= 1e6) return *number;
+    throw InputError(fmt::format(
+        "--grid: {}={} is no length in metres. Example: z=0.8,spacing=auto,margin=0.5.", key, text));
+}
+
+GridRequest grid_request(std::string_view text) {
+    GridRequest request;
+    while (!text.empty()) {
+        const std::string_view part = text.substr(0, text.find(','));
+        text.remove_prefix(std::min(text.size(), part.size() + 1));
+        const std::size_t sign = std::min(part.find('='), part.size());
+        const std::string_view key = part.substr(0, sign),
+                               value = part.substr(std::min(sign + 1, part.size()));
+        if (key == "z") {
+            request.planes.height_m = length_of(key, value, 0);
+        } else if (key == "margin") {
+            request.planes.margin_m = length_of(key, value, 0);
+        } else if (key == "spacing") {
+            if (value != "auto") request.spacing_m = length_of(key, value, 1e-3);
+        } else {
+            throw InputError(
+                fmt::format("--grid: there is no \"{}\". Allowed: z (height above the floor), spacing (or "
+                            "auto) and margin "
+                            "(distance from walls), such as z=0.8,spacing=auto,margin=0.5.",
+                            part));
+        }
+    }
+    return request;
+}
+
 }  // namespace
+
+std::vector<Sensor> MeasureFlags::all_sensors(const io::SceneFile& file, const std::string& path) const {
+    std::vector<Sensor> all = file.sensors;
+    if (!grid) return all;
+    const GridRequest request = grid_request(*grid);
+    const auto planes = working_planes(file.scene, rays::RayCaster(file.scene), request.planes);
+    const auto on_planes = sensors_on(planes, "plane", request.spacing_m);
+    if (on_planes.empty()) throw InputError("--grid: " + sensors::no_plane_message(request.planes), {path});
+    for (const Sensor& sensor : on_planes) {
+        if (std::ranges::any_of(all, [&](const Sensor& other) { return other.name == sensor.name; })) {
+            throw InputError(
+                fmt::format("--grid: the scene has a sensor of the name \"{}\", too. Give its sensor "
+                            "another name.",
+                            sensor.name),
+                {path});
+        }
+        all.push_back(sensor);
+    }
+    return all;
+}
 
 void MeasureFlags::add_to(Command& command) {
     command.add("--sensor", sensors, "Measure only this sensor (may be repeated)")
         .value_name("NAME")
         .repeatable();
+    command
+        .add("--grid", grid,
+             "Measure also a working plane over the floor of each room, at this height above it, with this "
+             "distance from walls: z=0.75,spacing=auto,margin=0.5, or parts of it")
+        .value_name("KEY=VALUE,...");
     command.add(
         "--check", checks,
         "Exit with code 1 where a requirement of a sensor (require = ...) is not met, with code 3 where "

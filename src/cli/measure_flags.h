@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/run_flags.h"
+#include "io/scene/scene_file.h"
 #include "run/result.h"
 #include "sensors/sensor.h"
 
@@ -14,11 +15,13 @@ namespace stilb::cli {
 
 struct MeasureFlags {
     std::vector<std::string> overrides, sensors;
-    std::optional<std::string> target;
+    std::optional<std::string> target, grid;
     bool checks = false;
     RunFlags run;
 
     void add_to(Command& command);
+    /// The sensors that are measured: those of the file, and working planes of --grid. `path`: of the file.
+    std::vector<Sensor> all_sensors(const io::SceneFile& file, const std::string& path) const;
     /// The options with the typed flags applied, for these sensors. `scene`: the name of its file. Throws
     /// InputError where --check has nothing to act on.
     RunOptions options_for(std::span<const Sensor> measured, const RunOptions& of_file,

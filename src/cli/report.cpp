@@ -40,21 +40,21 @@ struct ChosenSensors {
 };
 
 /// The sensors of these names, or all.
-ChosenSensors choose_sensors(const io::SceneFile& file, const std::vector<std::string>& names,
+ChosenSensors choose_sensors(const std::vector<Sensor>& all, const std::vector<std::string>& names,
                              const std::string& scene) {
     ChosenSensors chosen;
     const auto is_named = [&](const Sensor& sensor) {
         return names.empty() || std::ranges::find(names, sensor.name) != names.end();
     };
     std::vector<std::string> meters = names;
-    for (const Sensor& sensor : file.sensors) {
+    for (const Sensor& sensor : all) {
         if (!sensor.camera() || !is_named(sensor)) continue;
         chosen.cameras.push_back(sensor);
         std::erase(meters, sensor.name);
     }
-    const bool has_meters = std::ranges::any_of(file.sensors, [](const Sensor& s) { return !s.camera(); });
+    const bool has_meters = std::ranges::any_of(all, [](const Sensor& s) { return !s.camera(); });
     if (names.empty() ? has_meters : !meters.empty())
-        chosen.meters = sensors::choose_meters(file.sensors, meters, scene);
+        chosen.meters = sensors::choose_meters(all, meters, scene);
     if (chosen.meters.empty() && chosen.cameras.empty())
         throw InputError("there is nothing to report: the scene needs a sensor under [sensors].", {scene});
     return chosen;
@@ -142,7 +142,8 @@ void print_summary(const report::Report& report, const std::string& output, std:
 
 int run_report(const ReportRequest& request) {
     const io::SceneFile file = read_scene(request.scene, request.flags.overrides);
-    const auto [meters, cameras] = choose_sensors(file, request.flags.sensors, request.scene);
+    const auto [meters, cameras] =
+        choose_sensors(request.flags.all_sensors(file, request.scene), request.flags.sensors, request.scene);
     const RunOptions options = request.flags.options_for(meters, file.run, request.scene);
     require_page(request.output, file.sources);
     Reporting reporting(request, file, options);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <set>
 
+#include "geometry/horizontal_section.h"
 #include "geometry/mesh_topology.h"
 
 namespace stilb::report {
@@ -19,54 +19,6 @@ constexpr double kCreaseCosine = 0.87;
 constexpr double kPiece_m = 0.05, kBeside_m = 1e-3;
 /// The size of things that are left out, as a share of the plan's.
 constexpr double kTooSmall = 0.01;
-
-/// A surface in directions from its middle, as triangles.
-Mesh mesh_around(const std::function<Vec3(const Vec3&)>& surface) {
-    constexpr std::uint32_t kAcross = 48, kDown = 24;
-    Mesh mesh;
-    for (std::uint32_t row = 0; row <= kDown; ++row) {
-        for (std::uint32_t column = 0; column < kAcross; ++column) {
-            const double theta = row * kPi / kDown, phi = column * 2 * kPi / kAcross;
-            const double sine = row == 0 || row == kDown ? 0 : std::sin(theta);
-            mesh.vertices.push_back(surface({sine * std::cos(phi), sine * std::sin(phi), std::cos(theta)}));
-        }
-    }
-    for (std::uint32_t row = 0; row < kDown; ++row) {
-        for (std::uint32_t column = 0; column < kAcross; ++column) {
-            const std::uint32_t next = (column + 1) % kAcross;
-            const std::uint32_t a = row * kAcross + column, b = row * kAcross + next;
-            if (row > 0) mesh.triangles.push_back({a, a + kAcross, b});
-            if (row + 1 < kDown) mesh.triangles.push_back({b, a + kAcross, b + kAcross});
-        }
-    }
-    return mesh;
-}
-
-struct Triangulation {
-    Mesh operator()(const Mesh& mesh) const { return mesh; }
-    Mesh operator()(const Rectangle& rectangle) const { return triangulated(rectangle); }
-    Mesh operator()(const Box& box) const { return triangulated(box); }
-    Mesh operator()(const Sphere& sphere) const {
-        return mesh_around([&](const Vec3& d) { return sphere.center + sphere.radius * d; });
-    }
-    Mesh operator()(const Harmonics& body) const {
-        return mesh_around([&](const Vec3& d) { return body.point_towards(d); });
-    }
-    Mesh operator()(const Disk& disk) const {
-        constexpr std::uint32_t kCorners = 48;
-        const Frame frame = Frame::around(disk.normal);
-        Mesh mesh{{disk.center}, {}};
-        for (std::uint32_t i = 0; i < kCorners; ++i) {
-            const double angle = i * 2 * kPi / kCorners;
-            mesh.vertices.push_back(disk.center +
-                                    disk.radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v));
-            mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % kCorners});
-        }
-        return mesh;
-    }
-};
-
-Mesh triangles_of(const Shape& shape) { return std::visit(Triangulation{}, shape); }
 
 double horizontal_length(const Vec3& v) { return std::hypot(v.x, v.y); }
 PlanPoint from_above(const Vec3& p) { return {p.x, p.y}; }
@@ -108,13 +60,8 @@ class Section {
 
   private:
     void add_cut(const Mesh& mesh, const Triangle& triangle) {
-        std::vector<PlanPoint> ends;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3 &a = mesh.vertices[triangle[i]], &b = mesh.vertices[triangle[(i + 1) % 3]];
-            if ((a.z < lines_.height_m) == (b.z < lines_.height_m)) continue;
-            ends.push_back(from_above(a + (lines_.height_m - a.z) / (b.z - a.z) * (b - a)));
-        }
-        if (ends.size() == 2) lines_.cut.push_back({ends[0], ends[1]});
+        if (const auto cut = geometry::cut_at(mesh, triangle, lines_.height_m))
+            lines_.cut.push_back({from_above((*cut)[0]), from_above((*cut)[1])});
     }
 
     /// Whether an edge bounds a top, or lies between two that are tilted against each other.
@@ -186,14 +133,14 @@ PlanLines plan_lines(const Scene& scene, const rays::RayCaster& caster, double h
     Section section(caster, height_m,
                     kTooSmall * std::max(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y));
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
-        if (!lamps.contains(ObjectId{i})) section.add(triangles_of(scene.objects[i].shape));
+        if (!lamps.contains(ObjectId{i})) section.add(geometry::drawn_as_mesh(scene.objects[i].shape));
     }
     return std::move(section).finish();
 }
 
 std::vector<PlanPoint> outline_from_above(const Shape& shape) {
     std::vector<PlanPoint> points;
-    for (const Vec3& vertex : triangles_of(shape).vertices) points.push_back(from_above(vertex));
+    for (const Vec3& vertex : geometry::drawn_as_mesh(shape).vertices) points.push_back(from_above(vertex));
     std::ranges::sort(points, [](const PlanPoint& a, const PlanPoint& b) {
         return std::pair(a.x, a.y) < std::pair(b.x, b.y);
     });

@@ -87,7 +87,8 @@ TEST(SceneAreas, RefuseWrongKeys) {
     EXPECT_REFUSAL(
         "[sensors.\"task.surround\"]\ntype = \"spherical\"\nposition = [0, 0, 0]\n" +
             area(kCorners + "surround = 0.5"),
-        "s.toml:1: sensors.\"task.surround\": has the name of a band around an area, which is a sensor, "
+        "s.toml:1: sensors.\"task.surround\": has the name of a band around an area, or of one of several "
+        "planes, which are sensors, "
         "too. Allowed: another name.");
 }
 
@@ -172,6 +173,66 @@ TEST(SceneAreas, RefuseObjectsWithoutSuchFaces) {
     EXPECT_EQ(refusal_of("object = []"),
               "s.toml:22: sensors.task.object: found no object. Allowed: the name of an object, or a list of "
               "names.");
+}
+
+std::string plane(const std::string& keys) {
+    return R"([materials.wall]
+type = "diffuse"
+reflectance = 0.5
+[objects.room]
+shape = "box"
+min = [0, 0, 0]
+max = [4, 3, 2.5]
+material = "wall"
+[sensors.plane]
+type = "plane"
+)" + keys;
+}
+/// A second room.
+const std::string kHall = R"(
+[objects.hall]
+shape = "box"
+min = [10, 0, 1]
+max = [18, 6, 5]
+material = "wall"
+)";
+
+TEST(ScenePlanes, FindTheirRooms) {
+    const SceneFile both =
+        read_text(plane("height = 0.8\nmargin = 1\nspacing = 1\nrequire = { mean = 300 }") + kHall);
+    ASSERT_EQ(both.sensors.size(), 2U);
+    EXPECT_EQ(both.sensors[0].name, "plane_1");
+    EXPECT_EQ(both.sensors[1].name, "plane_2");
+    EXPECT_EQ(both.sensors[0].size(), 2U);
+    EXPECT_EQ(both.sensors[1].size(), 24U);
+    EXPECT_NEAR(viewpoint_of(both.sensors[1].measurand(0)).position.z, 1.8, 1e-4);
+    EXPECT_EQ(both.sensors[1].requirements.size(), 1U);
+    const SceneFile one = read_text(plane("object = \"hall\"") + kHall);
+    ASSERT_EQ(one.sensors.size(), 1U);
+    EXPECT_EQ(one.sensors[0].name, "plane");
+    // Sensors that use several planes are resolved.
+    const SceneFile derived = read_text(
+        plane("") + kHall + "[sensors.ratio]\ntype = \"derived\"\nvalue = \"plane_1.mean / plane_2.mean\"\n");
+    EXPECT_EQ(derived.sensors.size(), 3U);
+}
+
+TEST(ScenePlanes, LieOverAPolygonOfAFloor) {
+    const SceneFile file = read_text(
+        plane("polygon = [[0, 0, 0], [4, 0, 0], [4, 3, 0], [0, 3, 0]]\nmargin = 0.5\nspacing = \"auto\""));
+    ASSERT_EQ(file.sensors.size(), 1U);
+    EXPECT_NEAR(viewpoint_of(file.sensors[0].measurand(0)).position.z, 0.75, 1e-4);
+}
+
+TEST(ScenePlanes, MessagesSayWhatIsNeeded) {
+    const auto expect = [](const std::string& keys, const std::string& part) {
+        EXPECT_NE(refusal(plane(keys)).find(part), std::string::npos) << refusal(plane(keys));
+    };
+    expect("margin = 2", "found no floor of a room with a place 2 m away from its walls");
+    expect("object = \"room\"\npolygon = [[0, 0, 0], [1, 0, 0], [1, 1, 0]]", "polygon");
+    expect("polygon = [[0, 0, 0], [1, 0, 0], [1, 1, 0.1]]", "another height");
+    expect("polygon = [[0, 0, 0], [1, 0, 0]]", "too few corners");
+    expect("object = \"rom\"", "room");
+    expect("heigth = 1", "height");
 }
 
 }  // namespace

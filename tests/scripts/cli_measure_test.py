@@ -63,6 +63,17 @@ class MeasureTest(CommandLineTest):
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertRegex(result.stdout, r"\nThe requested error of 0.0001 % is not reached: the error is [0-9.]+ %\.\n$")
 
+    def test_a_working_plane_without_coordinates(self):
+        document = self.measure("--grid", "z=0.8,margin=0.6", "--sensor", "plane", "--error", "5%")
+        (plane,) = document["sensors"]
+        self.assertEqual(plane["type"], "area")
+        self.assertEqual({round(v["position"][2], 4) for v in plane["values"]}, {0.8})
+        for wrong, part in (("z", "no length"), ("z=low", "z=low is no length"), ("margin=9", "away from its walls"),
+                            ("hight=2", "there is no \"hight=2\"")):
+            result = run("measure", self.scene, "--grid", wrong)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn(part, result.stderr)
+
     def test_interrupted(self):
         for name in (signal.SIGINT, signal.SIGTERM):
             process = subprocess.Popen([PROGRAM, "measure", self.scene, "--json", "--error", "0.00001%", "--time", "50"],

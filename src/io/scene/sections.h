@@ -39,6 +39,9 @@ struct LightContext {
 void read_lights(const TomlTable& section, LightContext context, SceneFile& file);
 
 void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile& file);
+/// The areas that a sensor of type "plane" stands for, and its keys.
+std::vector<std::string_view> plane_keys();
+std::vector<Sensor> read_planes(const std::string& name, TomlTable& table, const Scene& scene);
 RunOptions read_run(TomlTable section);
 /// The key maintenance of [run] or of a light; `otherwise` where it is missing.
 double read_maintenance(const TomlTable& table, double otherwise);

@@ -45,8 +45,13 @@ std::vector<TypeKeys> keys_of_types(std::type_identity<std::variant<Kinds...>>) 
     return {{Kinds::kType, sensor_keys<Kinds>()}...};
 }
 
+/// The type of sensors that stand for areas, not one of SensorKind.
+constexpr std::string_view kPlane = "plane";
+
 sensors::SensorKind read_sensor(TomlTable& table, Warnings& warnings) {
-    const std::string_view type = table.choose("type", sensors::kSensorTypeNames);
+    std::vector<std::string_view> types(sensors::kSensorTypeNames.begin(), sensors::kSensorTypeNames.end());
+    types.push_back(kPlane);  // for messages
+    const std::string_view type = table.choose("type", types);
     const auto found = std::ranges::find(sensors::kSensorTypeNames, type);
     return read_nth(static_cast<std::size_t>(found - sensors::kSensorTypeNames.begin()), table, warnings,
                     std::type_identity<sensors::SensorKind>{});
@@ -83,20 +88,22 @@ void add_bands(const TomlTable& table, const Sensor& sensor, std::vector<Sensor>
     add("background", area->background);
 }
 
-/// Two sensors of one name: a band and another sensor.
+/// Two sensors of one name: a band or a part of a plane, and another sensor.
 void require_different_names(const TomlTable& section, const std::vector<Sensor>& all) {
     for (const Sensor& sensor : all) {
         if (std::ranges::count(all, sensor.name, &Sensor::name) < 2) continue;
         section.at(sensor.name)
-            .fail("has the name of a band around an area, which is a sensor, too. Allowed: another name.");
+            .fail(
+                "has the name of a band around an area, or of one of several planes, which are sensors, too. "
+                "Allowed: another name.");
     }
 }
 
 /// Checks a derived value against all sensors, and gives it its unit.
 void resolve(const TomlTable& table, const std::string& name, std::vector<Sensor>& all) {
-    auto& sensor = *std::ranges::find(all, name, &Sensor::name);
-    auto* const derived = std::get_if<Derived>(&sensor.kind);
-    if (!derived) return;
+    const auto sensor = std::ranges::find(all, name, &Sensor::name);
+    auto* const derived = sensor != all.end() ? std::get_if<Derived>(&sensor->kind) : nullptr;
+    if (!derived) return;  // planes have other names where they are several
     try {
         *derived = sensors::resolved(*derived, all);
     } catch (const InputError& error) {
@@ -199,7 +206,11 @@ std::vector<Requirement> read_requirements(const TomlTable& owner, const Sensor&
     return requirements;
 }
 
-std::vector<TypeKeys> sensor_types() { return keys_of_types(std::type_identity<sensors::SensorKind>{}); }
+std::vector<TypeKeys> sensor_types() {
+    std::vector<TypeKeys> types = keys_of_types(std::type_identity<sensors::SensorKind>{});
+    types.push_back({kPlane, plane_keys()});
+    return types;
+}
 
 void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile& file) {
     // Grids are copied, as each is an area of its own. Other sensors have all positions together.
@@ -210,12 +221,16 @@ void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile&
     const auto tables = repeated_tables(named_tables(section, defaults), place);
     for (auto [name, table, copy_of] : tables) {
         Warnings warnings;
-        Sensor& sensor = file.sensors.emplace_back(Sensor{name, read_sensor(table, warnings)});
-        if (auto* area = std::get_if<Area>(&sensor.kind); area && !area->surfaces.objects.empty())
-            place_on_objects(table, file.scene, *area);
-        sensor.requirements = read_requirements(table, sensor);
-        const std::size_t own = file.sensors.size() - 1;
-        add_bands(table, Sensor(sensor), file.sensors);
+        const std::size_t own = file.sensors.size();
+        if (table.text_of("type") == kPlane) {
+            std::ranges::move(read_planes(name, table, file.scene), std::back_inserter(file.sensors));
+        } else {
+            Sensor& sensor = file.sensors.emplace_back(Sensor{name, read_sensor(table, warnings)});
+            if (auto* area = std::get_if<Area>(&sensor.kind); area && !area->surfaces.objects.empty())
+                place_on_objects(table, file.scene, *area);
+            sensor.requirements = read_requirements(table, sensor);
+            add_bands(table, Sensor(sensor), file.sensors);
+        }
         for (std::string& warning : warnings) {
             const bool is_new = std::ranges::find(file.warnings, warning) == file.warnings.end();
             if (is_new) file.warnings.push_back(std::move(warning));  // several positions have the same

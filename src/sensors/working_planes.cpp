@@ -1,0 +1,311 @@
+#include "sensors/working_planes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <polyclipping/clipper.hpp>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "geometry/horizontal_section.h"
+
+namespace stilb::sensors {
+namespace {
+
+using ClipperLib::Paths, ClipperLib::Path;
+
+/// Clipper computes with whole numbers: of 10 micrometres.
+constexpr double kUnits_per_m = 1e5;
+/// Horizontal surfaces that lie so close are one level.
+constexpr double kSameLevel_m = 5e-3;
+constexpr double kLevelCosine = 0.999;
+constexpr double kLeastFloor_m2 = 1, kLeastPlane_m2 = 0.1;
+constexpr double kLeastClear_m = 1.8, kSection_m = 1.9, kSectionShare = 0.9;
+/// The edges of floors are looked at in steps, a little beside and above them.
+constexpr double kEdgeStep_m = 0.1, kBeside_m = 0.02, kAbove_m = 0.01;
+constexpr double kMostSteps = 1. / 3;
+/// Walls are at least so thick: they part rooms without a margin, too.
+constexpr double kLeastMargin_m = 1e-3;
+
+ClipperLib::IntPoint to_units(const Vec3& p) {
+    return {std::llround(p.x * kUnits_per_m), std::llround(p.y * kUnits_per_m)};
+}
+Vec3 to_metres(const ClipperLib::IntPoint& p, double z) {
+    return {static_cast<double>(p.X) / kUnits_per_m, static_cast<double>(p.Y) / kUnits_per_m, z};
+}
+double area_m2(const Path& path) { return std::abs(ClipperLib::Area(path)) / (kUnits_per_m * kUnits_per_m); }
+
+/// Paths that bound a region: its outlines and holes, by their orientation.
+Paths combined(const Paths& subject, ClipperLib::ClipType type, const Paths& clip) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(subject, ClipperLib::ptSubject, true);
+    clipper.AddPaths(clip, ClipperLib::ptClip, true);
+    Paths result;
+    clipper.Execute(type, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    return result;
+}
+
+/// The region around lines, or beyond the outlines of a region, up to a distance; below 0: within them.
+Paths widened(const Paths& paths, ClipperLib::EndType ends, double distance_m) {
+    ClipperLib::ClipperOffset offset;
+    offset.AddPaths(paths, ends == ClipperLib::etClosedPolygon ? ClipperLib::jtMiter : ClipperLib::jtSquare,
+                    ends);
+    Paths result;
+    offset.Execute(result, distance_m * kUnits_per_m);
+    return result;
+}
+
+/// An outline with its holes.
+struct Piece {
+    Path outline;
+    Paths holes;
+};
+std::vector<Piece> pieces_of(const Paths& region) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(region, ClipperLib::ptSubject, true);
+    ClipperLib::PolyTree tree;
+    clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    std::vector<Piece> pieces;
+    for (const ClipperLib::PolyNode* node = tree.GetFirst(); node != nullptr; node = node->GetNext()) {
+        if (node->IsHole()) continue;
+        Piece& piece = pieces.emplace_back(Piece{node->Contour, {}});
+        for (const ClipperLib::PolyNode* hole : node->Childs) piece.holes.push_back(hole->Contour);
+    }
+    return pieces;
+}
+
+double area_m2(const Piece& piece) {
+    double sum = area_m2(piece.outline);
+    for (const Path& hole : piece.holes) sum -= area_m2(hole);
+    return sum;
+}
+
+bool contains(const Piece& piece, const ClipperLib::IntPoint& point) {
+    return ClipperLib::PointInPolygon(point, piece.outline) == 1 &&
+           std::ranges::none_of(
+               piece.holes, [&](const Path& hole) { return ClipperLib::PointInPolygon(point, hole) != 0; });
+}
+
+/// All objects but lamps, as triangles.
+struct Surface {
+    ObjectId object;
+    Mesh mesh;
+};
+std::vector<Surface> surfaces_of(const Scene& scene) {
+    std::set<ObjectId> lamps;
+    for (const Light& light : scene.lights) {
+        if (const auto object = emitting_object(light)) lamps.insert(*object);
+    }
+    std::vector<Surface> surfaces;
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        if (!lamps.contains(ObjectId{i}))
+            surfaces.push_back({ObjectId{i}, geometry::drawn_as_mesh(scene.objects[i].shape)});
+    }
+    return surfaces;
+}
+
+/// Horizontal triangles at one height.
+struct Level {
+    double z = 0;
+    Paths triangles;
+};
+std::vector<Level> levels_of(std::span<const Surface> surfaces, std::span<const ObjectId> floors_of) {
+    std::vector<std::pair<double, Path>> triangles;
+    for (const Surface& surface : surfaces) {
+        const bool is_wanted =
+            floors_of.empty() || std::ranges::find(floors_of, surface.object) != floors_of.end();
+        if (!is_wanted) continue;
+        for (const Triangle& corners : surface.mesh.triangles) {
+            const Vec3 &a = surface.mesh.vertices[corners[0]], &b = surface.mesh.vertices[corners[1]],
+                       &c = surface.mesh.vertices[corners[2]];
+            const Vec3 across = cross(b - a, c - a);
+            if (!(std::abs(across.z) > kLevelCosine * length(across))) continue;
+            Path path{to_units(a), to_units(b), to_units(c)};
+            if (!ClipperLib::Orientation(path)) ClipperLib::ReversePath(path);
+            triangles.emplace_back(std::max({a.z, b.z, c.z}), std::move(path));
+        }
+    }
+    std::ranges::sort(triangles, {}, &std::pair<double, Path>::first);
+    std::vector<Level> levels;
+    for (auto& [z, path] : triangles) {
+        if (levels.empty() || z > levels.back().z + kSameLevel_m) levels.push_back({z, {}});
+        levels.back().z = z;
+        levels.back().triangles.push_back(std::move(path));
+    }
+    return levels;
+}
+
+/// The heights of free space above points that are spread over a piece; infinite where nothing is above.
+std::vector<double> clear_heights(const Piece& piece, double z, const rays::RayCaster& caster) {
+    constexpr double kPoints = 100;
+    const double step = std::sqrt(area_m2(piece) / kPoints) * kUnits_per_m;
+    const ClipperLib::IntRect bounds = [&] {
+        ClipperLib::IntRect of{piece.outline[0].X, piece.outline[0].Y, piece.outline[0].X,
+                               piece.outline[0].Y};
+        for (const auto& p : piece.outline) {
+            of.left = std::min(of.left, p.X), of.right = std::max(of.right, p.X);
+            of.top = std::min(of.top, p.Y), of.bottom = std::max(of.bottom, p.Y);
+        }
+        return of;
+    }();
+    std::vector<double> heights;
+    for (double y = static_cast<double>(bounds.top) + 0.47 * step; y < static_cast<double>(bounds.bottom);
+         y += step) {
+        for (double x = static_cast<double>(bounds.left) + 0.53 * step; x < static_cast<double>(bounds.right);
+             x += step) {
+            const ClipperLib::IntPoint point(std::llround(x), std::llround(y));
+            if (!contains(piece, point)) continue;
+            const auto above = caster.closest(to_metres(point, z + kAbove_m), {0, 0, 1});
+            heights.push_back(above ? above->distance_m : std::numeric_limits<double>::infinity());
+        }
+    }
+    return heights;
+}
+
+/// The median height of what is above most of a piece; nothing where that is open, or too low for a room.
+std::optional<double> height_of_room(const Piece& piece, double z, const rays::RayCaster& caster) {
+    std::vector<double> heights = clear_heights(piece, z, caster);
+    if (heights.empty()) return std::nullopt;
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::ranges::nth_element(heights, middle);
+    if (!std::isfinite(*middle) || *middle < kLeastClear_m) return std::nullopt;
+    return *middle;
+}
+
+/// The share of a piece's edges over which one may step down.
+double share_of_steps(const Piece& piece, double z, const rays::RayCaster& caster) {
+    std::size_t steps = 0, all = 0;
+    const auto look = [&](const Path& path) {
+        for (std::size_t i = 0; i < path.size(); ++i) {
+            const Vec3 from = to_metres(path[i], z + kAbove_m),
+                       to = to_metres(path[(i + 1) % path.size()], z + kAbove_m);
+            const double length_m = length(to - from);
+            if (!(length_m > 0)) continue;
+            const Vec3 aside = kBeside_m / length_m * Vec3{-(to - from).y, (to - from).x, 0};
+            const auto count = static_cast<int>(std::ceil(length_m / kEdgeStep_m));
+            for (int k = 0; k < count; ++k) {
+                const Vec3 edge = from + (k + 0.5) / count * (to - from);
+                ++all;
+                if (caster.occluded(edge + aside, edge - aside)) continue;
+                for (const Vec3& side : {edge + aside, edge - aside}) {
+                    const auto below = caster.closest(side, {0, 0, -1});
+                    if (below && below->distance_m < kAbove_m + kBeside_m) continue;
+                    ++steps;
+                    break;
+                }
+            }
+        }
+    };
+    look(piece.outline);
+    for (const Path& hole : piece.holes) look(hole);
+    return static_cast<double>(steps) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+Paths section_at(std::span<const Surface> surfaces, double z) {
+    Paths lines;
+    for (const Surface& surface : surfaces) {
+        for (const Triangle& triangle : surface.mesh.triangles) {
+            if (const auto cut = geometry::cut_at(surface.mesh, triangle, z))
+                lines.push_back({to_units((*cut)[0]), to_units((*cut)[1])});
+        }
+    }
+    return lines;
+}
+
+std::vector<Vec3> corners_at(const Path& path, double z) {
+    std::vector<Vec3> corners;
+    for (const ClipperLib::IntPoint& point : path) corners.push_back(to_metres(point, z));
+    return corners;
+}
+
+/// From the corner that is nearest to lower left on the plan, so that rasters begin there.
+std::vector<Vec3> outline_at(Path path, double z) {
+    const auto lower_left =
+        std::ranges::min_element(path, {}, [](const ClipperLib::IntPoint& p) { return p.X + p.Y; });
+    std::ranges::rotate(path, lower_left);
+    return corners_at(path, z);
+}
+
+/// The parts of a floor that keep a margin from walls and edges, at a height above it.
+std::vector<WorkingPlane> planes_over(const Piece& floor, double floor_m, const Paths& walls,
+                                      const WorkingPlaneOptions& options) {
+    const double margin_m = std::max(options.margin_m, kLeastMargin_m);
+    Paths outlines = floor.holes;
+    outlines.push_back(floor.outline);
+    Paths region = combined(widened(outlines, ClipperLib::etClosedPolygon, -options.margin_m),
+                            ClipperLib::ctDifference, widened(walls, ClipperLib::etOpenSquare, margin_m));
+    ClipperLib::CleanPolygons(region, kLeastMargin_m * kUnits_per_m);
+    std::vector<WorkingPlane> planes;
+    const double z = floor_m + options.height_m;
+    for (const Piece& piece : pieces_of(region)) {
+        if (area_m2(piece) < kLeastPlane_m2) continue;
+        WorkingPlane& plane = planes.emplace_back(WorkingPlane{{outline_at(piece.outline, z), {}}, floor_m});
+        for (const Path& hole : piece.holes) plane.polygon.holes.push_back(corners_at(hole, z));
+    }
+    return planes;
+}
+
+}  // namespace
+
+std::vector<WorkingPlane> working_planes(const Scene& scene, const rays::RayCaster& caster,
+                                         const WorkingPlaneOptions& options,
+                                         std::span<const ObjectId> floors_of) {
+    const std::vector<Surface> surfaces = surfaces_of(scene);
+    std::vector<WorkingPlane> all;
+    for (const Level& level : levels_of(surfaces, floors_of)) {
+        for (const Piece& floor : pieces_of(level.triangles)) {
+            if (area_m2(floor) < kLeastFloor_m2) continue;
+            const auto room_height_m = height_of_room(floor, level.z, caster);
+            if (!room_height_m || share_of_steps(floor, level.z, caster) > kMostSteps) continue;
+            const double section_m = level.z + std::min(kSection_m, kSectionShare * *room_height_m);
+            for (WorkingPlane& plane : planes_over(floor, level.z, section_at(surfaces, section_m), options))
+                all.push_back(std::move(plane));
+        }
+    }
+    const auto place = [](const WorkingPlane& plane) {
+        const auto& outline = plane.polygon.outline;
+        const double least_x = std::ranges::min(outline, {}, &Vec3::x).x,
+                     least_y = std::ranges::min(outline, {}, &Vec3::y).y;
+        return std::tuple(plane.floor_m, least_y, least_x);
+    };
+    std::ranges::sort(all, {}, place);
+    return all;
+}
+
+std::vector<WorkingPlane> working_planes(const PolygonInSpace& floor, const WorkingPlaneOptions& options) {
+    const auto path_of = [](const std::vector<Vec3>& corners, bool is_outline) {
+        Path path;
+        for (const Vec3& corner : corners) path.push_back(to_units(corner));
+        if (ClipperLib::Orientation(path) != is_outline) ClipperLib::ReversePath(path);
+        return path;
+    };
+    Piece piece{path_of(floor.outline, true), {}};
+    for (const std::vector<Vec3>& hole : floor.holes) piece.holes.push_back(path_of(hole, false));
+    return planes_over(piece, floor.outline.front().z, {}, options);
+}
+
+std::string no_plane_message(const WorkingPlaneOptions& options) {
+    return fmt::format(
+        "found no floor of a room with a place {:g} m away from its walls. A floor is horizontal, has 1 m² "
+        "or "
+        "more, and something 1.8 m or more above it. Needed: a smaller margin, a ceiling, or a sensor with "
+        "coordinates (type \"area\").",
+        options.margin_m);
+}
+
+std::vector<Sensor> sensors_on(std::span<const WorkingPlane> planes, const std::string& name,
+                               const std::optional<double>& spacing_m) {
+    std::vector<Sensor> sensors;
+    for (const WorkingPlane& plane : planes) {
+        Area area{.polygon = plane.polygon, .normal = Vec3{0, 0, 1}, .spacing_m = spacing_m};
+        if (!area.settle(GivenKeys({}))) sensors.push_back({name, std::move(area)});
+    }
+    if (sensors.size() == 1) return sensors;
+    for (std::size_t i = 0; i < sensors.size(); ++i) sensors[i].name = fmt::format("{}_{}", name, i + 1);
+    return sensors;
+}
+
+}  // namespace stilb::sensors
