@@ -19,20 +19,28 @@
 #include "io/results/results_text.h"
 #include "io/results/solution_file.h"
 #include "io/scene/overrides.h"
+#include "io/text/file_kind.h"
 #include "io/text/text.h"
 #include "lights/colour_temperature.h"
+#include "rays/ray_caster.h"
 #include "run/run.h"
 #include "scene/light_groups.h"
 #include "scene/whites.h"
+#include "sensors/first_look.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
 namespace {
 
 constexpr double kPreviewEvery_s = 3;
+/// The value of --preview without a file: a first look by a lamp at the camera.
+constexpr std::string_view kHeadlight = "headlight";
+constexpr std::uint64_t kFirstLookPasses = 16;
+constexpr int kFirstLookWidth = 720;
 
 struct RenderRequest {
     std::string scene, solution, sensor, output, preview, command;
+    bool is_first_look = false;
     std::vector<std::string> overrides;
     std::vector<LightFactor> factors;  ///< of lights, with a solution
     io::ToneOptions tone;
@@ -177,7 +185,44 @@ void require_pictures(const RenderRequest& request, const io::SceneFile& file) {
     if (!request.preview.empty()) io::require_luminance_picture_path(request.preview, inputs);
 }
 
+/// Recognises `--preview` without a file, which may have taken the scene for its value.
+void settle_preview(RenderRequest& request) {
+    if (request.scene.empty() && request.solution.empty() && request.preview != kHeadlight &&
+        !request.preview.empty() && !io::is_luminance_picture(io::kind_of_name(request.preview)))
+        request.scene = std::exchange(request.preview, kHeadlight);
+    request.is_first_look = request.preview == kHeadlight;
+    if (!request.is_first_look) return;
+    request.preview.clear();
+    if (!request.solution.empty())
+        throw InputError(
+            "--preview without a file lights the scene by a lamp at the camera; --from has light of "
+            "its own. Leave one of them out.");
+    if (request.output.empty())
+        request.output = std::filesystem::path(request.scene).stem().string() + "-preview.png";
+}
+
+/// Replaces the lamps by one at the camera, and adds a camera where there is none.
+void take_first_look(RenderRequest& request, io::SceneFile& file) {
+    if (std::ranges::none_of(file.sensors, [](const Sensor& sensor) { return sensor.camera() != nullptr; }))
+        file.sensors.push_back(sensors::camera_for_first_look(file.scene, rays::RayCaster(file.scene)));
+    Sensor sensor = sensors::choose_camera(file.sensors, request.sensor, request.scene);
+    auto& camera = std::get<Camera>(sensor.kind);
+    const double scale = std::min(1.0, double{kFirstLookWidth} / camera.resolution[0]);
+    for (int& size : camera.resolution) size = std::max(1, static_cast<int>(std::lround(scale * size)));
+    file.scene = with_headlight(std::move(file.scene), camera);
+    file.sensors = {sensor};
+    std::erase_if(file.warnings, [](const std::string& warning) { return warning.ends_with(io::kNoLight); });
+    file.run.method = "path";
+    file.run.error.reset();
+    file.run.time_s.reset();
+    file.run.paths = kFirstLookPasses;
+    file.run.bounces = 1;  // no noise
+}
+
 int run_render(RenderRequest request) {
+    settle_preview(request);
+    if (request.output.empty())
+        throw InputError("-o is missing. It gives the picture to write: -o FILE.exr, .hdr or .png.");
     std::optional<io::StoredSolution> stored;
     if (!request.solution.empty()) {
         request.factors = io::take_light_factors(request.overrides);
@@ -188,7 +233,8 @@ int run_render(RenderRequest request) {
             "the scene is missing. Give a scene (stilb render SCENE -o FILE) or a solution (stilb render "
             "--from FILE -o FILE).");
     }
-    const io::SceneFile file = read_scene(request.scene, request.overrides);
+    io::SceneFile file = read_scene(request.scene, request.overrides);
+    if (request.is_first_look) take_first_look(request, file);
     if (stored) require_same_light(*stored, file, request.solution);
     const Sensor& sensor = sensors::choose_camera(file.sensors, request.sensor, request.scene);
     require_pictures(request, file);
@@ -201,6 +247,7 @@ int run_render(RenderRequest request) {
     origin.command = request.command;
     origin.version = STILB_VERSION;
     RenderResult result = rendered(request, file, sensor, std::move(stored), origin);
+    if (request.is_first_look) result.warnings.clear();  // of a scene without its lamps
     add_warnings(result, file.warnings);
     const io::Picture picture = picture_of(result, *sensor.camera(), origin);
     // The files come before all messages: the terminal may be closed by now.
@@ -208,6 +255,9 @@ int run_render(RenderRequest request) {
     if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
     if (!request.flags.quiet) print_warnings(result.warnings);
     print_summary(result, sensor, request.output);
+    if (request.is_first_look)
+        fmt::print(messages_beside(request.output),
+                   "A first look: one lamp at the camera lights the scene, its own lamps are off.\n");
     if (curve)
         fmt::print(messages_beside(request.output), "{}: exposure {:.3g} per cd/m², white {:.0f} K\n",
                    request.output, curve->exposure(), curve->white_k());
@@ -223,6 +273,7 @@ void add_render(CommandLine& line) {
         "  stilb render office.toml -o office.exr\n"
         "  stilb render office.toml -o office.png --time 20 --sensor desk\n"
         "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n"
+        "  stilb render office.toml --preview\n"
         "  stilb render --from office.solution --sensor door -o door.png\n"
         "  stilb render --from office.solution --set desk_lamp=0.4 --set ceiling=0 -o evening.png\n");
     auto request = std::make_shared<RenderRequest>();
@@ -234,14 +285,18 @@ void add_render(CommandLine& line) {
         .value_name("FILE");
     command
         .add("-o,--output", request->output,
-             "Picture to write: .exr, .hdr or .png; - writes OpenEXR to stdout")
-        .required()
+             "Picture to write: .exr, .hdr or .png; - writes OpenEXR to stdout (required but for a first "
+             "look)")
         .value_name("FILE");
     command.add("--sensor", request->sensor, "The camera, if the scene has several").value_name("NAME");
     command
-        .add("--preview", request->preview,
-             "Write also the unfinished picture every few seconds (.exr, .hdr or .png)")
-        .value_name("FILE");
+        .add(
+            "--preview", request->preview,
+            "Write also the unfinished picture every few seconds (.exr, .hdr or .png). Without FILE: a first "
+            "look, small and quick, by a lamp at the camera instead of the scene's, also where it has no "
+            "camera")
+        .optional_value(std::string(kHeadlight))
+        .value_name("[FILE]");
     command
         .add("--exposure", request->tone.exposure,
              "Exposure of a .png per cd/m2: a luminance of 0.18 / exposure becomes middle grey (default: by "

@@ -136,6 +136,18 @@ class FullDiskTest(CommandLineTest):
 
 
 class RenderTest(CommandLineTest):
+    def test_a_first_look_needs_no_lamp_and_no_camera(self):
+        dark = ROOM[: ROOM.index("[lights.")]
+        scene = self.write("dark.toml", dark)
+        picture = self.folder / "dark.png"
+        for arguments in ((scene, "--preview"), ("--preview", scene)):
+            result = run("render", *arguments, "-o", picture)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertIn("A first look: one lamp at the camera", result.stdout)
+            self.assertGreater(picture.stat().st_size, 1000)
+            picture.unlink()
+        self.expect_wrong_input(["render", scene], "-o is missing")
+
     def render(self, scene, picture, *flags):
         file = self.write("view.toml", scene + CAMERA.replace("[640, 480]", "[64, 48]").replace("fisheye", "perspective"))
         result = run("render", file, "-o", self.folder / picture, "--paths", "4", *flags)

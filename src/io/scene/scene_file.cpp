@@ -183,7 +183,7 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     warn_of_unused_materials(materials, file);
     scene::put_lamps_in_front(file.scene);
     if (file.scene.lights.empty())
-        file.warnings.emplace_back(InputError("no light: the scene is dark.", {name}).what());
+        file.warnings.emplace_back(InputError(std::string(kNoLight), {name}).what());
     read_sensors(section_of(root, "sensors", none), defaults("sensors", sensor_types()), file);
     return file;
 }

@@ -27,6 +27,9 @@ struct SceneFile {
     std::vector<std::string> warnings;
 };
 
+/// The warning of a scene without lamps.
+inline constexpr std::string_view kNoLight = "no light: the scene is dark.";
+
 /// Throws InputError with file, line, key, the value found and the allowed values.
 SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 

@@ -1,0 +1,51 @@
+#include "sensors/first_look.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scene_builder.h"
+
+namespace stilb::sensors {
+namespace {
+
+Camera camera_of(const Scene& scene) {
+    return std::get<Camera>(camera_for_first_look(scene, rays::RayCaster(scene)).kind);
+}
+
+TEST(FirstLook, StandsInTheLargestRoom) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {3, 3, 2.5}}, diffuse(0.5));
+    add_object(scene, Box{{5, 0, 3}, {15, 8, 6}}, diffuse(0.5));
+    const Camera camera = camera_of(scene);
+    EXPECT_GT(camera.position.x, 5);
+    EXPECT_LT(camera.position.x, 15);
+    EXPECT_NEAR(camera.position.z, 4.6, 1e-4);
+    EXPECT_LT(squared_length(camera.target - Vec3{10, 4, 4}), 1e-6);
+    // In a corner.
+    EXPECT_NEAR(std::abs(camera.position.x - 10), 4.6, 1e-3);
+    EXPECT_NEAR(std::abs(camera.position.y - 4), 3.6, 1e-3);
+}
+
+TEST(FirstLook, LooksAtBodiesFromOutside) {
+    Scene scene;
+    add_object(scene, Sphere{{1, 2, 3}, 0.5}, diffuse(0.5));
+    const Camera camera = camera_of(scene);
+    EXPECT_EQ(camera.target, (Vec3{1, 2, 3}));
+    // All of the sphere is in the picture, which is less high than wide.
+    const double angle = std::asin(0.5 / length(camera.position - camera.target));
+    EXPECT_LT(std::tan(angle), std::tan(camera.fov_deg / 2 * kPi / 180) * 480 / 720);
+}
+
+TEST(FirstLook, TheHeadlightIsTheOnlyLamp) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {3, 3, 2.5}}, diffuse(0.5));
+    add_point_light(scene, {1, 1, 2}, Rgb::grey(100));
+    const Camera camera = camera_of(scene);
+    const Scene lit = with_headlight(scene, camera);
+    ASSERT_EQ(lit.lights.size(), 1u);
+    const auto& bulb = std::get<PointLight>(lit.lights[0].source);
+    EXPECT_EQ(bulb.position, camera.position);
+    EXPECT_NEAR(bulb.intensity_cd.luminance() / squared_length(camera.target - camera.position), 500, 1e-9);
+}
+
+}  // namespace
+}  // namespace stilb::sensors
