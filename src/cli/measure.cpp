@@ -119,7 +119,7 @@ void add_measure(CommandLine& line) {
     command.add("--csv", request->csv_directory, "Write also a CSV file per sensor into this folder")
         .value_name("DIR");
     command
-        .add("--falsecolor", request->picture, "Write also a false-colour picture of the grids (.png, .svg)")
+        .add("--falsecolor", request->picture, "Write also a false-colour picture of grids and areas (.png, .svg)")
         .value_name("FILE");
     command.add("--replicates", request->has_replicates,
                 "Write also the values of all replicates into the JSON document");

@@ -10,6 +10,7 @@
 #include "plot/axis.h"
 #include "plot/canvas.h"
 #include "plot/false_colour_painter.h"
+#include "sensors/measured_raster.h"
 #include "stilb/error.h"
 
 namespace stilb::plot {
@@ -242,7 +243,11 @@ io::MeasuredGrid measured_grid(const SensorResult& result, const Grid& of) {
     const double cell_v_m = nv > 1 ? length(of.edge_v) / nv : 0;
     grid.width_m = nu * (nu > 1 ? cell_u_m : cell_v_m);
     grid.height_m = nv * (nv > 1 ? cell_v_m : cell_u_m);
-    for (const Reading& reading : result.readings) grid.values.push_back(measured_value(reading.estimate));
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    grid.values.assign(of.size(), {none, none});
+    const std::vector<std::size_t> cells = sensors::cells_of_readings(sensor);
+    for (std::size_t j = 0; j < cells.size(); ++j)
+        grid.values[cells[j]] = measured_value(result.readings[j].estimate);
     const statistics::GridSummary& summary = result.summary;
     grid.summary = {measured_value(summary.mean), measured_value(summary.minimum),
                     measured_value(summary.maximum), measured_value(summary.uniformity)};
@@ -269,21 +274,23 @@ void require_errors(const io::MeasuredGrid& grid) {
 void require_some(bool has_grids) {
     if (has_grids) return;
     throw InputError(
-        "the results contain no grid, and only grids can be drawn. Measure a sensor of type \"grid\".");
+        "the results contain no grid and no area, and only these can be drawn. Measure a sensor of type "
+        "\"grid\", "
+        "\"area\" or \"plane\".");
 }
 
 }  // namespace
 
 void require_grids(std::span<const Sensor> sensors) {
-    require_some(std::ranges::any_of(
-        sensors, [](const Sensor& sensor) { return std::holds_alternative<Grid>(sensor.kind); }));
+    require_some(
+        std::ranges::any_of(sensors, [](const Sensor& sensor) { return sensors::raster_of(sensor); }));
 }
 
 FalseColour picture_of(const RunResult& result, const std::string& scene, const FalseColourOptions& options) {
     io::ResultsFile results{scene, result.scene_name, {}};
     for (const SensorResult& sensor : result.sensors) {
-        if (const auto* grid = std::get_if<Grid>(&sensor.sensor.kind))
-            results.grids.push_back(measured_grid(sensor, *grid));
+        if (const Grid* raster = sensors::raster_of(sensor.sensor))
+            results.grids.push_back(measured_grid(sensor, *raster));
     }
     return picture_of(results, options);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "plot/false_colour_painter.h"
+#include "sensors/measured_raster.h"
 
 namespace stilb::report {
 namespace {
@@ -12,13 +13,6 @@ namespace {
 constexpr int kMostTicks = 9;
 /// The sine of the steepest slope that counts as horizontal.
 constexpr double kLevel = 1e-3;
-
-/// The raster; null for sensors without one, such as areas on objects.
-const Grid* raster_of(const Sensor& sensor) {
-    if (const auto* grid = std::get_if<Grid>(&sensor.kind)) return grid;
-    const auto* area = std::get_if<Area>(&sensor.kind);
-    return area && area->surfaces.objects.empty() ? &area->raster : nullptr;
-}
 
 /// An axis of a raster, perhaps against its direction.
 struct Axis {
@@ -41,24 +35,11 @@ double fit(const Axis& right, const Axis& up, const Frame& view) {
     return dot(normalized(right.along()), view.u) + dot(normalized(up.along()), view.v);
 }
 
-/// Places the readings of a raster, of which only some cells may have one.
+/// The readings in the cells of a raster, of which only some may have one.
 std::vector<double> values_by_cell(const SensorResult& result, const Grid& raster) {
     std::vector<double> values(raster.size(), std::numeric_limits<double>::quiet_NaN());
-    const auto cell_along = [&](const Vec3& position, const Vec3& edge, int count) {
-        const double share = dot(position - raster.corner, edge) / squared_length(edge);
-        return static_cast<std::size_t>(std::clamp(static_cast<int>(share * count), 0, count - 1));
-    };
-    const bool is_grid = std::holds_alternative<Grid>(result.sensor.kind);
-    for (std::size_t j = 0; j < result.readings.size(); ++j) {
-        std::size_t cell = j;
-        if (!is_grid) {
-            const Vec3 position = position_of(result.sensor.measurand(j));
-            cell = cell_along(position, raster.edge_v, raster.count[1]) *
-                       static_cast<std::size_t>(raster.count[0]) +
-                   cell_along(position, raster.edge_u, raster.count[0]);
-        }
-        values[cell] = result.readings[j].estimate.value;
-    }
+    const std::vector<std::size_t> cells = sensors::cells_of_readings(result.sensor);
+    for (std::size_t j = 0; j < cells.size(); ++j) values[cells[j]] = result.readings[j].estimate.value;
     return values;
 }
 
@@ -119,7 +100,8 @@ std::array<double, 2> MeasuredPlane::to_plane(const Vec3& position) const {
 std::vector<MeasuredPlane> measured_planes(std::span<const SensorResult> results) {
     std::vector<MeasuredPlane> planes;
     for (const SensorResult& result : results) {
-        if (const Grid* raster = raster_of(result.sensor)) planes.push_back(make_plane(result, *raster));
+        if (const Grid* raster = sensors::raster_of(result.sensor))
+            planes.push_back(make_plane(result, *raster));
     }
     return planes;
 }

@@ -96,7 +96,7 @@ TEST(SceneSensors, RefusesUnknownTypesAndKeys) {
     EXPECT_REFUSAL(sensor("type = \"gird\""),
                    "s.toml:2: sensors.s.type: unknown type \"gird\". Did you mean \"grid\"? Allowed: "
                    "illuminance, grid, area, cylindrical, semicylindrical, hemispherical, spherical, "
-                   "luminance, goniometer, ugr, dgp, derived, camera.");
+                   "luminance, goniometer, ugr, dgp, derived, camera, plane.");
     EXPECT_REFUSAL(
         grid("counts = [4, 2]"),
         "s.toml:6: sensors.s: unknown key \"counts\" for type \"grid\". Did you mean \"count\"? Allowed: "

@@ -68,6 +68,12 @@ class MeasureTest(CommandLineTest):
         (plane,) = document["sensors"]
         self.assertEqual(plane["type"], "area")
         self.assertEqual({round(v["position"][2], 4) for v in plane["values"]}, {0.8})
+        picture = self.folder / "plane.png"
+        results = self.folder / "plane.json"
+        run("measure", self.scene, "--grid", "z=0.8", "--sensor", "plane", "--error", "5%", "--falsecolor", picture, "-o", results)
+        again = self.folder / "again.png"
+        run("falsecolor", results, "-o", again, "--isolines")
+        self.assertEqual(picture.read_bytes(), again.read_bytes())
         for wrong, part in (("z", "no length"), ("z=low", "z=low is no length"), ("margin=9", "away from its walls"),
                             ("hight=2", "there is no \"hight=2\"")):
             result = run("measure", self.scene, "--grid", wrong)

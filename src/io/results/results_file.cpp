@@ -16,6 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// A raster of more cells is a mistake.
+constexpr std::int64_t kMostCells = 10'000'000;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A JSON value and its path ("sensors[2].count"), which every message states.
@@ -106,13 +108,13 @@ MeasuredValue read_value(const Node& object, const std::string& name, const std:
     return {value, (ends.element(1).number_or_none() - ends.element(0).number_or_none()) / 2};
 }
 
-MeasuredGrid read_grid(const Node& sensor) {
-    MeasuredGrid grid;
-    grid.name = sensor.member("name").text();
-    grid.quantity = sensor.member("quantity").text();
-    grid.unit = sensor.member("unit").text();
-    const Node count = sensor.member("count");
-    grid.count = {count.element(0).positive_count(), count.element(1).positive_count()};
+std::array<int, 2> read_count(const Node& owner) {
+    const Node count = owner.member("count");
+    return {count.element(0).positive_count(), count.element(1).positive_count()};
+}
+
+void read_values_of_grid(const Node& sensor, MeasuredGrid& grid) {
+    grid.count = read_count(sensor);
     const Node values = sensor.member("values");
     const auto [nu, nv] = grid.count;
     if (values.size() != static_cast<std::size_t>(nu) * static_cast<std::size_t>(nv)) {
@@ -122,6 +124,43 @@ MeasuredGrid read_grid(const Node& sensor) {
         grid.values.push_back(read_value(values.element(i), "value", "interval"));
     }
     read_size(values, grid);
+}
+
+/// Readings lie in some of the raster's cells.
+void read_values_of_area(const Node& sensor, MeasuredGrid& grid) {
+    const Node raster = sensor.member("raster"), values = sensor.member("values");
+    const Vec3 corner = raster.member("corner").point();
+    const std::array edges{raster.member("edge_u").point(), raster.member("edge_v").point()};
+    grid.count = read_count(raster);
+    grid.width_m = length(edges[0]);
+    grid.height_m = length(edges[1]);
+    const auto [nu, nv] = grid.count;
+    if (static_cast<std::int64_t>(nu) * nv > kMostCells) raster.fail("of fewer cells");
+    grid.values.assign(static_cast<std::size_t>(nu) * static_cast<std::size_t>(nv), {kNone, kNone});
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const Node value = values.element(i);
+        const Vec3 from_corner = value.member("position").point() - corner;
+        std::array<std::size_t, 2> cell{};
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const double place =
+                dot(from_corner, edges[axis]) / squared_length(edges[axis]) * grid.count[axis];
+            if (!(place >= 0 && place < grid.count[axis])) value.member("position").fail("in the raster");
+            cell[axis] = static_cast<std::size_t>(place);
+        }
+        grid.values[cell[1] * static_cast<std::size_t>(nu) + cell[0]] =
+            read_value(value, "value", "interval");
+    }
+}
+
+MeasuredGrid read_grid(const Node& sensor) {
+    MeasuredGrid grid;
+    grid.name = sensor.member("name").text();
+    grid.quantity = sensor.member("quantity").text();
+    grid.unit = sensor.member("unit").text();
+    if (sensor.has("raster"))
+        read_values_of_area(sensor, grid);
+    else
+        read_values_of_grid(sensor, grid);
     const Node summary = sensor.member("summary");
     const auto statistic = [&](const std::string& name) {
         return read_value(summary, name, name + "_interval");
@@ -159,8 +198,9 @@ ResultsFile read_results(std::string_view content, const std::string& name) {
     if (root.has("scene_name")) results.scene_name = root.member("scene_name").text();
     const Node sensors = root.member("sensors");
     for (std::size_t i = 0; i < sensors.size(); ++i) {
-        if (sensors.element(i).member("type").text() == "grid")
-            results.grids.push_back(read_grid(sensors.element(i)));
+        const Node sensor = sensors.element(i);
+        if (sensor.member("type").text() == "grid" || sensor.has("raster"))
+            results.grids.push_back(read_grid(sensor));
     }
     return results;
 }

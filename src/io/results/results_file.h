@@ -19,6 +19,7 @@ struct MeasuredSummary {
     MeasuredValue mean, minimum, maximum, uniformity;
 };
 
+/// A grid, or an area on its raster.
 struct MeasuredGrid {
     std::string name;
     std::string quantity;  ///< "illuminance"
@@ -26,11 +27,11 @@ struct MeasuredGrid {
     std::array<int, 2> count{1, 1};
     /// The size from edge to edge along u and v; both 0 for a single cell, whose size is unknown.
     double width_m = 0, height_m = 0;
-    std::vector<MeasuredValue> values;  ///< u fastest
+    std::vector<MeasuredValue> values;  ///< u fastest; NaN in cells without a reading
     MeasuredSummary summary;
 };
 
-/// The grids of a results file; other sensors are left out.
+/// The grids and areas of a results file; other sensors are left out.
 struct ResultsFile {
     std::string scene;       ///< its file
     std::string scene_name;  ///< may be empty

@@ -13,6 +13,7 @@
 
 #include "base/parallel.h"
 #include "io/text/table.h"
+#include "sensors/measured_raster.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -54,6 +55,15 @@ Json requirement_json(const RatedRequirement& rated, const statistics::GridSumma
             {"verdict", run::name_of(rated.verdict)}};
 }
 
+/// The parallelogram of cells in whose middles an area is measured.
+Json raster_json(const Grid& raster) {
+    const auto vector_json = [](const Vec3& v) { return Json::array({v.x, v.y, v.z}); };
+    return {{"corner", vector_json(raster.corner)},
+            {"edge_u", vector_json(raster.edge_u)},
+            {"edge_v", vector_json(raster.edge_v)},
+            {"count", raster.count}};
+}
+
 Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     const Quantity quantity = sensor.quantity();
     Json json{
@@ -62,6 +72,7 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     json["attained_error"] = result.attained_error;
     if (result.patch_error) json["patch_error"] = *result.patch_error;
     if (const auto* area = std::get_if<Area>(&sensor.kind)) {
+        if (const Grid* raster = sensors::raster_of(sensor)) json["raster"] = raster_json(*raster);
         json["spacing_m"] = area->cell_m;
         json["left_out"] = area->left_out;
     }
