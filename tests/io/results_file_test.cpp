@@ -81,19 +81,16 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }
 
 /// An L of three cells of 0.5 m x 0.4 m in a raster of 2 x 2 that begins at (0, 0).
-std::string area() {
-    std::string text =
-        "{\"name\":\"task\",\"type\":\"area\",\"quantity\":\"illuminance\",\"unit\":\"lx\","
-        "\"raster\":{\"corner\":[0,0,0.75],\"edge_u\":[1,0,0],\"edge_v\":[0,0.8,0],\"count\":[2,2]},"
-        "\"values\":[";
-    text.append(value(0.25, 0.2, "100")).append(",");
-    text.append(value(0.75, 0.2, "101")).append(",");
-    text.append(value(0.25, 0.6, "102"));
-    return text.append("],\"summary\":{\"mean\":101,\"minimum\":100,\"maximum\":102,\"uniformity\":0.99}}");
-}
+constexpr const char* kArea = R"({"stilb":"0.1.0","scene":"office.toml","scene_name":"Office","sensors":[
+{"name":"task","type":"area","quantity":"illuminance","unit":"lx",
+"raster":{"corner":[0,0,0.75],"edge_u":[1,0,0],"edge_v":[0,0.8,0],"count":[2,2]},
+"values":[{"position":[0.25,0.2,0.75],"value":100,"interval":[99,101]},
+{"position":[0.75,0.2,0.75],"value":101,"interval":[100,102]},
+{"position":[0.25,0.6,0.75],"value":102,"interval":[101,103]}],
+"summary":{"mean":101,"minimum":100,"maximum":102,"uniformity":0.99}}]})";
 
 TEST(ResultsFile, ReadsAreasOnTheirRaster) {
-    const ResultsFile results = read_results(document(area()), "office.json");
+    const ResultsFile results = read_results(kArea, "office.json");
     ASSERT_EQ(results.grids.size(), 1u);
     const MeasuredGrid& task = results.grids[0];
     EXPECT_EQ(task.count, (std::array<int, 2>{2, 2}));
@@ -103,15 +100,14 @@ TEST(ResultsFile, ReadsAreasOnTheirRaster) {
     EXPECT_EQ(task.values[1].value, 101);
     EXPECT_EQ(task.values[2].value, 102);
     EXPECT_TRUE(std::isnan(task.values[3].value));
-    const auto expect = [](const std::string& content, const std::string& part) {
-        EXPECT_NE(message_for(content).find(part), std::string::npos) << message_for(content);
+    const auto expect = [](const std::string& from, const std::string& to, const std::string& part) {
+        const std::string message = message_for(with(kArea, from, to));
+        EXPECT_NE(message.find(part), std::string::npos) << message;
     };
-    const std::string good = document(area());
-    expect(with(good, "\"edge_u\":[1,0,0]", "\"edge_u\":[0.5,0,0]"),
-           "'sensors[0].values[1].position' is array");
-    expect(with(good, "\"edge_u\":[1,0,0]", "\"edge_u\":[0,0,0]"), "'sensors[0].values[0].position'");
-    expect(with(good, "[2,2]", "[100000,100000]"), "'sensors[0].raster' is object");
-    expect(with(good, "\"corner\"", "\"korner\""), "'sensors[0].raster.corner' is missing");
+    expect("\"edge_u\":[1,0,0]", "\"edge_u\":[0.5,0,0]", "'sensors[0].values[1].position' is array");
+    expect("\"edge_u\":[1,0,0]", "\"edge_u\":[0,0,0]", "'sensors[0].values[0].position'");
+    expect("[2,2]", "[100000,100000]", "'sensors[0].raster' is object");
+    expect("\"corner\"", "\"korner\"", "'sensors[0].raster.corner' is missing");
 }
 
 TEST(ResultsFile, SaysWhatIsWrong) {
