@@ -50,7 +50,7 @@ class Reader {
 
     std::string read_word(Words& words, std::string_view what, const Place& place) const {
         const auto word = words.next();
-        if (!word) fail(fmt::format("the file ends where the {} of a primitive is needed.", what), place);
+        if (!word) fail(fmt::format("the file ends before the {} of a primitive.", what), place);
         return std::string(*word);
     }
     std::size_t read_count(Words& words, std::string_view what, std::string_view type) const {

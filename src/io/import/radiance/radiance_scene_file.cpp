@@ -247,7 +247,8 @@ class Assembly {
         file_.scene.solids.push_back({.file = description_.files[0],
                                       .luminaire = name_of(object),
                                       .solid = PhotometricSolid(emission->grid),
-                                      .format = "Radiance"});
+                                      .format = "Radiance",
+                                      .flux_statement = "the integral of its distribution"});
         const auto& [c0, c90, nadir] = emission->frame;
         const Vec3 middle = bounds_of(file_.scene.object(object).shape).middle();
         const Luminaire luminaire{middle, solid, c0, c90, nadir, luminance * (1 / luminance.luminance())};
@@ -292,6 +293,8 @@ namespace stilb::io {
 SceneFile read_radiance_scene(std::string_view text, const std::string& name,
                               const std::filesystem::path& folder, const radiance::Limits& limits) {
     const radiance::Description description = radiance::read_description(text, name, folder, limits);
+    if (description.surfaces.empty())
+        throw InputError("there is no surface. Needed: polygons, spheres or other surfaces.", {name});
     return radiance::Assembly(description).assemble();
 }
 
