@@ -137,7 +137,7 @@ TEST(RadianceDescription, FrontsOfBoxesLookOutwardsUnlessInverted) {
     EXPECT_NEAR(volume("!genbox m b 1 2 3 -i\n"), -6, 1e-12);
     EXPECT_NEAR(volume("!genbox m b 1 2 3 -b .1\n"), cut, 1e-12);
     EXPECT_NEAR(volume("!genbox m b 1 2 3 -b .1 | xform -mx\n"), cut, 1e-12);
-    EXPECT_NEAR(volume("!genbox m b 1 2 3 -b .1 | xform -mx -I\n"), -cut, 1e-12);
+    EXPECT_NEAR(volume("!genbox m b 1 2 3 -b .1 | xform -I -mx\n"), -cut, 1e-12);
 }
 
 TEST(RadianceDescription, RevolutionsOfGenrev) {

@@ -108,10 +108,12 @@ TEST_P(RadianceLuminaires, HaveTheIntensitiesOfTheirFile) {
         compose(geometry::Transform::rotation({0, 0, 1}, 40), geometry::Transform::rotation({1, 0, 0}, 25));
     // ies2rad puts plane 270 of a file of planes 90 to 270 where others have plane 90.
     const double side = name == "half" ? -1 : 1;
+    // Tables have six digits; the side of a cylinder has 96 faces.
+    const double rounding = name == "cylinder" ? 1e-4 : 2e-5;
     double flux = 0;
     for (const Light& light : file.scene.lights) flux += scene::flux_lm(file.scene, light).luminance();
     EXPECT_NEAR(flux, of_file.flux_lm(), 1e-4 * of_file.flux_lm());
-    for (double polar = 2; polar < 180; polar += 11) {
+    for (double polar = 3; polar < 180; polar += 11) {
         for (double plane = 1; plane < 360; plane += 17) {
             const Vec3 own{std::sin(polar * kDegree) * std::cos(plane * kDegree),
                            std::sin(polar * kDegree) * std::sin(plane * kDegree), -std::cos(polar * kDegree)};
@@ -125,7 +127,7 @@ TEST_P(RadianceLuminaires, HaveTheIntensitiesOfTheirFile) {
                              luminance_along(file.scene, light, leaving).luminance();
             }
             const double expected = of_file.intensity_cd({side * own.x, side * own.y, -own.z});
-            EXPECT_NEAR(intensity, expected, 2e-5 * of_file.peak_cd()) << polar << " " << plane;
+            EXPECT_NEAR(intensity, expected, rounding * of_file.peak_cd()) << polar << " " << plane;
         }
     }
     EXPECT_EQ(file.warnings, std::vector<std::string>{});
@@ -136,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(Files, RadianceLuminaires,
 
 TEST(RadianceLamps, SpotlightsEmitInTheirConeOnly) {
     const SceneFile file =
-        read_rad("void spotlight beam 0 0 7 50 50 50 40 1 0 -1\nbeam ring r 0 0 8 0 0 3 0 0 -1 0 .1\n");
+        read_rad("void spotlight beam 0 0 7 50 50 50 40 .001 0 -.001\nbeam ring r 0 0 8 0 0 3 0 0 -1 0 .1\n");
     const Light& light = file.scene.lights.at(0);
     const Vec3 aim = normalized(Vec3{1, 0, -1});
     const Frame frame = Frame::around(aim);

@@ -50,9 +50,9 @@ double outwardness(const Mesh& mesh) {
 }
 
 TEST(RadianceShapes, FrontsOfCylindersAndConesLookOutwardsThoseOfTubesAndCupsInwards) {
-    EXPECT_NEAR(outwardness(mesh_of("m cylinder c 0 0 7 0 0 0 0 0 1 2\n")), 1, 1e-6);
-    EXPECT_NEAR(outwardness(mesh_of("m cylinder c 0 0 7 0 0 1 0 0 0 2\n")), 1, 1e-6);
-    EXPECT_NEAR(outwardness(mesh_of("m tube c 0 0 7 0 0 0 0 0 1 2\n")), -1, 1e-6);
+    EXPECT_NEAR(outwardness(mesh_of("m cylinder c 0 0 7 0 0 0 0 0 1 2\n")), 1, 1e-3);
+    EXPECT_NEAR(outwardness(mesh_of("m cylinder c 0 0 7 0 0 1 0 0 0 2\n")), 1, 1e-3);
+    EXPECT_NEAR(outwardness(mesh_of("m tube c 0 0 7 0 0 0 0 0 1 2\n")), -1, 1e-3);
     EXPECT_NEAR(outwardness(mesh_of("m cone c 0 0 8 0 0 0 0 0 4 3 0\n")), 0.8, 1e-3);
     EXPECT_NEAR(outwardness(mesh_of("m cup c 0 0 8 0 0 0 0 0 4 0 3\n")), -0.8, 1e-3);
 }
@@ -120,12 +120,10 @@ TEST(RadianceShapes, CompiledMeshesAndOctrees) {
         const Bounds bounds = scene::bounds_of(file.scene), of_text = scene::bounds_of(text.scene);
         EXPECT_LT(length(bounds.min - of_text.min) + length(bounds.max - of_text.max), 1e-6) << name;
     }
-    const auto mesh = std::get<Mesh>(read("mesh.rad").scene.objects.at(0).shape);
+    const auto mesh = std::get<Mesh>(read("mesh.rad").scene.objects.at(1).shape);
     ASSERT_EQ(mesh.corner_normals.size(), mesh.triangles.size());
-    const auto& [a, b, c] = mesh.triangles[0];
-    const Vec3 across =
-        normalized(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
-    EXPECT_GT(dot(mesh.normals[mesh.corner_normals[0][0]], across), 0.9999);
+    // The normals of the file are vertical.
+    for (const std::uint32_t corner : mesh.corner_normals[0]) EXPECT_GT(mesh.normals[corner].z, 0.99999);
 }
 
 }  // namespace

@@ -48,38 +48,35 @@ class Reader {
 
     // Primitives
 
-    std::string read_word(Words& words, std::string_view what, const Place& place) const {
+    std::string_view read_word(Words& words, std::string_view what, const Place& place) const {
         const auto word = words.next();
         if (!word) fail(fmt::format("the file ends before the {} of a primitive.", what), place);
-        return std::string(*word);
+        return *word;
     }
-    std::size_t read_count(Words& words, std::string_view what, std::string_view type) const {
-        words.skip_to_word();
-        const Place place{file_of_last_, words.line()};
-        const std::string word = read_word(words, fmt::format("number of {}", what), place);
+    std::size_t read_count(Words& words, std::string_view what, const Primitive& of) const {
+        const std::string_view word = read_word(words, what, of.place);
         const auto count = parse_integer(word);
         if (!count || *count < 0) {
             fail(
                 fmt::format("found {} where the number of {} of a {} is needed. A primitive is: MODIFIER "
                             "TYPE NAME, then the number of texts and the texts, 0, the number of numbers and "
                             "the numbers.",
-                            in_quotes(word), what, type),
-                place);
+                            in_quotes(word), what, of.type),
+                {of.place.file, words.line()});
         }
         return static_cast<std::size_t>(*count);
     }
-    double read_number(Words& words, std::string_view type) const {
-        words.skip_to_word();
-        const Place place{file_of_last_, words.line()};
-        const std::string word = read_word(words, "numbers", place);
+    double read_number(Words& words, const Primitive& of) const {
+        const std::string_view word = read_word(words, "numbers", of.place);
         const auto number = parse_number(word);
-        if (!number)
-            fail(fmt::format("found {} where a number of a {} is needed.", in_quotes(word), type), place);
+        if (!number) {
+            fail(fmt::format("found {} where a number of a {} is needed.", in_quotes(word), of.type),
+                 {of.place.file, words.line()});
+        }
         return *number;
     }
 
     void read_primitive(Words& words, const Place& place) {
-        file_of_last_ = place.file;
         Primitive primitive;
         primitive.place = place;
         primitive.modifier = read_word(words, "modifier", place);
@@ -93,15 +90,15 @@ class Reader {
         }
         primitive.name = read_word(words, "name", place);
         if (role == Role::alias) {
-            primitive.texts.push_back(read_word(words, "original name", place));
+            primitive.texts.emplace_back(read_word(words, "original name", place));
             return collector_.add(std::move(primitive));
         }
-        for (std::size_t left = read_count(words, "texts", primitive.type); left > 0; --left)
-            primitive.texts.push_back(read_word(words, "texts", place));
-        for (std::size_t left = read_count(words, "whole numbers", primitive.type); left > 0; --left)
-            read_number(words, primitive.type);
-        for (std::size_t left = read_count(words, "numbers", primitive.type); left > 0; --left)
-            primitive.numbers.push_back(read_number(words, primitive.type));
+        for (std::size_t left = read_count(words, "texts", primitive); left > 0; --left)
+            primitive.texts.emplace_back(read_word(words, "texts", place));
+        for (std::size_t left = read_count(words, "whole numbers", primitive); left > 0; --left)
+            read_number(words, primitive);
+        for (std::size_t left = read_count(words, "numbers", primitive); left > 0; --left)
+            primitive.numbers.push_back(read_number(words, primitive));
         if (role == Role::instance) return read_instance(primitive);
         collector_.add(std::move(primitive));
     }
@@ -265,7 +262,6 @@ class Reader {
     Description description_;
     Collector collector_;
     std::vector<std::pair<std::filesystem::path, std::unique_ptr<const std::string>>> contents_;
-    std::uint32_t file_of_last_ = 0;
     int depth_ = 0;
 };
 

@@ -388,7 +388,8 @@ std::optional<Emission> emission_of(const Shape& shape, const std::vector<Patter
     double largest = 0;
     for (const double plane : grid.planes_deg) {
         for (const double polar : grid.polar_deg) {
-            const double c = plane * kDegree, gamma = polar * kDegree;
+            // A little off the poles, where the direction would not tell the plane.
+            const double c = plane * kDegree, gamma = std::clamp(polar, 1e-7, 180 - 1e-7) * kDegree;
             const Vec3 w =
                 normalized(std::sin(gamma) * std::cos(c) * emission.frame.c0 +
                            std::sin(gamma) * std::sin(c) * emission.frame.c90 + std::cos(gamma) * nadir);

@@ -187,6 +187,14 @@ class MaterialReader {
         const Vec3 axis{n[4], n[5], n[6]};
         if (!(length(axis) > 0)) fail("its direction is 0 0 0. Allowed: any other.");
         if (!(n[3] > 0)) fail("its angle is not above 0. Allowed: degrees above 0.");
+        constexpr double short_m = 0.01;
+        if (length(axis) > short_m) {
+            warn(
+                fmt::format("its light comes from its surface; in Radiance it comes from a focus {:.3g} m "
+                            "behind it, the length "
+                            "of its direction, which makes it weaker nearby.",
+                            length(axis)));
+        }
         optics_.lamp.cone = Cone{normalized(axis), std::min(n[3] / 2, 180.0)};
     }
 

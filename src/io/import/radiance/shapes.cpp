@@ -69,7 +69,7 @@ double frustum_widening(double height, double radius_difference) {
     const double across = std::cos(half) * radius_difference;
     double widening = half / std::sin(half);
     // The slant of the sides depends on the factor a little.
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 40; ++i)
         widening = half / std::sin(half) * slant / std::hypot(height, widening * across);
     return widening;
 }
@@ -108,6 +108,8 @@ void add_cone(const Vec3& bottom, const Vec3& top, double bottom_radius, double 
 /// A sphere seen from inside, of rows between parallels; its area is that of the sphere.
 void add_bubble(const Vec3& center, double radius, MeshBuilder& builder) {
     const auto direction = [](std::uint32_t row, std::uint32_t side) {
+        // At the poles all sides are the same point.
+        if (row % kRows == 0) return Vec3{0, 0, row == 0 ? 1. : -1.};
         const double polar = kPi * row / kRows, azimuth = 2 * kPi * side / kSides;
         return Vec3{std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
                     std::cos(polar)};
