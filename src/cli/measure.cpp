@@ -89,8 +89,6 @@ std::vector<Sensor> chosen_sensors(const MeasureRequest& request, io::SceneFile&
             throw InputError("--points: the scene has a sensor \"points\" already. Give that another name.",
                              {request.scene});
         }
-        if (io::is_standard_output(request.points) && io::is_standard_output(request.scene))
-            throw InputError("--points and the scene cannot both be read from standard input.");
         file.sensors.push_back(io::read_points(request.points));
         if (names.empty()) names.emplace_back(io::kPointsSensor);
     }
@@ -102,6 +100,8 @@ int run_measure(const MeasureRequest& request) {
     if (request.has_replicates && json_files(request).empty())
         throw InputError("--replicates writes into the JSON document: give --json or -o as well.");
     const bool is_for_radiance = is_radiance_format(request);
+    if (request.scene == "-" && request.points == "-")
+        throw InputError("--points and the scene cannot both be read from standard input.");
     io::SceneFile file = read_scene(request.scene, flags.overrides);
     const std::vector<Sensor> sensors = chosen_sensors(request, file);
     if (is_for_radiance) io::require_irradiances(sensors);
