@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "cli/results_table.h"
 #include "cli/scene_argument.h"
 #include "estimators/estimator_list.h"
+#include "io/import/rtrace.h"
 #include "io/results/results_writer.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
@@ -27,7 +29,8 @@ struct MeasureRequest {
     std::string scene;
     /// Where JSON goes: "-" is standard output, which then gets no table.
     std::optional<std::string> json;
-    std::string output, csv_directory, picture;
+    std::string output, csv_directory, picture, points;
+    std::optional<std::string> format;
     bool has_replicates = false;
     MeasureFlags flags;
 };
@@ -64,13 +67,50 @@ void write_files(const RunResult& result, const MeasureRequest& request) {
     }
 }
 
+/// Throws InputError where there is no such format, or the flag contradicts others.
+bool is_radiance_format(const MeasureRequest& request) {
+    if (!request.format) return false;
+    constexpr std::array<std::string_view, 1> formats{"radiance"};
+    if (*request.format != formats[0]) {
+        throw InputError(fmt::format("--format {}: there is no such format.{} Allowed: radiance.",
+                                     *request.format, did_you_mean(*request.format, formats)));
+    }
+    if (std::ranges::any_of(json_files(request), io::is_standard_output))
+        throw InputError("--format radiance: standard output is for the JSON document already.");
+    return true;
+}
+
+/// Adds the points of --points to the sensors of the scene.
+void add_points(const MeasureRequest& request, io::SceneFile& file, std::vector<std::string>& names) {
+    if (request.points.empty()) return;
+    if (sensors::find_sensor(file.sensors, io::kPointsSensor)) {
+        throw InputError("--points: the scene has a sensor \"points\" already. Give that another name.",
+                         {request.scene});
+    }
+    file.sensors.push_back(io::read_points(request.points));
+    names.emplace_back(io::kPointsSensor);
+}
+
+/// The sensors that are measured. Those of --points and --grid are more sensors of the scene, and the only
+/// ones where none is chosen.
+std::vector<Sensor> chosen_sensors(const MeasureRequest& request, io::SceneFile& file) {
+    std::vector<std::string> added;
+    add_points(request, file, added);
+    request.flags.add_planes(file, request.scene, added);
+    const std::vector<std::string>& names = request.flags.sensors;
+    return sensors::choose_meters(file.sensors, names.empty() ? added : names, request.scene);
+}
+
 int run_measure(const MeasureRequest& request) {
     const MeasureFlags& flags = request.flags;
     if (request.has_replicates && json_files(request).empty())
         throw InputError("--replicates writes into the JSON document: give --json or -o as well.");
-    const io::SceneFile file = read_scene(request.scene, flags.overrides);
-    const std::vector<Sensor> sensors =
-        sensors::choose_meters(flags.all_sensors(file, request.scene), flags.sensors, request.scene);
+    const bool is_for_radiance = is_radiance_format(request);
+    if (request.scene == "-" && request.points == "-")
+        throw InputError("--points and the scene cannot both be read from standard input.");
+    io::SceneFile file = read_scene(request.scene, flags.overrides);
+    const std::vector<Sensor> sensors = chosen_sensors(request, file);
+    if (is_for_radiance) io::require_irradiances(sensors);
     const RunOptions options = flags.options_for(sensors, file.run, request.scene);
     for (const std::string& output : json_files(request))
         io::require_output(output, io::FileKind::results, file.sources);
@@ -89,7 +129,9 @@ int run_measure(const MeasureRequest& request) {
     add_warnings(result, file.warnings);
     write_files(result, request);  // before all messages: the terminal may be closed by now
     if (!flags.run.quiet) print_warnings(result.warnings);
-    if (std::ranges::none_of(json_files(request), io::is_standard_output))
+    if (is_for_radiance) {
+        fmt::print("{}", io::to_irradiance_lines(result));
+    } else if (std::ranges::none_of(json_files(request), io::is_standard_output))
         fmt::print("{}", to_table(result) + shortfall_text(result, ""));
     return flags.exit_code_of(result);
 }
@@ -104,9 +146,11 @@ void add_measure(CommandLine& line) {
         "  stilb measure office.toml --error 0.5% --sensor desk\n"
         "  stilb measure office.toml -o office.json\n"
         "  stilb measure office.toml --csv results --falsecolor office.png\n"
-        "  stilb measure office.toml --check --time 60\n");
+        "  stilb measure office.toml --check --time 60\n"
+        "  stilb measure room.rad --points grid.pts --format radiance\n");
     auto request = std::make_shared<MeasureRequest>();
-    command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input (required)");
+    command.add("SCENE", request->scene,
+                "Scene (TOML, or Radiance .rad), or - for standard input (required)");
     command
         .add("--json", request->json,
              "One JSON document on stdout instead of the table, or beside it into this file")
@@ -119,10 +163,21 @@ void add_measure(CommandLine& line) {
     command.add("--csv", request->csv_directory, "Write also a CSV file per sensor into this folder")
         .value_name("DIR");
     command
-        .add("--falsecolor", request->picture, "Write also a false-colour picture of grids and areas (.png, .svg)")
+        .add("--falsecolor", request->picture,
+             "Write also a false-colour picture of grids and areas (.png, .svg)")
         .value_name("FILE");
     command.add("--replicates", request->has_replicates,
                 "Write also the values of all replicates into the JSON document");
+    command
+        .add("--points", request->points,
+             "Measure the illuminance at the points of this file instead of the scene's sensors: lines "
+             "\"x y z nx ny nz\", as rtrace takes them; - is standard input")
+        .value_name("FILE");
+    command
+        .add("--format", request->format,
+             "radiance: print irradiances [W/m2] instead of the table, a line \"R G B\" for each point, as "
+             "rtrace -I -h does (docs/radiance.md)")
+        .value_name("NAME");
     request->flags.add_to(command);
     command.run([request] {
         take_scene_back(*request);

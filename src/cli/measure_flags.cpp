@@ -67,24 +67,23 @@ GridRequest grid_request(std::string_view text) {
 
 }  // namespace
 
-std::vector<Sensor> MeasureFlags::all_sensors(const io::SceneFile& file, const std::string& path) const {
-    std::vector<Sensor> all = file.sensors;
-    if (!grid) return all;
+void MeasureFlags::add_planes(io::SceneFile& file, const std::string& path,
+                              std::vector<std::string>& added) const {
+    if (!grid) return;
     const GridRequest request = grid_request(*grid);
     const auto planes = working_planes(file.scene, rays::RayCaster(file.scene), request.planes);
     const auto on_planes = sensors_on(planes, "plane", request.spacing_m);
     if (on_planes.empty()) throw InputError("--grid: " + sensors::no_plane_message(request.planes), {path});
     for (const Sensor& sensor : on_planes) {
-        if (std::ranges::any_of(all, [&](const Sensor& other) { return other.name == sensor.name; })) {
+        if (sensors::find_sensor(file.sensors, sensor.name)) {
             throw InputError(
-                fmt::format("--grid: the scene has a sensor of the name \"{}\", too. Give its sensor "
-                            "another name.",
+                fmt::format("--grid: the scene has a sensor \"{}\" already. Give that another name.",
                             sensor.name),
                 {path});
         }
-        all.push_back(sensor);
+        added.push_back(sensor.name);
+        file.sensors.push_back(sensor);
     }
-    return all;
 }
 
 void MeasureFlags::add_to(Command& command) {
@@ -93,8 +92,9 @@ void MeasureFlags::add_to(Command& command) {
         .repeatable();
     command
         .add("--grid", grid,
-             "Measure also a working plane over the floor of each room, at this height above it, with this "
-             "distance from walls: z=0.75,spacing=auto,margin=0.5, or parts of it")
+             "Measure a working plane over the floor of each room, at this height above it, with this "
+             "distance from walls: z=0.75,spacing=auto,margin=0.5, or parts of it. It is a sensor " plane
+             ", or several: plane_1, plane_2 ...")
         .value_name("KEY=VALUE,...");
     command.add(
         "--check", checks,

@@ -20,8 +20,8 @@ struct MeasureFlags {
     RunFlags run;
 
     void add_to(Command& command);
-    /// The sensors that are measured: those of the file, and working planes of --grid. `path`: of the file.
-    std::vector<Sensor> all_sensors(const io::SceneFile& file, const std::string& path) const;
+    /// Adds the working planes of --grid to the sensors of the file at `path`, and their names to `added`.
+    void add_planes(io::SceneFile& file, const std::string& path, std::vector<std::string>& added) const;
     /// The options with the typed flags applied, for these sensors. `scene`: the name of its file. Throws
     /// InputError where --check has nothing to act on.
     RunOptions options_for(std::span<const Sensor> measured, const RunOptions& of_file,

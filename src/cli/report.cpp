@@ -141,9 +141,10 @@ void print_summary(const report::Report& report, const std::string& output, std:
 }
 
 int run_report(const ReportRequest& request) {
-    const io::SceneFile file = read_scene(request.scene, request.flags.overrides);
-    const auto [meters, cameras] =
-        choose_sensors(request.flags.all_sensors(file, request.scene), request.flags.sensors, request.scene);
+    io::SceneFile file = read_scene(request.scene, request.flags.overrides);
+    std::vector<std::string> planes;
+    request.flags.add_planes(file, request.scene, planes);
+    const auto [meters, cameras] = choose_sensors(file.sensors, request.flags.sensors, request.scene);
     const RunOptions options = request.flags.options_for(meters, file.run, request.scene);
     require_page(request.output, file.sources);
     Reporting reporting(request, file, options);
@@ -168,7 +169,8 @@ void add_report(CommandLine& line) {
         "  stilb report office.toml -o office.html --error 0.5% --time 120 --view-time 60\n"
         "  stilb report office.toml -o desks.html --sensor desk_a --sensor desk_b --check\n");
     auto request = std::make_shared<ReportRequest>();
-    command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input").required();
+    command.add("SCENE", request->scene, "Scene (TOML, or Radiance .rad), or - for standard input")
+        .required();
     command.add("-o,--output", request->output, "Page to write (.html); - is stdout")
         .required()
         .value_name("FILE");

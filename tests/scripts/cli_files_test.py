@@ -97,8 +97,7 @@ class KindsTest(FilesTest):
         self.assertEqual(run("solve", self.scene, "-o", solution, "--patch", 1, "--paths", 8).returncode, 0)
         results.write_text(run("measure", self.scene, "--paths", 64, "--json").stdout)
         binary = self.write("model", "glTF\x02")
-        cases = ((self.write("x.rad", "void plastic wall\n"), "a Radiance scene", "cannot read Radiance scenes yet", "OBJ"),
-                 (self.write("x.glb", "glTF\x02"), "a glTF scene", "cannot read glTF yet"),
+        cases = ((self.write("x.glb", "glTF\x02"), "a glTF scene", "cannot read glTF yet"),
                  (binary, "a glTF scene", "cannot read glTF yet"),
                  (self.write("x.gltf", "{}"), "a glTF scene", "cannot read glTF yet"),
                  (self.write("x.exr", "\x76\x2f\x31\x01"), "an OpenEXR picture", "stilb falsecolor", "x.exr -o x.png"),

@@ -59,17 +59,17 @@ void add_info(CommandLine& line) {
     auto request = std::make_shared<InfoRequest>();
     command
         .add("FILE", request->file,
-             "Scene (TOML; - for standard input), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
+             "Scene (TOML, Radiance .rad; - for standard input), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
         .required();
     add_overrides(command, request->overrides);
     command.add("--ugr", request->has_ugr,
                 "For a luminaire, print the tables of its Unified Glare Rating, too: 19 rooms, five sets of "
                 "reflectances, crosswise and endwise");
-    command.add(
-        "--json", request->json,
-        "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
-        "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"run\", \"warnings\", "
-        "\"memory\"}, as far as the file has them; units are in the keys");
+    command.add("--json", request->json,
+                "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
+                "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"notes\", "
+                "\"run\", \"warnings\", "
+                "\"memory\"}, as far as the file has them; units are in the keys");
     command.run([request] {
         const InfoReport report = report_file(*request);
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
@@ -280,6 +280,9 @@ std::string to_text(const InfoReport& report) {
     result +=
         section_text(report, "warnings", "Warnings", [](const Json& w) { return w.get<std::string>(); });
     result += "\n";
+    if (report.contains("notes")) {
+        for (const Json& note : report["notes"]) result += note.get<std::string>() + "\n";
+    }
     if (report.contains("power")) result += installed_text(report["power"]);
     if (report.contains("run")) result += run_text(report["run"]);
     if (report.contains("memory")) result += memory_text(report["memory"]);

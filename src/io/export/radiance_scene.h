@@ -5,10 +5,9 @@
 #include <string>
 
 #include "io/export/parts.h"
+#include "io/text/radiance_units.h"
 
 namespace stilb::io::exporting {
-
-inline constexpr double kRadianceEfficacy_lm_w = 179;
 
 /// One primitive: "modifier type name", the texts and the numbers.
 std::string radiance_primitive(std::string_view modifier, std::string_view type, std::string_view name,

@@ -7,15 +7,15 @@
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
 #include "io/image/tone_curve.h"
+#include "io/text/radiance_units.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
 namespace {
 
-constexpr double kLumenPerWatt = 179;
-/// The weights of Radiance's red, green and blue in the luminance.
-constexpr Triple kWeights{0.265, 0.670, 0.065};
+constexpr Triple kWeights = kRadianceWeights;
+constexpr double kLumenPerWatt = kRadianceEfficacy_lm_w;
 /// The largest storable value [cd/m2]: it fits a float and RGBE.
 constexpr double kLargest = 3e38;
 constexpr int kExponentBias = 128;

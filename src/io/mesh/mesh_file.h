@@ -73,6 +73,7 @@ class MeshBuilder {
     void reserve_vertices(std::size_t count) { file_.mesh.vertices.reserve(count); }
     std::size_t vertex_count() const { return file_.mesh.vertices.size(); }
     void add_vertex(const Vec3& position) { file_.mesh.vertices.push_back(position); }
+    std::size_t triangle_count() const { return file_.mesh.triangles.size(); }
     std::size_t normal_count() const { return file_.mesh.normals.size(); }
     /// Normals may have any length; a zero normal is ignored.
     void add_normal(const Vec3& normal);

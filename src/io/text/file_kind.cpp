@@ -79,10 +79,8 @@ constexpr std::array kDescriptions{
     Description{FileKind::ply_mesh, "a PLY mesh", kMesh},
     Description{FileKind::ies_luminaire, "an IES luminaire", kLuminaire},
     Description{FileKind::eulumdat_luminaire, "a EULUMDAT luminaire", kLuminaire},
-    Description{
-        FileKind::radiance_scene, "a Radiance scene",
-        "Stilb cannot read Radiance scenes yet. Export the geometry as OBJ or PLY, and write a TOML file "
-        "with its materials and lights (docs/scene-format.md)."},
+    Description{FileKind::radiance_scene, "a Radiance scene",
+                "Commands that take a scene read it by itself."},
     Description{
         FileKind::gltf_scene, "a glTF scene",
         "Stilb cannot read glTF yet. Export the geometry as OBJ or PLY, and write a TOML file with its "
@@ -142,7 +140,7 @@ bool is_luminance_picture(FileKind kind) {
     return kind == FileKind::exr_picture || kind == FileKind::hdr_picture;
 }
 
-bool may_be_scene(FileKind kind) { return kind == FileKind::other || kind == FileKind::empty; }
+bool may_be_scene_file(FileKind kind) { return kind == FileKind::other || kind == FileKind::empty; }
 
 std::string not_a_scene(FileKind kind) {
     const auto& [_, name, in_a_scene] = description_of(kind);

@@ -15,6 +15,7 @@
 
 #include "io/scene/overrides.h"
 #include "io/scene/toml.h"
+#include "io/text/file_kind.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -220,6 +221,7 @@ std::string content_hash(std::span<const std::filesystem::path> files) {
 std::string light_hash(std::span<const std::filesystem::path> sources,
                        std::span<const std::string> overrides) {
     const std::filesystem::path& scene = sources.front();
+    if (!may_be_scene_file(kind_of_file(scene))) return content_hash(sources);
     TomlValue document = parse_toml(read_whole_file(scene), scene.string());
     auto& sections = std::get<TomlMembers>(document.content);
     override_values(sections, overrides);

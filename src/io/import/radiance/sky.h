@@ -1,0 +1,23 @@
+// Distant sources of Radiance, which together surround the scene.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lights/environment.h"
+
+namespace stilb::io::radiance {
+
+struct DistantSource {
+    Vec3 direction;    ///< towards it, not necessarily a unit vector
+    double angle_deg;  ///< its diameter
+    Rgb radiance_w_sr_m2;
+    /// Where sources overlap, the first is seen, but only the last of those that give way.
+    bool gives_way = false;
+};
+
+/// Nothing where there is no light. A source all around is exact; others are drawn into a panorama, such that
+/// each casts the light of its solid angle.
+std::optional<EnvironmentLight> environment_of(const std::vector<DistantSource>& sources);
+
+}  // namespace stilb::io::radiance
