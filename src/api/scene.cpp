@@ -7,6 +7,7 @@
 #include "api/scene_data.h"
 #include "checks/checks.h"
 #include "estimators/estimator_list.h"
+#include "io/import/scene_formats.h"
 #include "io/scene/toml.h"
 #include "stilb/error.h"
 
@@ -59,7 +60,9 @@ Scene make_scene(io::SceneFile file, const std::filesystem::path& path = {}) {
 
 }  // namespace
 
-Scene Scene::load(const std::filesystem::path& path) { return make_scene(io::read_scene_file(path), path); }
+Scene Scene::load(const std::filesystem::path& path) {
+    return make_scene(io::read_scene_of_any_format(path), path);
+}
 
 Scene Scene::parse(std::string_view toml, const std::filesystem::path& directory) {
     return make_scene(io::read_scene(toml, "", directory));

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "io/import/scene_formats.h"
 #include "io/text/file_kind.h"
 #include "stilb/error.h"
 
@@ -43,8 +44,9 @@ void add_overrides(Command& command, std::vector<std::string>& overrides) {
 
 io::SceneFile read_scene(const std::string& path, const std::vector<std::string>& overrides) {
     const io::FileKind kind = io::kind_of_file(path);
-    if (!io::may_be_scene(kind)) throw InputError(io::not_a_scene(kind) + command_for(kind, path), {path});
-    return io::read_scene_file(path, overrides);
+    if (!io::may_be_scene(kind) && !io::is_foreign_scene(kind))
+        throw InputError(io::not_a_scene(kind) + command_for(kind, path), {path});
+    return io::read_scene_of_any_format(path, overrides);
 }
 
 }  // namespace stilb::cli

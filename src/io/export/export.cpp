@@ -1,7 +1,6 @@
 #include "io/export/export.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <system_error>
@@ -61,26 +60,6 @@ void Output::write(const std::string& name, std::string_view content) {
     const std::filesystem::path path = folder_ / name;
     replace_file(path, content);
     files_.push_back(path);
-}
-
-void Output::warn(std::string_view kind, std::string_view name, std::string_view message) {
-    const auto is_same = [&](const Warning& w) { return w.kind == kind && w.message == message; };
-    auto found = std::find_if(warnings_.begin(), warnings_.end(), is_same);
-    if (found == warnings_.end()) {
-        warnings_.push_back({std::string(kind), std::string(message), {}});
-        found = std::prev(warnings_.end());
-    }
-    found->names.emplace_back(name);
-}
-
-ExportReport Output::report() const {
-    ExportReport report{files_, {}};
-    for (const Warning& warning : warnings_) {
-        report.warnings.push_back(fmt::format("{}{} {}: {}", warning.kind,
-                                              warning.names.size() > 1 ? "s" : "",
-                                              fmt::join(warning.names, ", "), warning.message));
-    }
-    return report;
 }
 
 std::string Identifiers::make(std::string_view name) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/export/export.h"
+#include "io/text/grouped_warnings.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
@@ -22,18 +23,15 @@ class Output {
     explicit Output(std::filesystem::path folder) : folder_(std::move(folder)) {}
     void write(const std::string& name, std::string_view content);
     /// Things of one kind ("material", "light") with the same message share one warning.
-    void warn(std::string_view kind, std::string_view name, std::string_view message);
-    ExportReport report() const;
+    void warn(std::string_view kind, std::string_view name, std::string_view message) {
+        warnings_.add(kind, name, message);
+    }
+    ExportReport report() const { return {files_, warnings_.texts()}; }
 
   private:
-    struct Warning {
-        std::string kind, message;
-        std::vector<std::string> names;
-    };
-
     std::filesystem::path folder_;
     std::vector<std::filesystem::path> files_;
-    std::vector<Warning> warnings_;
+    GroupedWarnings warnings_;
 };
 
 /// Identifiers of letters, digits, "_" and "-" that are different from each other.
@@ -55,9 +53,6 @@ struct Surface {
 
 /// The surfaces of all objects. Openings of luminaires are left out, as they are written with their lights.
 std::vector<Surface> surfaces_of(const Scene& scene, Identifiers& identifiers, Output& output);
-
-/// Binary PLY; with normals where the mesh has them.
-std::string to_ply(const Mesh& mesh);
 
 /// The intensity of a solid by C plane and gamma, in Radiance's format of data files: every 2.5 degrees of C,
 /// from 0 to 360, and every degree of gamma.

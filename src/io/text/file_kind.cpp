@@ -83,10 +83,8 @@ constexpr std::array kDescriptions{
         FileKind::radiance_scene, "a Radiance scene",
         "Stilb cannot read Radiance scenes yet. Export the geometry as OBJ or PLY, and write a TOML file "
         "with its materials and lights (docs/scene-format.md)."},
-    Description{
-        FileKind::gltf_scene, "a glTF scene",
-        "Stilb cannot read glTF yet. Export the geometry as OBJ or PLY, and write a TOML file with its "
-        "materials and lights (docs/scene-format.md)."},
+    Description{FileKind::gltf_scene, "a glTF scene",
+                "It is a scene of its own: stilb info shows its contents."},
 };
 
 const Description& description_of(FileKind kind) {
