@@ -4,6 +4,7 @@
 #include <array>
 
 #include "io/import/gltf/gltf_scene.h"
+#include "io/import/obj/obj_scene.h"
 
 namespace stilb::io {
 namespace {
@@ -12,7 +13,8 @@ struct SceneFormat {
     FileKind kind;
     SceneFile (*read)(const std::filesystem::path& path, std::span<const std::string> overrides);
 };
-constexpr std::array kSceneFormats{SceneFormat{FileKind::gltf_scene, read_gltf_scene}};
+constexpr std::array kSceneFormats{SceneFormat{FileKind::gltf_scene, read_gltf_scene},
+                                   SceneFormat{FileKind::obj_mesh, read_obj_scene}};
 
 }  // namespace
 

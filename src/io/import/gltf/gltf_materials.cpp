@@ -31,7 +31,6 @@ struct MeanSurface {
     Rgb emission_cd_m2;
 };
 
-double clamped_share(double value) { return std::clamp(value, 0.0, 1.0); }
 
 class MaterialReader {
   public:

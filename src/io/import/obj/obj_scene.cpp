@@ -181,6 +181,11 @@ void add_groups(const MeshFile& file, const std::vector<MaterialId>& materials, 
 
 }  // namespace
 
+bool names_materials(const fs::path& path) {
+    const std::string content = read_whole_file(path);
+    return content.starts_with("mtllib") || content.find("\nmtllib") != content.npos;
+}
+
 SceneFile read_obj_scene(const fs::path& path, std::span<const std::string> overrides) {
     const ImportSettings settings(overrides, path.string());
     MeshFile mesh = read_mesh_file(path);

@@ -12,4 +12,7 @@ namespace stilb::io {
 /// Throws InputError with file and line.
 SceneFile read_obj_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 
+/// Whether an OBJ file names a file with materials.
+bool names_materials(const std::filesystem::path& path);
+
 }  // namespace stilb::io
