@@ -105,7 +105,7 @@ void add_measure(CommandLine& line) {
         "  stilb measure office.toml --csv results --falsecolor office.png\n"
         "  stilb measure office.toml --check --time 60\n");
     auto request = std::make_shared<MeasureRequest>();
-    command.add("SCENE", request->scene, "Scene file (TOML), or - for standard input (required)");
+    command.add("SCENE", request->scene, "Scene (TOML, glTF, OBJ), or - for standard input (required)");
     command
         .add("--json", request->json,
              "One JSON document on stdout instead of the table, or beside it into this file")

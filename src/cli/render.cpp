@@ -227,7 +227,7 @@ void add_render(CommandLine& line) {
         "  stilb render --from office.solution --set desk_lamp=0.4 --set ceiling=0 -o evening.png\n");
     auto request = std::make_shared<RenderRequest>();
     command.add("SCENE", request->scene,
-                "Scene file (TOML), or - for standard input; with --from only if it has moved");
+                "Scene (TOML, glTF, OBJ), or - for standard input; with --from only if it has moved");
     command
         .add("--from", request->solution,
              "Take the light from this solution (written by `stilb solve`); only the view is computed")

@@ -254,7 +254,7 @@ void add_view(CommandLine& line) {
         "  stilb view office.solution --port 8000 --no-browser\n"
         "  stilb view office.solution -o office.html\n");
     auto request = std::make_shared<ViewRequest>();
-    command.add("SCENE", request->input, "Scene file (TOML), - for standard input, or a solution").required();
+    command.add("SCENE", request->input, "Scene (TOML, glTF, OBJ), - for standard input, or a solution").required();
     command
         .add("-o,--output", request->output,
              "A page (.html) that needs neither Stilb nor network, instead of a server; or the solution to "

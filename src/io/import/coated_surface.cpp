@@ -24,7 +24,8 @@ double normal_reflectance(double ior) {
 }
 
 double ior_of_normal_reflectance(double reflectance) {
-    const double amplitude = std::sqrt(std::clamp(reflectance, 0.0, 0.36));  // ior 4
+    const double most = normal_reflectance(materials::kIor.max);
+    const double amplitude = std::sqrt(std::clamp(reflectance, 0.0, most));
     return std::min((1 + amplitude) / (1 - amplitude), materials::kIor.max);
 }
 

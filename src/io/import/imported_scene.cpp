@@ -111,6 +111,10 @@ ImportedScene::ImportedScene(const std::filesystem::path& path) {
     file.scene.name = path.stem().string();
 }
 
+void ImportedScene::note(std::string_view sentence) {
+    file.warnings.emplace_back(InputError(std::string(sentence), {file.sources.front().string()}).what());
+}
+
 MaterialId ImportedScene::add_material(std::string_view name, Material material) {
     file.scene.materials.push_back({materials_.make(name, "material"), std::move(material)});
     return MaterialId{static_cast<std::uint32_t>(file.scene.materials.size() - 1)};
@@ -194,11 +198,10 @@ void ImportedScene::warn_of_units() {
     const Bounds bounds = bounds_of(file.scene);
     const double longest_m = 2 * bounds.half_extent();
     if (!file.scene.objects.empty() && (longest_m < kSmallestScene_m || longest_m > kLargestScene_m)) {
-        warnings.add(
-            "scene", file.scene.name,
-            fmt::format("it is {:.3g} m long. If its unit is another than the metre, give the metres in "
-                        "one: --set import.scale=0.001",
-                        longest_m));
+        note(fmt::format(
+            "the scene is {:.3g} m long. If its unit is another than the metre, give the metres in "
+            "one: --set import.scale=0.001",
+            longest_m));
     }
     bool has_daylight = false;
     for (const Light& light : file.scene.lights)
@@ -222,9 +225,7 @@ SceneFile ImportedScene::finish(const ImportSettings& settings) && {
     scene::put_lamps_in_front(file.scene);
     scale_lights(settings.options().light_scale);
     warn_of_units();
-    if (file.scene.lights.empty())
-        file.warnings.emplace_back(
-            InputError("no light: the scene is dark.", {file.sources[0].string()}).what());
+    if (file.scene.lights.empty()) note("no light: the scene is dark.");
     const std::string prefix = file.sources[0].string() + ": ";
     for (const std::string& warning : warnings.texts()) file.warnings.push_back(prefix + warning);
     settings.apply_to(file);

@@ -45,6 +45,8 @@ class ImportedScene {
     SceneFile file;
     GroupedWarnings warnings;
 
+    /// Adds a sentence about the scene as a whole to its warnings.
+    void note(std::string_view sentence);
     MaterialId add_material(std::string_view name, Material material);
     /// Makes all faces of a material shine.
     void set_emission(MaterialId material, const Emission& emission) { emissions_[material] = emission; }

@@ -85,7 +85,7 @@ std::string to_toml(const TomlMembers& document) {
     return text;
 }
 
-TomlValue toml_number(double number) { return {number}; }
+TomlValue toml_number(double number) { return {number + 0.0}; }  // no -0
 
 TomlValue toml_vector(const Vec3& vector) {
     return {TomlArray{toml_number(vector.x), toml_number(vector.y), toml_number(vector.z)}};

@@ -9,6 +9,7 @@
 
 #include "io/import/luminaires.h"
 #include "io/photometry/photometry_file.h"
+#include "io/text/text.h"
 #include "stilb/error.h"
 
 namespace stilb::io::gltf {
@@ -38,8 +39,8 @@ class LightReader {
     void add_distant() {
         if (distant_.empty()) return;
         if (distant_.size() > 1)
-            scene_.warnings.add("lights", "directional",
-                                "several of them become one light, \"" + distant_name_ + "\".");
+            scene_.note(fmt::format("{} directional lights become one, {}.", distant_.size(),
+                                    in_quotes(distant_name_)));
         scene_.add_light(distant_name_, distant_lights(distant_));
     }
 

@@ -31,7 +31,6 @@ struct MeanSurface {
     Rgb emission_cd_m2;
 };
 
-
 class MaterialReader {
   public:
     MaterialReader(File& file, const std::vector<PlacedPrimitive>& primitives, ImportedScene& scene)
@@ -210,9 +209,10 @@ class MaterialReader {
         const double coat = reflectance_of_coat(surface);
         if (surface.metallic > kPure) return blend(surface, coat, alpha);
         if (coat <= 0) return Diffuse{surface.base};
-        if (surface.specular != 1 && coat > 0.36)
+        if (coat > normal_reflectance(materials::kIor.max))
             warn("its highlights are stronger than those of ior 4, which is used.");
-        return plastic_returning(surface.base, ior_of_normal_reflectance(coat), alpha);
+        const double ior = surface.specular == 1 ? surface.ior : ior_of_normal_reflectance(coat);
+        return plastic_returning(surface.base, ior, alpha);
     }
 
     static Material metal(const Rgb& reflectance, double alpha) {

@@ -39,8 +39,7 @@ void check_extensions(const gltf::File& file, ImportedScene& scene) {
         if (!is_known(extension) && !extension.starts_with("KHR_materials_"))
             scene.warnings.add("extension", extension, "it is not read.");
     }
-    if (!file.model.animations.empty())
-        scene.warnings.add("scene", scene.file.scene.name, "animations are left out.");
+    if (!file.model.animations.empty()) scene.note("animations are left out.");
 }
 
 /// The primitives of one node as one mesh.

@@ -99,12 +99,8 @@ class ObjMaterials {
         multiply(material.diffuse, mean_of(material.diffuse_map));
         multiply(material.specular, mean_of(material.specular_map));
         multiply(material.emission_cd_m2, mean_of(material.emission_map));
-        if (!material.opacity_map.empty())
-            material.opacity *= Rgb{[&] {
-                                    const auto mean = mean_of(material.opacity_map);
-                                    return std::array{mean[0], mean[1], mean[2]};
-                                }()}
-                                    .luminance();
+        const auto opacity = mean_of(material.opacity_map);
+        material.opacity *= Rgb{{opacity[0], opacity[1], opacity[2]}}.luminance();
     }
 
     Rgb share(const Rgb& rgb, std::string_view key) {
@@ -135,11 +131,16 @@ class ObjMaterials {
 
     Material glossy(const MtlMaterial& material, const Rgb& diffuse, const Rgb& specular, double ior) {
         constexpr double kMirrorExponent = 1e5;
+        // Many programs write 0.5 for every material: how bright its highlights look, not a share of light.
+        constexpr double kLargestShare = 0.25, kDark = 0.1;
         const double exponent = std::min(material.exponent, 1e6);
         if (diffuse.max() <= 0 && exponent >= kMirrorExponent) return Mirror{specular};
-        if ((diffuse + specular).max() <= 1) return Phong{diffuse, specular, exponent};
-        // Such a surface would reflect more light than it gets: Ks says how bright its highlights look.
-        warn(fmt::format("Kd + Ks is above 1; a coat of ior {:.3g} over Kd is used (type plastic).", ior));
+        const bool is_share = specular.max() <= kLargestShare || diffuse.max() <= kDark;
+        if (is_share && (diffuse + specular).max() <= 1) return Phong{diffuse, specular, exponent};
+        warn(fmt::format(
+            "its Ks is too large for a share of light beside its Kd; a coat of ior {:.3g} over Kd is "
+            "used (type plastic).",
+            ior));
         return plastic_returning(diffuse, std::max(ior, 1.01), std::sqrt(2 / (exponent + 2)));
     }
 
@@ -157,11 +158,11 @@ geometry::Transform placement(const MeshFile& mesh, const ImportOptions& options
     } else {
         const UpGuess guess = guess_up(mesh);
         up = guess.up;
-        scene.warnings.add("scene", scene.file.scene.name, guess.reason);
+        scene.note(guess.reason);
     }
     if (options.scale) return to_metres_and_z_up(*options.scale, up);
     const ScaleGuess guess = guess_scale(mesh, up);
-    scene.warnings.add("scene", scene.file.scene.name, guess.reason);
+    scene.note(guess.reason);
     return to_metres_and_z_up(guess.scale, up);
 }
 
@@ -194,8 +195,7 @@ SceneFile read_obj_scene(const fs::path& path, std::span<const std::string> over
     for (Vec3& vertex : mesh.mesh.vertices) vertex = to_world.point(vertex);
     for (Vec3& normal : mesh.mesh.normals) normal = to_world.normal(normal);
     if (mesh.degenerate_triangles > 0)
-        scene.warnings.add("scene", scene.file.scene.name,
-                           fmt::format("{} triangles without area are left out.", mesh.degenerate_triangles));
+        scene.note(fmt::format("{} triangles without area are left out.", mesh.degenerate_triangles));
     ObjMaterials library(mesh, path.has_parent_path() ? path.parent_path() : ".", scene);
     std::vector<MaterialId> materials;
     for (const std::string& name : mesh.material_names) materials.push_back(library.add(name));
