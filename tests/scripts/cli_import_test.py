@@ -78,11 +78,11 @@ class ImportTest(CommandLineTest):
         copy, solution = self.folder / "room.glb", self.folder / "room.solution"
         shutil.copy(DATA / "blender_room.glb", copy)
         self.assertEqual(run("solve", copy, "-o", solution, "--patch", 1, "--paths", 8).returncode, 0)
-        picture = ["render", "--from", solution, "-o", self.folder / "x.exr"]
-        result = run(*picture)
+        page = ["view", solution, "-o", self.folder / "x.html"]
+        result = run(*page)
         self.assertEqual(result.returncode, 0, result.stderr)
         copy.write_bytes(copy.read_bytes().replace(b"bulb", b"lamp"))
-        self.expect_wrong_input(picture, "Solve it again")
+        self.expect_wrong_input(page, "Solve it again")
 
 
 if __name__ == "__main__":
