@@ -61,7 +61,7 @@ Scene make_scene(io::SceneFile file, const std::filesystem::path& path = {}) {
 }  // namespace
 
 Scene Scene::load(const std::filesystem::path& path) {
-    return make_scene(io::read_scene_of_any_format(path), path);
+    return make_scene(io::load_scene(path), path);
 }
 
 Scene Scene::parse(std::string_view toml, const std::filesystem::path& directory) {

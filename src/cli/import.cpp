@@ -29,7 +29,8 @@ std::string count_text(std::size_t count, std::string_view noun) {
 }
 
 int run_import(ImportRequest request) {
-    if (!io::is_foreign_scene(io::kind_of_file(request.file))) {
+    const io::FileKind kind = io::kind_of_file(request.file);
+    if (io::may_be_scene_file(kind) || !io::is_scene(kind)) {
         throw InputError(
             "this is no scene of another format. Allowed: glTF (.gltf, .glb) and OBJ with MTL (.obj).",
             {request.file});
@@ -40,7 +41,10 @@ int run_import(ImportRequest request) {
         request.overrides.push_back(fmt::format("import.light_scale={}", *request.light_scale));
     const io::SceneFile file = read_scene(request.file, request.overrides);
     const auto files = io::write_scene_folder(file, request.output);
-    if (!request.quiet) print_warnings(file.warnings);
+    if (!request.quiet) {
+        print_warnings(file.warnings);
+        for (const std::string& note : file.notes) fmt::print("{}\n", note);
+    }
     const Scene& scene = file.scene;
     fmt::print("{}: {}, {}, {}, {} in {}\n", files.front().string(),
                count_text(scene.objects.size(), "object"), count_text(scene.materials.size(), "material"),

@@ -44,9 +44,8 @@ void add_overrides(Command& command, std::vector<std::string>& overrides) {
 
 io::SceneFile read_scene(const std::string& path, const std::vector<std::string>& overrides) {
     const io::FileKind kind = io::kind_of_file(path);
-    if (!io::may_be_scene(kind) && !io::is_foreign_scene(kind))
-        throw InputError(io::not_a_scene(kind) + command_for(kind, path), {path});
-    return io::read_scene_of_any_format(path, overrides);
+    if (!io::is_scene(kind)) throw InputError(io::not_a_scene(kind) + command_for(kind, path), {path});
+    return io::load_scene(path, overrides);
 }
 
 }  // namespace stilb::cli

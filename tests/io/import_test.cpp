@@ -203,6 +203,18 @@ TEST_F(ImportTest, RefusesToReplaceAScene) {
     write_scene_folder(file, folder / "room");
 }
 
+TEST_F(ImportTest, ObjectsInTomlTakeMeshesFromGltf) {
+    GltfText gltf = room_in_gltf();
+    write("room.gltf", gltf.text());
+    std::string toml(kRoom);
+    const std::size_t box = toml.find("shape = \"box\""), table = toml.find("[objects.table]");
+    toml.replace(
+        box, table - box,
+        "shape = \"mesh\"\nfile = \"room.gltf\"\nmaterials = { room = \"wall\", steel = \"steel\" }\n");
+    toml.erase(toml.find("[objects.table]"), toml.find("[lights.bulb]") - toml.find("[objects.table]"));
+    expect_same_light(read_text(toml, folder), read_text(std::string(kRoom)));
+}
+
 // OBJ
 
 /// The room in centimetres and y upwards, its faces as CAD programs write them.
@@ -262,6 +274,7 @@ TEST_F(ImportTest, ObjSaysWhichUnitItChose) {
     const SceneFile file = read_obj_scene(write("room.obj", room_in_obj()));
     std::string warnings;
     for (const std::string& warning : file.warnings) warnings += warning + "\n";
+    for (const std::string& note : file.notes) warnings += note + "\n";
     EXPECT_NE(warnings.find("up = \"y\", because 56 % of the faces across y or z lie across y"),
               std::string::npos)
         << warnings;

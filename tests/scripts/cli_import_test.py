@@ -48,11 +48,11 @@ class ImportTest(CommandLineTest):
 
     def test_obj_says_what_it_chose(self):
         result = run("import", DATA / "blender_room.obj", "-o", self.folder / "out")
-        self.assertIn('up = "y", because', result.stderr)
-        self.assertIn("scale = 1 (metres), because the model is then 2.5 m high", result.stderr)
+        self.assertIn('up = "y", because', result.stdout)
+        self.assertIn("scale = 1 (metres), because the model is then 2.5 m high", result.stdout)
         result = run("import", DATA / "blender_room.obj", "-o", self.folder / "out", "--scale", "0.5", "--up", "y",
                      "--light-scale", "2")
-        self.assertNotIn("scale =", result.stderr)
+        self.assertNotIn("scale =", result.stdout + result.stderr)
         info = self.info(self.folder / "out/scene.toml")
         self.assertAlmostEqual(info["objects"][0]["area_m2"], 59 / 4, delta=1e-4)
         self.assertAlmostEqual(info["lights"][0]["luminance_cd_m2"], 2 * 2000 * 0.91404, delta=0.1)

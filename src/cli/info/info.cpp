@@ -71,11 +71,11 @@ void add_info(CommandLine& line) {
     command.add("--ugr", request->has_ugr,
                 "For a luminaire, print the tables of its Unified Glare Rating, too: 19 rooms, five sets of "
                 "reflectances, crosswise and endwise");
-    command.add(
-        "--json", request->json,
-        "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
-        "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"run\", \"warnings\", "
-        "\"memory\"}, as far as the file has them; units are in the keys");
+    command.add("--json", request->json,
+                "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
+                "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"notes\", "
+                "\"run\", \"warnings\", "
+                "\"memory\"}, as far as the file has them; units are in the keys");
     command.run([request] {
         const InfoReport report = report_file(*request);
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
@@ -286,6 +286,9 @@ std::string to_text(const InfoReport& report) {
     result +=
         section_text(report, "warnings", "Warnings", [](const Json& w) { return w.get<std::string>(); });
     result += "\n";
+    if (report.contains("notes")) {
+        for (const auto& note : report["notes"]) result += note.get<std::string>() + "\n";
+    }
     if (report.contains("power")) result += installed_text(report["power"]);
     if (report.contains("run")) result += run_text(report["run"]);
     if (report.contains("memory")) result += memory_text(report["memory"]);

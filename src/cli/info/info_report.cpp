@@ -224,6 +224,7 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
     json["sensors"] = list_json(sensors, sensor_json);
     if (const auto power = scene::installed_power(scene); power.has_lamps())
         json["power"] = power_json(power, sensors);
+    if (!file.notes.empty()) json["notes"] = file.notes;
     json["run"] = run_json(file.run);
     json["warnings"] = checks::scene_warnings(file.scene, caster, enclosures, sensors, file.warnings);
     json["memory"] = {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}};

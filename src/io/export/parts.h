@@ -26,7 +26,7 @@ class Output {
     void warn(std::string_view kind, std::string_view name, std::string_view message) {
         warnings_.add(kind, name, message);
     }
-    ExportReport report() const { return {files_, warnings_.texts()}; }
+    ExportReport report() const { return {files_, warnings_.list()}; }
 
   private:
     std::filesystem::path folder_;

@@ -227,7 +227,7 @@ SceneFile ImportedScene::finish(const ImportSettings& settings) && {
     warn_of_units();
     if (file.scene.lights.empty()) note("no light: the scene is dark.");
     const std::string prefix = file.sources[0].string() + ": ";
-    for (const std::string& warning : warnings.texts()) file.warnings.push_back(prefix + warning);
+    for (const std::string& warning : warnings.list()) file.warnings.push_back(prefix + warning);
     settings.apply_to(file);
     return std::move(file);
 }

@@ -9,6 +9,7 @@
 namespace stilb::io {
 namespace {
 
+/// The formats of other programs.
 struct SceneFormat {
     FileKind kind;
     SceneFile (*read)(const std::filesystem::path& path, std::span<const std::string> overrides);
@@ -16,15 +17,14 @@ struct SceneFormat {
 constexpr std::array kSceneFormats{SceneFormat{FileKind::gltf_scene, read_gltf_scene},
                                    SceneFormat{FileKind::obj_mesh, read_obj_scene}};
 
+auto format_of(FileKind kind) { return std::ranges::find(kSceneFormats, kind, &SceneFormat::kind); }
+
 }  // namespace
 
-bool is_foreign_scene(FileKind kind) {
-    return std::ranges::find(kSceneFormats, kind, &SceneFormat::kind) != kSceneFormats.end();
-}
+bool is_scene(FileKind kind) { return may_be_scene_file(kind) || format_of(kind) != kSceneFormats.end(); }
 
-SceneFile read_scene_of_any_format(const std::filesystem::path& path,
-                                   std::span<const std::string> overrides) {
-    const auto format = std::ranges::find(kSceneFormats, kind_of_file(path), &SceneFormat::kind);
+SceneFile load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+    const auto format = format_of(kind_of_file(path));
     return format == kSceneFormats.end() ? read_scene_file(path, overrides) : format->read(path, overrides);
 }
 

@@ -1,4 +1,4 @@
-// Scenes in any format that can be read.
+// Scenes of all formats that Stilb reads: its own (TOML) and those of other programs.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,11 @@
 
 namespace stilb::io {
 
-/// Whether files of this kind are scenes of another format than TOML.
-bool is_foreign_scene(FileKind kind);
+/// Whether a file of this kind is a scene that load_scene() reads.
+bool is_scene(FileKind kind);
 
-/// Selects the reader by the file's content and, where that does not tell, by the extension of its name.
-/// Throws InputError as the reader does, and where the file is no scene.
-SceneFile read_scene_of_any_format(const std::filesystem::path& path,
-                                   std::span<const std::string> overrides = {});
+/// Reads a scene by its kind: the file's content or, where that does not tell, the extension of its name.
+/// `overrides`: of formats other than TOML see ImportSettings. Throws InputError with file and line.
+SceneFile load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 
 }  // namespace stilb::io

@@ -7,6 +7,7 @@
 
 #include "io/image/picture_file.h"
 #include "io/import/scene_parts.h"
+#include "io/photometry/photometry_file.h"
 #include "io/scene/toml_text.h"
 #include "io/text/text.h"
 #include "lights/opening_shape.h"
@@ -25,6 +26,22 @@ void push_key(TomlMembers& members, std::string key, TomlValue value) {
 double spin_deg(const Vec3& aim, const Vec3& c0) {
     const lights::LuminaireFrame unturned = lights::aim_luminaire(aim, 0);
     return std::atan2(dot(c0, unturned.c90), dot(c0, unturned.c0)) * kDegreesPerTurn / (2 * kPi);
+}
+
+/// Every degree of gamma and every 2.5 degrees of C.
+PhotometricSolid::Grid tabulated(const PhotometricSolid& solid) {
+    constexpr double kStepC = 2.5, kDegree = kPi / 180;
+    PhotometricSolid::Grid grid;
+    for (int i = 0; i <= 144; ++i) grid.planes_deg.push_back(i * kStepC);
+    for (int i = 0; i <= 180; ++i) grid.polar_deg.push_back(i);
+    for (const double c : grid.planes_deg) {
+        for (const double gamma : grid.polar_deg) {
+            const double radius = std::sin(gamma * kDegree);
+            grid.intensity_cd.push_back(solid.intensity_cd(
+                {radius * std::cos(c * kDegree), radius * std::sin(c * kDegree), std::cos(gamma * kDegree)}));
+        }
+    }
+    return grid;
 }
 
 class LightTable {
@@ -113,11 +130,21 @@ class LightTable {
     /// Lights with the same file share it.
     std::string luminaire_file(SolidId id) const {
         const std::string& file = file_.scene.solids[index_of(id)].file;
-        const auto known = file_.embedded_luminaires.find(file);
-        const std::string content =
-            known != file_.embedded_luminaires.end() ? known->second : read_whole_file(file);
+        const std::string content = luminaire_content(file, file_.scene.solid(id));
         const std::string extension = content.starts_with("IES") ? ".ies" : ".ldt";
         return output_.write_once(std::filesystem::path(file).stem().string(), extension, content);
+    }
+
+    std::string luminaire_content(const std::string& file, const PhotometricSolid& solid) const {
+        const auto known = file_.embedded_luminaires.find(file);
+        if (known != file_.embedded_luminaires.end()) return known->second;
+        try {
+            const std::string content = read_whole_file(file);
+            read_photometry(content, file);
+            return content;
+        } catch (const InputError&) {  // a distribution in a format of another program
+            return to_ies(tabulated(solid), file);
+        }
     }
 
     const SceneFile& file_;

@@ -1,4 +1,4 @@
-// Triangle meshes from OBJ and PLY files.
+// Triangle meshes from OBJ, PLY and glTF files.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@
 
 namespace stilb::io {
 
-/// The contents of a mesh file: coordinates untransformed, polygons triangulated, texture coordinates
-/// ignored.
+/// The contents of a mesh file: coordinates untransformed (glTF: with z upwards), polygons triangulated,
+/// texture coordinates ignored.
 struct MeshFile {
     Mesh mesh;
     /// Names of the file's parts and, for each triangle, indices into them. Unnamed parts have the name "".
@@ -24,13 +24,16 @@ struct MeshFile {
     std::vector<std::uint32_t> material_of_triangle;
     std::vector<std::string> group_names;
     std::vector<std::uint32_t> group_of_triangle;
+    /// Other files with parts of the mesh (buffers of glTF).
+    std::vector<std::filesystem::path> other_files;
     /// Names of files with materials (OBJ's mtllib), as written.
     std::vector<std::string> material_libraries;
     /// The number of triangles without area (or with a repeated vertex), which are left out.
     std::size_t degenerate_triangles = 0;
 };
 
-/// Selects the reader by the file's extension (.obj, .ply; any case). Throws InputError with file and line.
+/// Selects the reader by the file's extension (.obj, .ply, .gltf, .glb; any case). Throws InputError with
+/// file and line.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
 /// The readers for content in memory; `name` is used in messages only.

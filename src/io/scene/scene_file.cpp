@@ -190,7 +190,7 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
 
 SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std::string> overrides) {
     const FileKind kind = kind_of_file(path);
-    if (!may_be_scene(kind)) throw InputError(not_a_scene(kind), {path.string()});
+    if (!may_be_scene_file(kind)) throw InputError(not_a_scene(kind), {path.string()});
     SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path(), overrides);
     file.sources.insert(file.sources.begin(), path);
     return file;

@@ -23,6 +23,8 @@ struct SceneFile {
     std::vector<std::filesystem::path> sources;
     /// Values that replaced those of the scene file (overrides.h).
     std::vector<std::string> overrides;
+    /// Conventions by which a file of another program was read (units ...), a sentence each, for `info`.
+    std::vector<std::string> notes = {};
     /// Unusual but valid contents (degenerate triangles dropped, normals normalised, ...), for `info` and
     /// stderr.
     std::vector<std::string> warnings;

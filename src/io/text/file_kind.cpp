@@ -140,7 +140,7 @@ bool is_luminance_picture(FileKind kind) {
     return kind == FileKind::exr_picture || kind == FileKind::hdr_picture;
 }
 
-bool may_be_scene(FileKind kind) { return kind == FileKind::other || kind == FileKind::empty; }
+bool may_be_scene_file(FileKind kind) { return kind == FileKind::other || kind == FileKind::empty; }
 
 std::string not_a_scene(FileKind kind) {
     const auto& [_, name, in_a_scene] = description_of(kind);

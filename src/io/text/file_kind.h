@@ -54,8 +54,8 @@ std::string_view name_of(FileKind kind);
 
 /// Whether it is a picture whose luminances can be read.
 bool is_luminance_picture(FileKind kind);
-/// Whether a file of this kind may be a scene.
-bool may_be_scene(FileKind kind);
+/// Whether a file of this kind may be a scene file of Stilb, which has no beginning of its own.
+bool may_be_scene_file(FileKind kind);
 /// The message that a file of this kind is no scene, with its use in a scene.
 std::string not_a_scene(FileKind kind);
 

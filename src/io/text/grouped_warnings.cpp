@@ -4,27 +4,28 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
+#include <span>
 
 namespace stilb::io {
 
 void GroupedWarnings::add(std::string_view kind, std::string_view name, std::string_view message) {
-    const auto is_same = [&](const Warning& w) { return w.kind == kind && w.message == message; };
-    auto found = std::find_if(warnings_.begin(), warnings_.end(), is_same);
-    if (found == warnings_.end()) {
-        warnings_.push_back({std::string(kind), std::string(message), {}});
-        found = std::prev(warnings_.end());
-    }
-    found->names.emplace_back(name);
+    const auto [entry, is_new] = index_.try_emplace(fmt::format("{}\n{}", kind, message), warnings_.size());
+    if (is_new) warnings_.push_back({std::string(kind), std::string(message), {}});
+    std::vector<std::string>& names = warnings_[entry->second].names;
+    if (names.empty() || names.back() != name) names.emplace_back(name);
 }
 
-std::vector<std::string> GroupedWarnings::texts() const {
-    std::vector<std::string> texts;
+std::vector<std::string> GroupedWarnings::list() const {
+    constexpr std::size_t most_names = 12;
+    std::vector<std::string> result;
     for (const Warning& warning : warnings_) {
-        texts.push_back(fmt::format("{}{} {}: {}", warning.kind, warning.names.size() > 1 ? "s" : "",
-                                    fmt::join(warning.names, ", "), warning.message));
+        const std::size_t count = warning.names.size(), shown = std::min(count, most_names);
+        result.push_back(fmt::format("{}{} {}{}: {}", warning.kind, count > 1 ? "s" : "",
+                                     fmt::join(std::span(warning.names).first(shown), ", "),
+                                     count > shown ? fmt::format(" and {} more", count - shown) : "",
+                                     warning.message));
     }
-    return texts;
+    return result;
 }
 
 }  // namespace stilb::io

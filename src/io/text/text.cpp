@@ -253,7 +253,7 @@ std::string foreign_light_hash(std::span<const std::filesystem::path> sources,
 std::string light_hash(std::span<const std::filesystem::path> sources,
                        std::span<const std::string> overrides) {
     const std::filesystem::path& scene = sources.front();
-    if (!may_be_scene(kind_of_file(scene))) return foreign_light_hash(sources, overrides);
+    if (!may_be_scene_file(kind_of_file(scene))) return foreign_light_hash(sources, overrides);
     TomlValue document = parse_toml(read_whole_file(scene), scene.string());
     auto& sections = std::get<TomlMembers>(document.content);
     override_values(sections, overrides);

@@ -158,11 +158,15 @@ geometry::Transform placement(const MeshFile& mesh, const ImportOptions& options
     } else {
         const UpGuess guess = guess_up(mesh);
         up = guess.up;
-        scene.note(guess.reason);
+        scene.file.notes.push_back(guess.reason);
     }
     if (options.scale) return to_metres_and_z_up(*options.scale, up);
     const ScaleGuess guess = guess_scale(mesh, up);
-    scene.note(guess.reason);
+    // Another unit than the usual one is worth a warning, which all commands print.
+    if (guess.scale != 1)
+        scene.note(guess.reason);
+    else
+        scene.file.notes.push_back(guess.reason);
     return to_metres_and_z_up(guess.scale, up);
 }
 
