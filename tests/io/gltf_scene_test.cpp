@@ -288,6 +288,12 @@ TEST(GltfScene, RefusesWhatIsNoGltf) {
               "s.gltf: the scene has no surface: there is nothing to light.");
 }
 
+TEST(GltfScene, RefusesDeepNesting) {
+    const std::string open(100'000, '['), close(100'000, ']');
+    EXPECT_EQ(gltf_refusal(R"({"asset": {"version": "2.0"}, "extras": )" + open + close + "}"),
+              "s.gltf: its JSON is nested more than 256 levels deep.");
+}
+
 TEST(GltfScene, RefusesRequiredExtensionsThatItCannotRead) {
     std::string text = square_scene().text();
     text.insert(1, R"("extensionsRequired": ["KHR_draco_mesh_compression"], )");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "io/text/text.h"
@@ -56,12 +57,42 @@ bool write_no_file(std::string*, const std::string&, const std::vector<unsigned 
     return false;
 }
 
-/// Keeps an image as it is: only textures that matter are decoded, later.
+/// Keeps an image as it is: only textures that matter are decoded, later. Those in buffers stay there,
+/// because the parser has not checked their ranges.
 bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                 const unsigned char* bytes, int size, void*) {
-    image->image.assign(bytes, bytes + size);
+    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
     image->as_is = true;
     return true;
+}
+
+/// The JSON of a file, whichever of its two forms it has.
+std::string_view json_of(std::string_view content) {
+    constexpr std::size_t kHeader = 20, kLengthAt = 12;
+    if (!content.starts_with("glTF") || content.size() < kHeader) return content;
+    std::uint32_t length = 0;
+    std::memcpy(&length, content.data() + kLengthAt, sizeof length);
+    return content.substr(kHeader, length);
+}
+
+/// The deepest nesting of arrays and objects: the parser follows it by recursion.
+std::size_t nesting_of(std::string_view json) {
+    std::size_t depth = 0, deepest = 0;
+    bool is_in_text = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (is_in_text) {
+            if (c == '\\') ++i;
+            is_in_text = c != '"';
+        } else if (c == '"') {
+            is_in_text = true;
+        } else if (c == '[' || c == '{') {
+            deepest = std::max(deepest, ++depth);
+        } else if ((c == ']' || c == '}') && depth > 0) {
+            --depth;
+        }
+    }
+    return deepest;
 }
 
 /// One line of the parser's messages.
@@ -111,6 +142,9 @@ File parse(std::string_view content, const fs::path& path) {
     file.path = path;
     if (content.size() > std::numeric_limits<unsigned>::max())
         file.fail("", "the file is larger than 4 GB, the limit of glTF.");
+    constexpr std::size_t kMostNesting = 256;
+    if (nesting_of(json_of(content)) > kMostNesting)
+        file.fail("", fmt::format("its JSON is nested more than {} levels deep.", kMostNesting));
     FileAccess access{folder_of(path), {}, ""};
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(keep_image, nullptr);
