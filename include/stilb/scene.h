@@ -48,7 +48,8 @@ using Parameters = std::map<std::string, Value>;
 /// Objects, materials, lights and sensors. Immutable; copies share their data.
 class Scene {
   public:
-    /// Reads a scene file. Throws InputError: file, line, key, what was found, and what is allowed.
+    /// Reads a scene file, or a scene in glTF or OBJ. Throws InputError: file, line, key, what was found, and
+    /// what is allowed.
     static Scene load(const std::filesystem::path& path);
     /// Reads a scene from a text; file names in it are relative to `directory`.
     static Scene parse(std::string_view toml, const std::filesystem::path& directory = ".");

@@ -187,8 +187,8 @@ class MaterialReader {
     Material transparent(const MeanSurface& surface) {
         if (surface.transmission < 1) {
             warn(
-                fmt::format("its transmission of {:.2g} is used as a clear sheet that transmits so much more "
-                            "or less; the diffuse rest is absorbed.",
+                fmt::format("its transmission of {:.2g} becomes a clear pane of this transmittance; the "
+                            "light that it would scatter is absorbed.",
                             surface.transmission));
         }
         constexpr double kClear = 0.05;
