@@ -14,7 +14,8 @@ target_include_directories(stilb_library INTERFACE $<BUILD_INTERFACE:${PROJECT_S
                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 # What the package has to find again, where the library is static (stilbConfig.cmake.in).
 target_link_libraries(stilb_library PRIVATE Threads::Threads embree TBB::tbb fmt::fmt OpenEXR::OpenEXR
-                                            PkgConfig::EPOXY PkgConfig::PNG PkgConfig::TOMLPLUSPLUS PkgConfig::POLYCLIPPING)
+                                            TinyGLTF::TinyGLTF PkgConfig::EPOXY PkgConfig::PNG PkgConfig::STB
+                                            PkgConfig::TOMLPLUSPLUS PkgConfig::POLYCLIPPING)
 
 install(TARGETS stilb_library EXPORT stilb)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/stilb DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -108,6 +108,7 @@ void add_info(CommandLine& line);
 void add_falsecolor(CommandLine& line);
 void add_report(CommandLine& line);
 void add_export(CommandLine& line);
+void add_import(CommandLine& line);
 void add_verify(CommandLine& line);
 
 }  // namespace stilb::cli

@@ -24,6 +24,7 @@ int run_commands(int argument_count, const char* const* arguments) {
     cli::add_falsecolor(line);
     cli::add_report(line);
     cli::add_export(line);
+    cli::add_import(line);
     cli::add_verify(line);
     papers::add_reproduce(line);
     line.add_help();

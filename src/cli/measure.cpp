@@ -150,7 +150,7 @@ void add_measure(CommandLine& line) {
         "  stilb measure room.rad --points grid.pts --format radiance\n");
     auto request = std::make_shared<MeasureRequest>();
     command.add("SCENE", request->scene,
-                "Scene (TOML, or Radiance .rad), or - for standard input (required)");
+                "Scene (TOML, glTF, OBJ, Radiance), or - for standard input (required)");
     command
         .add("--json", request->json,
              "One JSON document on stdout instead of the table, or beside it into this file")

@@ -277,8 +277,9 @@ void add_render(CommandLine& line) {
         "  stilb render --from office.solution --sensor door -o door.png\n"
         "  stilb render --from office.solution --set desk_lamp=0.4 --set ceiling=0 -o evening.png\n");
     auto request = std::make_shared<RenderRequest>();
-    command.add("SCENE", request->scene,
-                "Scene (TOML, or Radiance .rad), or - for standard input; with --from only if it has moved");
+    command.add(
+        "SCENE", request->scene,
+        "Scene (TOML, glTF, OBJ, Radiance), or - for standard input; with --from only if it has moved");
     command
         .add("--from", request->solution,
              "Take the light from this solution (written by `stilb solve`); only the view is computed")

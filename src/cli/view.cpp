@@ -255,7 +255,8 @@ void add_view(CommandLine& line) {
         "  stilb view office.solution -o office.html\n");
     auto request = std::make_shared<ViewRequest>();
     command
-        .add("SCENE", request->input, "Scene (TOML, or Radiance .rad), - for standard input, or a solution")
+        .add("SCENE", request->input,
+             "Scene (TOML, glTF, OBJ, Radiance), - for standard input, or a solution")
         .required();
     command
         .add("-o,--output", request->output,

@@ -57,17 +57,15 @@ TEST(Rtrace, IrradiancesAreWrittenInTheOrderOfThePoints) {
 TEST(SceneFormats, RadianceScenesAreReadByTheirExtension) {
     const auto room = kRadianceData / "room.rad";
     EXPECT_EQ(load_scene(room).scene.lights.size(), 4u);
-    try {
-        const std::vector<std::string> overrides{"run.method=path"};
-        load_scene(room, overrides);
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_EQ(
-            error.what(),
-            "run.method=path: this value cannot be set, because '" + room.string() +
-                "' is a Radiance scene: only scene files (TOML) have such keys. Import the scene as a scene "
-                "file first, or change its own file.");
-    }
+    const std::vector<std::string> overrides{"run.method=path", "sensors.desk.type=illuminance",
+                                             "sensors.desk.position=[1, 1, 0.8]",
+                                             "sensors.desk.normal=[0, 0, 1]"};
+    const SceneFile measured = load_scene(room, overrides);
+    EXPECT_EQ(measured.run.method, "path");
+    ASSERT_EQ(measured.sensors.size(), 1u);
+    EXPECT_EQ(measured.sensors[0].name, "desk");
+    EXPECT_THROW(load_scene(room, std::vector<std::string>{"import.scale=0.01"}), InputError);
+    EXPECT_THROW(load_scene(room, std::vector<std::string>{"materials.red.reflectance=0.1"}), InputError);
 }
 
 TEST(SceneFormats, AllFilesOfARadianceSceneAreItsSources) {

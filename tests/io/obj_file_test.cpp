@@ -239,7 +239,8 @@ TEST(MeshFile, files_that_cannot_be_read) {
     };
     EXPECT_EQ(message("nowhere/room.obj"), "nowhere/room.obj: cannot be read: No such file or directory");
     EXPECT_EQ(message("room.stl"),
-              "room.stl: the extension \".stl\" is not a supported mesh format: use .obj or .ply");
+              "room.stl: the extension \".stl\" is not a supported mesh format: use .obj, .ply, .gltf "
+              "or .glb");
     const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "folder.obj";
     std::filesystem::create_directory(directory);
     EXPECT_EQ(message(directory),

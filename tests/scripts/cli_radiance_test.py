@@ -57,8 +57,10 @@ class RadianceTest(CommandLineTest):
 
     def test_wrong_input_is_named(self):
         measure = ["measure", self.rad]
-        self.expect_wrong_input([*measure, "--points", self.points, "--set", "run.seed=2"], "cannot be set",
-                                "a Radiance scene")
+        self.expect_wrong_input([*measure, "--points", self.points, "--set", "import.scale=0.01"], "in metres",
+                                self.rad.name)
+        self.expect_wrong_input([*measure, "--points", self.points, "--set", "materials.red.reflectance=0.1"],
+                                "only keys of import, run and sensors")
         self.expect_wrong_input([*measure, "--points", self.points, "--format", "rad"], "--format rad",
                                 "Allowed: radiance")
         self.expect_wrong_input([*measure, "--points", self.points, "--format", "radiance", "--json"],

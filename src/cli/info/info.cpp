@@ -15,6 +15,7 @@
 #include "cli/info/info_report.h"
 #include "cli/info/ugr_report.h"
 #include "cli/scene_argument.h"
+#include "io/import/obj/obj_scene.h"
 #include "io/results/results_text.h"
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
@@ -39,11 +40,15 @@ InfoReport report_file(const InfoRequest& request) {
         throw InputError("is no luminaire file. Allowed with --ugr: IES LM-63, EULUMDAT.", {file});
     switch (kind) {
         case io::FileKind::obj_mesh:
+            // With materials of its own, or options for it, it is a scene.
+            if (io::names_materials(file) || !request.overrides.empty()) break;
+            return report_mesh(file);
         case io::FileKind::ply_mesh:
             return report_mesh(file);
         default:
-            return report_scene(read_scene(file, request.overrides), file);
+            break;
     }
+    return report_scene(read_scene(file, request.overrides), file);
 }
 
 }  // namespace
@@ -59,7 +64,9 @@ void add_info(CommandLine& line) {
     auto request = std::make_shared<InfoRequest>();
     command
         .add("FILE", request->file,
-             "Scene (TOML, Radiance .rad; - for standard input), luminaire (.ies, .ldt) or mesh (.obj, .ply)")
+             "Scene (TOML, - for standard input; .gltf, .glb; .obj with materials; .rad), luminaire (.ies, "
+             ".ldt) "
+             "or mesh (.obj, .ply)")
         .required();
     add_overrides(command, request->overrides);
     command.add("--ugr", request->has_ugr,

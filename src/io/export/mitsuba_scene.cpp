@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "io/mesh/mesh_file.h"
+
 namespace stilb::io::exporting {
 namespace {
 
@@ -13,7 +15,7 @@ bool has_right_angle(const Rectangle& r) {
 }
 
 std::string mesh_shape(const std::string& name, const Mesh& mesh, Output& output) {
-    output.write(name + ".ply", to_ply(mesh));
+    output.write(name + ".ply", to_ply(mesh, PlyNumbers::float32));
     return fmt::format(
         "  <shape type=\"ply\" id=\"{}\">\n    <string name=\"filename\" value=\"{}.ply\"/>\n{}", name, name,
         mesh.normals.empty() ? "    <boolean name=\"face_normals\" value=\"true\"/>\n" : "");

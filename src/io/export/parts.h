@@ -54,9 +54,6 @@ struct Surface {
 /// The surfaces of all objects. Openings of luminaires are left out, as they are written with their lights.
 std::vector<Surface> surfaces_of(const Scene& scene, Identifiers& identifiers, Output& output);
 
-/// Binary PLY; with normals where the mesh has them.
-std::string to_ply(const Mesh& mesh);
-
 /// The intensity of a solid by C plane and gamma, in Radiance's format of data files: every 2.5 degrees of C,
 /// from 0 to 360, and every degree of gamma.
 std::string photometric_table(const PhotometricSolid& solid);

@@ -101,22 +101,6 @@ class Division {
     Output& output_;
 };
 
-void append(std::string& bytes, const Vec3& vector) {
-    const std::array<float, 3> values{static_cast<float>(vector.x), static_cast<float>(vector.y),
-                                      static_cast<float>(vector.z)};
-    bytes.append(reinterpret_cast<const char*>(values.data()), sizeof values);
-}
-
-/// The shading normal at a corner, the triangle's own where there is none.
-Vec3 normal_at(const Mesh& mesh, std::uint32_t triangle, std::size_t corner) {
-    const Triangle& t = mesh.triangles[triangle];
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3 across = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    Vec3 barycentric{0, 0, 0};
-    (corner == 0 ? barycentric.x : corner == 1 ? barycentric.y : barycentric.z) = 1;
-    return shading_normal(mesh, triangle, barycentric, normalized(across));
-}
-
 }  // namespace
 
 std::vector<Surface> surfaces_of(const Scene& scene, Identifiers& identifiers, Output& output) {
@@ -137,33 +121,6 @@ std::vector<Surface> surfaces_of(const Scene& scene, Identifiers& identifiers, O
                      found == luminances.end() ? std::nullopt : std::optional(found->second));
     }
     return surfaces;
-}
-
-std::string to_ply(const Mesh& mesh) {
-    // With normals every triangle has corners of its own, since a vertex may have several normals.
-    const bool has_normals = !mesh.normals.empty();
-    const std::size_t vertices = has_normals ? 3 * mesh.triangles.size() : mesh.vertices.size();
-    std::string bytes = fmt::format(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
-        "property float z\n{}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        vertices, has_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
-        mesh.triangles.size());
-    if (!has_normals) {
-        for (const Vec3& vertex : mesh.vertices) append(bytes, vertex);
-    }
-    for (std::uint32_t t = 0; has_normals && t < mesh.triangles.size(); ++t) {
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            append(bytes, mesh.vertices[mesh.triangles[t][corner]]);
-            append(bytes, normal_at(mesh, t, corner));
-        }
-    }
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        bytes += '\3';
-        const Triangle own{3 * t, 3 * t + 1, 3 * t + 2};
-        bytes.append(reinterpret_cast<const char*>(has_normals ? own.data() : mesh.triangles[t].data()),
-                     sizeof(Triangle));
-    }
-    return bytes;
 }
 
 }  // namespace stilb::io::exporting

@@ -13,8 +13,8 @@ namespace stilb::io {
 /// Whether a file of this kind is a scene that load_scene() reads.
 bool is_scene(FileKind kind);
 
-/// Reads a scene by its kind. `overrides` are for scene files of Stilb alone. Throws InputError with file and
-/// line.
+/// Reads a scene by its kind: the file's content or, where that does not tell, the extension of its name.
+/// `overrides`: of formats other than TOML see ImportSettings. Throws InputError with file and line.
 SceneFile load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 
 }  // namespace stilb::io

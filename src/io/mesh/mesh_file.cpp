@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "io/import/gltf/gltf_mesh.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
 
@@ -16,10 +17,12 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
     const std::string extension = extension_of(path);
     if (extension == ".obj") return read_obj(read_whole_file(path), path.string());
     if (extension == ".ply") return read_ply(read_whole_file(path), path.string());
+    if (extension == ".gltf" || extension == ".glb") return read_gltf_mesh(path);
     if (extension.empty()) read_beginning(path, 1);  // names folders, and files that are not there
-    throw InputError(fmt::format("the extension {} is not a supported mesh format: use .obj or .ply",
-                                 in_quotes(extension)),
-                     {path.string()});
+    throw InputError(
+        fmt::format("the extension {} is not a supported mesh format: use .obj, .ply, .gltf or .glb",
+                    in_quotes(extension)),
+        {path.string()});
 }
 
 namespace {

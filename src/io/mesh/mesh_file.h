@@ -1,4 +1,4 @@
-// Triangle meshes from OBJ and PLY files.
+// Triangle meshes from OBJ, PLY and glTF files.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@
 
 namespace stilb::io {
 
-/// The contents of a mesh file: coordinates untransformed, polygons triangulated, texture coordinates
-/// ignored.
+/// The contents of a mesh file: coordinates untransformed (glTF: with z upwards), polygons triangulated,
+/// texture coordinates ignored.
 struct MeshFile {
     Mesh mesh;
     /// Names of the file's parts and, for each triangle, indices into them. Unnamed parts have the name "".
@@ -24,11 +24,16 @@ struct MeshFile {
     std::vector<std::uint32_t> material_of_triangle;
     std::vector<std::string> group_names;
     std::vector<std::uint32_t> group_of_triangle;
+    /// Other files with parts of the mesh (buffers of glTF).
+    std::vector<std::filesystem::path> other_files;
+    /// Names of files with materials (OBJ's mtllib), as written.
+    std::vector<std::string> material_libraries;
     /// The number of triangles without area (or with a repeated vertex), which are left out.
     std::size_t degenerate_triangles = 0;
 };
 
-/// Selects the reader by the file's extension (.obj, .ply; any case). Throws InputError with file and line.
+/// Selects the reader by the file's extension (.obj, .ply, .gltf, .glb; any case). Throws InputError with
+/// file and line.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
 /// The readers for content in memory; `name` is used in messages only.
@@ -37,6 +42,13 @@ MeshFile read_ply(std::string_view content, const std::string& name);
 
 /// The content of an OBJ file, with seven digits of each coordinate.
 std::string to_obj(const Mesh& mesh);
+/// The same with all digits, with normals, and with a material for each triangle: an index into `names`.
+std::string to_obj(const Mesh& mesh, std::span<const std::uint32_t> part_of_triangle,
+                   std::span<const std::string> names);
+
+enum class PlyNumbers { float32, float64 };
+/// The content of a binary PLY file; with normals where the mesh has them.
+std::string to_ply(const Mesh& mesh, PlyNumbers numbers);
 
 /// Triangles (indices into `polygon`) of a simple planar polygon, convex or not, with the same orientation.
 std::vector<Triangle> triangulate_polygon(const std::vector<Vec3>& polygon);
@@ -81,6 +93,7 @@ class MeshBuilder {
     /// The names of the following polygons; "" before the first call.
     void use_material(std::string_view name) { materials_.use(name); }
     void use_group(std::string_view name) { groups_.use(name); }
+    void add_material_library(std::string_view name) { file_.material_libraries.emplace_back(name); }
 
     /// A simple planar polygon of three corners or more. `normals`: those of its corners, or kNoNormal; empty
     /// where normals have the vertices' indices, or there are none.

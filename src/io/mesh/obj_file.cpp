@@ -17,10 +17,10 @@ using namespace std::string_view_literals;
 
 /// Statements that do not affect polygonal surfaces.
 constexpr std::array kIgnored{
-    "vp"sv,       "s"sv,        "mtllib"sv, "l"sv,      "p"sv,          "mg"sv,        "lod"sv,  "bevel"sv,
-    "c_interp"sv, "d_interp"sv, "usemap"sv, "maplib"sv, "shadow_obj"sv, "trace_obj"sv, "deg"sv,  "bmat"sv,
-    "step"sv,     "cstype"sv,   "ctech"sv,  "stech"sv,  "curv"sv,       "curv2"sv,     "parm"sv, "trim"sv,
-    "hole"sv,     "scrv"sv,     "sp"sv,     "end"sv,    "con"sv};
+    "vp"sv,       "s"sv,        "l"sv,      "p"sv,      "mg"sv,         "lod"sv,       "bevel"sv,
+    "c_interp"sv, "d_interp"sv, "usemap"sv, "maplib"sv, "shadow_obj"sv, "trace_obj"sv, "deg"sv,
+    "bmat"sv,     "step"sv,     "cstype"sv, "ctech"sv,  "stech"sv,      "curv"sv,      "curv2"sv,
+    "parm"sv,     "trim"sv,     "hole"sv,   "scrv"sv,   "sp"sv,         "end"sv,       "con"sv};
 /// Statements with surfaces that this reader does not support: ignoring them would change the scene.
 constexpr std::array kSurfaces{"surf"sv, "fo"sv,  "bzp"sv,  "bsp"sv, "cdc"sv,
                                "cdp"sv,  "res"sv, "call"sv, "csh"sv};
@@ -71,6 +71,7 @@ class ObjReader {
         if (word == "f") return read_face(arguments);
         if (word == "usemtl") return builder_.use_material(trimmed(arguments));
         if (word == "g" || word == "o") return builder_.use_group(trimmed(arguments));
+        if (word == "mtllib") return builder_.add_material_library(trimmed(arguments));
         if (contains(kIgnored, word)) return;
         if (contains(kSurfaces, word)) {
             fail(
@@ -184,13 +185,6 @@ MeshFile read_obj(std::string_view content, const std::string& name) {
     if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);  // UTF-8's byte order mark
     check_text(content, name);
     return ObjReader(content, name).read();
-}
-
-std::string to_obj(const Mesh& mesh) {
-    std::string text;
-    for (const Vec3& v : mesh.vertices) text += fmt::format("v {:.7g} {:.7g} {:.7g}\n", v.x, v.y, v.z);
-    for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
-    return text;
 }
 
 }  // namespace stilb::io

@@ -39,6 +39,10 @@ PhotometryFile read_photometry(std::string_view content, const std::string& name
 PhotometryFile read_ies(std::string_view content, const std::string& name);
 PhotometryFile read_eulumdat(std::string_view content, const std::string& name);
 
+/// A distribution as a file in LM-63-2002, with absolute photometry and all digits. Precondition: its type is
+/// C, and its planes begin at 0 (or it has one plane).
+std::string to_ies(const PhotometricSolid::Grid& grid, std::string_view luminaire);
+
 /// Comparison of the integral of a file's distribution with the flux that the file states.
 struct FluxAgreement {
     enum class Classification {

@@ -12,7 +12,6 @@
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/sections.h"
-#include "io/text/file_kind.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
 
@@ -196,11 +195,12 @@ MaterialId read_material(const TomlItem& item, const Scene& scene) {
 }
 
 MeshFile read_mesh(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
-    if (kind_of_name(item.text()) == FileKind::gltf_scene)
-        item.fail("meshes in glTF are not supported yet. Allowed: OBJ (.obj) and PLY (.ply).");
     const std::filesystem::path path = item.existing_file(directory);
-    if (std::ranges::find(file.sources, path) == file.sources.end()) file.sources.push_back(path);
-    return read_mesh_file(path);
+    MeshFile mesh = read_mesh_file(path);
+    mesh.other_files.insert(mesh.other_files.begin(), path);
+    for (const std::filesystem::path& source : mesh.other_files)
+        if (std::ranges::find(file.sources, source) == file.sources.end()) file.sources.push_back(source);
+    return mesh;
 }
 
 /// The assignment of the scene's materials to the parts of a mesh, by the names in the mesh file.

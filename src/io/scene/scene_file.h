@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,6 +28,9 @@ struct SceneFile {
     /// Unusual but valid contents (degenerate triangles dropped, normals normalised, ...), for `info` and
     /// stderr.
     std::vector<std::string> warnings;
+    /// Contents of luminaire files that are parts of the scene's file, by NamedSolid::file: `import` writes
+    /// them as files of their own.
+    std::map<std::string, std::string> embedded_luminaires;
 };
 
 /// The warning of a scene without lamps.

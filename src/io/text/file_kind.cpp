@@ -81,10 +81,7 @@ constexpr std::array kDescriptions{
     Description{FileKind::eulumdat_luminaire, "a EULUMDAT luminaire", kLuminaire},
     Description{FileKind::radiance_scene, "a Radiance scene",
                 "Commands that take a scene read it by itself."},
-    Description{
-        FileKind::gltf_scene, "a glTF scene",
-        "Stilb cannot read glTF yet. Export the geometry as OBJ or PLY, and write a TOML file with its "
-        "materials and lights (docs/scene-format.md)."},
+    Description{FileKind::gltf_scene, "a glTF scene", "Commands that take a scene read it by itself."},
 };
 
 const Description& description_of(FileKind kind) {

@@ -108,8 +108,11 @@ std::string_view next_word(std::string_view& text) {
     return {begin, end};
 }
 
+namespace {
+constexpr std::string_view kBase64Digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+}  // namespace
+
 std::string base64(std::string_view bytes) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -118,9 +121,23 @@ std::string base64(std::string_view bytes) {
         for (std::size_t j = 0; j < 3; ++j)
             bits = bits << 8 | (j < three.size() ? static_cast<unsigned char>(three[j]) : 0u);
         for (std::size_t j = 0; j < 4; ++j)
-            text += j <= three.size() ? kDigits[bits >> (18 - 6 * j) & 63] : '=';
+            text += j <= three.size() ? kBase64Digits[bits >> (18 - 6 * j) & 63] : '=';
     }
     return text;
+}
+
+std::optional<std::string> from_base64(std::string_view text) {
+    while (text.ends_with('=')) text.remove_suffix(1);
+    std::string bytes;
+    std::uint32_t bits = 0;
+    std::size_t count = 0;
+    for (const char c : text) {
+        const std::size_t digit = kBase64Digits.find(c);
+        if (digit == kBase64Digits.npos) return std::nullopt;
+        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+        if (++count % 4 != 1) bytes += static_cast<char>(bits >> (6 - 2 * ((count - 1) % 4)) & 255);
+    }
+    return bytes;
 }
 
 KeyWords words_of_key(std::string key) {
@@ -218,10 +235,25 @@ std::string content_hash(std::span<const std::filesystem::path> files) {
     return digits(hash_of_files(files, kEmptyHash));
 }
 
+namespace {
+
+/// Of a scene that is no TOML file: everything in its files, and the overrides of what they say.
+std::string foreign_light_hash(std::span<const std::filesystem::path> sources,
+                               std::span<const std::string> overrides) {
+    std::uint64_t hash = kEmptyHash;
+    for (const std::string& text : overrides) {
+        if (text.starts_with("import.") || text.starts_with("run.maintenance"))
+            hash = hash_of(text + "\n", hash);
+    }
+    return digits(hash_of_files(sources, hash));
+}
+
+}  // namespace
+
 std::string light_hash(std::span<const std::filesystem::path> sources,
                        std::span<const std::string> overrides) {
     const std::filesystem::path& scene = sources.front();
-    if (!may_be_scene_file(kind_of_file(scene))) return content_hash(sources);
+    if (!may_be_scene_file(kind_of_file(scene))) return foreign_light_hash(sources, overrides);
     TomlValue document = parse_toml(read_whole_file(scene), scene.string());
     auto& sections = std::get<TomlMembers>(document.content);
     override_values(sections, overrides);

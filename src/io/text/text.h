@@ -35,6 +35,9 @@ std::string_view next_word(std::string_view& text);
 /// Bytes as text, as data URIs have them [RFC 4648, section 4].
 std::string base64(std::string_view bytes);
 
+/// The inverse; nothing for any other text.
+std::optional<std::string> from_base64(std::string_view text);
+
 /// Reads a text line by line; lines end with LF or CR LF.
 class TextLines {
   public:

@@ -9,6 +9,7 @@
 
 #include "geometry/mesh_part.h"
 #include "geometry/mesh_topology.h"
+#include "io/import/import_settings.h"
 #include "io/import/radiance/distribution.h"
 #include "io/import/radiance/optics.h"
 #include "io/import/radiance/shapes.h"
@@ -298,8 +299,16 @@ SceneFile read_radiance_scene(std::string_view text, const std::string& name,
     return radiance::Assembly(description).assemble();
 }
 
-SceneFile read_radiance_scene(const std::filesystem::path& path) {
-    return read_radiance_scene(read_whole_file(path), path.string(), path.parent_path());
+SceneFile read_radiance_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+    const ImportSettings settings(overrides, path.string());
+    if (settings.options() != ImportOptions{})
+        throw InputError(
+            "Radiance scenes are in metres, with z upwards: import.scale, import.up and "
+            "import.light_scale do not go with them. Turn and scale by !xform in the file.",
+            {path.string()});
+    SceneFile file = read_radiance_scene(read_whole_file(path), path.string(), path.parent_path());
+    settings.apply_to(file);
+    return file;
 }
 
 }  // namespace stilb::io

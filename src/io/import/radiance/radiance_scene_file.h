@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,9 +11,9 @@
 
 namespace stilb::io {
 
-/// Reads the file and all that it includes; no program is run. There are no sensors. Throws InputError with
-/// file and line.
-SceneFile read_radiance_scene(const std::filesystem::path& path);
+/// Reads the file and all that it includes; no program is run. Sensors are those of the overrides
+/// (ImportSettings). Throws InputError with file and line.
+SceneFile read_radiance_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 /// The same for content in memory; `folder` is the base of its file names, `name` is used in messages.
 SceneFile read_radiance_scene(std::string_view text, const std::string& name,
                               const std::filesystem::path& folder, const radiance::Limits& limits = {});

@@ -1,0 +1,40 @@
+// The nodes of a glTF scene with their places, and the triangles of their meshes.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "geometry/transform.h"
+#include "io/import/gltf/gltf_file.h"
+#include "io/text/grouped_warnings.h"
+
+namespace stilb::io::gltf {
+
+/// Whether the coordinates are numbers that scene files allow.
+bool is_placeable(const Vec3& position);
+
+struct PlacedNode {
+    const tinygltf::Node* node = nullptr;
+    std::string part;  ///< "nodes[3]", for messages
+    geometry::Transform to_world;
+};
+
+/// The nodes of the file's scene, parents first. `root` is applied to all of them. Throws for nodes that are
+/// their own descendants, have two parents, or numbers that are not finite.
+std::vector<PlacedNode> placed_nodes(const File& file, const geometry::Transform& root);
+
+/// A primitive of a mesh where a node places it.
+struct PlacedPrimitive {
+    std::size_t node = 0;  ///< index of the placed node
+    int material = -1;
+    Mesh mesh;
+    /// Texture coordinates of the vertices by their sets; sets that the material does not use are empty.
+    std::array<std::vector<std::array<double, 2>>, 2> uv{};
+};
+
+/// The triangles of all nodes. Warns of points, lines, and what is left out.
+std::vector<PlacedPrimitive> placed_primitives(const File& file, const std::vector<PlacedNode>& nodes,
+                                               GroupedWarnings& warnings);
+
+}  // namespace stilb::io::gltf

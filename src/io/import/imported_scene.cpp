@@ -1,0 +1,235 @@
+#include "io/import/imported_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "geometry/mesh_part.h"
+#include "geometry/mesh_topology.h"
+#include "scene/cut_lamps.h"
+#include "scene/overlaps.h"
+#include "stilb/error.h"
+
+namespace stilb::io {
+namespace {
+
+/// A candle has about 12 lm; a lamp below this was probably given in another unit.
+constexpr double kFaintestLamp_lm = 10;
+/// The longest edge of a scene that is probably in metres.
+constexpr double kSmallestScene_m = 0.5, kLargestScene_m = 2000;
+
+/// Six times the volume below some triangles.
+double volume_below(const Mesh& mesh, std::uint32_t component,
+                    const geometry::ConnectedComponents& components) {
+    double sum = 0;
+    const Vec3& origin = mesh.vertices.front();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (components.of_triangle[t] != component) continue;
+        const auto& [a, b, c] = mesh.triangles[t];
+        sum += dot(mesh.vertices[a] - origin, cross(mesh.vertices[b] - origin, mesh.vertices[c] - origin));
+    }
+    return sum;
+}
+
+bool contains_all_of(const Bounds& outer, const Bounds& inner) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (inner.min[axis] < outer.min[axis] || inner.max[axis] > outer.max[axis]) return false;
+    }
+    return true;
+}
+
+/// Whether another object lies within the bounds of this one, as furniture in a room does.
+bool surrounds_another(const Scene& scene, ObjectId object) {
+    const Bounds own = bounds_of(scene.object(object).shape);
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        if (ObjectId{i} != object && contains_all_of(own, bounds_of(scene.objects[i].shape))) return true;
+    }
+    return false;
+}
+
+/// The triangles from their other side, this far behind the mesh. Where they touch they stay together.
+Mesh back_of(const Mesh& mesh, std::span<const std::uint32_t> triangles, double distance_m) {
+    Mesh back = geometry::part_of(mesh, triangles);
+    const std::vector<std::uint32_t> vertex_at = geometry::welded(back.vertices);
+    std::vector<Vec3> backwards(back.vertices.size());
+    for (const Triangle& triangle : back.triangles) {
+        const auto& [a, b, c] = triangle;
+        const Vec3 area = cross(back.vertices[c] - back.vertices[a], back.vertices[b] - back.vertices[a]);
+        for (const std::uint32_t corner : triangle) backwards[vertex_at[corner]] += area;
+    }
+    for (std::size_t v = 0; v < back.vertices.size(); ++v) {
+        const Vec3& direction = backwards[vertex_at[v]];
+        if (squared_length(direction) > 0) back.vertices[v] += distance_m * normalized(direction);
+    }
+    for (std::uint32_t t = 0; t < back.triangles.size(); ++t) turn_over(back, t);
+    for (Vec3& normal : back.normals) normal = -normal;
+    return back;
+}
+
+std::vector<std::uint32_t> triangles_of(const Object& object, MaterialId material) {
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t t = 0; t < object.materials.size(); ++t) {
+        if (object.materials[t] == material) triangles.push_back(t);
+    }
+    return triangles;
+}
+
+}  // namespace
+
+std::string UniqueNames::make(std::string_view name, std::string_view otherwise) {
+    std::string wanted(name.empty() ? otherwise : name);
+    for (char& c : wanted) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte == 0x7f || c == '/' || c == '\\') c = '_';
+    }
+    std::string unique = wanted;
+    for (int i = 2; !used_.insert(unique).second; ++i) unique = fmt::format("{}_{}", wanted, i);
+    return unique;
+}
+
+void drop_flat_normals(Mesh& mesh) {
+    constexpr double kSmallestTilt = 1e-6;  // 1 - cosine, of normals in single precision
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        const Vec3 own =
+            normalized(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+        const Triangle& normals = mesh.corner_normals.empty() ? mesh.triangles[t] : mesh.corner_normals[t];
+        for (const std::uint32_t index : normals) {
+            if (mesh.normals.empty() || index == kNoNormal || mesh.normals[index] == Vec3{}) continue;
+            if (std::abs(dot(mesh.normals[index], own)) < 1 - kSmallestTilt) return;
+        }
+    }
+    mesh.normals.clear();
+    mesh.corner_normals.clear();
+}
+
+ImportedScene::ImportedScene(const std::filesystem::path& path) {
+    file.sources.push_back(path);
+    file.scene.name = path.stem().string();
+}
+
+void ImportedScene::note(std::string_view sentence) {
+    file.warnings.emplace_back(InputError(std::string(sentence), {file.sources.front().string()}).what());
+}
+
+MaterialId ImportedScene::add_material(std::string_view name, Material material) {
+    file.scene.materials.push_back({materials_.make(name, "material"), std::move(material)});
+    return MaterialId{static_cast<std::uint32_t>(file.scene.materials.size() - 1)};
+}
+
+void ImportedScene::add_object(std::string_view name, ImportedMesh imported) {
+    drop_flat_normals(imported.mesh);
+    auto& materials = imported.materials;
+    const bool is_one = std::ranges::all_of(materials, [&](MaterialId m) { return m == materials.front(); });
+    if (is_one) materials.resize(1);
+    file.scene.objects.push_back(
+        {objects_.make(name, "object"), std::move(imported.mesh), std::move(materials)});
+}
+
+void ImportedScene::add_light(std::string_view name, lights::LightSource source) {
+    file.scene.lights.push_back({lights_.make(name, "light"), std::move(source)});
+}
+
+void ImportedScene::add_sensor(std::string_view name, sensors::SensorKind kind) {
+    file.sensors.push_back({sensors_.make(name, "sensor"), std::move(kind)});
+}
+
+void ImportedScene::light_triangles(ObjectId object, MaterialId material,
+                                    std::vector<std::uint32_t> triangles, const Emission& emission) {
+    Scene& scene = file.scene;
+    auto& mesh = std::get<Mesh>(scene.objects[index_of(object)].shape);
+    std::optional<Object> back;
+    if (emission.both_sides) {
+        // A closed body shines outwards and a room inwards; what is open shines to both sides.
+        const bool is_room = surrounds_another(scene, object);
+        const geometry::ConnectedComponents components = geometry::find_components(mesh);
+        std::vector<int> outside(components.count());  // 1: the front, -1: the back, 0: the component is open
+        for (std::uint32_t c = 0; c < outside.size(); ++c)
+            if (components.is_closed(c)) outside[c] = volume_below(mesh, c, components) < 0 ? -1 : 1;
+        std::vector<std::uint32_t> open;
+        for (const std::uint32_t t : triangles) {
+            const int front = outside[components.of_triangle[t]];
+            if (front == 0) open.push_back(t);
+            if (front == (is_room ? 1 : -1)) turn_over(mesh, t);
+        }
+        constexpr double least_m = 1e-4, share = 4e-6;  // more than points are lifted off surfaces
+        const double distance_m = std::max(least_m, share * bounds_of(scene).half_extent());
+        if (!open.empty()) back = Object{"", back_of(mesh, open, distance_m), {material}};
+    }
+    const std::string whole = scene.object(object).name;
+    const std::string part = fmt::format("{} ({})", whole, scene.materials[index_of(material)].name);
+    const bool is_whole = triangles.size() == mesh.triangles.size();
+    const ObjectId lamp =
+        is_whole ? object : scene::cut_out(scene, object, triangles, objects_.make(part, "lamp"));
+    const std::string name = is_whole ? whole : part;
+    add_light(name, AreaLight{lamp, emission.luminance_cd_m2});
+    if (!back) return;
+    back->name = objects_.make(name + " (back)", "lamp");
+    const ObjectId behind{static_cast<std::uint32_t>(scene.objects.size())};
+    scene.objects.push_back(std::move(*back));
+    add_light(name + " (back)", AreaLight{behind, emission.luminance_cd_m2});
+}
+
+void ImportedScene::light_faces(ObjectId id) {
+    for (const auto& [material, emission] : emissions_) {
+        const Object& object = file.scene.object(id);
+        std::vector<std::uint32_t> triangles;
+        if (object.materials.size() > 1) {
+            triangles = triangles_of(object, material);
+        } else if (object.materials.front() == material) {
+            const auto* const mesh = std::get_if<Mesh>(&object.shape);
+            if (mesh == nullptr) continue;
+            triangles.resize(mesh->triangles.size());
+            for (std::uint32_t t = 0; t < triangles.size(); ++t) triangles[t] = t;
+        }
+        if (!triangles.empty()) light_triangles(id, material, std::move(triangles), emission);
+    }
+}
+
+void ImportedScene::scale_lights(double factor) {
+    if (factor == 1) return;
+    for (Light& light : file.scene.lights) light.source = lights::scaled(light.source, Rgb::grey(factor));
+}
+
+void ImportedScene::warn_of_units() {
+    const Bounds bounds = bounds_of(file.scene);
+    const double longest_m = 2 * bounds.half_extent();
+    if (!file.scene.objects.empty() && (longest_m < kSmallestScene_m || longest_m > kLargestScene_m)) {
+        note(fmt::format(
+            "the scene is {:.3g} m long. If its unit is another than the metre, give the metres in "
+            "one: --set import.scale=0.001",
+            longest_m));
+    }
+    bool has_daylight = false;
+    for (const Light& light : file.scene.lights)
+        has_daylight = has_daylight || location_of(light) == LightLocation::infinity;
+    for (const Light& light : file.scene.lights) {
+        if (has_daylight) return;
+        const double flux_lm = scene::flux_lm(file.scene, light).luminance();
+        if (flux_lm >= kFaintestLamp_lm) continue;
+        warnings.add(
+            "light", fmt::format("{} ({:.3g} lm)", light.name, flux_lm),
+            "this is less than a candle. If the file gives watts in place of lumens, as some exporters "
+            "do, scale all light: --set import.light_scale=683 (lm per W)");
+    }
+}
+
+SceneFile ImportedScene::finish(const ImportSettings& settings) && {
+    const auto count = static_cast<std::uint32_t>(file.scene.objects.size());
+    if (count == 0)
+        throw InputError("the scene has no surface: there is nothing to light.", {file.sources[0].string()});
+    for (std::uint32_t i = 0; i < count; ++i) light_faces(ObjectId{i});
+    scene::put_lamps_in_front(file.scene);
+    scale_lights(settings.options().light_scale);
+    warn_of_units();
+    if (file.scene.lights.empty()) note("no light: the scene is dark.");
+    const std::string prefix = file.sources[0].string() + ": ";
+    for (const std::string& warning : warnings.list()) file.warnings.push_back(prefix + warning);
+    settings.apply_to(file);
+    return std::move(file);
+}
+
+}  // namespace stilb::io

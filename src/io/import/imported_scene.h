@@ -1,0 +1,75 @@
+// The common part of the readers of scenes of other formats: names, lamps that are faces of meshes, and the
+// checks at the end.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/import/import_settings.h"
+#include "io/scene/scene_file.h"
+#include "io/text/grouped_warnings.h"
+
+namespace stilb::io {
+
+/// Names of one section of a scene, different from each other and without characters that file names cannot
+/// have.
+class UniqueNames {
+  public:
+    /// The name, or `otherwise` where it is empty; with a number where it is taken.
+    std::string make(std::string_view name, std::string_view otherwise);
+
+  private:
+    std::set<std::string> used_;
+};
+
+/// The light of a material's faces.
+struct Emission {
+    Rgb luminance_cd_m2;
+    bool both_sides = false;  ///< else the front alone
+};
+
+/// A mesh with a material for each triangle.
+struct ImportedMesh {
+    Mesh mesh;
+    std::vector<MaterialId> materials;
+};
+
+class ImportedScene {
+  public:
+    explicit ImportedScene(const std::filesystem::path& path);
+
+    SceneFile file;
+    GroupedWarnings warnings;
+
+    /// Adds a sentence about the scene as a whole to its warnings.
+    void note(std::string_view sentence);
+    MaterialId add_material(std::string_view name, Material material);
+    /// Makes all faces of a material shine.
+    void set_emission(MaterialId material, const Emission& emission) { emissions_[material] = emission; }
+    void add_object(std::string_view name, ImportedMesh imported);
+    void add_light(std::string_view name, lights::LightSource source);
+    void add_sensor(std::string_view name, sensors::SensorKind kind);
+
+    /// The scene, after shining faces became lights. Scales all light, applies the settings and warns of
+    /// unlikely sizes and units.
+    SceneFile finish(const ImportSettings& settings) &&;
+
+  private:
+    void light_faces(ObjectId object);
+    void light_triangles(ObjectId object, MaterialId material, std::vector<std::uint32_t> triangles,
+                         const Emission& emission);
+    void scale_lights(double factor);
+    void warn_of_units();
+
+    std::map<MaterialId, Emission> emissions_;
+    UniqueNames materials_, objects_, lights_, sensors_;
+};
+
+/// Leaves out the normals of a mesh whose triangles all have their own: it is not meant to look smooth.
+void drop_flat_normals(Mesh& mesh);
+
+}  // namespace stilb::io

@@ -1,0 +1,291 @@
+// Imported scenes measure the same as scenes in TOML, and as the folders that import writes of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "gltf_text.h"
+#include "io/import/obj/obj_scene.h"
+#include "io/import/scene_folder.h"
+#include "io/text/table.h"
+#include "run/run.h"
+#include "scene_text.h"
+
+namespace stilb::io {
+namespace {
+
+/// A folder that ends with the test.
+class ImportTest : public testing::Test {
+  protected:
+    ImportTest()
+        : folder(
+              std::filesystem::temp_directory_path() /
+              fmt::format("stilb-import-{}", testing::UnitTest::GetInstance()->current_test_info()->name())) {
+        std::filesystem::remove_all(folder);
+        std::filesystem::create_directories(folder);
+    }
+    ~ImportTest() override { std::filesystem::remove_all(folder); }
+
+    std::filesystem::path write(const std::string& name, const std::string& content) const {
+        write_file(folder / name, content);
+        return folder / name;
+    }
+
+    std::filesystem::path folder;
+};
+
+std::vector<run::Reading> readings_of(const SceneFile& file, std::uint64_t seed = 1) {
+    RunOptions options;
+    options.paths = 8192;
+    options.seed = seed;
+    options.threads = 1;
+    return run::measure(file.scene, file.sensors, options).sensors.at(0).readings;
+}
+
+/// The same light within the intervals of both.
+void expect_same_light(const SceneFile& a, const SceneFile& b) {
+    const auto of_a = readings_of(a, 1), of_b = readings_of(b, 2);
+    ASSERT_EQ(of_a.size(), of_b.size());
+    for (std::size_t i = 0; i < of_a.size(); ++i) {
+        const auto &x = of_a[i].estimate, &y = of_b[i].estimate;
+        const double error = std::hypot(x.upper - x.lower, y.upper - y.lower);
+        EXPECT_NEAR(x.value, y.value, error);
+        EXPECT_LT(error, 0.05 * x.value);
+    }
+}
+
+/// The same digits, but for rounding.
+void expect_same_readings(const SceneFile& a, const SceneFile& b) {
+    const auto of_a = readings_of(a), of_b = readings_of(b);
+    ASSERT_EQ(of_a.size(), of_b.size());
+    for (std::size_t i = 0; i < of_a.size(); ++i)
+        EXPECT_NEAR(of_a[i].estimate.value, of_b[i].estimate.value, 1e-6 * of_a[i].estimate.value);
+}
+
+const std::vector<std::string> kPoints{
+    "sensors.desk={type=\"illuminance\", positions=[[1, 1, 0.75], [2, 1.5, 0.75], [3, 2, 0.75]], normal=[0, "
+    "0, 1]}"};
+
+constexpr std::string_view kRoom = R"(
+[materials.wall]
+type = "diffuse"
+reflectance = [0.6, 0.5, 0.4]
+[materials.steel]
+type = "rough"
+reflectance = 0.7
+roughness = 0.16
+[objects.room]
+shape = "box"
+min = [0, 0, 0]
+max = [4, 3, 2.5]
+material = "wall"
+[objects.table]
+shape = "box"
+min = [1.5, 1, 0.6]
+max = [2.5, 2, 0.7]
+material = "steel"
+[lights.bulb]
+type = "point"
+position = [1, 1, 2]
+intensity = 100
+color = [1, 0.8, 0.6]
+[sensors.desk]
+type = "illuminance"
+positions = [[1, 1, 0.75], [2, 1.5, 0.75], [3, 2, 0.75]]
+normal = [0, 0, 1]
+)";
+
+Vec3 to_gltf(const Vec3& v) { return {v.x, v.z, -v.y}; }
+
+Mesh box_in_gltf(const Vec3& min, const Vec3& max) {
+    Mesh mesh = triangulated(Box{min, max});
+    for (Vec3& vertex : mesh.vertices) vertex = to_gltf(vertex);
+    return mesh;
+}
+
+/// kRoom as glTF; the light's intensity is luminous for white, so its colour has a luminance of 1 here.
+GltfText room_in_gltf() {
+    GltfText gltf;
+    gltf.add_material(
+        R"("name": "wall", "pbrMetallicRoughness": {"baseColorFactor": [0.6, 0.5, 0.4, 1], "metallicFactor": 0},
+           "extensions": {"KHR_materials_specular": {"specularFactor": 0}})");
+    gltf.add_material(
+        R"("name": "steel", "pbrMetallicRoughness": {"baseColorFactor": [0.7, 0.7, 0.7, 1], "roughnessFactor": 0.4})");
+    gltf.add_node(
+        fmt::format(R"("name": "room", "mesh": {})", gltf.add_mesh(box_in_gltf({0, 0, 0}, {4, 3, 2.5}), 0)));
+    gltf.add_node(fmt::format(R"("name": "table", "mesh": {}, "translation": [1.5, 0.6, -1])",
+                              gltf.add_mesh(box_in_gltf({0, 0, 0}, {1, 1, 0.1}), 1)));
+    const double white = Rgb{{1, 0.8, 0.6}}.luminance();
+    gltf.extensions = fmt::format(
+        R"("KHR_lights_punctual": {{"lights": [{{"type": "point", "intensity": {}, "color": [1, 0.8, 0.6]}}]}})",
+        100 / white);
+    gltf.add_node(
+        R"("name": "bulb", "translation": [1, 2, -1], "extensions": {"KHR_lights_punctual": {"light": 0}})");
+    return gltf;
+}
+
+TEST_F(ImportTest, GltfMeasuresAsTheSameSceneInToml) {
+    expect_same_light(read_gltf(room_in_gltf().text(), kPoints), read_text(std::string(kRoom)));
+}
+
+TEST_F(ImportTest, AFolderMeasuresAsItsGltfFile) {
+    GltfText gltf = room_in_gltf();
+    // Lamps that are faces of a mesh, from both sides; a smooth ball of two triangles; a spot; the sun.
+    gltf.add_material(R"("name": "lamp", "doubleSided": true, "emissiveFactor": [1, 0.9, 0.8],
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 500}})");
+    Mesh panel = gltf_square();
+    panel.normals = {{0.1, 1, 0}, {0, 1, 0.1}, {-0.1, 1, 0}, {0, 1, 0}};
+    gltf.add_node(
+        fmt::format(R"("name": "panel", "mesh": {}, "translation": [2, 2.4, -1.5], "scale": [0.3, 1, 0.3])",
+                    gltf.add_mesh(panel, 2)));
+    gltf.extensions.insert(gltf.extensions.find("[{") + 1,
+                           R"({"type": "spot", "intensity": 50, "spot": {"outerConeAngle": 0.7}},
+                              {"type": "directional", "intensity": 100}, )");
+    gltf.nodes[2].replace(gltf.nodes[2].find("\"light\": 0"), 10, "\"light\": 2");
+    gltf.add_node(R"("name": "spot", "translation": [3, 2.4, -2], "rotation": [-0.6, 0.1, 0, 0.79],
+                     "extensions": {"KHR_lights_punctual": {"light": 0}})");
+    gltf.add_node(R"("name": "sun", "extensions": {"KHR_lights_punctual": {"light": 1}})");
+    gltf.cameras.push_back(R"({"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}})");
+    gltf.add_node(R"("name": "view", "camera": 0, "translation": [1, 2, -1])");
+    std::vector<std::string> overrides = kPoints;
+    overrides.emplace_back("run.maintenance=0.8");
+    const SceneFile file = read_gltf(gltf.text(), overrides);
+    ASSERT_EQ(file.scene.lights.size(), 5u);
+    const auto files = write_scene_folder(file, folder / "room");
+    const SceneFile read = read_scene_file(files.front());
+    ASSERT_EQ(read.scene.objects.size(), file.scene.objects.size());
+    ASSERT_EQ(read.sensors.size(), 2u);
+    EXPECT_EQ(read.scene.lights[0].maintenance, 0.8);
+    expect_same_readings(file, read);
+}
+
+TEST_F(ImportTest, LampsInAMeshStayFacesOfIt) {
+    GltfText gltf = room_in_gltf();
+    gltf.add_material(R"("name": "lamp", "emissiveFactor": [1, 1, 1],
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 500}})");
+    // The lower faces of the table shine.
+    const Mesh box = box_in_gltf({0, 0, 0}, {1, 1, 0.1});
+    Mesh lower = box, upper = box;
+    lower.triangles.clear(), upper.triangles.clear();
+    for (const Triangle& t : box.triangles) {
+        const bool is_low = box.vertices[t[0]].y + box.vertices[t[1]].y + box.vertices[t[2]].y == 0;
+        (is_low ? lower : upper).triangles.push_back(t);
+    }
+    const int both = gltf.add_mesh(upper, 1), lamp = gltf.add_mesh(lower, 2);
+    const auto primitive = [&](int mesh) {
+        const std::string& text = gltf.meshes[static_cast<std::size_t>(mesh)];
+        const std::size_t first = text.find('[') + 1;
+        return text.substr(first, text.rfind(']') - first);
+    };
+    gltf.meshes.push_back(fmt::format(R"({{"primitives": [{}, {}]}})", primitive(both), primitive(lamp)));
+    gltf.add_node(R"("name": "luminaire", "mesh": 4, "translation": [1.5, 2.3, -1])");
+    const SceneFile file = read_gltf(gltf.text(), kPoints);
+    ASSERT_EQ(file.scene.objects.size(), 4u);
+    EXPECT_EQ(file.scene.objects[3].name, "luminaire (lamp)");
+    EXPECT_EQ(file.scene.objects[3].cut_from, ObjectId{2});
+    const SceneFile read = read_scene_file(write_scene_folder(file, folder / "room").front());
+    ASSERT_EQ(read.scene.objects.size(), 4u);
+    EXPECT_EQ(read.scene.objects[3].cut_from, ObjectId{2});
+    expect_same_readings(file, read);
+}
+
+TEST_F(ImportTest, RefusesToReplaceAScene) {
+    write("scene.toml", "[scene]\nname = \"mine\"\n");
+    const SceneFile file = read_gltf(room_in_gltf().text());
+    try {
+        write_scene_folder(file, folder);
+        ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("was not written by stilb import"), std::string::npos);
+    }
+    // Its own scenes it replaces.
+    write_scene_folder(file, folder / "room");
+    write_scene_folder(file, folder / "room");
+}
+
+TEST_F(ImportTest, ObjectsInTomlTakeMeshesFromGltf) {
+    GltfText gltf = room_in_gltf();
+    write("room.gltf", gltf.text());
+    std::string toml(kRoom);
+    const std::size_t box = toml.find("shape = \"box\""), table = toml.find("[objects.table]");
+    toml.replace(
+        box, table - box,
+        "shape = \"mesh\"\nfile = \"room.gltf\"\nmaterials = { room = \"wall\", steel = \"steel\" }\n");
+    toml.erase(toml.find("[objects.table]"), toml.find("[lights.bulb]") - toml.find("[objects.table]"));
+    expect_same_light(read_text(toml, folder), read_text(std::string(kRoom)));
+}
+
+// OBJ
+
+/// The room in centimetres and y upwards, its faces as CAD programs write them.
+std::string room_in_obj() {
+    std::string text = "mtllib room.mtl\n";
+    std::size_t first = 1;
+    const auto add = [&](const std::string& name, const std::string& material, const Vec3& min,
+                         const Vec3& max) {
+        const Mesh box = box_in_gltf(min, max);
+        text += fmt::format("o {}\nusemtl {}\n", name, material);
+        for (const Vec3& v : box.vertices)
+            text += fmt::format("v {} {} {}\n", 100 * v.x, 100 * v.y, 100 * v.z);
+        for (const auto& [a, b, c] : box.triangles)
+            text += fmt::format("f {} {} {}\n", first + a, first + b, first + c);
+        first += box.vertices.size();
+    };
+    add("room", "wall", {0, 0, 0}, {4, 3, 2.5});
+    add("table", "wood", {1.5, 1, 0.6}, {2.5, 2, 0.7});
+    add("lamp", "light", {1.9, 1.4, 2.3}, {2.1, 1.6, 2.4});
+    return text;
+}
+
+constexpr std::string_view kMtl =
+    "newmtl wall\nKd 0.6 0.5 0.4\nKs 0.5 0.5 0.5\nillum 1\n"
+    "newmtl wood\nKd 0.4 0.3 0.2\nKs 0.1 0.1 0.1\nNs 60\nillum 2\n"
+    "newmtl light\nKd 0 0 0\nKe 1000 800 600\n";
+
+TEST_F(ImportTest, ObjWithMtlMeasuresAsTheSameSceneInToml) {
+    write("room.mtl", std::string(kMtl));
+    const SceneFile file = read_obj_scene(write("room.obj", room_in_obj()), kPoints);
+    std::string toml(kRoom.substr(0, kRoom.find("[lights.bulb]")));
+    toml += R"(
+[materials.black]
+type = "black"
+[objects.lamp]
+shape = "box"
+min = [1.9, 1.4, 2.3]
+max = [2.1, 1.6, 2.4]
+material = "black"
+[lights.lamp]
+type = "area"
+object = "lamp"
+luminance = 828.08
+color = [1000, 800, 600]
+)" + std::string(kRoom.substr(kRoom.find("[sensors.desk]")));
+    toml.replace(toml.find("type = \"rough\"\nreflectance = 0.7\nroughness = 0.16"), 48,
+                 "type = \"phong\"\ndiffuse = [0.4, 0.3, 0.2]\nspecular = 0.1\nexponent = 60");
+    EXPECT_NEAR(area_m2(file.scene.objects.at(0).shape), 59, 1e-6);
+    EXPECT_EQ(file.scene.objects[1].name, "table");
+    expect_same_light(file, read_text(toml));
+    const SceneFile read = read_scene_file(write_scene_folder(file, folder / "out").front());
+    expect_same_readings(file, read);
+}
+
+TEST_F(ImportTest, ObjSaysWhichUnitItChose) {
+    write("room.mtl", std::string(kMtl));
+    const SceneFile file = read_obj_scene(write("room.obj", room_in_obj()));
+    std::string warnings;
+    for (const std::string& warning : file.warnings) warnings += warning + "\n";
+    for (const std::string& note : file.notes) warnings += note + "\n";
+    EXPECT_NE(warnings.find("up = \"y\", because 56 % of the faces across y or z lie across y"),
+              std::string::npos)
+        << warnings;
+    EXPECT_NE(
+        warnings.find("scale = 0.01 (centimetres), because the model is then 2.5 m high, as one storey is"),
+        std::string::npos)
+        << warnings;
+    const SceneFile given =
+        read_obj_scene(folder / "room.obj", std::vector<std::string>{"import.scale=0.02", "import.up=z"});
+    EXPECT_NEAR(area_m2(given.scene.objects.at(0).shape), 59 * 4, 1e-6);
+}
+
+}  // namespace
+}  // namespace stilb::io

@@ -1,0 +1,89 @@
+"""Scenes in glTF and OBJ on the command line, and stilb import. The files in tests/data are Blender's exports."""
+
+import json
+import shutil
+import unittest
+
+from command_line import ROOT, CommandLineTest, run
+
+DATA = ROOT / "tests/data"
+DESK = 'sensors.desk={type="illuminance", positions=[[1, 1, 0.75], [2, 1.5, 0.75]], normal=[0, 0, 1]}'
+
+
+class ImportTest(CommandLineTest):
+    def info(self, path, *arguments):
+        result = run("info", path, "--json", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def values(self, scene, *arguments):
+        result = run("measure", scene, "--json", "--paths", 4096, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return [value["value"] for sensor in json.loads(result.stdout)["sensors"] for value in sensor["values"]]
+
+    def test_a_room_of_blender(self):
+        info = self.info(DATA / "blender_room.glb")
+        lights = {light["name"]: light for light in info["lights"]}
+        # 10 W of a point in Blender: 10 * 683 lm.
+        self.assertAlmostEqual(lights["bulb"]["flux_lm"], 6830, delta=1)
+        # 2000 cd/m2 times a colour of the luminance 0.914, on both sides of 0.36 m2.
+        for name in ("panel", "panel (back)"):
+            self.assertAlmostEqual(lights[name]["flux_lm"], 3.14159265 * 0.36 * 2000 * 0.91404, delta=0.5)
+        self.assertEqual([material["type"] for material in info["materials"]],
+                         ["plastic", "plastic", "rough", "plastic", "pane"])
+        areas = {item["name"]: item["area_m2"] for item in info["objects"]}
+        self.assertAlmostEqual(areas["room"], 59, delta=1e-4)
+        self.assertEqual(info["warnings"], [])
+
+    def test_a_folder_measures_as_the_file(self):
+        for name in ("blender_room.glb", "blender_room.obj"):
+            with self.subTest(name=name):
+                output = self.folder / name
+                result = run("import", DATA / name, "-o", output, "--set", DESK)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn("scene.toml: ", result.stdout)
+                of_folder = self.values(output / "scene.toml")
+                for a, b in zip(self.values(DATA / name, "--set", DESK), of_folder, strict=True):
+                    self.assertAlmostEqual(a, b, delta=1e-6 * a)
+
+    def test_obj_says_what_it_chose(self):
+        result = run("import", DATA / "blender_room.obj", "-o", self.folder / "out")
+        self.assertIn('up = "y", because', result.stdout)
+        self.assertIn("scale = 1 (metres), because the model is then 2.5 m high", result.stdout)
+        result = run("import", DATA / "blender_room.obj", "-o", self.folder / "out", "--scale", "0.5", "--up", "y",
+                     "--light-scale", "2")
+        self.assertNotIn("scale =", result.stdout + result.stderr)
+        info = self.info(self.folder / "out/scene.toml")
+        self.assertAlmostEqual(info["objects"][0]["area_m2"], 59 / 4, delta=1e-4)
+        self.assertAlmostEqual(info["lights"][0]["luminance_cd_m2"], 2 * 2000 * 0.91404, delta=0.1)
+
+    def test_an_obj_without_materials_is_shown_as_a_mesh(self):
+        plain = self.write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.assertIn("groups", self.info(plain)["objects"][0])
+        self.assertIn("materials", self.info(plain, "--set", "import.scale=1"))
+
+    def test_wrong_input_is_named(self):
+        cut_off = self.folder / "cut_off.glb"
+        cut_off.write_bytes((DATA / "blender_room.glb").read_bytes()[:5000])
+        self.expect_wrong_input(["measure", cut_off], "cut_off.glb: no glTF 2.0 that can be read")
+        self.expect_wrong_input(["import", self.scene, "-o", self.folder / "out"], "no scene of another format")
+        room = DATA / "blender_room.glb"
+        self.expect_wrong_input(["info", room, "--set", "materials.wall.reflectance=0.5"], "stilb import")
+        self.expect_wrong_input(["info", room, "--set", "import.scale=-1"], "import.scale: -1 is not allowed")
+        self.expect_wrong_input(["info", room, "--set", "import.sclae=1"], 'Did you mean "scale"')
+        shutil.copy(self.scene, self.folder / "scene.toml")
+        self.expect_wrong_input(["import", room, "-o", self.folder], "was not written by stilb import")
+
+    def test_solutions_notice_another_file(self):
+        copy, solution = self.folder / "room.glb", self.folder / "room.solution"
+        shutil.copy(DATA / "blender_room.glb", copy)
+        self.assertEqual(run("solve", copy, "-o", solution, "--patch", 1, "--paths", 8).returncode, 0)
+        page = ["view", solution, "-o", self.folder / "x.html"]
+        result = run(*page)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        copy.write_bytes(copy.read_bytes().replace(b"bulb", b"lamp"))
+        self.expect_wrong_input(page, "Solve it again")
+
+
+if __name__ == "__main__":
+    unittest.main()
