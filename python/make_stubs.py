@@ -4,10 +4,12 @@
 Usage: make_stubs.py FOLDER     (the package, with its extension module)
 """
 
-import importlib.util
-import subprocess
+import importlib
 import sys
+import types
 from pathlib import Path
+
+from nanobind import stubgen
 
 HEAD = '''from collections.abc import Mapping, Sequence
 from os import PathLike
@@ -42,11 +44,11 @@ class Mesh(Object):
 '''
 
 
-def load(folder, name):
-    spec = importlib.util.spec_from_file_location(f"stilb.{name}", next(folder.glob(f"{name}.*")))
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def open_package(folder):
+    """Makes the package's modules importable without its __init__.py, which needs NumPy."""
+    package = types.ModuleType("stilb")
+    package.__path__ = [str(folder)]
+    sys.modules["stilb"] = package
 
 
 def classes(kinds, class_name):
@@ -69,10 +71,11 @@ def classes(kinds, class_name):
 
 def main():
     folder = Path(sys.argv[1])
-    text, names = classes(load(folder, "_stilb").part_types(), load(folder, "_names").class_name)
+    open_package(folder)
+    module, names = (importlib.import_module(f"stilb.{name}") for name in ("_stilb", "_names"))
+    text, names = classes(module.part_types(), names.class_name)
     (folder / "parts.pyi").write_text(f"{HEAD}{text}\n__all__ = {sorted(names)}\n", encoding="utf-8")
-    subprocess.run([sys.executable, "-m", "nanobind.stubgen", "-q", "-m", "_stilb", "-i", str(folder), "-O", str(folder),
-                    "-r"], check=True)
+    stubgen.main(["-q", "-r", "-m", "stilb._stilb", "-O", str(folder)])
 
 
 if __name__ == "__main__":

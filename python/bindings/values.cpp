@@ -10,7 +10,7 @@ namespace nb = nanobind;
 
 namespace {
 
-std::string text_of(nb::handle text) { return nb::cast<std::string>(nb::str(text)); }
+std::string text_of(nb::handle text) { return nb::str(text).c_str(); }
 
 std::int64_t integer_of(nb::handle number, const std::string& path) {
     int overflow = 0;

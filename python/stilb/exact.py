@@ -26,7 +26,8 @@ PARTS = ("total", "direct", "indirect")
 
 
 def _each(function: Callable[..., float], *numbers: ArrayLike) -> Numbers:
-    return np.asarray(np.vectorize(function, otypes=[np.float64])(*numbers))
+    with np.errstate(all="ignore"):  # intermediate results of the solutions are no concern of NumPy's
+        return np.asarray(np.vectorize(function, otypes=[np.float64])(*numbers))
 
 
 def _each_point(function: Callable[..., float], *points: ArrayLike) -> Numbers:
