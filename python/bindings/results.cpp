@@ -3,11 +3,13 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "bindings/parts.h"
 #include "stilb/measure.h"
@@ -58,14 +60,13 @@ void add_estimates(nb::module_& module) {
         .def_ro("standard_error", &Estimate::standard_error)
         .def_ro("lower", &Estimate::lower)
         .def_ro("upper", &Estimate::upper);
-    nb::enum_<Verdict>(module, "Verdict")
-        .value("pass", Verdict::pass)
-        .value("fail", Verdict::fail)
-        .value("undecided", Verdict::undecided);
     nb::class_<Requirement>(module, "Requirement")
         .def_ro("key", &Requirement::key)
         .def_ro("limit", &Requirement::limit)
-        .def_ro("verdict", &Requirement::verdict);
+        .def_prop_ro("verdict", [](const Requirement& requirement) {
+            constexpr std::array names{"pass", "fail", "undecided"};
+            return names[static_cast<std::size_t>(requirement.verdict)];
+        });
 }
 
 void add_summary(nb::module_& module) {
@@ -115,9 +116,10 @@ void add_pictures(nb::module_& module) {
                          return plane(picture, picture.p->luminance_cd_m2);
                      })
         .def_prop_ro("standard_error",
-                     [](nb::pointer_and_handle<Picture> picture) -> nb::object {
+                     [](nb::pointer_and_handle<Picture> picture) -> std::optional<Pixels> {
                          const std::vector<float>& errors = picture.p->standard_error_cd_m2;
-                         return errors.empty() ? nb::none() : nb::cast(plane(picture, errors));
+                         if (errors.empty()) return std::nullopt;
+                         return plane(picture, errors);
                      })
         .def_prop_ro("rgb",
                      [](nb::pointer_and_handle<Picture> picture) {

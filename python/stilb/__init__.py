@@ -9,8 +9,8 @@ docs/python.md is the guide; `help(stilb.Scene)` lists what a scene can do.
 """
 
 from . import exact, statistics
-from ._stilb import Cancelled, InputError, __version__
-from ._stilb import Progress as Progress
+from ._stilb import Cancelled, InputError, Progress
+from ._stilb import version as __version__
 from .parts import *
 from .parts import __all__ as _parts
 from .results import Estimate, Image, Reading, Result

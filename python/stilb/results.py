@@ -199,7 +199,7 @@ class Reading:
     @property
     def requirements(self) -> dict[str, tuple[float, str]]:
         """What the scene requires: for each key the limit, and "pass", "fail" or "undecided"."""
-        return {item.key: (item.limit, item.verdict.name) for item in self._sensor.requirements}
+        return {item.key: (item.limit, item.verdict) for item in self._sensor.requirements}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each reading: position [m], direction, value, standard error and 95 % interval."""
