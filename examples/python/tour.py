@@ -108,13 +108,13 @@ measured = sphere.illuminance((0, 0, -1), (0, 0, 1), error=0.01, time=5)
 exact = stilb.exact.photometric_sphere(1, 0.8, 1000, source=(0, 0, 0.5), to_wall=(0, 0, -1))
 z = (measured.value - exact) / measured.standard_error
 print(f"{measured.value:.2f} ± {measured.standard_error:.2f} lx, exactly {exact:.2f} lx:",
-      f"z = {z:.2f}, p = {stilb.statistics.two_sided_p_of_z(z):.2f}")
+      f"z = {z:.2f}, p = {stilb.statistics.two_sided_p_of_z(float(z)):.2f}")
 
 # %% [markdown]
 # ## What is wrong is said
 
 # %%
-scene.materials["wall"] = stilb.Diffuse(reflectence=0.6)  # type: ignore[call-arg]
+scene.materials["wall"] = stilb.Diffuse(reflectence=0.6)
 try:
     scene.measure()
 except stilb.InputError as error:
