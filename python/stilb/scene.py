@@ -6,7 +6,7 @@ import os
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, MutableMapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,6 +21,22 @@ from .solution import Solution
 __all__ = ["Scene", "Section", "load"]
 
 SECTIONS = ("materials", "objects", "lights", "sensors")
+# The names of Limits that the C++ library has with their units, or otherwise.
+OPTION_NAMES = {"time": "time_s", "paths": "samples", "patch": "patch_m"}
+
+
+class Limits(TypedDict, total=False):
+    """How a run is made and when it stops: `help(stilb.Scene)`."""
+
+    error: float | str | None
+    time: float | None
+    paths: int | None
+    method: str | None
+    bounces: int | None
+    patch: float | None
+    seed: int | None
+    threads: int | None
+    target: str | None
 
 
 class Section(MutableMapping[str, Part]):
@@ -144,13 +160,13 @@ class Scene:
         """What is odd in the scene, such as a lamp behind a wall: the warnings of `stilb info`."""
         return _stilb.validate(self._scene())
 
-    def measure(self, *, sensors: Iterable[str] | None = None, progress: Progress = None, **limits: Any) -> Result:
+    def measure(self, *, sensors: Iterable[str] | None = None, progress: Progress = None, **limits: Unpack[Limits]) -> Result:
         """Measures all sensors but cameras, or those of these names. `limits`: see `help(stilb.Scene)`."""
         scene = self._scene()
         names = [sensors] if isinstance(sensors, str) else list(sensors or [])
-        return Result(_stilb.measure(scene, options(scene, **limits), names, sink_of(progress)))
+        return Result(_stilb.measure(scene, options(scene, limits), names, sink_of(progress)))
 
-    def illuminance(self, points: ArrayLike, normals: ArrayLike, *, progress: Progress = None, **limits: Any) -> Reading:
+    def illuminance(self, points: ArrayLike, normals: ArrayLike, *, progress: Progress = None, **limits: Unpack[Limits]) -> Reading:
         """The illuminance [lx] on surface elements anywhere in the scene.
 
         `points` (..., 3) are positions [m], `normals` (..., 3) or (3,) the directions that the elements face, of any
@@ -159,19 +175,19 @@ class Scene:
         return self._along(_stilb.illuminance, points, normals, progress, limits)
 
     def luminance(self, positions: ArrayLike, directions: ArrayLike, *, progress: Progress = None,
-                  **limits: Any) -> Reading:
+                  **limits: Unpack[Limits]) -> Reading:
         """The luminance [cd/m2] that is seen from `positions` along `directions`, of shapes (..., 3) or (3,)."""
         return self._along(_stilb.luminance, positions, directions, progress, limits)
 
-    def render(self, camera: str = "", *, progress: Progress = None, **limits: Any) -> Image:
+    def render(self, camera: str = "", *, progress: Progress = None, **limits: Unpack[Limits]) -> Image:
         """A luminance picture; the camera's name may be left out where the scene has one only."""
         scene = self._scene()
-        return Image(_stilb.render(scene, camera, options(scene, **limits), sink_of(progress)))
+        return Image(_stilb.render(scene, camera, options(scene, limits), sink_of(progress)))
 
-    def solve(self, *, progress: Progress = None, **limits: Any) -> Solution:
+    def solve(self, *, progress: Progress = None, **limits: Unpack[Limits]) -> Solution:
         """The light on all surfaces, from which pictures of all cameras with other lamps are made."""
         scene = self._scene()
-        return Solution(_stilb.solve(scene, options(scene, **limits), sink_of(progress)))
+        return Solution(_stilb.solve(scene, options(scene, limits), sink_of(progress)))
 
     def to_dict(self) -> dict[str, Any]:
         """The document of the scene file."""
@@ -236,10 +252,10 @@ class Scene:
         return builder.build()
 
     def _along(self, measure: Callable[..., _stilb.Result], positions: ArrayLike, directions: ArrayLike,
-               progress: Progress, limits: Mapping[str, Any]) -> Reading:
+               progress: Progress, limits: Limits) -> Reading:
         points, rays = _rays(positions, directions)
         scene = self._scene()
-        result = measure(scene, rays, options(scene, **limits), sink_of(progress))
+        result = measure(scene, rays, options(scene, limits), sink_of(progress))
         return Result(result)._only(points.shape[:-1])
 
 
@@ -248,20 +264,20 @@ def load(path: str | os.PathLike[str]) -> Scene:
     return Scene.load(path)
 
 
-def options(scene: _stilb.Scene, *, error: float | str | None = None, time: float | None = None, paths: int | None = None,
-            method: str | None = None, bounces: int | None = None, patch: float | None = None, seed: int | None = None,
-            threads: int | None = None, target: str | None = None) -> _stilb.Options:
+def options(scene: _stilb.Scene, limits: Limits) -> _stilb.Options:
     """The options of the scene's section `run`, with these instead where they are given, as on the command line."""
+    given = {name: value for name, value in limits.items() if value is not None}
+    unknown = given.keys() - Limits.__annotations__
+    if unknown:
+        raise TypeError(f"unknown argument {min(unknown)}; allowed: {', '.join(Limits.__annotations__)}")
     chosen = scene.options()
-    if paths is not None:
-        chosen.samples, chosen.error, chosen.time_s = int(paths), None, None
-    if error is not None:
-        chosen.error = _stilb.read_error(error) if isinstance(error, str) else float(error)
-    given = {"time_s": time, "method": method, "bounces": bounces, "patch_m": patch, "seed": seed, "threads": threads,
-             "target": target}
+    if "paths" in given:
+        chosen.error = chosen.time_s = None
+    error = given.get("error")
+    if isinstance(error, str):
+        given["error"] = _stilb.read_error(error)
     for name, value in given.items():
-        if value is not None:
-            setattr(chosen, name, value)
+        setattr(chosen, OPTION_NAMES.get(name, name), value)
     return chosen
 
 

@@ -235,6 +235,8 @@ class Runs(unittest.TestCase):
                                  ({"target": "means"}, 'Did you mean "mean"')]:
             with self.assertRaisesRegex(stilb.InputError, message):
                 built().measure(**options)
+        with self.assertRaisesRegex(TypeError, "unknown argument eror; allowed: error, time, paths"):
+            built().measure(eror=0.01)
 
 
 if __name__ == "__main__":
