@@ -6,16 +6,17 @@ SOURCES = $(shell git ls-files '*.h' '*.cpp')
 FUZZERS = $(patsubst fuzz/%_fuzzer.cpp,%,$(wildcard fuzz/*_fuzzer.cpp))
 FUZZ_SECONDS ?= 60
 PREFIX ?= /usr/local
+PYTHON := build/python/venv
 PEERS := build/peers/venv
 SCENES ?=
 THREADS ?= 2
 PEERS_FLAGS ?=
 
-# $(call configure,PRESET): only where it was not done; afterwards Ninja itself notices changes.
-configure = test -f build/$(1)/build.ninja || cmake --preset $(1)
+# $(call configure,PRESET): where it was not done, or not with this Python; afterwards Ninja itself notices changes.
+configure = test -f build/$(1)/build.ninja -a ! $(PYTHON)/ready -nt build/$(1)/build.ninja || cmake --preset $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-lint build demo test web install verify-long bench bench-peers format format-check lint odr sanitize fuzz clean
+.PHONY: help setup setup-lint python-setup build demo test web wheel install verify-long bench bench-peers format format-check lint odr sanitize fuzz clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' Makefile
@@ -35,10 +36,21 @@ demo: build ## measure the example office, with a picture: out/office.png
 	$(RELEASE)/stilb measure scenes/office/office.toml --falsecolor out/office.png
 	@echo "The picture of the working planes: out/office.png"
 
-test: setup ## build everything and run all tests
+$(PYTHON)/ready: python/requirements.txt
+	@scripts/setup python
+	@python3 -m venv $(PYTHON)
+	@$(PYTHON)/bin/pip install --quiet --disable-pip-version-check -r $<
+	@touch $@
+
+python-setup: $(PYTHON)/ready ## a virtual environment with all that the Python package is built and tested with (apt, PyPI)
+
+test: setup $(PYTHON)/ready ## build everything and run all tests
 	@$(call configure,release)
 	@cmake --build --preset release
 	@ctest --preset release -j $(JOBS)
+
+wheel: setup $(PYTHON)/ready ## the Python package with all libraries that it needs: out/stilb-*.whl
+	@$(PYTHON)/bin/python python/make_wheel.py out
 
 install: build ## the program, the library with its CMake package, manual pages and completions: PREFIX, DESTDIR
 	@scripts/setup install

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,9 @@ struct Estimate {
 struct Reading : Estimate {
     Triple rgb{};       ///< linear Rec. 709, in the sensor's unit; its luminance is the value
     Triple position{};  ///< [m]
+    /// The unit normal of a measuring point, the axis of a body, or the viewing direction; NaN where there is
+    /// none.
+    Triple direction{};
 };
 
 enum class Verdict { pass, fail, undecided };
@@ -53,6 +57,7 @@ struct Summary {
     std::string method;
     std::uint64_t seed = 0;
     std::uint64_t samples = 0;  ///< as in Options
+    int replicates = 0;         ///< independent repetitions that the errors come from
     double elapsed_s = 0;
     /// False where the error asked for was not reached, or the run was interrupted.
     bool converged = true;
@@ -69,10 +74,24 @@ struct Result : Summary {
     const SensorResult& operator[](std::string_view sensor) const;
 };
 
-/// Measures the sensors of a scene that are no cameras. Without options, by the scene file's section [run].
-/// The result depends on the scene, the method, the limits, the seed and the number of samples, and not on
-/// the number of threads. Throws InputError where an option is wrong or the scene has no such sensor, and
-/// Cancelled where the run ends before there is a result.
-Result measure(const Scene& scene, const std::optional<Options>& options = {}, const Control& control = {});
+/// Measures the sensors of a scene that are no cameras, or those of these names. Without options, by the
+/// scene file's section [run]. The result depends on the scene, the sensors, the method, the limits, the seed
+/// and the number of samples, and not on the number of threads. Throws InputError where an option is wrong or
+/// the scene has no such sensor, and Cancelled where the run ends before there is a result.
+Result measure(const Scene& scene, const std::optional<Options>& options = {}, const Control& control = {},
+               const std::vector<std::string>& sensors = {});
+
+/// A position [m] with the unit normal of a surface element, or with a viewing direction.
+struct Ray {
+    Triple position{}, direction{};
+};
+
+/// The illuminance of surface elements in a scene, whatever its sensors are: a result with the one sensor
+/// "illuminance". Directions may have any length but 0. Otherwise as measure().
+Result illuminance(const Scene& scene, std::span<const Ray> elements,
+                   const std::optional<Options>& options = {}, const Control& control = {});
+/// The luminance along lines of sight: the sensor "luminance". Otherwise as illuminance().
+Result luminance(const Scene& scene, std::span<const Ray> sights, const std::optional<Options>& options = {},
+                 const Control& control = {});
 
 }  // namespace stilb::api

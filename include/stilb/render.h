@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,9 +37,17 @@ Picture render(const Scene& scene, const std::string& camera = "", const std::op
 /// The light on all surfaces of a scene, independent of the viewpoint. Immutable; copies share their data.
 class Solution {
   public:
+    /// Reads a solution's file, with its scene. Throws InputError where it is damaged, and where the scene
+    /// was changed since.
+    static Solution load(const std::filesystem::path& path);
+
     const Summary& summary() const;
-    /// A picture from the stored light, without new light transport. Throws as render().
-    Picture render(const std::string& camera = "", const Control& control = {}) const;
+    /// The names of the groups of lights that can be dimmed; lights without a group have their own name.
+    std::vector<std::string> lights() const;
+    /// A picture from the stored light, without new light transport; `factors` multiply the light of groups,
+    /// band by band. Throws as render().
+    Picture render(const std::string& camera = "", const Control& control = {},
+                   const std::map<std::string, Triple>& factors = {}) const;
     /// Writes a file for `stilb render --from`. Throws InputError where the file cannot be written, and where
     /// the scene was built in code: the solution's file refers to the scene's.
     void save(const std::filesystem::path& path) const;

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,11 +21,13 @@ namespace stilb::api {
 /// A position [m], a direction, or a colour (linear Rec. 709).
 using Triple = std::array<double, 3>;
 
-/// The value of a key: true or false, a number, a text, or a list of values such as {0, 0, 1}.
+/// The value of a key: true or false, a number, a text, a list of values such as {0, 0, 1}, or a table of
+/// keys and values.
 class Value {
   public:
     using List = std::vector<Value>;
-    using Content = std::variant<bool, std::int64_t, double, std::string, List>;
+    using Table = std::map<std::string, Value>;
+    using Content = std::variant<bool, std::int64_t, double, std::string, List, Table>;
 
     Value(bool value) : content_(value) {}
     Value(int value) : content_(std::int64_t{value}) {}
@@ -35,6 +38,7 @@ class Value {
     Value(const Triple& triple) : content_(List(triple.begin(), triple.end())) {}
     Value(List list) : content_(std::move(list)) {}
     Value(std::initializer_list<Value> list) : content_(List(list)) {}
+    Value(Table table) : content_(std::move(table)) {}
 
     const Content& content() const { return content_; }
 
@@ -43,7 +47,7 @@ class Value {
 };
 
 /// Keys and values as in scene files: docs/scene-format.md lists them.
-using Parameters = std::map<std::string, Value>;
+using Parameters = Value::Table;
 
 /// Objects, materials, lights and sensors. Immutable; copies share their data.
 class Scene {
@@ -82,8 +86,10 @@ class SceneBuilder {
     /// "wall"}})`.
     SceneBuilder& object(const std::string& name, const Parameters& parameters);
     /// Triangles as indices of vertices [m]; the front of a triangle is the side from which its vertices run
-    /// counterclockwise. Meshes of a million triangles are better read from files: object() with shape
-    /// "mesh".
+    /// counterclockwise. `parameters`: the other keys of the object, such as {{"material", "wall"}}.
+    SceneBuilder& mesh(const std::string& name, std::span<const Triple> vertices,
+                       std::span<const std::array<std::uint32_t, 3>> triangles, const Parameters& parameters);
+    /// The same with a material alone.
     SceneBuilder& mesh(const std::string& name, const std::vector<Triple>& vertices,
                        const std::vector<std::array<std::uint32_t, 3>>& triangles,
                        const std::string& material);
@@ -92,6 +98,10 @@ class SceneBuilder {
     /// Such as `sensor("desk", {{"type", "illuminance"}, {"position", {1, 1, 0.75}}, {"normal", {0, 0,
     /// 1}}})`.
     SceneBuilder& sensor(const std::string& name, const Parameters& parameters);
+    /// The section [run], such as `run({{"maintenance", 0.8}})`.
+    SceneBuilder& run(const Parameters& parameters);
+    /// The section [defaults], such as `defaults({{"lights", Parameters{{"cct", 4000}}}})`.
+    SceneBuilder& defaults(const Parameters& parameters);
     /// The folder that file names are relative to; the working directory by default.
     SceneBuilder& directory(const std::filesystem::path& path);
 
@@ -103,6 +113,15 @@ class SceneBuilder {
     struct Data;
     std::unique_ptr<Data> data_;
 };
+
+/// A type of material, shape, light or sensor, with its keys.
+struct PartType {
+    std::string section;  ///< "materials", "objects", "lights" or "sensors"
+    std::string type;     ///< such as "diffuse"; of objects the shape
+    std::vector<std::string> keys;
+};
+/// All types that scenes can have: what the scene reader allows.
+std::vector<PartType> part_types();
 
 /// Warns of faults that a scene probably has, though it can be computed: holes in closed surfaces,
 /// overlapping surfaces, lights and sensors on the wrong side of a wall, objects that no light reaches. The

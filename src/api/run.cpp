@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "api/scene_data.h"
@@ -11,6 +12,7 @@
 #include "io/results/results_writer.h"
 #include "io/results/solution_file.h"
 #include "run/solve.h"
+#include "scene/light_groups.h"
 #include "scene/whites.h"
 #include "stilb/error.h"
 #include "stilb/measure.h"
@@ -51,12 +53,22 @@ Summary summary(const RunSummary& run, const std::vector<std::string>& scene_war
     Summary summary{.method = run.method,
                     .seed = run.seed,
                     .samples = run.samples,
+                    .replicates = run.replicates,
                     .elapsed_s = run.elapsed_s,
                     .converged = run.converged,
                     .attained_error = run.attained_error,
                     .warnings = scene_warnings};
     summary.warnings.insert(summary.warnings.end(), run.warnings.begin(), run.warnings.end());
     return summary;
+}
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr Triple kNowhere{kNone, kNone, kNone};
+
+Ray ray_of(const Measurand& measurand) {
+    const Location location = location_of(measurand);
+    return {triple(location.position),
+            location.directions.empty() ? kNowhere : triple(location.directions.front().value)};
 }
 
 SensorResult sensor_result(const run::SensorResult& measured) {
@@ -78,12 +90,11 @@ SensorResult sensor_result(const run::SensorResult& measured) {
         result.requirements.push_back(
             {std::string(requirement.criterion->key), requirement.limit, static_cast<Verdict>(verdict)});
     }
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t j = 0; j < measured.readings.size(); ++j) {
         const run::Reading& reading = measured.readings[j];
-        const Triple position =
-            sensor.derived() ? Triple{none, none, none} : triple(position_of(sensor.measurand(j)));
-        result.readings.push_back({estimate(reading.estimate), triple(reading.rgb), position});
+        const auto [position, direction] =
+            sensor.derived() ? Ray{kNowhere, kNowhere} : ray_of(sensor.measurand(j));
+        result.readings.push_back({estimate(reading.estimate), triple(reading.rgb), position, direction});
     }
     return result;
 }
@@ -100,15 +111,63 @@ const SensorResult& Result::operator[](std::string_view sensor) const {
         fmt::format("there is no result of a sensor \"{}\". Allowed: {}.", sensor, fmt::join(names, ", ")));
 }
 
-Result measure(const Scene& scene, const std::optional<Options>& options, const Control& control) {
+namespace {
+
+Result measure_sensors(const Scene& scene, const std::vector<Sensor>& sensors,
+                       const std::optional<Options>& options, const Control& control) {
     const io::SceneFile& file = scene.data().file;
     ControlSink sink(control);
-    RunResult run = run::measure(file.scene, sensors::choose_meters(file.sensors, {}),
-                                 run_options(scene, options), &sink, control.interrupt);
+    RunResult run = run::measure(file.scene, sensors, run_options(scene, options), &sink, control.interrupt);
     run.warnings.insert(run.warnings.begin(), file.warnings.begin(), file.warnings.end());
     Result result{summary(run, {}), {}, io::to_json(run, scene.data().path.string())};
     std::ranges::transform(run.sensors, std::back_inserter(result.sensors), sensor_result);
     return result;
+}
+
+Vec3 position_of(const Ray& ray) { return {ray.position[0], ray.position[1], ray.position[2]}; }
+
+/// `what`: the kind of ray, for messages.
+Vec3 direction_of(const Ray& ray, std::size_t index, std::string_view what) {
+    const Vec3 direction{ray.direction[0], ray.direction[1], ray.direction[2]};
+    const double size = length(direction);
+    constexpr double smallest = 1e-100, largest = 1e100;
+    const Vec3 position = position_of(ray);
+    const bool is_point = std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+    if (!is_point || !(size > smallest && size < largest)) {
+        throw InputError(
+            fmt::format("{} {}: the position or the direction is not finite, or the direction is [0, 0, "
+                        "0]. Allowed: finite numbers, and any other direction.",
+                        what, index));
+    }
+    return direction / size;
+}
+
+}  // namespace
+
+Result measure(const Scene& scene, const std::optional<Options>& options, const Control& control,
+               const std::vector<std::string>& sensors) {
+    return measure_sensors(scene, sensors::choose_meters(scene.data().file.sensors, sensors), options,
+                           control);
+}
+
+Result illuminance(const Scene& scene, std::span<const Ray> elements, const std::optional<Options>& options,
+                   const Control& control) {
+    IlluminancePoints points;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        const Vec3 normal = direction_of(elements[i], i, "point");
+        points.points.push_back({position_of(elements[i]), normal});
+    }
+    return measure_sensors(scene, {Sensor{"illuminance", std::move(points)}}, options, control);
+}
+
+Result luminance(const Scene& scene, std::span<const Ray> sights, const std::optional<Options>& options,
+                 const Control& control) {
+    Luminance lines;
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+        const Vec3 direction = direction_of(sights[i], i, "line of sight");
+        lines.sights.emplace_back(LineOfSight{position_of(sights[i]), direction});
+    }
+    return measure_sensors(scene, {Sensor{"luminance", std::move(lines)}}, options, control);
 }
 
 struct Picture::Data {
@@ -118,7 +177,9 @@ struct Picture::Data {
 
 namespace {
 
-Picture to_picture(const RenderResult& rendered, const Scene& scene, const Sensor& camera) {
+/// `white`: that of the light in the picture.
+Picture to_picture(const RenderResult& rendered, const Scene& scene, const Sensor& camera,
+                   const scene::WhiteRange& white) {
     io::PictureOrigin origin;
     origin.scene = scene.data().path.string();
     origin.scene_name = scene.data().file.scene.name;
@@ -129,8 +190,7 @@ Picture to_picture(const RenderResult& rendered, const Scene& scene, const Senso
     Picture picture;
     static_cast<Summary&>(picture) = summary(rendered, scene.data().file.warnings);
     picture.data = std::make_shared<const Picture::Data>(
-        Picture::Data{io::picture_of(rendered, *camera.camera(), origin),
-                      scene::whites_of_lights(scene.data().file.scene)});
+        Picture::Data{io::picture_of(rendered, *camera.camera(), origin), white});
     const io::Picture& pixels = picture.data->picture;
     picture.width = pixels.width;
     picture.height = pixels.height;
@@ -154,8 +214,21 @@ Picture render(const Scene& scene, const std::string& camera, const std::optiona
     const Sensor& sensor = sensors::choose_camera(file.sensors, camera);
     ControlSink sink(control);
     return to_picture(run::render(file.scene, sensor, run_options(scene, options), &sink, control.interrupt),
-                      scene, sensor);
+                      scene, sensor, scene::whites_of_lights(file.scene));
 }
+
+namespace {
+
+LightFactor light_factor(const std::string& light, const Triple& factor) {
+    for (const double band : factor) {
+        if (band >= 0 && std::isfinite(band)) continue;
+        throw InputError(
+            fmt::format("lights.{}: {} is not allowed. Allowed: a factor of 0 or more.", light, band));
+    }
+    return {light, {{factor[0], factor[1], factor[2]}}};
+}
+
+}  // namespace
 
 struct Solution::Data {
     Scene scene;
@@ -166,13 +239,44 @@ struct Solution::Data {
 
 const Summary& Solution::summary() const { return data_->summary; }
 
-Picture Solution::render(const std::string& camera, const Control& control) const {
+Solution Solution::load(const std::filesystem::path& path) {
+    io::StoredSolution stored = io::read_solution_file(path);
+    const std::filesystem::path scene_path = path.parent_path() / stored.scene;
+    if (!std::filesystem::exists(scene_path)) {
+        throw InputError(fmt::format("scene '{}' of this solution was not found. Put it there again.",
+                                     scene_path.string()),
+                         {path.string()});
+    }
+    const Scene scene = Scene::load(scene_path);
+    const io::SceneFile& file = scene.data().file;
+    io::require_same_light(stored, file, path.string());
+    SolveResult result;
+    result.method = "ray-bundle";
+    result.seed = stored.seed;
+    result.samples = stored.steps;
+    result.attained_error = stored.attained_error;
+    result.solution = std::move(stored.solution);
+    const Summary all = api::summary(result, file.warnings);
+    return Solution(std::make_shared<const Data>(Data{scene, all, std::move(result), file.run.threads}));
+}
+
+std::vector<std::string> Solution::lights() const {
+    return scene::light_groups(data_->scene.data().file.scene).names;
+}
+
+Picture Solution::render(const std::string& camera, const Control& control,
+                         const std::map<std::string, Triple>& factors) const {
     const io::SceneFile& file = data_->scene.data().file;
     const Sensor& sensor = sensors::choose_camera(file.sensors, camera);
+    std::vector<LightFactor> of_groups;
+    for (const auto& [name, factor] : factors) of_groups.push_back(light_factor(name, factor));
     ControlSink sink(control);
-    return to_picture(run::render_solution(file.scene, sensor, data_->result.solution, {}, data_->threads,
-                                           &sink, control.interrupt),
-                      data_->scene, sensor);
+    const RenderResult rendered = run::render_solution(file.scene, sensor, data_->result.solution, of_groups,
+                                                       data_->threads, &sink, control.interrupt);
+    const LightGroups groups = scene::light_groups(file.scene);
+    const scene::Scene dimmed =
+        scene::relit(file.scene, groups, scene::factors_of_groups(of_groups, groups.names));
+    return to_picture(rendered, data_->scene, sensor, scene::whites_of_lights(dimmed));
 }
 
 void Solution::save(const std::filesystem::path& path) const {

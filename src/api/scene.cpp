@@ -1,6 +1,7 @@
 #include "stilb/scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -8,50 +9,36 @@
 #include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "io/import/scene_formats.h"
+#include "io/scene/sections.h"
 #include "io/scene/toml.h"
 #include "stilb/error.h"
 
 namespace stilb::api {
 namespace {
 
-io::TomlValue toml_of(const Value& value) {
-    return std::visit(
-        [](const auto& content) -> io::TomlValue {
-            if constexpr (std::is_same_v<std::decay_t<decltype(content)>, Value::List>) {
-                io::TomlArray array;
-                for (const Value& element : content) array.push_back(toml_of(element));
-                return {std::move(array)};
-            } else {
-                return {content};
-            }
-        },
-        value.content());
-}
-
-template <typename Numbers>
-io::TomlValue toml_list(const Numbers& numbers) {
-    io::TomlArray array;
-    for (const auto number : numbers) {
-        if constexpr (std::is_integral_v<std::decay_t<decltype(number)>>) {
-            array.push_back({std::int64_t{number}});
-        } else {
-            array.push_back({number});
-        }
-    }
-    return {std::move(array)};
-}
-
-template <typename Lists>
-io::TomlValue toml_lists(const Lists& lists) {
-    io::TomlArray array;
-    for (const auto& list : lists) array.push_back(toml_list(list));
-    return {std::move(array)};
-}
+io::TomlValue toml_of(const Value& value);
 
 io::TomlMembers members_of(const Parameters& parameters) {
     io::TomlMembers members;
     for (const auto& [key, value] : parameters) members.push_back({key, 0, toml_of(value)});
     return members;
+}
+
+io::TomlValue toml_of(const Value& value) {
+    return std::visit(
+        [](const auto& content) -> io::TomlValue {
+            using Content = std::decay_t<decltype(content)>;
+            if constexpr (std::is_same_v<Content, Value::List>) {
+                io::TomlArray array;
+                for (const Value& element : content) array.push_back(toml_of(element));
+                return {std::move(array)};
+            } else if constexpr (std::is_same_v<Content, Value::Table>) {
+                return {members_of(content)};
+            } else {
+                return {content};
+            }
+        },
+        value.content());
 }
 
 Scene make_scene(io::SceneFile file, const std::filesystem::path& path = {}) {
@@ -78,6 +65,7 @@ Options Scene::options() const {
     const RunOptions& run = data_->file.run;
     return {.method = run.method,
             .error = run.error,
+            .target = std::string(run::kTargetNames[static_cast<std::size_t>(run.target)]),
             .time_s = run.time_s,
             .samples = run.paths,
             .bounces = run.bounces,
@@ -86,11 +74,26 @@ Options Scene::options() const {
             .threads = run.threads};
 }
 
+namespace {
+
+run::Target target_of(const std::string& name) {
+    const auto found = std::ranges::find(run::kTargetNames, name);
+    if (found == run::kTargetNames.end()) {
+        throw InputError(fmt::format("target: there is no target \"{}\".{} Allowed: {}.", name,
+                                     did_you_mean(name, run::kTargetNames),
+                                     fmt::join(run::kTargetNames, ", ")));
+    }
+    return static_cast<run::Target>(found - run::kTargetNames.begin());
+}
+
+}  // namespace
+
 RunOptions run_options(const Scene& scene, const std::optional<Options>& options) {
     RunOptions run = scene.data().file.run;
     if (!options) return run;
     run.method = options->method;
     run.error = options->error;
+    run.target = target_of(options->target);
     run.time_s = options->time_s;
     run.paths = options->samples;
     run.bounces = options->bounces;
@@ -107,7 +110,7 @@ RunOptions run_options(const Scene& scene, const std::optional<Options>& options
 /// The scene as the reader takes it: a tree without lines.
 struct SceneBuilder::Data {
     std::string name;
-    io::TomlMembers materials, objects, lights, sensors;
+    io::TomlMembers materials, objects, lights, sensors, run, defaults;
     std::filesystem::path directory = ".";
 
     void add(io::TomlMembers Data::*section, std::string_view section_name, const std::string& part,
@@ -136,15 +139,27 @@ SceneBuilder& SceneBuilder::object(const std::string& name, const Parameters& pa
     return *this;
 }
 
+SceneBuilder& SceneBuilder::mesh(const std::string& name, std::span<const Triple> vertices,
+                                 std::span<const std::array<std::uint32_t, 3>> triangles,
+                                 const Parameters& parameters) {
+    std::vector<Vec3> positions;
+    positions.reserve(vertices.size());
+    for (const auto& [x, y, z] : vertices) positions.push_back({x, y, z});
+    io::TomlMembers members = members_of(parameters);
+    members.push_back({"shape", 0, {std::string("polygons")}});
+    members.push_back({"vertices", 0, {std::make_shared<const std::vector<Vec3>>(std::move(positions))}});
+    members.push_back({"faces",
+                       0,
+                       {std::make_shared<const std::vector<std::array<std::uint32_t, 3>>>(triangles.begin(),
+                                                                                          triangles.end())}});
+    data_->add(&Data::objects, "objects", name, std::move(members));
+    return *this;
+}
+
 SceneBuilder& SceneBuilder::mesh(const std::string& name, const std::vector<Triple>& vertices,
                                  const std::vector<std::array<std::uint32_t, 3>>& triangles,
                                  const std::string& material) {
-    data_->add(&Data::objects, "objects", name,
-               {{"shape", 0, {std::string("polygons")}},
-                {"vertices", 0, toml_lists(vertices)},
-                {"faces", 0, toml_lists(triangles)},
-                {"material", 0, {material}}});
-    return *this;
+    return mesh(name, std::span(vertices), std::span(triangles), Parameters{{"material", material}});
 }
 
 SceneBuilder& SceneBuilder::light(const std::string& name, const Parameters& parameters) {
@@ -154,6 +169,16 @@ SceneBuilder& SceneBuilder::light(const std::string& name, const Parameters& par
 
 SceneBuilder& SceneBuilder::sensor(const std::string& name, const Parameters& parameters) {
     data_->add(&Data::sensors, "sensors", name, members_of(parameters));
+    return *this;
+}
+
+SceneBuilder& SceneBuilder::run(const Parameters& parameters) {
+    data_->run = members_of(parameters);
+    return *this;
+}
+
+SceneBuilder& SceneBuilder::defaults(const Parameters& parameters) {
+    data_->defaults = members_of(parameters);
     return *this;
 }
 
@@ -168,8 +193,23 @@ Scene SceneBuilder::build() const {
                                {"materials", 0, {data_->materials}},
                                {"objects", 0, {data_->objects}},
                                {"lights", 0, {data_->lights}},
-                               {"sensors", 0, {data_->sensors}}};
+                               {"sensors", 0, {data_->sensors}},
+                               {"run", 0, {data_->run}},
+                               {"defaults", 0, {data_->defaults}}};
     return make_scene(io::read_scene(root, "", data_->directory));
+}
+
+std::vector<PartType> part_types() {
+    std::vector<PartType> all;
+    const auto add = [&](const char* section, const std::vector<io::TypeKeys>& types) {
+        for (const auto& [type, keys] : types)
+            all.push_back({section, std::string(type), {keys.begin(), keys.end()}});
+    };
+    add("materials", io::material_types());
+    add("objects", io::object_shapes());
+    add("lights", io::light_types());
+    add("sensors", io::sensor_types());
+    return all;
 }
 
 std::vector<std::string> validate(const Scene& scene) {

@@ -1,10 +1,14 @@
 // The library as other programs see it: public headers only.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <numbers>
 #include <string>
 
 #include "stilb/stilb.h"
@@ -174,6 +178,95 @@ TEST(Library, WrongOptionsAndNamesAreRefused) {
     EXPECT_NE(message_of([&] { result["desc"]; }).find("desk"), std::string::npos);
 }
 
+TEST(Library, AnyPointsAreMeasured) {
+    stilb::SceneBuilder builder;
+    builder.light("bulb",
+                  {{"type", "point"}, {"position", {2, 1.5, 2.3}}, {"flux", 4 * std::numbers::pi * 100}});
+    const stilb::Scene scene = builder.build();
+    const std::array<stilb::Ray, 2> elements{{{{2, 1.5, 0.3}, {0, 0, 7}}, {{2, 1.5, 0.3}, {0, 0, -1}}}};
+    const stilb::Result result = stilb::illuminance(scene, elements, few_samples());
+    const stilb::SensorResult& lit = result["illuminance"];
+    ASSERT_EQ(lit.readings.size(), 2u);
+    EXPECT_NEAR(lit.readings[0].value, 100 / (2.0 * 2.0), 1e-6);  // I / d^2
+    EXPECT_EQ(lit.readings[1].value, 0);
+    EXPECT_EQ(lit.readings[0].direction, (stilb::Triple{0, 0, 1}));
+
+    const stilb::Scene bright = room().build();
+    const std::array<stilb::Ray, 1> sights{{{{1, 1, 1.5}, {0, 0, -1}}}};
+    const stilb::Result seen = stilb::luminance(bright, sights, few_samples());
+    const stilb::Result spot = stilb::measure(bright, few_samples(), {}, {"spot"});
+    ASSERT_EQ(spot.sensors.size(), 1u);
+    EXPECT_EQ(seen["luminance"].readings[0].value, spot["spot"].readings[0].value);
+
+    const std::array<stilb::Ray, 1> nowhere{{{{1, 1, 1}, {0, 0, 0}}}};
+    EXPECT_NE(message_of([&] { stilb::illuminance(bright, nowhere); }).find("point 0"), std::string::npos);
+    EXPECT_NE(message_of([&] { stilb::measure(bright, {}, {}, {"desc"}); }).find("\"desk\""),
+              std::string::npos);
+}
+
+TEST(Library, TablesDefaultsAndRunAreThoseOfSceneFiles) {
+    using Parameters = stilb::Parameters;
+    stilb::SceneBuilder builder = room();
+    builder.defaults({{"lights", Parameters{{"maintenance", 0.5}}}})
+        .run({{"method", "path"}, {"target", "mean"}})
+        .light("row", {{"type", "point"},
+                       {"flux", 100},
+                       {"array", Parameters{{"origin", {1, 1, 2}},
+                                            {"step_u", {1, 0, 0}},
+                                            {"step_v", {0, 1, 0}},
+                                            {"count", {2, 1}}}}});
+    const stilb::Scene built = builder.build();
+    const stilb::Scene read = stilb::Scene::parse(std::string(kRoom) + R"(
+[defaults]
+lights.maintenance = 0.5
+[run]
+method = "path"
+target = "mean"
+[lights.row]
+type = "point"
+flux = 100
+array = { origin = [1, 1, 2], step_u = [1, 0, 0], step_v = [0, 1, 0], count = [2, 1] }
+)");
+    EXPECT_EQ(built.options().target, "mean");
+    stilb::Options options = built.options();
+    options.samples = 32;
+    const stilb::Result a = stilb::measure(built, options), b = stilb::measure(read, options);
+    EXPECT_EQ(a["desk"].mean.value, b["desk"].mean.value);
+    options.target = "men";
+    EXPECT_NE(message_of([&] { stilb::measure(built, options); }).find("\"mean\""), std::string::npos);
+}
+
+TEST(Library, MeshesFromMemoryAreChecked) {
+    const auto message = [](const std::vector<stilb::Triple>& vertices, std::uint32_t corner) {
+        return message_of([&] {
+            stilb::SceneBuilder builder = room();
+            builder.mesh("sheet", vertices, {{0, 1, corner}}, "wall").build();
+        });
+    };
+    const double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(message({{0, 0, 1}, {1, 0, 1}, {1, 1, 1}}, 2), "no error");
+    EXPECT_NE(message({{0, 0, 1}, {1, 0, 1}, {1, 1, 1}}, 3)
+                  .find("objects.sheet.faces: a triangle has the vertex 3"),
+              std::string::npos);
+    EXPECT_NE(message({{0, 0, 1}, {1, infinite, 1}, {1, 1, 1}}, 2).find("objects.sheet.vertices: vertex 1: "),
+              std::string::npos);
+    EXPECT_NE(message({{0, 0, 1}, {1, 0, 1}}, 1).find("fewer than 3 vertices"), std::string::npos);
+}
+
+TEST(Library, TypesOfPartsAreListedWithTheirKeys) {
+    const std::vector<stilb::PartType> types = stilb::part_types();
+    const auto keys = [&](const std::string& section, const std::string& type) {
+        const auto found = std::ranges::find_if(
+            types, [&](const stilb::PartType& part) { return part.section == section && part.type == type; });
+        return found == types.end() ? std::vector<std::string>{} : found->keys;
+    };
+    EXPECT_EQ(keys("materials", "diffuse"), (std::vector<std::string>{"type", "reflectance"}));
+    EXPECT_EQ(keys("objects", "box"), (std::vector<std::string>{"min", "max", "shape", "material", "scale",
+                                                                "rotate", "translate", "transform"}));
+    EXPECT_FALSE(keys("lights", "environment").empty());
+    EXPECT_FALSE(keys("sensors", "camera").empty());
+}
+
 TEST(Library, RunsAreFollowedAndInterrupted) {
     std::atomic<bool> interrupt{false};
     int reports = 0;
@@ -230,6 +323,18 @@ TEST(Library, SolutionsShowWhatRenderingDoes) {
     EXPECT_EQ(solution.summary().method, "ray-bundle");
     solution.save(folder / "room.solution");
     EXPECT_GT(std::filesystem::file_size(folder / "room.solution"), 1000u);
+    const stilb::Solution loaded = stilb::Solution::load(folder / "room.solution");
+    EXPECT_EQ(loaded.lights(), (std::vector<std::string>{"bulb"}));
+    EXPECT_EQ(loaded.summary().samples, solution.summary().samples);
+    const stilb::Picture dimmed = loaded.render("view", {}, {{"bulb", {0.5, 0.5, 0.5}}});
+    for (std::size_t i = 0; i < stored.luminance_cd_m2.size(); ++i) {
+        EXPECT_NEAR(dimmed.luminance_cd_m2[i], 0.5 * stored.luminance_cd_m2[i],
+                    2e-3 * stored.luminance_cd_m2[i]);  // files keep 11 bits of each value
+    }
+    EXPECT_NE(message_of([&] {
+                  loaded.render("view", {}, {{"bulb", {-1, 1, 1}}});
+              }).find("lights.bulb"),
+              std::string::npos);
     std::filesystem::remove_all(folder);
     EXPECT_NE(message_of([&] {
                   stilb::solve(room().build(), options).save("room.solution");

@@ -344,6 +344,12 @@ std::optional<double> read_power(const TomlTable& table, const Light& light, con
 
 std::vector<TypeKeys> light_types() {
     std::vector<TypeKeys> types;
+    for (const Reader& reader : kReaders) types.push_back({reader.type, keys_of(reader)});
+    return types;
+}
+
+std::vector<TypeKeys> lamp_types() {
+    std::vector<TypeKeys> types;
     for (const Reader& reader : kReaders) {
         if (is_lamp(reader)) types.push_back({reader.type, keys_of(reader)});
     }

@@ -122,15 +122,38 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-constexpr std::array<std::string_view, 7> kShapes{"mesh", "rectangle", "box",      "sphere",
-                                                  "disk", "polygons",  "harmonics"};
+/// A shape, and the keys that it has besides those of all objects.
+struct ShapeKeys {
+    std::string_view shape;
+    std::array<std::string_view, 6> keys;  ///< then empty ones
+};
+constexpr std::array kShapes{
+    ShapeKeys{"mesh", {"file", "materials"}},
+    ShapeKeys{"rectangle", {"corner", "edge_u", "edge_v"}},
+    ShapeKeys{"box", {"min", "max"}},
+    ShapeKeys{"sphere", {"center", "radius"}},
+    ShapeKeys{"disk", {"center", "normal", "radius"}},
+    ShapeKeys{"polygons", {"vertices", "faces"}},
+    ShapeKeys{"harmonics", {"file", "coefficients", "center", "degree", "intersection", "lod"}},
+};
 
 /// The keys of the shape, and those that every object has.
-void expect_object_keys(TomlTable& table, std::string_view shape, Names keys) {
+Names keys_of(const ShapeKeys& shape) {
+    Names keys(shape.keys.begin(), std::ranges::find(shape.keys, ""));
     for (const std::string_view key : {"shape", "material", "scale", "rotate", "translate", "transform"}) {
         keys.push_back(key);
     }
-    table.expect_keys(keys, fmt::format("shape {}", in_quotes(shape)));
+    return keys;
+}
+
+/// The shape of an object, whose keys are checked.
+std::string_view read_shape_name(TomlTable& table) {
+    std::array<std::string_view, kShapes.size()> names;
+    std::ranges::transform(kShapes, names.begin(), &ShapeKeys::shape);
+    const std::string_view shape = table.choose("shape", names);
+    table.expect_keys(keys_of(*std::ranges::find(kShapes, shape, &ShapeKeys::shape)),
+                      fmt::format("shape {}", in_quotes(shape)));
+    return shape;
 }
 
 Box read_box(const TomlTable& table) {
@@ -173,12 +196,43 @@ void warn_of_degenerate(const std::string& where, const MeshFile& mesh, SceneFil
         file.warnings.push_back(std::move(warning));
 }
 
+void add_vertices(const TomlItem& item, MeshBuilder& builder) {
+    if (const auto* vertices = item.vertices()) {
+        builder.reserve_vertices(vertices->size());
+        for (const Vec3& vertex : *vertices) {
+            for (const double coordinate : {vertex.x, vertex.y, vertex.z}) {
+                if (!kCoordinate.contains(coordinate))
+                    item.fail(fmt::format("vertex {}: {}", builder.vertex_count(),
+                                          refusal(coordinate, kCoordinate)));
+            }
+            builder.add_vertex(vertex);
+        }
+    } else {
+        for (const TomlItem& vertex : item.elements()) builder.add_vertex(vertex.vector());
+    }
+    if (builder.vertex_count() < 3) item.fail("found fewer than 3 vertices. Allowed: 3 or more.");
+}
+
+void add_faces(const TomlItem& item, MeshBuilder& builder) {
+    const auto* const triangles = item.triangles();
+    if (!triangles) {
+        for (const TomlItem& face : item.elements()) add_face(face, builder);
+        return;
+    }
+    for (const std::array<std::uint32_t, 3>& triangle : *triangles) {
+        const std::uint32_t largest = std::ranges::max(triangle);
+        if (largest >= builder.vertex_count()) {
+            item.fail(fmt::format("a triangle has the vertex {}. Allowed: a whole number from 0 to {}.",
+                                  largest, builder.vertex_count() - 1));
+        }
+        builder.add_triangle(triangle);
+    }
+}
+
 Mesh read_polygons(const TomlTable& table, SceneFile& file) {
     MeshBuilder builder;
-    for (const TomlItem& vertex : table.at("vertices").elements()) builder.add_vertex(vertex.vector());
-    if (builder.vertex_count() < 3)
-        table.at("vertices").fail("found fewer than 3 vertices. Allowed: 3 or more.");
-    for (const TomlItem& face : table.at("faces").elements()) add_face(face, builder);
+    add_vertices(table.at("vertices"), builder);
+    add_faces(table.at("faces"), builder);
     MeshFile mesh = std::move(builder).finish(table.where(), "give a face that has an area");
     warn_of_degenerate(table.where(), mesh, file);
     return std::move(mesh.mesh);
@@ -290,7 +344,7 @@ std::vector<MaterialId> materials_by_name(const TomlItem& item, const MeshFile& 
     return of_triangles;
 }
 
-Object read_mesh_object(TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
+Object read_mesh_object(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
                         MeshParts& parts) {
     MeshFile mesh = read_mesh(table.at("file"), directory, file);
     warn_of_degenerate(table.where(), mesh, file);
@@ -299,42 +353,23 @@ Object read_mesh_object(TomlTable& table, const std::filesystem::path& directory
     return {"", std::move(mesh.mesh), std::move(materials)};
 }
 
-Shape read_simple_shape(TomlTable& table, std::string_view shape, SceneFile& file) {
-    if (shape == "rectangle") {
-        expect_object_keys(table, shape, {"corner", "edge_u", "edge_v"});
-        return read_rectangle(table);
-    }
-    if (shape == "box") {
-        expect_object_keys(table, shape, {"min", "max"});
-        return read_box(table);
-    }
-    if (shape == "sphere") {
-        expect_object_keys(table, shape, {"center", "radius"});
-        return read_sphere(table);
-    }
-    if (shape == "disk") {
-        expect_object_keys(table, shape, {"center", "normal", "radius"});
-        return read_disk(table, file);
-    }
-    expect_object_keys(table, shape, {"vertices", "faces"});
+Shape read_simple_shape(const TomlTable& table, std::string_view shape, SceneFile& file) {
+    if (shape == "rectangle") return read_rectangle(table);
+    if (shape == "box") return read_box(table);
+    if (shape == "sphere") return read_sphere(table);
+    if (shape == "disk") return read_disk(table, file);
     return read_polygons(table, file);
 }
 
 /// `parts` is filled if the object is a mesh from a file.
 Object read_untransformed(TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
                           MeshParts& parts) {
-    const std::string_view shape = table.choose("shape", kShapes);
-    if (shape == "mesh") {
-        expect_object_keys(table, shape, {"file", "materials"});
-        return read_mesh_object(table, directory, file, parts);
-    }
+    const std::string_view shape = read_shape_name(table);
+    if (shape == "mesh") return read_mesh_object(table, directory, file, parts);
     const auto of_one_material = [&](Shape geometry) {
         return Object{"", std::move(geometry), {read_material(table.at("material"), file.scene)}};
     };
-    if (shape == "harmonics") {
-        expect_object_keys(table, shape, {"file", "coefficients", "center", "degree", "intersection", "lod"});
-        return of_one_material(read_harmonic_shape(table, directory, file));
-    }
+    if (shape == "harmonics") return of_one_material(read_harmonic_shape(table, directory, file));
     return of_one_material(read_simple_shape(table, shape, file));
 }
 
@@ -379,6 +414,12 @@ Object read_body(const TomlItem& item, const std::filesystem::path& directory, S
     std::vector<MaterialId> materials =
         is_by_name ? materials_by_name(item, mesh, file.scene) : read_materials_of(table, mesh, file.scene);
     return {"", transformed(std::move(mesh.mesh), read_transform(table)), std::move(materials)};
+}
+
+std::vector<TypeKeys> object_shapes() {
+    std::vector<TypeKeys> shapes;
+    for (const ShapeKeys& shape : kShapes) shapes.push_back({shape.shape, keys_of(shape)});
+    return shapes;
 }
 
 PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory,

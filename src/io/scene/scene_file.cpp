@@ -178,7 +178,7 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     const TomlTable run = section_of(root, "run", none);
     file.run = read_run(run);
     read_lights(section_of(root, "lights", none),
-                {defaults("lights", light_types()), read_maintenance(run, 1), std::move(parts), directory},
+                {defaults("lights", lamp_types()), read_maintenance(run, 1), std::move(parts), directory},
                 file);
     warn_of_unused_materials(materials, file);
     scene::put_lamps_in_front(file.scene);

@@ -46,10 +46,12 @@ RunOptions read_run(TomlTable section);
 /// The key maintenance of [run] or of a light; `otherwise` where it is missing.
 double read_maintenance(const TomlTable& table, double otherwise);
 
-// The types that take defaults, with their keys.
+// All types with their keys.
 std::vector<TypeKeys> material_types();
-/// All but environments: daylight is not a lamp.
+std::vector<TypeKeys> object_shapes();
 std::vector<TypeKeys> light_types();
+/// Those of lights that take defaults: daylight is not a lamp.
+std::vector<TypeKeys> lamp_types();
 std::vector<TypeKeys> sensor_types();
 
 /// The body of a luminaire in its own coordinates, a mesh: the name of its file, or a table of the keys of

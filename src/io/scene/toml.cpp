@@ -107,6 +107,12 @@ std::string described(const TomlValue& value) {
             return fmt::format("an array of {}", array.size());
         }
         std::string operator()(const TomlMembers&) const { return "a table"; }
+        std::string operator()(const TomlVertices& list) const {
+            return fmt::format("an array of {}", list->size());
+        }
+        std::string operator()(const TomlTriangles& list) const {
+            return fmt::format("an array of {}", list->size());
+        }
     };
     return std::visit(Description{}, value.content);
 }

@@ -1,6 +1,7 @@
 // A TOML file as a tree of plain values with their line numbers. The only interface to the TOML parser.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -25,9 +26,15 @@ using TomlArray = std::vector<TomlValue>;
 using TomlMembers = std::vector<TomlMember>;
 /// Dates and times, which no key accepts.
 struct TomlDate {};
+/// The vertices and the triangles of a mesh that was built in code: as arrays of arrays they would take
+/// twenty times the memory.
+using TomlVertices = std::shared_ptr<const std::vector<Vec3>>;
+using TomlTriangles = std::shared_ptr<const std::vector<std::array<std::uint32_t, 3>>>;
 
 struct TomlValue {
-    std::variant<TomlDate, bool, std::int64_t, double, std::string, TomlArray, TomlMembers> content;
+    std::variant<TomlDate, bool, std::int64_t, double, std::string, TomlArray, TomlMembers, TomlVertices,
+                 TomlTriangles>
+        content;
     std::size_t line = 0;
 };
 
@@ -76,6 +83,9 @@ class TomlItem {
     std::vector<TomlItem> elements() const;
     std::vector<double> numbers(std::size_t count, const Range& range) const;
     TomlTable table() const;
+    /// The vertices or triangles of a mesh that was built in code; null for other values.
+    const std::vector<Vec3>* vertices() const { return list<TomlVertices>(); }
+    const std::vector<std::array<std::uint32_t, 3>>* triangles() const { return list<TomlTriangles>(); }
 
     bool is_text() const { return std::holds_alternative<std::string>(value_->content); }
     bool is_array() const { return std::holds_alternative<TomlArray>(value_->content); }
@@ -96,6 +106,11 @@ class TomlItem {
     [[noreturn]] void fail_type(std::string_view needed) const;
     const TomlArray& array_of(std::size_t count, std::string_view needed) const;
     TomlItem element(const TomlArray& array, std::size_t index) const;
+    template <typename List>
+    typename List::element_type* list() const {
+        const List* const content = std::get_if<List>(&value_->content);
+        return content ? content->get() : nullptr;
+    }
 
     const TomlValue* value_;
     std::string path_;

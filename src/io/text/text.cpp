@@ -212,6 +212,12 @@ struct CanonicalText {
         }
         text += ']';
     }
+    void operator()(const TomlVertices& vertices) const {
+        for (const Vec3& v : *vertices) text += fmt::format("[{},{},{}]", v.x, v.y, v.z);
+    }
+    void operator()(const TomlTriangles& triangles) const {
+        for (const auto& [a, b, c] : *triangles) text += fmt::format("[{},{},{}]", a, b, c);
+    }
     void operator()(const TomlMembers& members) const {
         text += '{';
         for (const TomlMember& member : members) {

@@ -1,0 +1,22 @@
+// The extension module stilb._stilb: the C++ library for the Python package, which has the documented names.
+#include <nanobind/nanobind.h>
+
+#include "bindings/parts.h"
+#include "stilb/error.h"
+
+namespace nb = nanobind;
+
+NB_MODULE(_stilb, module) {
+    module.attr("version") = STILB_VERSION;
+    nb::exception<stilb::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
+        "An error in the input. The message says what is wrong, where, and what would be right.";
+    nb::exception<stilb::Cancelled>(module, "Cancelled", PyExc_RuntimeError).attr("__doc__") =
+        "A run was ended by its time limit or by its caller before there was any result.";
+    stilb::api::bindings::add_scenes(module);
+    stilb::api::bindings::add_results(module);
+    stilb::api::bindings::add_runs(module);
+    nb::module_ exact = module.def_submodule("exact");
+    stilb::api::bindings::add_exact_solutions(exact);
+    nb::module_ statistics = module.def_submodule("statistics");
+    stilb::api::bindings::add_hypothesis_tests(statistics);
+}

@@ -1,0 +1,21 @@
+"""Stilb: illuminance and luminance in rooms, with an error bar on every number.
+
+    import stilb
+    scene = stilb.load("office.toml")
+    result = scene.measure(error=0.01)
+    result["desk"].value, result["desk"].interval()
+
+docs/python.md is the guide; `help(stilb.Scene)` lists what a scene can do.
+"""
+
+from . import exact, statistics
+from ._stilb import Cancelled, InputError, Progress
+from ._stilb import version as __version__
+from .parts import *
+from .parts import __all__ as _parts
+from .results import Estimate, Image, Reading, Result
+from .scene import Scene, Section, load
+from .solution import Solution, load_solution
+
+__all__ = ["Cancelled", "Estimate", "Image", "InputError", "Progress", "Reading", "Result", "Scene", "Section",
+           "Solution", "__version__", "exact", "load", "load_solution", "statistics", *_parts]

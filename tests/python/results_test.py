@@ -1,0 +1,243 @@
+"""Results in Python: the numbers of the command line, as arrays, and runs that are followed and ended."""
+
+import io
+import json
+import os
+import signal
+import tempfile
+import threading
+import time
+import unittest
+from contextlib import redirect_stderr
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import stilb
+from room import TOML, built, program
+
+matplotlib.use("Agg")
+PATHS = 4096
+
+
+def without_times(document):
+    document = json.loads(document)
+    for key in ("elapsed_s", "scene"):
+        document.pop(key)
+    return document
+
+
+class Readings(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scene = built()
+        cls.result = cls.scene.measure(paths=PATHS)
+
+    def test_bits_are_those_of_the_command_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "room.toml"
+            file.write_text(TOML)
+            printed = json.loads(program("measure", file, "--json", "--paths", PATHS).stdout)
+            read = stilb.load(file).measure(paths=PATHS, threads=1)
+        self.assertEqual(without_times(read.to_json()), without_times(json.dumps(printed)))
+        for sensor in printed["sensors"]:
+            reading = self.result[sensor["name"]]
+            values = [value["value"] for value in sensor["values"]]
+            intervals = np.array([value["interval"] for value in sensor["values"]])
+            low, high = reading.interval()
+            np.testing.assert_array_equal(reading.value.ravel(), values)
+            np.testing.assert_array_equal(np.stack([low.ravel(), high.ravel()], 1), intervals)
+            self.assertEqual(reading.mean.value, sensor["summary"]["mean"])
+
+    def test_arrays_have_the_shape_of_the_sensor(self):
+        desk, eye = self.result["desk"], self.result["eye"]
+        self.assertEqual((desk.value.shape, desk.rgb.shape, desk.position.shape), ((2, 4), (2, 4, 3), (2, 4, 3)))
+        self.assertEqual((eye.value.shape, eye.direction.shape), ((3,), (3, 3)))
+        self.assertEqual((desk.quantity, desk.unit, eye.quantity, eye.unit), ("illuminance", "lx", "luminance", "cd/m2"))
+        np.testing.assert_allclose(desk.position[1, 2], [2, 1.6, 0.75])
+        np.testing.assert_array_equal(desk.direction[0, 0], [0, 0, 1])
+        np.testing.assert_allclose(desk.rgb @ [0.2126, 0.7152, 0.0722], desk.value)
+
+    def test_arrays_are_views_that_outlive_the_result(self):
+        desk = built().measure(paths=PATHS)["desk"]
+        value = desk.value
+        self.assertTrue(np.shares_memory(value, desk.value))
+        self.assertFalse(value.flags.owndata or value.flags.writeable)
+        expected = self.result["desk"].value
+        del desk
+        np.testing.assert_array_equal(value, expected)
+
+    def test_intervals_of_other_confidence(self):
+        desk = self.result["desk"]
+        low, high = desk.interval()
+        wider, _ = desk.interval(0.99)
+        t = [stilb.statistics.student_t_quantile(p, desk.run.replicates - 1) for p in (0.975, 0.995)]
+        np.testing.assert_allclose((desk.value - wider) / (desk.value - low), t[1] / t[0])
+        with self.assertRaisesRegex(stilb.InputError, "confidence 95: expected a probability between 0 and 1"):
+            desk.interval(95)
+
+    def test_statistics_have_intervals(self):
+        desk = self.result["desk"]
+        for estimate in (desk.mean, desk.minimum, desk.maximum, desk.uniformity, desk.diversity):
+            low, high = estimate.interval
+            self.assertTrue(low <= estimate.value <= high)
+        self.assertAlmostEqual(float(desk.mean), desk.value.mean())
+        self.assertEqual(desk.minimum.value, desk.value.min())
+        self.assertEqual(desk.requirements, {"mean": (1.0, "pass")})
+
+    def test_results_are_mappings(self):
+        self.assertEqual([name for name in self.result], ["desk", "eye"])
+        with self.assertRaisesRegex(KeyError, "no result of a sensor 'desc'; there are: desk, eye"):
+            self.result["desc"]
+        only = built().measure(paths=PATHS, sensors=["eye"])
+        self.assertEqual(list(only), ["eye"])
+        with self.assertRaisesRegex(stilb.InputError, "chair"):
+            built().measure(sensors=["chair"])
+
+    def test_tables_and_drawings(self):
+        desk = self.result["desk"]
+        table = desk.to_pandas()
+        self.assertEqual(table.loc[(1, 2), "value"], desk.value[1, 2])
+        self.assertEqual(table.attrs["unit"], "lx")
+        axes = desk.plot()
+        np.testing.assert_array_equal(axes.images[0].get_array(), desk.value)
+        np.testing.assert_allclose(axes.images[0].get_extent(), (0, 1.6, 0, 0.8))
+        self.assertEqual(self.result["eye"].plot().get_ylabel(), "luminance [cd/m2]")
+        self.assertIn("<td>2 x 4</td>", self.result._repr_html_())
+        self.assertRegex(repr(desk), r"<desk: 2 x 4 readings, mean [0-9.]+ ± [0-9.]+ lx>")
+
+    def test_a_call_takes_less_than_5_ms_more_than_its_run(self):
+        def overhead():
+            begin = time.perf_counter()
+            result = self.scene.measure(paths=1)
+            return time.perf_counter() - begin - result.elapsed_s
+
+        self.assertLess(min(overhead() for _ in range(20)), 0.005)
+
+
+class Points(unittest.TestCase):
+    def test_illuminance_is_that_of_a_point_source(self):
+        scene = built()
+        scene.materials["wall"] = stilb.Black()
+        points = np.random.default_rng(1).uniform((0.2, 0.2, 1), (3.8, 2.8, 2), (5, 2, 3))
+        reading = scene.illuminance(points, (0, 0, 2), paths=PATHS)
+        exact = stilb.exact.illuminance_by_point(points, (0, 0, 1), (2, 1.5, 2.3), 800 / (4 * np.pi))
+        self.assertEqual(reading.value.shape, (5, 2))
+        np.testing.assert_allclose(reading.value, exact, rtol=1e-6)
+
+    def test_points_measure_what_sensors_do(self):
+        scene = built()
+        del scene.sensors["eye"]
+        desk = scene.measure(paths=65536)["desk"]
+        reading = scene.illuminance(desk.position, desk.direction, paths=65536, seed=2)
+        z = (reading.value - desk.value) / np.hypot(reading.standard_error, desk.standard_error)
+        self.assertLess(np.abs(z).max(), stilb.statistics.sidak_threshold_z(1e-4, z.size))
+
+    def test_luminance_of_a_diffuse_wall_is_its_illuminance_times_reflectance_over_pi(self):
+        scene = built()
+        seen = scene.luminance((2, 1.5, 1), [(1, 0, 0)], paths=65536)
+        on_wall = scene.illuminance((4, 1.5, 1), (-1, 0, 0), paths=65536, seed=2)
+        self.assertEqual((seen.value.shape, on_wall.value.shape), ((1,), ()))
+        expected = on_wall.rgb * [0.7, 0.5, 0.3] / np.pi
+        error = 5 * (seen.standard_error + on_wall.standard_error * 0.7 / np.pi)
+        np.testing.assert_allclose(seen.rgb[0], expected, atol=error.item())
+
+    def test_wrong_points_are_refused(self):
+        scene = built()
+        for points, normals, message in [([1, 2], [0, 0, 1], "do not fit"), ([1], [1], "found positions of shape"),
+                                         ([1, 1, 1], [0, 0, 0], "point 0: "), ([1, np.nan, 1], [0, 0, 1], "point 0: ")]:
+            with self.assertRaisesRegex(stilb.InputError, message):
+                scene.illuminance(points, normals)
+
+
+class Pictures(unittest.TestCase):
+    def test_pictures_are_arrays_and_files(self):
+        image = built().render("view", paths=4)
+        self.assertEqual((image.luminance.shape, image.rgb.shape), ((16, 24), (16, 24, 3)))
+        self.assertEqual(image.standard_error.shape, (16, 24))
+        np.testing.assert_allclose(image.rgb @ np.float32([0.2126, 0.7152, 0.0722]), image.luminance, rtol=1e-5)
+        self.assertTrue(image._repr_png_().startswith(b"\x89PNG"))
+        self.assertEqual(image.plot().images[0].get_array().shape, (16, 24))
+        with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(stilb.InputError, "picture.jpg"):
+            image.save(Path(folder) / "picture.jpg")
+
+    def test_solutions_dim_their_lights(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = built()
+            scene.save(Path(folder) / "room.toml")
+            solution = scene.solve(paths=8, patch=1)
+            self.assertEqual(solution.lights, ["bulb"])
+            full, dimmed = solution.render(), solution.render("view", lights={"bulb": 0.25})
+            np.testing.assert_allclose(dimmed.luminance, full.luminance / 4, rtol=1e-5)
+            solution.save(Path(folder) / "room.solution")
+            np.testing.assert_allclose(stilb.load_solution(Path(folder) / "room.solution").render().luminance,
+                                       full.luminance, rtol=1e-3)
+            with self.assertRaisesRegex(stilb.InputError, "lights.bulb: -1"):
+                solution.render(lights={"bulb": -1})
+
+
+def measure_for(time_s, **options):
+    """A run that ends by this time alone: the desk has requirements, which would end it, too."""
+    return built().measure(time=time_s, sensors=["eye"], **options)
+
+
+class Runs(unittest.TestCase):
+    def test_progress_is_reported_and_ends_the_run(self):
+        reports = []
+
+        def follow(report):
+            reports.append(report)
+            return report.elapsed_s < 0.5 or report.stage != ""
+
+        result = measure_for(600, progress=follow)
+        self.assertFalse(result.converged)
+        self.assertGreater(reports[-1].elapsed_s, 0.5)
+        printed = io.StringIO()
+        with redirect_stderr(printed):
+            measure_for(1, progress=True)
+        self.assertIn(" s", printed.getvalue())
+
+    def test_errors_of_progress_end_the_run(self):
+        def fail(report):
+            raise ZeroDivisionError
+
+        with self.assertRaises(ZeroDivisionError):
+            measure_for(600, progress=fail)
+
+    def test_ctrl_c_ends_the_run(self):
+        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            measure_for(600)
+        self.assertLess(time.monotonic() - begin, 60)
+
+    def test_other_threads_go_on(self):
+        counts = []
+
+        def count():
+            for _ in range(20):
+                time.sleep(0.01)
+                counts.append(time.monotonic())
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        measure_for(2)
+        end = time.monotonic()
+        thread.join()
+        self.assertLess(counts[-1], end)
+
+    def test_a_time_limit_before_any_result(self):
+        with self.assertRaises(stilb.Cancelled):
+            measure_for(0.001)
+
+    def test_wrong_options_are_refused(self):
+        for options, message in [({"error": "x"}, "error x: expected a share"), ({"method": "paths"}, "Did you mean \"path\""),
+                                 ({"target": "means"}, 'Did you mean "mean"')]:
+            with self.assertRaisesRegex(stilb.InputError, message):
+                built().measure(**options)
+        with self.assertRaisesRegex(TypeError, "unknown argument eror; allowed: error, time, paths"):
+            built().measure(eror=0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()

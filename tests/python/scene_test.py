@@ -1,0 +1,149 @@
+"""Scenes in Python: read, built, changed, saved, and what is wrong with them."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import stilb
+from room import TOML, built, program
+
+PATHS = 2048
+
+
+class SceneFiles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.file = self.folder / "room.toml"
+        self.file.write_text(TOML)
+
+    def message(self, text):
+        self.file.write_text(text)
+        with self.assertRaises(stilb.InputError) as caught:
+            stilb.load(self.file)
+        return str(caught.exception)
+
+    def test_built_scenes_measure_what_files_do(self):
+        read, made = stilb.load(self.file).measure(paths=PATHS), built().measure(paths=PATHS)
+        self.assertEqual(list(read), ["desk", "eye"])
+        for name in read:
+            np.testing.assert_array_equal(read[name].value, made[name].value)
+            np.testing.assert_array_equal(read[name].rgb, made[name].rgb)
+
+    def test_messages_are_those_of_the_command_line(self):
+        for wrong in [TOML.replace("reflectance", "reflectence"), TOML.replace("800", "-1"), TOML.replace("0.7, 0.5", "7, 0.5"),
+                      TOML.replace('type = "grid"', 'type = "gird"'), "[materials", ""]:
+            with self.subTest(wrong[:40]):
+                message = self.message(wrong)
+                printed = program("measure", self.file, "--paths", "1")
+                self.assertEqual(printed.returncode, 2)
+                self.assertEqual(printed.stderr.strip(), "stilb: " + message)
+
+    def test_messages_of_built_scenes_name_the_part(self):
+        scene = built()
+        scene.materials["wall"] = stilb.Diffuse(reflectence=0.6)
+        with self.assertRaisesRegex(ValueError, '^materials.wall: unknown key "reflectence" for type "diffuse". Did you mean '
+                                                '"reflectance"[?] Allowed: type, reflectance[.]$'):
+            scene.measure()
+
+    def test_parts_of_loaded_scenes_can_be_changed(self):
+        scene = stilb.load(self.file)
+        scene.run["method"] = "path"
+
+        def desk():
+            return scene.measure(paths=32)["desk"].value
+
+        before = desk()
+        scene.lights["bulb"].flux = 400
+        np.testing.assert_allclose(desk(), before / 2, rtol=1e-12)
+        scene.lights["bulb"].flux = 800
+        np.testing.assert_array_equal(desk(), before)
+        scene.defaults["lights"] = {"maintenance": 0.5}
+        np.testing.assert_allclose(desk(), before / 2, rtol=1e-12)
+        del scene.sensors["eye"]
+        self.assertEqual(list(scene.measure(paths=32)), ["desk"])
+
+    def test_saved_scenes_are_scene_files(self):
+        scene = built()
+        scene.save(self.folder / "saved.toml")
+        saved = stilb.load(self.folder / "saved.toml")
+        np.testing.assert_array_equal(saved.measure(paths=PATHS)["desk"].value, built().measure(paths=PATHS)["desk"].value)
+        self.assertEqual(saved.run, {"seed": 7})
+
+    def test_names_of_files_follow_a_saved_scene(self):
+        (self.folder / "meshes").mkdir()
+        (self.folder / "meshes/floor.obj").write_text("v 0 0 0\nv 4 0 0\nv 4 3 0\nf 1 2 3\n")
+        scene = stilb.load(self.file)
+        scene.objects["floor"] = stilb.Mesh(file="meshes/floor.obj", material="wall", translate=(0, 0, 0.01))
+        (self.folder / "other").mkdir()
+        scene.save(self.folder / "other/room.toml")
+        self.assertEqual(stilb.load(self.folder / "other/room.toml").objects["floor"].file, "../meshes/floor.obj")
+
+    def test_odd_scenes_are_reported(self):
+        scene = built()
+        self.assertEqual(scene.check(), [])
+        scene.lights["bulb"].position = (2, 1.5, 9)
+        self.assertIn("contains no light", scene.check()[0])
+
+
+class Parts(unittest.TestCase):
+    def test_every_type_of_the_reader_has_a_class(self):
+        for name in ["Diffuse", "Plastic", "Box", "Harmonics", "PointLight", "AreaLight", "PhotometryLight", "EnvironmentLight",
+                     "Grid", "Area", "Ugr", "Derived", "Camera"]:
+            self.assertTrue(issubclass(getattr(stilb, name), stilb.Part), name)
+
+    def test_dictionaries_are_parts(self):
+        scene = built()
+        scene.lights["bulb"] = {"type": "point", "position": [2, 1.5, 2.3], "flux": 800}
+        self.assertEqual(scene.lights["bulb"], stilb.PointLight(position=(2, 1.5, 2.3), flux=800))
+
+    def test_wrong_parts_are_refused(self):
+        scene = built()
+        with self.assertRaisesRegex(stilb.InputError, "lights.bulb: Diffuse belongs to materials, not to lights"):
+            scene.lights["bulb"] = stilb.Diffuse(reflectance=0.5)
+        with self.assertRaisesRegex(stilb.InputError, "materials.wall: found a value of type float. Allowed: Diffuse, "):
+            scene.materials["wall"] = 0.6
+        scene.materials["wall"] = {"type": "difuse", "reflectance": 0.6}
+        with self.assertRaisesRegex(stilb.InputError, 'materials.wall.type: unknown type "difuse"'):
+            scene.measure()
+
+    def test_arrays_and_numbers_of_numpy_are_values(self):
+        scene = built()
+        scene.lights["bulb"] = stilb.PointLight(position=np.array([2, 1.5, 2.3]), flux=np.float32(800))
+        scene.sensors["desk"] = stilb.Illuminance(points=np.full((5, 3), 0.8), normal=np.array([0, 0, 1]))
+        self.assertEqual(scene.measure(paths=PATHS)["desk"].value.shape, (5,))
+        scene.sensors["desk"].points = object()
+        with self.assertRaisesRegex(stilb.InputError, "sensors.desk.points: a value of type object is not allowed"):
+            scene.measure()
+
+    def test_parts_change_by_their_attributes_only(self):
+        vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]])
+        mesh = stilb.Mesh(vertices, [[0, 1, 2]], "wall")
+        vertices[0] = 9
+        np.testing.assert_array_equal(mesh.vertices[0], [0, 0, 0])
+        with self.assertRaises(ValueError):
+            mesh.vertices[0] = 9
+        with self.assertRaisesRegex(AttributeError, "Mesh has no flux; it has: vertices, faces, material"):
+            mesh.flux
+
+    def test_wrong_meshes_are_refused(self):
+        square = [[0, 0, 1], [1, 0, 1], [1, 1, 1]]
+        with self.assertRaisesRegex(stilb.InputError, "vertices: found an array of shape .3,."):
+            stilb.Mesh([0, 0, 1], [[0, 1, 2]], "wall")
+        with self.assertRaisesRegex(stilb.InputError, "faces: found an array of float64"):
+            stilb.Mesh(square, [[0.0, 1, 2]], "wall")
+        with self.assertRaisesRegex(stilb.InputError, "faces: an index is negative"):
+            stilb.Mesh(square, [[0, 1, -1]], "wall")
+        scene = built()
+        scene.objects["mesh"] = stilb.Mesh(square, [[0, 1, 3]], "wall")
+        with self.assertRaisesRegex(stilb.InputError, "objects.mesh.faces: a triangle has the vertex 3. Allowed: .* 0 to 2"):
+            scene.measure()
+        scene.objects["mesh"] = stilb.Mesh([[0, 0, np.nan], [1, 0, 1], [1, 1, 1]], [[0, 1, 2]], "wall")
+        with self.assertRaisesRegex(stilb.InputError, "objects.mesh.vertices: vertex 0: "):
+            scene.measure()
+
+
+if __name__ == "__main__":
+    unittest.main()
