@@ -1,0 +1,99 @@
+"""Buildings in IFC: written by ifcopenshell, imported, measured."""
+
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+import stilb
+from ifc_building import LENGTH, SLAB, STOREY, WALL, WIDTH, write_building
+from stilb import ifc
+
+PATHS = 1 << 16
+LUMINAIRE = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 0\n0 45 90\n0\n500 300 0\n"
+
+
+def box(name, least, most, material):
+    return (f'[objects."{name}"]\nshape = "box"\nmin = {list(least)}\nmax = {list(most)}\nmaterial = "{material}"\n')
+
+
+def ground_floor():
+    """The lower storey of the building as boxes; the wall with the window in four."""
+    top = STOREY - SLAB
+    text = "".join(f'[materials.{name}]\ntype = "diffuse"\nreflectance = {value}\n'
+                   for name, value in (("concrete", 0.35), ("plaster", 0.7)))
+    text += '[materials.glass]\ntype = "pane"\nior = 1.0\ninternal_transmittance = 0.8832\n'
+    text += box("floor", (0, 0, -SLAB), (LENGTH, WIDTH, 0), "concrete")
+    text += box("above", (0, 0, top), (LENGTH, WIDTH, STOREY), "concrete")
+    for name, least, most in (("below", (0, 0, 0), (LENGTH, WALL, 0.9)), ("lintel", (0, 0, 2.1), (LENGTH, WALL, top)),
+                              ("left", (0, 0, 0.9), (2, WALL, 2.1)), ("right", (4, 0, 0.9), (LENGTH, WALL, 2.1)),
+                              ("north", (0, WIDTH - WALL, 0), (LENGTH, WIDTH, top)),
+                              ("west", (0, WALL, 0), (WALL, WIDTH - WALL, top)),
+                              ("east", (LENGTH - WALL, WALL, 0), (LENGTH, WIDTH - WALL, top))):
+        text += box(name, least, most, "plaster")
+    text += box("window", (2, 0.08, 0.9), (4, 0.1, 2.1), "glass")
+    text += f'[lights.lamp]\ntype = "point"\nposition = [{LENGTH / 2}, {WIDTH / 2}, {top - 0.1}]\nflux = 2500\ncct = 3000\n'
+    return text + (f'[sensors.room]\ntype = "plane"\npolygon = [[{WALL}, {WALL}, 0], [{LENGTH - WALL}, {WALL}, 0], '
+                   f'[{LENGTH - WALL}, {WIDTH - WALL}, 0], [{WALL}, {WIDTH - WALL}, 0]]\n')
+
+
+class Import(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        (self.folder / "downlight.ies").write_text(LUMINAIRE)
+        self.file = self.folder / "house.ifc"
+        write_building(self.file, "downlight.ies")
+        self.target = self.folder / "house"
+
+    def test_storeys_spaces_materials_and_luminaires(self):
+        building = ifc.import_ifc(self.file, self.target)
+        self.assertEqual(building.warnings, [])
+        scene = tomllib.loads((self.target / "scene.toml").read_text())
+        self.assertEqual(list(scene["objects"]), ["Ground_floor", "First_floor", "Roof"])
+        self.assertEqual({name: material["type"] for name, material in scene["materials"].items()},
+                         {"Concrete_C30": "diffuse", "Gypsum_plaster": "diffuse", "Glass": "pane"})
+        self.assertEqual(scene["materials"]["Concrete_C30"]["reflectance"], 0.35)
+        self.assertEqual(scene["lights"]["Lamp_1"]["flux"], 2500)
+        self.assertEqual((scene["lights"]["Lamp_2"]["file"], scene["lights"]["Lamp_2"]["power"]), ("downlight.ies", 24))
+        self.assertEqual(scene["lights"]["Lamp_2"]["position"], [3, 2, 5.7])
+        corners = scene["sensors"]["Room_2"]["polygon"]
+        self.assertEqual(sorted(corners), [[0.2, 0.2, 3], [0.2, 3.8, 3], [5.8, 0.2, 3], [5.8, 3.8, 3]])
+
+    def test_measures_what_the_same_building_in_toml_does(self):
+        ifc.import_ifc(self.file, self.target)
+        imported = stilb.load(self.target / "scene.toml").measure(paths=PATHS, sensors=["Room_1"])["Room_1"]
+        (self.folder / "boxes.toml").write_text(ground_floor())
+        boxes = stilb.load(self.folder / "boxes.toml").measure(paths=PATHS)["room"]
+        low, high = imported.mean.interval(0.999)
+        other_low, other_high = boxes.mean.interval(0.999)
+        self.assertLess(max(low, other_low), min(high, other_high))
+        self.assertLess(high - low, 0.03 * imported.mean.value)
+        self.assertGreater(imported.mean.value, 20)
+
+    def test_a_table_of_reflectances_decides(self):
+        table = self.folder / "table.toml"
+        table.write_text('"Gypsum_plaster" = 0.55\n')
+        ifc.import_ifc(self.file, self.target, table)
+        scene = tomllib.loads((self.target / "scene.toml").read_text())
+        self.assertEqual(scene["materials"]["Gypsum_plaster"]["reflectance"], 0.55)
+        table.write_text('"Gypsum_plaster" = 5\n')
+        with self.assertRaisesRegex(stilb.InputError, "5 is no reflectance"):
+            ifc.import_ifc(self.file, self.target, table)
+
+    def test_what_is_missing_is_named(self):
+        (self.folder / "downlight.ies").unlink()
+        building = ifc.import_ifc(self.file, self.target)
+        text = " ".join(building.warnings)
+        self.assertIn('photometric file "downlight.ies" was not found', text)
+        self.assertIn('luminaire "Lamp_2" has neither', text)
+        stilb.load(self.target / "scene.toml")  # without that lamp
+        for path, part in ((self.folder / "no.ifc", "no such file"), (self.folder / "wrong.ifc", "cannot be read as IFC")):
+            (self.folder / "wrong.ifc").write_text("solid ascii\n")
+            with self.assertRaisesRegex(stilb.InputError, part):
+                ifc.import_ifc(path, self.target)
+
+
+if __name__ == "__main__":
+    unittest.main()
