@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/import_ifc.h"
 #include "cli/progress.h"
 #include "cli/scene_argument.h"
 #include "io/import/scene_folder.h"
@@ -17,7 +18,7 @@ namespace stilb::cli {
 namespace {
 
 struct ImportRequest {
-    std::string file, output;
+    std::string file, output, reflectances;
     std::optional<std::string> scale, up;
     std::optional<double> light_scale;
     std::vector<std::string> overrides;
@@ -30,9 +31,15 @@ std::string count_text(std::size_t count, std::string_view noun) {
 
 int run_import(ImportRequest request) {
     const io::FileKind kind = io::kind_of_file(request.file);
+    if (kind == io::FileKind::ifc_building)
+        return import_ifc({request.file, request.output, request.reflectances});
+    if (!request.reflectances.empty())
+        throw InputError("--reflectances is for buildings in IFC.", {request.file});
     if (io::may_be_scene_file(kind) || !io::is_scene(kind)) {
         throw InputError(
-            "this is no scene of another format. Allowed: glTF (.gltf, .glb) and OBJ with MTL (.obj).",
+            "this is no scene of another format. Allowed: glTF (.gltf, .glb), OBJ with MTL (.obj), Radiance "
+            "(.rad) and "
+            "IFC (.ifc).",
             {request.file});
     }
     if (request.scale) request.overrides.push_back("import.scale=" + *request.scale);
@@ -63,7 +70,11 @@ void add_import(CommandLine& line) {
         "  stilb measure room/scene.toml\n"
         "  stilb import house.obj -o house --scale 0.01 --up y\n");
     auto request = std::make_shared<ImportRequest>();
-    command.add("FILE", request->file, "Scene: glTF (.gltf, .glb) or OBJ with MTL (.obj)").required();
+    command
+        .add("FILE", request->file,
+             "Scene: glTF (.gltf, .glb), OBJ with MTL (.obj), Radiance (.rad) or, with the Python package, "
+             "IFC (.ifc)")
+        .required();
     command
         .add("-o,--output", request->output,
              "Folder to write scene.toml, meshes and luminaires to; it is made where it does not exist")
@@ -80,6 +91,10 @@ void add_import(CommandLine& line) {
         .add("--light-scale", request->light_scale,
              "Factor on all light, such as 683 for files that give watts in place of lumens")
         .value_name("F");
+    command
+        .add("--reflectances", request->reflectances,
+             "Of IFC: a table (TOML) of lines \"name of the material\" = 0.5")
+        .value_name("FILE");
     add_overrides(command, request->overrides);
     command.add("--quiet", request->quiet, "No warnings on stderr");
     command.run([request] { return run_import(*request); });

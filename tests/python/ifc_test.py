@@ -1,5 +1,8 @@
 """Buildings in IFC: written by ifcopenshell, imported, measured."""
 
+import os
+import subprocess
+import sys
 import tempfile
 import tomllib
 import unittest
@@ -71,6 +74,14 @@ class Import(unittest.TestCase):
         self.assertLess(max(low, other_low), min(high, other_high))
         self.assertLess(high - low, 0.03 * imported.mean.value)
         self.assertGreater(imported.mean.value, 20)
+
+    def test_by_the_command_line(self):
+        path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
+        result = subprocess.run([os.environ["STILB"], "import", self.file, "-o", self.target], capture_output=True, text=True,
+                                env={**os.environ, "PATH": path}, check=False)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("3 storeys, ", result.stdout)
+        self.assertTrue((self.target / "scene.toml").is_file())
 
     def test_a_table_of_reflectances_decides(self):
         table = self.folder / "table.toml"

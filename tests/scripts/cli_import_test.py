@@ -2,9 +2,10 @@
 
 import json
 import shutil
+import subprocess
 import unittest
 
-from command_line import ROOT, CommandLineTest, run
+from command_line import MOST_SECONDS, PROGRAM, ROOT, CommandLineTest, run
 
 DATA = ROOT / "tests/data"
 DESK = 'sensors.desk={type="illuminance", positions=[[1, 1, 0.75], [2, 1.5, 0.75]], normal=[0, 0, 1]}'
@@ -45,6 +46,14 @@ class ImportTest(CommandLineTest):
                 of_folder = self.values(output / "scene.toml")
                 for a, b in zip(self.values(DATA / name, "--set", DESK), of_folder, strict=True):
                     self.assertAlmostEqual(a, b, delta=1e-6 * a)
+
+    def test_ifc_needs_the_python_package(self):
+        building = self.write("house.ifc", "ISO-10303-21;\nHEADER;\n")
+        self.expect_wrong_input(["measure", building], "house.ifc: not a scene but a building in IFC", "stilb import")
+        result = subprocess.run([PROGRAM, "import", building, "-o", self.folder / "house"], capture_output=True, text=True,
+                                env={"PATH": str(self.folder)}, timeout=MOST_SECONDS)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn('pip install "stilb[ifc]"', result.stderr)
 
     def test_obj_says_what_it_chose(self):
         result = run("import", DATA / "blender_room.obj", "-o", self.folder / "out")

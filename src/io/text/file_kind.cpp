@@ -31,6 +31,7 @@ constexpr std::array kBeginnings{
     Beginning{"ply\r", FileKind::ply_mesh},
     Beginning{"IESNA", FileKind::ies_luminaire},
     Beginning{"glTF", FileKind::gltf_scene},
+    Beginning{"ISO-10303-21;", FileKind::ifc_building},
 };
 
 struct Extension {
@@ -44,7 +45,7 @@ constexpr std::array kExtensions{
     Extension{".obj", FileKind::obj_mesh},       Extension{".ply", FileKind::ply_mesh},
     Extension{".ies", FileKind::ies_luminaire},  Extension{".ldt", FileKind::eulumdat_luminaire},
     Extension{".rad", FileKind::radiance_scene}, Extension{".gltf", FileKind::gltf_scene},
-    Extension{".glb", FileKind::gltf_scene},
+    Extension{".glb", FileKind::gltf_scene},     Extension{".ifc", FileKind::ifc_building},
 };
 
 struct Description {
@@ -82,6 +83,8 @@ constexpr std::array kDescriptions{
     Description{FileKind::radiance_scene, "a Radiance scene",
                 "Commands that take a scene read it by itself."},
     Description{FileKind::gltf_scene, "a glTF scene", "Commands that take a scene read it by itself."},
+    Description{FileKind::ifc_building, "a building in IFC",
+                "A scene is made of it by: stilb import FILE -o DIR."},
 };
 
 const Description& description_of(FileKind kind) {

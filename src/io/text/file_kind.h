@@ -27,6 +27,7 @@ enum class FileKind {
     eulumdat_luminaire,
     radiance_scene,
     gltf_scene,
+    ifc_building,  ///< read by the Python package alone
 };
 
 /// The first bytes of a solution.
