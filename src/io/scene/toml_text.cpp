@@ -53,6 +53,18 @@ struct InlineText {
                                 std::visit(*this, value.content));
         return "{ " + text + " }";
     }
+    std::string operator()(const TomlVertices& vertices) const {
+        std::string text;
+        for (const auto& [x, y, z] : *vertices)
+            text += fmt::format("{}[{}, {}, {}]", text.empty() ? "" : ", ", x, y, z);
+        return "[" + text + "]";
+    }
+    std::string operator()(const TomlTriangles& triangles) const {
+        std::string text;
+        for (const auto& [a, b, c] : *triangles)
+            text += fmt::format("{}[{}, {}, {}]", text.empty() ? "" : ", ", a, b, c);
+        return "[" + text + "]";
+    }
 };
 
 void append_keys(std::string& text, const TomlMembers& members) {
