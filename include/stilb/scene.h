@@ -48,8 +48,8 @@ using Parameters = std::map<std::string, Value>;
 /// Objects, materials, lights and sensors. Immutable; copies share their data.
 class Scene {
   public:
-    /// Reads a scene file, or a scene of another program that Stilb reads (Radiance, .rad), by the extension of its
-    /// name. Throws InputError: file, line, key, what was found, and what is allowed.
+    /// Reads a scene file, or a scene of another program that Stilb reads (Radiance, .rad), by the extension
+    /// of its name. Throws InputError: file, line, key, what was found, and what is allowed.
     static Scene load(const std::filesystem::path& path);
     /// Reads a scene from a text; file names in it are relative to `directory`.
     static Scene parse(std::string_view toml, const std::filesystem::path& directory = ".");

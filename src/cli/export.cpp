@@ -41,7 +41,8 @@ void add_export(CommandLine& line) {
         "  python3 office-mitsuba/measure.py office-mitsuba/desk_a.pts\n"
         "  stilb export office.toml --format radiance -o office-radiance\n");
     auto request = std::make_shared<ExportRequest>();
-    command.add("SCENE", request->scene, "Scene (TOML, or Radiance .rad), or - for standard input").required();
+    command.add("SCENE", request->scene, "Scene (TOML, or Radiance .rad), or - for standard input")
+        .required();
     command.add("--format", request->format, "mitsuba or radiance").required().value_name("NAME");
     command.add("-o,--output", request->output, "Folder to write; it is made where it does not exist")
         .required()

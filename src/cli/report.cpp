@@ -167,7 +167,8 @@ void add_report(CommandLine& line) {
         "  stilb report office.toml -o office.html --error 0.5% --time 120 --view-time 60\n"
         "  stilb report office.toml -o desks.html --sensor desk_a --sensor desk_b --check\n");
     auto request = std::make_shared<ReportRequest>();
-    command.add("SCENE", request->scene, "Scene (TOML, or Radiance .rad), or - for standard input").required();
+    command.add("SCENE", request->scene, "Scene (TOML, or Radiance .rad), or - for standard input")
+        .required();
     command.add("-o,--output", request->output, "Page to write (.html); - is stdout")
         .required()
         .value_name("FILE");

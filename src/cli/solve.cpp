@@ -74,7 +74,8 @@ void add_solve(CommandLine& line) {
         "  stilb solve office.toml -o office.solution --error 0.5% --patch 0.1\n"
         "  stilb render --from office.solution --sensor door -o door.png\n");
     auto request = std::make_shared<SolveRequest>();
-    command.add("SCENE", request->scene, "Scene (TOML, or Radiance .rad), or - for standard input").required();
+    command.add("SCENE", request->scene, "Scene (TOML, or Radiance .rad), or - for standard input")
+        .required();
     command.add("-o,--output", request->output, "Solution to write (- is stdout)")
         .required()
         .value_name("FILE");

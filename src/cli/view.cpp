@@ -254,7 +254,9 @@ void add_view(CommandLine& line) {
         "  stilb view office.solution --port 8000 --no-browser\n"
         "  stilb view office.solution -o office.html\n");
     auto request = std::make_shared<ViewRequest>();
-    command.add("SCENE", request->input, "Scene (TOML, or Radiance .rad), - for standard input, or a solution").required();
+    command
+        .add("SCENE", request->input, "Scene (TOML, or Radiance .rad), - for standard input, or a solution")
+        .required();
     command
         .add("-o,--output", request->output,
              "A page (.html) that needs neither Stilb nor network, instead of a server; or the solution to "
