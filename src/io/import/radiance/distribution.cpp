@@ -405,22 +405,15 @@ lights::LuminaireFrame frame_around(const Vec3& axis) {
 
 }  // namespace
 
-std::optional<Emission> emission_of(const Shape& shape, const std::vector<Pattern>& patterns,
-                                    const std::optional<Cone>& cone) {
-    const SeenSurface surface(shape);
-    const std::optional<Vec3> normal = surface.normal();
-    Emission emission;
-    emission.frame = patterns.empty() ? frame_around(cone->axis) : patterns.front().frame();
-    const Vec3& nadir = emission.frame.nadir;
-    const bool is_vertical = normal && std::abs(dot(*normal, nadir)) > 1 - 1e-9;
+namespace {
 
-    const bool is_flat = std::ranges::any_of(
-        patterns, [](const Pattern& pattern) { return pattern.correction() == Pattern::Correction::flat; });
-    // Where the correction is that of the shape, the intensity is linear between the angles of the table.
+/// Chooses the angles of the grid: those of a table whose correction is that of the shape, so that the
+/// intensity is linear between them; else even steps.
+void choose_angles(const Shape& shape, const std::vector<Pattern>& patterns, const std::optional<Cone>& cone,
+                   const std::optional<Vec3>& normal, Emission& emission) {
     PhotometricSolid::Grid& grid = emission.grid;
-    const bool is_linear =
-        patterns.size() == 1 && !cone && is_corrected_for(patterns.front(), shape, is_vertical);
-    if (is_linear) {
+    const bool is_vertical = normal && std::abs(dot(*normal, emission.frame.nadir)) > 1 - 1e-9;
+    if (patterns.size() == 1 && !cone && is_corrected_for(patterns.front(), shape, is_vertical)) {
         grid.planes_deg = patterns.front().planes_deg();
         if (!grid.planes_deg.empty()) grid.polar_deg = patterns.front().polar_deg();
     }
@@ -434,19 +427,37 @@ std::optional<Emission> emission_of(const Shape& shape, const std::vector<Patter
         add_edge(grid.polar_deg, 90);
     std::erase_if(grid.polar_deg, [](double angle) { return angle < 0 || angle > 180; });
     sort_angles(grid.polar_deg);
+}
 
+/// The unit vector at these angles.
+Vec3 direction_at(const lights::LuminaireFrame& frame, double plane_deg, double polar_deg) {
+    // A little off the poles, where the direction would not tell the plane.
+    const double c = plane_deg * kDegree, gamma = std::clamp(polar_deg, 1e-7, 180 - 1e-7) * kDegree;
+    return normalized(std::sin(gamma) * std::cos(c) * frame.c0 + std::sin(gamma) * std::sin(c) * frame.c90 +
+                      std::cos(gamma) * frame.nadir);
+}
+
+bool is_outside(const Cone& cone, const Vec3& w) {
+    return dot(w, cone.axis) < std::cos((cone.half_angle_deg + kEdgeDeg / 10) * kDegree);
+}
+
+}  // namespace
+
+std::optional<Emission> emission_of(const Shape& shape, const std::vector<Pattern>& patterns,
+                                    const std::optional<Cone>& cone) {
+    const SeenSurface surface(shape);
+    Emission emission;
+    emission.frame = patterns.empty() ? frame_around(cone->axis) : patterns.front().frame();
+    choose_angles(shape, patterns, cone, surface.normal(), emission);
+    const bool is_flat = std::ranges::any_of(
+        patterns, [](const Pattern& pattern) { return pattern.correction() == Pattern::Correction::flat; });
+    PhotometricSolid::Grid& grid = emission.grid;
     double largest = 0;
     for (const double plane : grid.planes_deg) {
         for (const double polar : grid.polar_deg) {
-            // A little off the poles, where the direction would not tell the plane.
-            const double c = plane * kDegree, gamma = std::clamp(polar, 1e-7, 180 - 1e-7) * kDegree;
-            const Vec3 w =
-                normalized(std::sin(gamma) * std::cos(c) * emission.frame.c0 +
-                           std::sin(gamma) * std::sin(c) * emission.frame.c90 + std::cos(gamma) * nadir);
-            double intensity = surface.area_m2(w, !is_flat);
+            const Vec3 w = direction_at(emission.frame, plane, polar);
+            double intensity = cone && is_outside(*cone, w) ? 0 : surface.area_m2(w, !is_flat);
             for (const Pattern& pattern : patterns) intensity *= std::max(pattern.factor(w), 0.0);
-            if (cone && dot(w, cone->axis) < std::cos((cone->half_angle_deg + kEdgeDeg / 10) * kDegree))
-                intensity = 0;
             grid.intensity_cd.push_back(intensity);
             largest = std::max(largest, intensity);
         }
