@@ -84,8 +84,9 @@ std::string content_hash(std::span<const std::filesystem::path> files);
 
 /// The hash of everything that a scene's light depends on: the materials, objects and lights of the scene
 /// file, by their keys and values, and the contents of the files that it refers to. Sensors, [run], the
-/// title, comments and layout do not count; of a scene of another format, everything does. `sources`: the scene file and the others (SceneFile), `overrides`
-/// those of the scene file. Throws InputError where one cannot be read.
+/// title, comments and layout do not count; of a scene of another format, everything does. `sources`: the
+/// scene file and the others (SceneFile), `overrides` those of the scene file. Throws InputError where one
+/// cannot be read.
 std::string light_hash(std::span<const std::filesystem::path> sources,
                        std::span<const std::string> overrides = {});
 

@@ -46,9 +46,8 @@ struct Surface {
 };
 
 struct Description {
-    std::vector<std::string> files;
-    /// The files that were read, and those that modifiers may refer to are found from these folders.
-    std::vector<std::filesystem::path> folders;  ///< of each file
+    std::vector<std::string> files;              ///< all that were read, the scene's first
+    std::vector<std::filesystem::path> folders;  ///< the folder of each file
     std::vector<Modifier> modifiers;
     std::vector<Surface> surfaces;
     std::vector<double> numbers;

@@ -131,14 +131,16 @@ Table read_table(std::string_view content, const std::string& name) {
 }
 
 std::optional<Pattern::Coordinate> Pattern::coordinate_of(std::string_view text) {
-    constexpr std::array<std::pair<std::string_view, Angle>, 8> names{{{"src_theta", Angle::theta},
-                                                                       {"src_phi", Angle::phi},
-                                                                       {"src_phi2", Angle::phi2},
-                                                                       {"src_phi4", Angle::phi4},
-                                                                       {"srcB_vert", Angle::vertical},
-                                                                       {"srcB_vert2", Angle::vertical2},
-                                                                       {"srcB_horiz", Angle::horizontal},
-                                                                       {"srcB_horiz2", Angle::horizontal2}}};
+    constexpr std::array<std::pair<std::string_view, Angle>, 10> names{{{"src_theta", Angle::theta},
+                                                                        {"src_phi", Angle::phi},
+                                                                        {"src_phi2", Angle::phi2},
+                                                                        {"src_phi4", Angle::phi4},
+                                                                        {"srcB_vert", Angle::vertical},
+                                                                        {"srcB_vert2", Angle::vertical2},
+                                                                        {"srcB_horiz", Angle::horizontal},
+                                                                        {"srcB_horiz2", Angle::horizontal2},
+                                                                        {"stilb_c", Angle::phi},
+                                                                        {"stilb_gamma", Angle::theta}}};
     const std::size_t sign = std::min(text.find_first_of("+-"), text.size());
     const auto found =
         std::ranges::find(names, text.substr(0, sign), &std::pair<std::string_view, Angle>::first);
@@ -172,67 +174,115 @@ double Pattern::angle_deg(Angle angle, const Vec3& w) {
     return std::abs(std::atan2(-w.y, -w.z)) / kDegree;
 }
 
+/// Reads one brightdata. A pattern that is not supported is left out with a warning.
+class Pattern::Reader {
+  public:
+    Reader(const Modifier& modifier, const Description& description, GroupedWarnings& warnings)
+        : modifier_(modifier), description_(description), warnings_(warnings) {
+        if (modifier.texts.size() < 4)
+            fail("texts are missing. Needed: FUNCTION DATAFILE FUNCTIONFILE COORDINATE ...");
+    }
+
+    std::optional<Pattern> read(std::vector<std::filesystem::path>& sources) && {
+        if (!read_coordinates()) {
+            leave_out(
+                "only the functions of source.cal, which ies2rad uses, and of luminaire.cal by Stilb are "
+                "supported.");
+            return std::nullopt;
+        }
+        if (!read_function()) {
+            leave_out(fmt::format("the function {} is not supported.", in_quotes(modifier_.texts[0])));
+            return std::nullopt;
+        }
+        read_axes();
+        read_table_file(sources);
+        return std::move(pattern_);
+    }
+
+  private:
+    /// The function of tables that `stilb export` writes; its numbers are the axes of the luminaire.
+    static constexpr std::string_view kOwn = "stilb_value";
+    struct Function {
+        std::string_view name;
+        Correction correction;
+        std::size_t numbers;  ///< that it needs
+        bool is_multiplied;
+    };
+    static constexpr std::array kFunctions{
+        Function{"corr", Correction::none, 0, true},     Function{"noop", Correction::none, 0, false},
+        Function{"flatcorr", Correction::flat, 0, true}, Function{"boxcorr", Correction::box, 4, true},
+        Function{"lboxcorr", Correction::box, 4, true},  Function{"cylcorr", Correction::cylinder, 3, true},
+        Function{kOwn, Correction::none, 9, false}};
+
+    [[noreturn]] void fail(const std::string& message) const {
+        throw InputError(fmt::format("brightdata {}: {}", modifier_.name, message),
+                         description_.where(modifier_.place));
+    }
+    void leave_out(std::string_view reason) const {
+        warnings_.add(modifier_.type, modifier_.name,
+                      fmt::format("it is left out, and its factor is 1: {}", reason));
+    }
+
+    /// The texts between the file of functions and the transforms.
+    bool read_coordinates() {
+        const std::string file = std::filesystem::path(modifier_.texts[2]).filename().string();
+        if (file != (modifier_.texts[0] == kOwn ? "luminaire.cal" : "source.cal")) return false;
+        for (next_ = 3; next_ < modifier_.texts.size() && !modifier_.texts[next_].starts_with("-"); ++next_) {
+            const auto coordinate = coordinate_of(modifier_.texts[next_]);
+            if (!coordinate) return false;
+            pattern_.coordinates_.push_back(*coordinate);
+        }
+        return !pattern_.coordinates_.empty();
+    }
+    bool read_function() {
+        const auto function =
+            std::ranges::find(kFunctions, std::string_view(modifier_.texts[0]), &Function::name);
+        if (function == kFunctions.end()) return false;
+        const std::vector<double>& n = modifier_.numbers;
+        if (n.size() < function->numbers) {
+            fail(fmt::format("{} needs {} numbers, but {} were found.", function->name, function->numbers,
+                             n.size()));
+        }
+        pattern_.correction_ = function->correction;
+        if (function->is_multiplied && !n.empty()) pattern_.multiplier_ = n[0];
+        if (function->correction == Correction::box) pattern_.size_ = {n[1], n[2], n[3]};
+        if (function->correction == Correction::cylinder) pattern_.size_ = {n[1], n[2], 0};
+        return true;
+    }
+    void read_axes() {
+        Xform own;
+        const auto transforms = std::span(modifier_.texts).subspan(next_);
+        if (read_transforms(transforms, own) != transforms.size())
+            fail(fmt::format("{} is no transform.", in_quotes(transforms.front())));
+        geometry::Transform frame = compose(modifier_.frame, own.transform);
+        if (modifier_.texts[0] == kOwn) {
+            const std::vector<double>& n = modifier_.numbers;
+            frame = compose(frame, {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {-n[6], -n[7], -n[8]}, {}});
+        }
+        if (!(frame.regularity() > 1e-3)) fail("its axes are not at right angles to each other.");
+        pattern_.axes_ = {normalized(frame.x_axis), normalized(frame.y_axis), normalized(frame.z_axis)};
+    }
+    void read_table_file(std::vector<std::filesystem::path>& sources) {
+        const std::filesystem::path path = find_file(description_, modifier_.place, modifier_.texts[1]);
+        if (std::ranges::find(sources, path) == sources.end()) sources.push_back(path);
+        pattern_.table_ = read_table(read_whole_file(path), path.string());
+        const std::size_t dimensions = pattern_.table_.coordinates.size();
+        if (dimensions != pattern_.coordinates_.size()) {
+            fail(fmt::format("the table {} has {} dimensions, but {} coordinates were found.",
+                             modifier_.texts[1], dimensions, pattern_.coordinates_.size()));
+        }
+    }
+
+    const Modifier& modifier_;
+    const Description& description_;
+    GroupedWarnings& warnings_;
+    std::size_t next_ = 3;
+    Pattern pattern_;
+};
+
 std::optional<Pattern> Pattern::read(const Modifier& modifier, const Description& description,
                                      GroupedWarnings& warnings, std::vector<std::filesystem::path>& sources) {
-    const std::vector<std::string>& texts = modifier.texts;
-    const std::vector<double>& numbers = modifier.numbers;
-    const SourceLocation where = description.where(modifier.place);
-    const auto left_out = [&](std::string_view reason) {
-        warnings.add(modifier.type, modifier.name,
-                     fmt::format("it is left out, and its factor is 1: {}", reason));
-        return std::optional<Pattern>();
-    };
-    if (texts.size() < 4)
-        throw InputError(fmt::format("brightdata {}: texts are missing. Needed: FUNCTION DATAFILE "
-                                     "FUNCTIONFILE COORDINATE ...",
-                                     modifier.name),
-                         where);
-    Pattern pattern;
-    std::size_t next = 3;
-    for (; next < texts.size() && !texts[next].starts_with("-"); ++next) {
-        const auto coordinate = coordinate_of(texts[next]);
-        if (!coordinate || std::filesystem::path(texts[2]).filename() != "source.cal")
-            return left_out("only the functions of source.cal, which ies2rad uses, are supported.");
-        pattern.coordinates_.push_back(*coordinate);
-    }
-    constexpr std::array<std::string_view, 6> functions{"corr",    "noop",     "flatcorr",
-                                                        "boxcorr", "lboxcorr", "cylcorr"};
-    const auto function = std::ranges::find(functions, texts[0]) - functions.begin();
-    if (function == std::ssize(functions))
-        return left_out(fmt::format("the function {} is not supported.", in_quotes(texts[0])));
-    constexpr std::array corrections{Correction::none, Correction::none, Correction::flat,
-                                     Correction::box,  Correction::box,  Correction::cylinder};
-    pattern.correction_ = corrections[static_cast<std::size_t>(function)];
-    const std::size_t needed = pattern.correction_ == Correction::box        ? 4
-                               : pattern.correction_ == Correction::cylinder ? 3
-                                                                             : 0;
-    if (numbers.size() < needed)
-        throw InputError(fmt::format("brightdata {}: {} needs {} numbers, but {} were found.", modifier.name,
-                                     texts[0], needed, numbers.size()),
-                         where);
-    if (!numbers.empty() && texts[0] != "noop") pattern.multiplier_ = numbers[0];
-    if (needed > 0) pattern.size_ = {numbers[1], numbers[2], needed > 3 ? numbers[3] : 0};
-
-    Xform own;
-    const auto transforms = std::span(texts).subspan(next);
-    if (read_transforms(transforms, own) != transforms.size())
-        throw InputError(fmt::format("brightdata {}: {} is no transform.", modifier.name,
-                                     in_quotes(transforms.empty() ? "" : transforms.front())),
-                         where);
-    const geometry::Transform frame = compose(modifier.frame, own.transform);
-    pattern.axes_ = {normalized(frame.x_axis), normalized(frame.y_axis), normalized(frame.z_axis)};
-
-    const std::filesystem::path path = find_file(description, modifier.place, texts[1]);
-    if (std::ranges::find(sources, path) == sources.end()) sources.push_back(path);
-    pattern.table_ = read_table(read_whole_file(path), path.string());
-    if (pattern.table_.coordinates.size() != pattern.coordinates_.size()) {
-        throw InputError(fmt::format("brightdata {}: the table {} has {} dimensions, but {} coordinates were "
-                                     "found.",
-                                     modifier.name, texts[1], pattern.table_.coordinates.size(),
-                                     pattern.coordinates_.size()),
-                         where);
-    }
-    return pattern;
+    return Reader(modifier, description, warnings).read(sources);
 }
 
 double Pattern::factor(const Vec3& leaving) const {
@@ -355,22 +405,15 @@ lights::LuminaireFrame frame_around(const Vec3& axis) {
 
 }  // namespace
 
-std::optional<Emission> emission_of(const Shape& shape, const std::vector<Pattern>& patterns,
-                                    const std::optional<Cone>& cone) {
-    const SeenSurface surface(shape);
-    const std::optional<Vec3> normal = surface.normal();
-    Emission emission;
-    emission.frame = patterns.empty() ? frame_around(cone->axis) : patterns.front().frame();
-    const Vec3& nadir = emission.frame.nadir;
-    const bool is_vertical = normal && std::abs(dot(*normal, nadir)) > 1 - 1e-9;
+namespace {
 
-    const bool is_flat = std::ranges::any_of(
-        patterns, [](const Pattern& pattern) { return pattern.correction() == Pattern::Correction::flat; });
-    // Where the correction is that of the shape, the intensity is linear between the angles of the table.
+/// Chooses the angles of the grid: those of a table whose correction is that of the shape, so that the
+/// intensity is linear between them; else even steps.
+void choose_angles(const Shape& shape, const std::vector<Pattern>& patterns, const std::optional<Cone>& cone,
+                   const std::optional<Vec3>& normal, Emission& emission) {
     PhotometricSolid::Grid& grid = emission.grid;
-    const bool is_linear =
-        patterns.size() == 1 && !cone && is_corrected_for(patterns.front(), shape, is_vertical);
-    if (is_linear) {
+    const bool is_vertical = normal && std::abs(dot(*normal, emission.frame.nadir)) > 1 - 1e-9;
+    if (patterns.size() == 1 && !cone && is_corrected_for(patterns.front(), shape, is_vertical)) {
         grid.planes_deg = patterns.front().planes_deg();
         if (!grid.planes_deg.empty()) grid.polar_deg = patterns.front().polar_deg();
     }
@@ -384,19 +427,37 @@ std::optional<Emission> emission_of(const Shape& shape, const std::vector<Patter
         add_edge(grid.polar_deg, 90);
     std::erase_if(grid.polar_deg, [](double angle) { return angle < 0 || angle > 180; });
     sort_angles(grid.polar_deg);
+}
 
+/// The unit vector at these angles.
+Vec3 direction_at(const lights::LuminaireFrame& frame, double plane_deg, double polar_deg) {
+    // A little off the poles, where the direction would not tell the plane.
+    const double c = plane_deg * kDegree, gamma = std::clamp(polar_deg, 1e-7, 180 - 1e-7) * kDegree;
+    return normalized(std::sin(gamma) * std::cos(c) * frame.c0 + std::sin(gamma) * std::sin(c) * frame.c90 +
+                      std::cos(gamma) * frame.nadir);
+}
+
+bool is_outside(const Cone& cone, const Vec3& w) {
+    return dot(w, cone.axis) < std::cos((cone.half_angle_deg + kEdgeDeg / 10) * kDegree);
+}
+
+}  // namespace
+
+std::optional<Emission> emission_of(const Shape& shape, const std::vector<Pattern>& patterns,
+                                    const std::optional<Cone>& cone) {
+    const SeenSurface surface(shape);
+    Emission emission;
+    emission.frame = patterns.empty() ? frame_around(cone->axis) : patterns.front().frame();
+    choose_angles(shape, patterns, cone, surface.normal(), emission);
+    const bool is_flat = std::ranges::any_of(
+        patterns, [](const Pattern& pattern) { return pattern.correction() == Pattern::Correction::flat; });
+    PhotometricSolid::Grid& grid = emission.grid;
     double largest = 0;
     for (const double plane : grid.planes_deg) {
         for (const double polar : grid.polar_deg) {
-            // A little off the poles, where the direction would not tell the plane.
-            const double c = plane * kDegree, gamma = std::clamp(polar, 1e-7, 180 - 1e-7) * kDegree;
-            const Vec3 w =
-                normalized(std::sin(gamma) * std::cos(c) * emission.frame.c0 +
-                           std::sin(gamma) * std::sin(c) * emission.frame.c90 + std::cos(gamma) * nadir);
-            double intensity = surface.area_m2(w, !is_flat);
+            const Vec3 w = direction_at(emission.frame, plane, polar);
+            double intensity = cone && is_outside(*cone, w) ? 0 : surface.area_m2(w, !is_flat);
             for (const Pattern& pattern : patterns) intensity *= std::max(pattern.factor(w), 0.0);
-            if (cone && dot(w, cone->axis) < std::cos((cone->half_angle_deg + kEdgeDeg / 10) * kDegree))
-                intensity = 0;
             grid.intensity_cd.push_back(intensity);
             largest = std::max(largest, intensity);
         }

@@ -47,6 +47,7 @@ class Pattern {
     const std::vector<double>& polar_deg() const { return table_.coordinates.back(); }
 
   private:
+    class Reader;
     enum class Angle { theta, phi, phi2, phi4, vertical, vertical2, horizontal, horizontal2 };
     struct Coordinate {
         Angle angle{};

@@ -114,7 +114,6 @@ class MaterialReader {
     void set_coated(const Rgb& c, double share) {
         const double root = std::sqrt(share);
         const double ior = std::min((1 + root) / (1 - root), kLargestIor);
-        const Plastic white(Plastic::Parameters{Rgb::grey(1), ior, kSharp});
         const Plastic black(Plastic::Parameters{Rgb{}, ior, kSharp});
         // What the coat lets pass on average, and the share of light from within that it returns.
         const double passing = 1 - black.mean_reflectance()[0], returned = 1 - passing / (ior * ior);
