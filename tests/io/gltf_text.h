@@ -58,6 +58,16 @@ struct GltfText {
                                      material < 0 ? "" : fmt::format(R"(, "material": {})", material)));
         return static_cast<int>(meshes.size()) - 1;
     }
+    /// A mesh of the primitives of two others.
+    int join_meshes(int first, int second) {
+        const auto primitive = [&](int mesh) {
+            const std::string& text = meshes[static_cast<std::size_t>(mesh)];
+            const std::size_t begin = text.find('[') + 1;
+            return text.substr(begin, text.rfind(']') - begin);
+        };
+        meshes.push_back(fmt::format(R"({{"primitives": [{}, {}]}})", primitive(first), primitive(second)));
+        return static_cast<int>(meshes.size()) - 1;
+    }
     int add_node(const std::string& members) {
         nodes.push_back("{" + members + "}");
         return static_cast<int>(nodes.size()) - 1;

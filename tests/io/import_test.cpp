@@ -1,6 +1,7 @@
 // Imported scenes measure the same as scenes in TOML, and as the folders that import writes of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -159,26 +160,45 @@ TEST_F(ImportTest, AFolderMeasuresAsItsGltfFile) {
     expect_same_readings(file, read);
 }
 
+/// The faces of a mesh in the plane y = height of glTF, and the others.
+struct Parts {
+    Mesh level, rest;
+};
+Parts parts_of(const Mesh& mesh, double height) {
+    Parts parts{mesh, mesh};
+    parts.level.triangles.clear(), parts.rest.triangles.clear();
+    for (const Triangle& t : mesh.triangles) {
+        const auto is_level = [&](std::uint32_t v) { return mesh.vertices[v].y == height; };
+        (std::ranges::all_of(t, is_level) ? parts.level : parts.rest).triangles.push_back(t);
+    }
+    return parts;
+}
+
+TEST_F(ImportTest, CeilingsShineIntoTheirRooms) {
+    // The fronts of the room's faces are outside, as modellers leave them; so the material has two sides.
+    GltfText gltf = room_in_gltf();
+    gltf.add_material(R"("name": "lamp", "doubleSided": true, "emissiveFactor": [1, 1, 1],
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 500}})");
+    const Parts room = parts_of(box_in_gltf({0, 0, 0}, {4, 3, 2.5}), 2.5);
+    gltf.nodes[0] = fmt::format(R"({{"name": "room", "mesh": {}}})",
+                                gltf.join_meshes(gltf.add_mesh(room.rest, 0), gltf.add_mesh(room.level, 2)));
+    gltf.nodes.pop_back();
+    const SceneFile file = read_gltf(gltf.text());
+    ASSERT_EQ(file.scene.lights.size(), 1u);
+    ASSERT_EQ(file.scene.objects.size(), 3u);  // no back
+    const Mesh& ceiling = std::get<Mesh>(file.scene.objects[2].shape);
+    const auto& [a, b, c] = ceiling.triangles[0];
+    EXPECT_LT(cross(ceiling.vertices[b] - ceiling.vertices[a], ceiling.vertices[c] - ceiling.vertices[a]).z,
+              0);
+}
+
 TEST_F(ImportTest, LampsInAMeshStayFacesOfIt) {
     GltfText gltf = room_in_gltf();
     gltf.add_material(R"("name": "lamp", "emissiveFactor": [1, 1, 1],
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 500}})");
-    // The lower faces of the table shine.
-    const Mesh box = box_in_gltf({0, 0, 0}, {1, 1, 0.1});
-    Mesh lower = box, upper = box;
-    lower.triangles.clear(), upper.triangles.clear();
-    for (const Triangle& t : box.triangles) {
-        const bool is_low = box.vertices[t[0]].y + box.vertices[t[1]].y + box.vertices[t[2]].y == 0;
-        (is_low ? lower : upper).triangles.push_back(t);
-    }
-    const int both = gltf.add_mesh(upper, 1), lamp = gltf.add_mesh(lower, 2);
-    const auto primitive = [&](int mesh) {
-        const std::string& text = gltf.meshes[static_cast<std::size_t>(mesh)];
-        const std::size_t first = text.find('[') + 1;
-        return text.substr(first, text.rfind(']') - first);
-    };
-    gltf.meshes.push_back(fmt::format(R"({{"primitives": [{}, {}]}})", primitive(both), primitive(lamp)));
-    gltf.add_node(R"("name": "luminaire", "mesh": 4, "translation": [1.5, 2.3, -1])");
+    const Parts box = parts_of(box_in_gltf({0, 0, 0}, {1, 1, 0.1}), 0);
+    gltf.add_node(fmt::format(R"("name": "luminaire", "mesh": {}, "translation": [1.5, 2.3, -1])",
+                              gltf.join_meshes(gltf.add_mesh(box.rest, 1), gltf.add_mesh(box.level, 2))));
     const SceneFile file = read_gltf(gltf.text(), kPoints);
     ASSERT_EQ(file.scene.objects.size(), 4u);
     EXPECT_EQ(file.scene.objects[3].name, "luminaire (lamp)");

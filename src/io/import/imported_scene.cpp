@@ -50,6 +50,25 @@ bool surrounds_another(const Scene& scene, ObjectId object) {
     return false;
 }
 
+/// Turns faces of closed components to where their light goes: outwards, in a room inwards. Returns those of
+/// open components, which shine to both sides.
+std::vector<std::uint32_t> turn_to_shine(Mesh& mesh, std::span<const std::uint32_t> triangles, bool is_room) {
+    const geometry::ConnectedComponents components = geometry::find_components(mesh);
+    enum class Outside { unknown, front, back };
+    std::vector<Outside> outside(components.count(), Outside::unknown);
+    for (std::uint32_t c = 0; c < outside.size(); ++c) {
+        if (components.is_closed(c))
+            outside[c] = volume_below(mesh, c, components) < 0 ? Outside::back : Outside::front;
+    }
+    std::vector<std::uint32_t> open;
+    for (const std::uint32_t t : triangles) {
+        const Outside side = outside[components.of_triangle[t]];
+        if (side == Outside::unknown) open.push_back(t);
+        if (side == (is_room ? Outside::front : Outside::back)) turn_over(mesh, t);
+    }
+    return open;
+}
+
 /// The triangles from their other side, this far behind the mesh. Where they touch they stay together.
 Mesh back_of(const Mesh& mesh, std::span<const std::uint32_t> triangles, double distance_m) {
     Mesh back = geometry::part_of(mesh, triangles);
@@ -143,18 +162,8 @@ void ImportedScene::light_triangles(ObjectId object, MaterialId material,
     auto& mesh = std::get<Mesh>(scene.objects[index_of(object)].shape);
     std::optional<Object> back;
     if (emission.both_sides) {
-        // A closed body shines outwards and a room inwards; what is open shines to both sides.
-        const bool is_room = surrounds_another(scene, object);
-        const geometry::ConnectedComponents components = geometry::find_components(mesh);
-        std::vector<int> outside(components.count());  // 1: the front, -1: the back, 0: the component is open
-        for (std::uint32_t c = 0; c < outside.size(); ++c)
-            if (components.is_closed(c)) outside[c] = volume_below(mesh, c, components) < 0 ? -1 : 1;
-        std::vector<std::uint32_t> open;
-        for (const std::uint32_t t : triangles) {
-            const int front = outside[components.of_triangle[t]];
-            if (front == 0) open.push_back(t);
-            if (front == (is_room ? 1 : -1)) turn_over(mesh, t);
-        }
+        const std::vector<std::uint32_t> open =
+            turn_to_shine(mesh, triangles, surrounds_another(scene, object));
         constexpr double least_m = 1e-4, share = 4e-6;  // more than points are lifted off surfaces
         const double distance_m = std::max(least_m, share * bounds_of(scene).half_extent());
         if (!open.empty()) back = Object{"", back_of(mesh, open, distance_m), {material}};
