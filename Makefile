@@ -36,7 +36,7 @@ demo: build ## measure the example office, with a picture: out/office.png
 	$(RELEASE)/stilb measure scenes/office/office.toml --falsecolor out/office.png
 	@echo "The picture of the working planes: out/office.png"
 
-$(PYTHON)/ready: python/requirements.txt
+$(PYTHON)/ready: python/requirements.txt | setup
 	@scripts/setup python
 	@python3 -m venv $(PYTHON)
 	@$(PYTHON)/bin/pip install --quiet --disable-pip-version-check -r $<

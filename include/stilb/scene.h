@@ -76,6 +76,8 @@ class Scene {
 class SceneBuilder {
   public:
     explicit SceneBuilder(const std::string& name = "");
+    /// Adds to a scene, which may come from a file of any format.
+    explicit SceneBuilder(Scene scene);
     ~SceneBuilder();
     SceneBuilder(SceneBuilder&&) noexcept;
     SceneBuilder& operator=(SceneBuilder&&) noexcept;

@@ -64,6 +64,7 @@ void add_builder(nb::module_& module) {
     };
     nb::class_<SceneBuilder>(module, "SceneBuilder")
         .def(nb::init<const std::string&>(), nb::arg("name"))
+        .def(nb::init<Scene>(), nb::arg("scene"))
         .def("material", adder(&SceneBuilder::material, "materials"), nb::arg("name"), nb::arg("keys"))
         .def("object", adder(&SceneBuilder::object, "objects"), nb::arg("name"), nb::arg("keys"))
         .def("light", adder(&SceneBuilder::light, "lights"), nb::arg("name"), nb::arg("keys"))

@@ -115,46 +115,51 @@ class Scene:
         self.defaults: dict[str, Any] = {}
         self._path: Path | None = None
         self._directory = Path(".")
-        self._sections: dict[str, Section] | None = {section: Section(section) for section in SECTIONS}
+        self._sections = {section: Section(section) for section in SECTIONS}
+        self._base: _stilb.Scene | None = None
         self._built: _stilb.Scene | None = None
         self._built_state: Any = None
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
-        """Reads a scene file. Errors name file, line and key."""
+        """Reads a scene file. Errors name file, line and key.
+
+        The parts of a file that is not TOML stay as they are; others can be added to them.
+        """
         scene = cls()
         scene._path = Path(path)
         scene._directory = scene._path.parent
         scene._built = _stilb.Scene.load(scene._path)
         scene.name = scene._built.name()
-        scene._sections = None
-        if scene._path.suffix.lower() in ("", ".toml"):
-            document = tomllib.loads(scene._path.read_text(encoding="utf-8"))
+        document = _toml_document(scene._path)
+        if document is None:
+            scene._base = scene._built
+        else:
             scene.run = document.get("run", {})
             scene.defaults = document.get("defaults", {})
             scene._sections = {section: Section(section, document.get(section)) for section in SECTIONS}
-            scene._built_state = scene._state()
+        scene._built_state = scene._state()
         return scene
 
     @property
     def materials(self) -> Section:
         """The materials, by name."""
-        return self._section("materials")
+        return self._sections["materials"]
 
     @property
     def objects(self) -> Section:
         """The objects, by name."""
-        return self._section("objects")
+        return self._sections["objects"]
 
     @property
     def lights(self) -> Section:
         """The lights, by name."""
-        return self._section("lights")
+        return self._sections["lights"]
 
     @property
     def sensors(self) -> Section:
         """The sensors and cameras, by name."""
-        return self._section("sensors")
+        return self._sections["sensors"]
 
     def check(self) -> list[str]:
         """What is odd in the scene, such as a lamp behind a wall: the warnings of `stilb info`."""
@@ -191,11 +196,14 @@ class Scene:
 
     def to_dict(self) -> dict[str, Any]:
         """The document of the scene file."""
+        if self._base:
+            raise InputError(f"{self._path}: the parts of this file cannot be written as a scene file here. Make it one by "
+                             "`stilb import`, and load that.")
         document: dict[str, Any] = {"scene": {"name": self.name}} if self.name else {}
         document |= {section: parts for section, parts in (("defaults", self.defaults), ("run", self.run)) if parts}
         for section in SECTIONS:
-            if self._section(section):
-                document[section] = {name: part.to_dict() for name, part in self._section(section).items()}
+            if self._sections[section]:
+                document[section] = {name: part.to_dict() for name, part in self._sections[section].items()}
         return document
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -209,20 +217,10 @@ class Scene:
         self.__dict__.update(loaded.__dict__)
 
     def __repr__(self) -> str:
-        if self._sections is None:
-            return f"<stilb.Scene of {self._path}>"
         counts = ", ".join(f"{len(parts)} {section}" for section, parts in self._sections.items())
-        return f"<stilb.Scene {self.name!r}: {counts}>"
-
-    def _section(self, name: str) -> Section:
-        if self._sections is None:
-            raise InputError(f"{self._path}: the parts of this scene are not those of a scene file, and cannot be changed "
-                             "here. Make it a scene file by `stilb import`, and load that.")
-        return self._sections[name]
+        return f"<stilb.Scene {self.name!r}: {counts}{f' added to {self._path}' if self._base else ''}>"
 
     def _state(self) -> Any:
-        if self._sections is None:
-            return None
         parts = tuple(section._state() for section in self._sections.values())
         return (self.name, repr(self.run), repr(self.defaults), parts)
 
@@ -235,14 +233,14 @@ class Scene:
         return self._built
 
     def _build(self) -> _stilb.Scene:
-        builder = _stilb.SceneBuilder(self.name)
+        builder = _stilb.SceneBuilder(self._base or self.name)
         builder.directory(self._directory)
         builder.run(self.run)
         builder.defaults(self.defaults)
         add = {"materials": builder.material, "objects": builder.object, "lights": builder.light,
                "sensors": builder.sensor}
         for section in SECTIONS:
-            for name, part in self._section(section).items():
+            for name, part in self._sections[section].items():
                 keys = part.to_dict()
                 if isinstance(part, Mesh) and "vertices" in keys and "faces" in keys:
                     del keys["shape"]
@@ -262,6 +260,14 @@ class Scene:
 def load(path: str | os.PathLike[str]) -> Scene:
     """Reads a scene from a file."""
     return Scene.load(path)
+
+
+def _toml_document(path: Path) -> dict[str, Any] | None:
+    """The content of a scene file; None where the file is of another format."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except ValueError:
+        return None
 
 
 def options(scene: _stilb.Scene, limits: Limits) -> _stilb.Options:

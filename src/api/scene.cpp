@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "api/scene_data.h"
 #include "checks/checks.h"
@@ -112,6 +114,7 @@ struct SceneBuilder::Data {
     std::string name;
     io::TomlMembers materials, objects, lights, sensors, run, defaults;
     std::filesystem::path directory = ".";
+    std::optional<Scene> base;
 
     void add(io::TomlMembers Data::*section, std::string_view section_name, const std::string& part,
              io::TomlMembers parameters) {
@@ -125,6 +128,10 @@ struct SceneBuilder::Data {
 };
 
 SceneBuilder::SceneBuilder(const std::string& name) : data_(std::make_unique<Data>()) { data_->name = name; }
+SceneBuilder::SceneBuilder(Scene scene) : data_(std::make_unique<Data>()) {
+    data_->name = scene.name();
+    data_->base = std::move(scene);
+}
 SceneBuilder::~SceneBuilder() = default;
 SceneBuilder::SceneBuilder(SceneBuilder&&) noexcept = default;
 SceneBuilder& SceneBuilder::operator=(SceneBuilder&&) noexcept = default;
@@ -196,7 +203,8 @@ Scene SceneBuilder::build() const {
                                {"sensors", 0, {data_->sensors}},
                                {"run", 0, {data_->run}},
                                {"defaults", 0, {data_->defaults}}};
-    return make_scene(io::read_scene(root, "", data_->directory));
+    return make_scene(
+        io::read_scene(root, "", data_->directory, data_->base ? data_->base->data().file : io::SceneFile{}));
 }
 
 std::vector<PartType> part_types() {

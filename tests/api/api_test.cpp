@@ -236,6 +236,27 @@ array = { origin = [1, 1, 2], step_u = [1, 0, 0], step_v = [0, 1, 0], count = [2
     EXPECT_NE(message_of([&] { stilb::measure(built, options); }).find("\"mean\""), std::string::npos);
 }
 
+TEST(Library, PartsAreAddedToAScene) {
+    std::string without = kRoom.data();
+    for (const char* line : {"bulb = ", "spot = "}) {
+        const std::size_t begin = without.find(line);
+        without.erase(begin, without.find('\n', begin) - begin);
+    }
+    const stilb::Scene dark = stilb::Scene::parse(without);
+    stilb::SceneBuilder builder(dark);
+    builder.light("bulb", {{"type", "point"}, {"position", {2, 1.5, 2.3}}, {"flux", 800}})
+        .sensor("spot", {{"type", "luminance"}, {"position", {1, 1, 1.5}}, {"direction", {0, 0, -1}}});
+    const stilb::Scene lit = builder.build();
+    EXPECT_EQ(lit.sensors(), (std::vector<std::string>{"desk", "view", "spot"}));
+    const stilb::Result added = stilb::measure(lit, few_samples(), {}, {"desk"});
+    const stilb::Result whole = stilb::measure(stilb::Scene::parse(kRoom), few_samples(), {}, {"desk"});
+    EXPECT_EQ(added["desk"].mean.value, whole["desk"].mean.value);
+    EXPECT_TRUE(validate(lit).empty()) << validate(lit).front();
+    builder.material("wall", {{"type", "black"}});
+    EXPECT_NE(message_of([&] { builder.build(); }).find("materials.wall: the scene has a part of this name"),
+              std::string::npos);
+}
+
 TEST(Library, MeshesFromMemoryAreChecked) {
     const auto message = [](const std::vector<stilb::Triple>& vertices, std::uint32_t corner) {
         return message_of([&] {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -49,16 +50,26 @@ TomlTable section_of(const TomlTable& root, std::string_view name, const TomlTab
     return item ? item->table() : none;
 }
 
-void warn_of_unused_materials(const TomlTable& section, SceneFile& file) {
+/// `first`: the first material of the section.
+void warn_of_unused_materials(const TomlTable& section, std::size_t first, SceneFile& file) {
     const Scene& scene = file.scene;
     std::vector<bool> is_used(scene.materials.size());
     for (const Object& object : scene.objects) {
         for (const MaterialId material : object.materials) is_used[index_of(material)] = true;
     }
-    for (std::size_t m = 0; m < is_used.size(); ++m) {
+    for (std::size_t m = first; m < is_used.size(); ++m) {
         if (is_used[m]) continue;
         file.warnings.push_back(
             fmt::format("{}: no object has this material.", section.at(scene.materials[m].name).where()));
+    }
+}
+
+/// Throws where the section has a name that the scene has already.
+template <typename Parts>
+void require_new_names(const TomlTable& section, const Parts& parts) {
+    for (const auto& part : parts) {
+        if (const auto item = section.find(part.name))
+            item->fail("the scene has a part of this name already. Choose another name.");
     }
 }
 
@@ -157,7 +168,7 @@ SceneFile read_scene(std::string_view toml, const std::string& name, const std::
 }
 
 SceneFile read_scene(const TomlMembers& members, const std::string& name,
-                     const std::filesystem::path& directory) {
+                     const std::filesystem::path& directory, SceneFile file) {
     TomlTable root(members, "", name, 0);
     root.expect_keys({"scene", "defaults", "materials", "objects", "lights", "sensors", "run"});
     const TomlMembers nothing;
@@ -168,23 +179,32 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
         return Defaults(section_of(all_defaults, section, none), std::move(types));
     };
 
-    SceneFile file;
     TomlTable scene = section_of(root, "scene", none);
     scene.expect_keys({"name"});
     if (const auto title = scene.find("name")) file.scene.name = title->text();
     const TomlTable materials = section_of(root, "materials", none);
-    file.scene.materials = read_materials(materials, defaults("materials", material_types()));
-    PartsOfObjects parts = read_objects(section_of(root, "objects", none), directory, file);
+    const TomlTable objects = section_of(root, "objects", none);
+    const TomlTable lights = section_of(root, "lights", none);
+    const TomlTable sensors = section_of(root, "sensors", none);
+    require_new_names(materials, file.scene.materials);
+    require_new_names(objects, file.scene.objects);
+    require_new_names(lights, file.scene.lights);
+    require_new_names(sensors, file.sensors);
+    const std::size_t first_material = file.scene.materials.size();
+    std::ranges::move(read_materials(materials, defaults("materials", material_types())),
+                      std::back_inserter(file.scene.materials));
+    PartsOfObjects parts = read_objects(objects, directory, file);
     const TomlTable run = section_of(root, "run", none);
-    file.run = read_run(run);
-    read_lights(section_of(root, "lights", none),
+    if (!run.members().empty()) file.run = read_run(run);
+    read_lights(lights,
                 {defaults("lights", lamp_types()), read_maintenance(run, 1), std::move(parts), directory},
                 file);
-    warn_of_unused_materials(materials, file);
+    warn_of_unused_materials(materials, first_material, file);
     scene::put_lamps_in_front(file.scene);
+    std::erase_if(file.warnings, [](const std::string& warning) { return warning.ends_with(kNoLight); });
     if (file.scene.lights.empty())
         file.warnings.emplace_back(InputError(std::string(kNoLight), {name}).what());
-    read_sensors(section_of(root, "sensors", none), defaults("sensors", sensor_types()), file);
+    read_sensors(sensors, defaults("sensors", sensor_types()), file);
     return file;
 }
 

@@ -43,8 +43,9 @@ SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std
 /// messages.
 SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory,
                      std::span<const std::string> overrides = {});
-/// The same for a tree that was built in code: its lines are 0, and messages leave an empty name out.
+/// The same for a tree that was built in code: its lines are 0, and messages leave an empty name out. `file`:
+/// what the scene has already; its parts can be referred to, but faces of its meshes not be picked as lamps.
 SceneFile read_scene(const TomlMembers& members, const std::string& name,
-                     const std::filesystem::path& directory);
+                     const std::filesystem::path& directory, SceneFile file = {});
 
 }  // namespace stilb::io
