@@ -93,8 +93,9 @@ void MeasureFlags::add_to(Command& command) {
     command
         .add("--grid", grid,
              "Measure a working plane over the floor of each room, at this height above it, with this "
-             "distance from walls: z=0.75,spacing=auto,margin=0.5, or parts of it. It is a sensor " plane
-             ", or several: plane_1, plane_2 ...")
+             "distance from walls: z=0.75,spacing=auto,margin=0.5, or parts of it. The sensor is called "
+             "plane; "
+             "those of several rooms plane_1, plane_2 and so on")
         .value_name("KEY=VALUE,...");
     command.add(
         "--check", checks,
