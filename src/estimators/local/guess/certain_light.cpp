@@ -97,9 +97,9 @@ STILB_VECTORIZED void add_cut_triangle(const PointTile& __restrict tile, const D
         const bool above_u = hu >= 0, above_v = hv >= 0, above_w = hw >= 0;
         const Lane uv = crossing(u, hu, v, hv), vw = crossing(v, hv, w, hw), wu = crossing(w, hw, u, hu);
         // | and & rather than || and &&: without branches the loop vectorises.
-        float sum = above_u | above_v ? edge(n, choose(above_u, u, uv), choose(above_v, v, uv)) : 0.0f;
-        sum += above_v | above_w ? edge(n, choose(above_v, v, vw), choose(above_w, w, vw)) : 0.0f;
-        sum += above_w | above_u ? edge(n, choose(above_w, w, wu), choose(above_u, u, wu)) : 0.0f;
+        float sum = (above_u | above_v) ? edge(n, choose(above_u, u, uv), choose(above_v, v, uv)) : 0.0f;
+        sum += (above_v | above_w) ? edge(n, choose(above_v, v, vw), choose(above_w, w, vw)) : 0.0f;
+        sum += (above_w | above_u) ? edge(n, choose(above_w, w, wu), choose(above_u, u, wu)) : 0.0f;
         // Along the horizon, from where the edges go below to where they come back.
         const Lane down = choose(above_u & !above_v, uv, choose(above_v & !above_w, vw, wu));
         const Lane back = choose(above_v & !above_u, uv, choose(above_w & !above_v, vw, wu));
