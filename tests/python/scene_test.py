@@ -81,6 +81,21 @@ class SceneFiles(unittest.TestCase):
         scene.save(self.folder / "other/room.toml")
         self.assertEqual(stilb.load(self.folder / "other/room.toml").objects["floor"].file, "../meshes/floor.obj")
 
+    def test_parts_are_added_to_files_of_other_formats(self):
+        file = self.folder / "floor.rad"
+        file.write_text("void plastic grey 0 0 5 0.5 0.5 0.5 0 0\n"
+                        "grey polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0\n")
+        scene = stilb.load(file)
+        scene.lights["bulb"] = stilb.PointLight(position=(0, 0, 3), intensity=100)
+        scene.sensors["spot"] = stilb.Illuminance(position=(0, 0, 1), normal=(0, 0, 1))
+        scene.sensors["floor"] = stilb.Luminance(position=(0, 0, 1), direction=(0, 0, -1))
+        result = scene.measure(paths=PATHS)
+        np.testing.assert_allclose(result["spot"].value, 100 / 2**2, rtol=1e-6)  # nothing reflects from above
+        np.testing.assert_allclose(result["floor"].value, 100 / 3**2 * 0.5 / np.pi, rtol=1e-6)
+        self.assertFalse(any("dark" in warning for warning in result.warnings))
+        with self.assertRaisesRegex(stilb.InputError, "stilb import"):
+            scene.save(self.folder / "floor.toml")
+
     def test_odd_scenes_are_reported(self):
         scene = built()
         self.assertEqual(scene.check(), [])
