@@ -244,7 +244,7 @@ class MeasureTest(CommandLineTest):
         start = time.monotonic()
         result = run("measure", self.scene, "--sensor", "wall", "--falsecolor", self.folder / "x.png", "--time", "30")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("only grids can be drawn", result.stderr)
+        self.assertIn("no grid and no area, and only these can be drawn", result.stderr)
         self.assertLess(time.monotonic() - start, 20)
 
     def test_picture_with_errors(self):
