@@ -206,7 +206,7 @@ class ReproduceTest(CommandLineTest):
         head = ["reproduce", "harmonics", "-o", folder, "--mesh"]
         self.expect_wrong_input([*head, self.folder / "none.ply"], "none.ply", "cannot be read")
         self.expect_wrong_input([*head, mesh], "head.obj:3")
-        self.expect_wrong_input([*head, self.scene], "room.toml", ".obj or .ply")
+        self.expect_wrong_input([*head, self.scene], "room.toml", "use .obj, .ply")
         for figure in (["room"], []):
             self.expect_wrong_input(["reproduce", *figure, "-o", folder, "--mesh", mesh], "--mesh", "harmonics")
 
