@@ -220,7 +220,7 @@ class _Reader:
     def _storey_of(self, product: Any) -> Mesh:
         import ifcopenshell.util.element
 
-        place = ifcopenshell.util.element.get_container(product)
+        place: Any = ifcopenshell.util.element.get_container(product)
         while place is not None and not place.is_a("IfcBuildingStorey"):
             place = ifcopenshell.util.element.get_aggregate(place)
         key = place.GlobalId if place is not None else ""

@@ -188,7 +188,7 @@ TEST(RadianceLamps, PatternsThatAreNotOfIes2radAreLeftOut) {
         (std::vector<std::string>{
             "brightfunc dim: it is left out: l has the radiance of its own numbers.",
             "brightdata d: it is left out, and its factor is 1: only the functions of source.cal, which "
-            "ies2rad uses, are supported."}));
+            "ies2rad uses, and of luminaire.cal by Stilb are supported."}));
     EXPECT_EQ(
         refusal_of_rad("void brightdata d 4 corr x.dat source.cal src_theta 0 0\nd light l 0 0 3 1 1 1\n"
                        "l sphere s 0 0 4 0 0 0 1\n"),

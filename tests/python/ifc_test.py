@@ -8,6 +8,7 @@ import tomllib
 import unittest
 from pathlib import Path
 
+import numpy as np
 import stilb
 from ifc_building import LENGTH, SLAB, STOREY, WALL, WIDTH, write_building
 from stilb import ifc
@@ -69,10 +70,10 @@ class Import(unittest.TestCase):
         imported = stilb.load(self.target / "scene.toml").measure(paths=PATHS, sensors=["Room_1"])["Room_1"]
         (self.folder / "boxes.toml").write_text(ground_floor())
         boxes = stilb.load(self.folder / "boxes.toml").measure(paths=PATHS)["room"]
-        low, high = imported.mean.interval(0.999)
-        other_low, other_high = boxes.mean.interval(0.999)
-        self.assertLess(max(low, other_low), min(high, other_high))
-        self.assertLess(high - low, 0.03 * imported.mean.value)
+        widths = [high - low for low, high in (imported.mean.interval, boxes.mean.interval)]
+        # Twice the combined 95 % half-width: four standard errors.
+        self.assertLess(abs(imported.mean.value - boxes.mean.value), float(np.hypot(*widths)))
+        self.assertLess(max(widths), 0.03 * imported.mean.value)
         self.assertGreater(imported.mean.value, 20)
 
     def test_by_the_command_line(self):
