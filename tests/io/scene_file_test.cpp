@@ -248,10 +248,9 @@ TEST(SceneFile, IsReadFromDisk) {
 }
 
 TEST(SceneFile, SaysWhatOtherFilesAre) {
-    for (const auto& [name, is, use] :
-         {std::array{"room.OBJ", "an OBJ mesh", "an object"},
-          {"lamp.ies", "an IES luminaire", "a light"},
-          {"room.rad", "a Radiance scene", "Commands that take a scene"}}) {
+    for (const auto& [name, is, use] : {std::array{"room.OBJ", "an OBJ mesh", "an object"},
+                                        {"lamp.ies", "an IES luminaire", "a light"},
+                                        {"room.rad", "a Radiance scene", "Commands that take a scene"}}) {
         const auto path = std::filesystem::path(testing::TempDir()) / name;
         std::ofstream(path) << "words";
         try {
