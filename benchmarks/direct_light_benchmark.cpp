@@ -14,7 +14,7 @@
 #include "estimators/estimator.h"
 #include "estimators/estimator_list.h"
 #include "rooms.h"
-#include "transport/direct_light.h"
+#include "transport/direct/direct_light.h"
 
 namespace stilb {
 namespace {

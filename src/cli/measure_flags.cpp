@@ -8,7 +8,7 @@
 #include "cli/scene_argument.h"
 #include "io/text/text.h"
 #include "rays/ray_caster.h"
-#include "sensors/working_planes.h"
+#include "sensors/areas/working_planes.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {

@@ -10,7 +10,7 @@
 #include "plot/axis.h"
 #include "plot/canvas.h"
 #include "plot/false_colour_painter.h"
-#include "sensors/measured_raster.h"
+#include "sensors/areas/measured_raster.h"
 #include "stilb/error.h"
 
 namespace stilb::plot {

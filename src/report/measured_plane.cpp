@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "plot/false_colour_painter.h"
-#include "sensors/measured_raster.h"
+#include "sensors/areas/measured_raster.h"
 
 namespace stilb::report {
 namespace {

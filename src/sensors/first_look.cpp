@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sensors/working_planes.h"
+#include "sensors/areas/working_planes.h"
 
 namespace stilb::sensors {
 namespace {

@@ -19,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-#include "sensors/area.h"
+#include "sensors/areas/area.h"
 #include "sensors/bodies.h"
 #include "sensors/camera.h"
 #include "sensors/derived.h"

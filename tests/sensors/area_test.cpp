@@ -1,4 +1,4 @@
-#include "sensors/area.h"
+#include "sensors/areas/area.h"
 
 #include <gtest/gtest.h>
 

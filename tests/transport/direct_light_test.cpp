@@ -1,4 +1,4 @@
-#include "transport/direct_light.h"
+#include "transport/direct/direct_light.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "estimators/local/split_plan.h"
-#include "transport/direct_light.h"
+#include "transport/direct/direct_light.h"
 
 namespace stilb::estimators {
 

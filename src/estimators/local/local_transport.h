@@ -3,7 +3,7 @@
 
 #include "estimators/estimator.h"
 #include "estimators/limits.h"
-#include "transport/direct_light.h"
+#include "transport/direct/direct_light.h"
 #include "transport/light_path.h"
 #include "transport/path_tracer.h"
 

@@ -13,7 +13,7 @@
 
 #include "base/parallel.h"
 #include "io/text/table.h"
-#include "sensors/measured_raster.h"
+#include "sensors/areas/measured_raster.h"
 #include "stilb/error.h"
 
 namespace stilb::io {

@@ -7,7 +7,7 @@
 
 #include "io/scene/fields.h"
 #include "io/text/text.h"
-#include "sensors/surface_points.h"
+#include "sensors/areas/surface_points.h"
 
 namespace stilb::io {
 namespace {

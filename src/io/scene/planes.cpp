@@ -3,7 +3,7 @@
 
 #include "io/scene/fields.h"
 #include "io/scene/sections.h"
-#include "sensors/working_planes.h"
+#include "sensors/areas/working_planes.h"
 
 namespace stilb::io {
 namespace {

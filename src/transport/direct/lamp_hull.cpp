@@ -1,4 +1,4 @@
-#include "transport/lamp_hull.h"
+#include "transport/direct/lamp_hull.h"
 
 #include <algorithm>
 #include <array>

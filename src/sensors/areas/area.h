@@ -13,7 +13,7 @@
 #include "sensors/fields.h"
 #include "sensors/illuminance.h"
 #include "sensors/measurand.h"
-#include "sensors/plane_region.h"
+#include "sensors/areas/plane_region.h"
 #include "sensors/requirement.h"
 
 namespace stilb::sensors {

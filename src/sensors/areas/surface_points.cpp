@@ -1,4 +1,4 @@
-#include "sensors/surface_points.h"
+#include "sensors/areas/surface_points.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "geometry/mesh_topology.h"
 #include "math/disjoint_sets.h"
-#include "sensors/raster.h"
+#include "sensors/areas/raster.h"
 
 namespace stilb::sensors {
 namespace {

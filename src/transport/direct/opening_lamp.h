@@ -8,7 +8,7 @@
 #include "lights/solid_angle/projected_solid_angle.h"
 #include "math/gauss_legendre.h"
 #include "scene/scene.h"
-#include "transport/lamp_hull.h"
+#include "transport/direct/lamp_hull.h"
 
 namespace stilb::transport {
 

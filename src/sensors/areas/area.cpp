@@ -1,4 +1,4 @@
-#include "sensors/area.h"
+#include "sensors/areas/area.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sensors/raster.h"
+#include "sensors/areas/raster.h"
 
 namespace stilb::sensors {
 namespace {

@@ -11,7 +11,7 @@
 // all of the lamp is seen, or nothing of it. The shadow rays of a tile form packets.
 //
 // A luminaire's opening that a reading sees for certain is integrated by quadrature, once
-// (transport/opening_lamp.h).
+// (transport/direct/opening_lamp.h).
 //
 // Point lights are exact, one packet of shadow rays each. Where there are many of them, pictures choose
 // kChosen by a tree for the whole tile, with exact probabilities. All other lights, and receivers whose
@@ -27,9 +27,9 @@
 
 #include "base/monitor.h"
 #include "rays/shaft_query.h"
-#include "transport/opening_lamp.h"
+#include "transport/direct/opening_lamp.h"
 #include "transport/receiver.h"
-#include "transport/uniform_lamp.h"
+#include "transport/direct/uniform_lamp.h"
 
 namespace stilb::transport {
 

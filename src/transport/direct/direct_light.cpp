@@ -1,11 +1,11 @@
-#include "transport/direct_light.h"
+#include "transport/direct/direct_light.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "base/parallel.h"
-#include "transport/tile_choice.h"
+#include "transport/direct/tile_choice.h"
 
 namespace stilb::transport {
 namespace {

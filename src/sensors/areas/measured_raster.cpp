@@ -1,4 +1,4 @@
-#include "sensors/measured_raster.h"
+#include "sensors/areas/measured_raster.h"
 
 #include <algorithm>
 

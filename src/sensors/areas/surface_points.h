@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/shape.h"
-#include "sensors/area.h"
+#include "sensors/areas/area.h"
 
 namespace stilb::sensors {
 

@@ -1,4 +1,4 @@
-#include "sensors/working_planes.h"
+#include "sensors/areas/working_planes.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "transport/tile_choice.h"
+#include "transport/direct/tile_choice.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "transport/opening_lamp.h"
+#include "transport/direct/opening_lamp.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "sensors/plane_region.h"
+#include "sensors/areas/plane_region.h"
 
 #include <fmt/format.h>
 

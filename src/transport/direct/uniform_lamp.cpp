@@ -1,4 +1,4 @@
-#include "transport/uniform_lamp.h"
+#include "transport/direct/uniform_lamp.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 
 #include "lights/solid_angle/projected_solid_angle.h"
 #include "scene/scene.h"
-#include "transport/lamp_hull.h"
+#include "transport/direct/lamp_hull.h"
 
 namespace stilb::transport {
 
