@@ -31,15 +31,21 @@ std::string count_text(std::size_t count, std::string_view noun) {
 
 int run_import(ImportRequest request) {
     const io::FileKind kind = io::kind_of_file(request.file);
-    if (kind == io::FileKind::ifc_building)
+    if (kind == io::FileKind::ifc_building) {
+        if (request.scale || request.up || request.light_scale || !request.overrides.empty()) {
+            throw InputError(
+                "--scale, --up, --light-scale and --set do not go with IFC, which states its units. Change "
+                "the scene file that import writes.",
+                {request.file});
+        }
         return import_ifc({request.file, request.output, request.reflectances});
+    }
     if (!request.reflectances.empty())
         throw InputError("--reflectances is for buildings in IFC.", {request.file});
     if (io::may_be_scene_file(kind) || !io::is_scene(kind)) {
         throw InputError(
             "this is no scene of another format. Allowed: glTF (.gltf, .glb), OBJ with MTL (.obj), Radiance "
-            "(.rad) and "
-            "IFC (.ifc).",
+            "(.rad) and IFC (.ifc).",
             {request.file});
     }
     if (request.scale) request.overrides.push_back("import.scale=" + *request.scale);
@@ -92,8 +98,9 @@ void add_import(CommandLine& line) {
              "Factor on all light, such as 683 for files that give watts in place of lumens")
         .value_name("F");
     command
-        .add("--reflectances", request->reflectances,
-             "Of IFC: a table (TOML) of lines \"name of the material\" = 0.5")
+        .add(
+            "--reflectances", request->reflectances,
+            "For IFC: a file (TOML) with the reflectances of materials, in lines such as \"Concrete\" = 0.35")
         .value_name("FILE");
     add_overrides(command, request->overrides);
     command.add("--quiet", request->quiet, "No warnings on stderr");

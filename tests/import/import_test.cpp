@@ -10,7 +10,7 @@
 #include "io/import/scene_folder.h"
 #include "io/text/table.h"
 #include "run/run.h"
-#include "scene_text.h"
+#include "io/scene_text.h"
 
 namespace stilb::io {
 namespace {

@@ -47,8 +47,27 @@ class ImportTest(CommandLineTest):
                 for a, b in zip(self.values(DATA / name, "--set", DESK), of_folder, strict=True):
                     self.assertAlmostEqual(a, b, delta=1e-6 * a)
 
+    def test_options_of_the_run_are_kept(self):
+        output = self.folder / "room"
+        result = run("import", DATA / "blender_room.glb", "-o", output, "--set", "run.seed=5", "--set", "run.error=0.1",
+                     "--set", "run.target=mean", "--set", "run.time=20", "--set", "run.bounces=3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        options = self.info(output / "scene.toml")["run"]
+        expected = self.info(DATA / "blender_room.glb", "--set", "run.seed=5", "--set", "run.error=0.1", "--set",
+                             "run.target=mean", "--set", "run.time=20", "--set", "run.bounces=3")["run"]
+        self.assertEqual(options, expected)
+        self.assertEqual((options["seed"], options["bounces"]), (5, 3))
+
+    def test_a_radiance_scene_measures_as_its_folder(self):
+        room, output = DATA / "radiance/room.rad", self.folder / "room"
+        self.assertEqual(run("import", room, "-o", output, "--set", DESK).returncode, 0)
+        for a, b in zip(self.values(room, "--set", DESK), self.values(output / "scene.toml"), strict=True):
+            self.assertAlmostEqual(a, b, delta=0.04 * a)  # four standard errors of 4096 paths
+
     def test_ifc_needs_the_python_package(self):
         building = self.write("house.ifc", "ISO-10303-21;\nHEADER;\n")
+        self.expect_wrong_input(["import", building, "-o", self.folder / "house", "--scale", "0.001"], "house.ifc",
+                                "do not go with IFC")
         self.expect_wrong_input(["measure", building], "house.ifc: not a scene but a building in IFC", "stilb import")
         result = subprocess.run([PROGRAM, "import", building, "-o", self.folder / "house"], capture_output=True, text=True,
                                 env={"PATH": str(self.folder)}, timeout=MOST_SECONDS)

@@ -36,6 +36,28 @@ std::string heading(const SceneFile& file) {
     return text;
 }
 
+/// The options that differ from those of a run without any.
+TomlMembers run_table(const RunOptions& run) {
+    const RunOptions usual;
+    TomlMembers members;
+    const auto add = [&](std::string key, TomlValue value) {
+        members.push_back({std::move(key), 0, std::move(value)});
+    };
+    const auto add_count = [&](std::string key, auto count) {
+        add(std::move(key), {static_cast<std::int64_t>(count)});
+    };
+    if (run.method != usual.method) add("method", toml_text(run.method));
+    if (run.error) add("error", toml_number(*run.error));
+    if (run.target != usual.target)
+        add("target", toml_text(std::string(run::kTargetNames[static_cast<std::size_t>(run.target)])));
+    if (run.time_s) add("time", toml_number(*run.time_s));
+    if (run.paths) add_count("paths", *run.paths);
+    if (run.bounces) add_count("bounces", *run.bounces);
+    if (run.seed != usual.seed) add_count("seed", run.seed);
+    if (run.threads != usual.threads) add_count("threads", run.threads);
+    return members;
+}
+
 void make_scene_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -86,6 +108,7 @@ std::vector<std::filesystem::path> write_scene_folder(const SceneFile& file,
     add("objects", object_tables(file.scene, output));
     add("lights", light_tables(file, output));
     add("sensors", sensor_tables(file.sensors));
+    add("run", run_table(file.run));
     const std::filesystem::path scene = folder / "scene.toml";
     replace_file(scene, heading(file) + to_toml(document));
     std::vector<std::filesystem::path> files{scene};
