@@ -187,8 +187,10 @@ void require_pictures(const RenderRequest& request, const io::SceneFile& file) {
 
 /// Recognises `--preview` without a file, which may have taken the scene for its value.
 void settle_preview(RenderRequest& request) {
-    if (request.scene.empty() && request.solution.empty() && request.preview != kHeadlight &&
-        !request.preview.empty() && !io::is_luminance_picture(io::kind_of_name(request.preview)))
+    const io::FileKind kind = io::kind_of_name(request.preview);
+    const bool is_picture = io::is_luminance_picture(kind) || kind == io::FileKind::png_picture;
+    const bool has_origin = !request.scene.empty() || !request.solution.empty();
+    if (!has_origin && !request.preview.empty() && request.preview != kHeadlight && !is_picture)
         request.scene = std::exchange(request.preview, kHeadlight);
     request.is_first_look = request.preview == kHeadlight;
     if (!request.is_first_look) return;
