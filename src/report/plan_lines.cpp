@@ -125,10 +125,7 @@ double usual_plan_height(const Bounds& bounds) {
 }
 
 PlanLines plan_lines(const Scene& scene, const rays::RayCaster& caster, double height_m) {
-    std::set<ObjectId> lamps;
-    for (const Light& light : scene.lights) {
-        if (const auto object = emitting_object(light)) lamps.insert(*object);
-    }
+    const std::set<ObjectId> lamps = scene::lamps_of(scene);
     const Bounds bounds = scene::bounds_of(scene);
     Section section(caster, height_m,
                     kTooSmall * std::max(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y));

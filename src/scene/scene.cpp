@@ -57,6 +57,14 @@ Lift lift_of(const Scene& scene) {
     return {center, std::max({above.x, above.y, above.z, below.x, below.y, below.z})};
 }
 
+std::set<ObjectId> lamps_of(const Scene& scene) {
+    std::set<ObjectId> lamps;
+    for (const Light& light : scene.lights) {
+        if (const auto object = lights::emitting_object(light)) lamps.insert(*object);
+    }
+    return lamps;
+}
+
 Rgb flux_lm(const Scene& scene, const Light& light) {
     return lights::flux_lm(light, LightSurroundings(scene));
 }

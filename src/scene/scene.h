@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,8 @@ Bounds bounds_of(const Scene& scene);
 /// box, or in a scene of more than 64 m the median of the middles of all objects and lights, so that the
 /// details of a house count, not the middle of the ground around it.
 Lift lift_of(const Scene& scene);
+/// The objects whose fronts are lamps.
+std::set<ObjectId> lamps_of(const Scene& scene);
 /// Flux of a light per band; luminance() of it is lumen.
 Rgb flux_lm(const Scene& scene, const Light& light);
 /// The lowest and the highest maintenance factor of the lamps; nothing where no lamp has one below 1.

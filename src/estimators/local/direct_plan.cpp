@@ -1,7 +1,6 @@
 #include "estimators/local/direct_plan.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace stilb::estimators {

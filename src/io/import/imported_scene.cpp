@@ -234,7 +234,7 @@ SceneFile ImportedScene::finish(const ImportSettings& settings) && {
     scene::put_lamps_in_front(file.scene);
     scale_lights(settings.options().light_scale);
     warn_of_units();
-    if (file.scene.lights.empty()) note("no light: the scene is dark.");
+    if (file.scene.lights.empty()) note(kNoLight);
     const std::string prefix = file.sources[0].string() + ": ";
     for (const std::string& warning : warnings.list()) file.warnings.push_back(prefix + warning);
     settings.apply_to(file);

@@ -95,10 +95,7 @@ struct Surface {
     Mesh mesh;
 };
 std::vector<Surface> surfaces_of(const Scene& scene) {
-    std::set<ObjectId> lamps;
-    for (const Light& light : scene.lights) {
-        if (const auto object = emitting_object(light)) lamps.insert(*object);
-    }
+    const std::set<ObjectId> lamps = scene::lamps_of(scene);
     std::vector<Surface> surfaces;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         if (!lamps.contains(ObjectId{i}))

@@ -69,8 +69,7 @@ class Assembly {
         file_.warnings = description_.warnings;
         for (std::string& warning : warnings_.list()) file_.warnings.push_back(std::move(warning));
         if (file_.scene.lights.empty())
-            file_.warnings.emplace_back(
-                InputError("no light: the scene is dark.", {description_.files[0]}).what());
+            file_.warnings.emplace_back(InputError(std::string(kNoLight), {description_.files[0]}).what());
         file_.notes.push_back(fmt::format(
             "Radiance: lengths in m; luminances are {:g} lm/W times {:g} R + {:g} G + {:g} B "
             "(docs/radiance.md)",
