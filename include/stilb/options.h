@@ -17,7 +17,8 @@ struct Options {
     /// Stops when 95 % of each sensor's readings (of a picture's pixels) have a 95 % interval within this
     /// share of their value, such as 0.01.
     std::optional<double> error;
-    /// What `error` is the error of: "readings", or "mean": the means and minima of all sensors.
+    /// The values that `error` is asked of: "readings", each of them, or "mean", the means and minima of all
+    /// sensors.
     std::string target = "readings";
     /// Stops after this time [s].
     std::optional<double> time_s;

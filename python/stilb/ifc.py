@@ -107,7 +107,7 @@ class Fixture:
 
 @dataclass
 class Building:
-    """What was found in an IFC file."""
+    """A building as it was read from an IFC file."""
 
     name: str
     materials: dict[str, Material]

@@ -84,7 +84,7 @@ class Run:
 
     @property
     def warnings(self) -> list[str]:
-        """What is odd in the scene or in the result."""
+        """The warnings about the scene and about the result."""
         return self._run.warnings
 
     def _ending(self) -> str:
@@ -198,7 +198,7 @@ class Reading:
 
     @property
     def requirements(self) -> dict[str, tuple[float, str]]:
-        """What the scene requires: for each key the limit, and "pass", "fail" or "undecided"."""
+        """The limit of each requirement of the scene, and whether it is met: "pass", "fail" or "undecided"."""
         return {item.key: (item.limit, item.verdict) for item in self._sensor.requirements}
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -303,7 +303,7 @@ class Image(Run):
 
     @property
     def standard_error(self) -> NDArray[np.float32] | None:
-        """Of each pixel [cd/m2], (h, w); None after a single pass."""
+        """The standard error of each pixel [cd/m2], (h, w); None after a single pass."""
         return self._picture.standard_error
 
     @property

@@ -162,7 +162,7 @@ class Scene:
         return self._sections["sensors"]
 
     def check(self) -> list[str]:
-        """What is odd in the scene, such as a lamp behind a wall: the warnings of `stilb info`."""
+        """The warnings of `stilb info` about the scene, such as one of a lamp behind a wall."""
         return _stilb.validate(self._scene())
 
     def measure(self, *, sensors: Iterable[str] | None = None, progress: Progress = None, **limits: Unpack[Limits]) -> Result:

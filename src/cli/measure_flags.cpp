@@ -27,7 +27,7 @@ run::Target target_of(const std::string& name) {
     return static_cast<run::Target>(found - run::kTargetNames.begin());
 }
 
-/// What --grid asks for.
+/// The working planes that --grid describes.
 struct GridRequest {
     sensors::WorkingPlaneOptions planes;
     std::optional<double> spacing_m;
@@ -94,8 +94,7 @@ void MeasureFlags::add_to(Command& command) {
         .add("--grid", grid,
              "Measure a working plane over the floor of each room, at this height above it, with this "
              "distance from walls: z=0.75,spacing=auto,margin=0.5, or parts of it. The sensor is called "
-             "plane; "
-             "those of several rooms plane_1, plane_2 and so on")
+             "plane; those of several rooms plane_1, plane_2 and so on")
         .value_name("KEY=VALUE,...");
     command.add(
         "--check", checks,

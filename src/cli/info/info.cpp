@@ -65,8 +65,7 @@ void add_info(CommandLine& line) {
     command
         .add("FILE", request->file,
              "Scene (TOML, - for standard input; .gltf, .glb; .obj with materials; .rad), luminaire (.ies, "
-             ".ldt) "
-             "or mesh (.obj, .ply)")
+             ".ldt) or mesh (.obj, .ply)")
         .required();
     add_overrides(command, request->overrides);
     command.add("--ugr", request->has_ugr,
@@ -75,8 +74,7 @@ void add_info(CommandLine& line) {
     command.add("--json", request->json,
                 "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
                 "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"notes\", "
-                "\"run\", \"warnings\", "
-                "\"memory\"}, as far as the file has them; units are in the keys");
+                "\"run\", \"warnings\", \"memory\"}, as far as the file has them; units are in the keys");
     command.run([request] {
         const InfoReport report = report_file(*request);
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));

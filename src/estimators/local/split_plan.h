@@ -26,8 +26,9 @@ struct SplitPlans {
     /// The processor time of a light path, its connections and its share of the gathering rays. The unit is
     /// the time of a shadow ray.
     double cost_per_path = 1;
-    /// Of a light path whose vertices are connected: the sum over the readings of weight variance / value^2,
-    /// over its cost. The best plan makes other samples as worthwhile.
+    /// The worth of processor time: the variance of a light path whose vertices are connected, divided by its
+    /// cost. The variance is the sum over the readings of weight variance / value^2. In the best plan, other
+    /// samples are worth their time as much.
     double variance_per_cost = 0;
 };
 

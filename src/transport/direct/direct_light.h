@@ -28,8 +28,8 @@
 #include "base/monitor.h"
 #include "rays/shaft_query.h"
 #include "transport/direct/opening_lamp.h"
-#include "transport/receiver.h"
 #include "transport/direct/uniform_lamp.h"
+#include "transport/receiver.h"
 
 namespace stilb::transport {
 

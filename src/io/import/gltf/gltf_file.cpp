@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the parser's callbacks share with parse(). They must not throw through the parser.
+/// The data that parse() and the parser's callbacks share. The callbacks must not throw, because the parser
+/// cannot pass exceptions on.
 struct FileAccess {
     fs::path folder;
     std::vector<fs::path> read;
