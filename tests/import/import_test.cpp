@@ -8,9 +8,9 @@
 #include "gltf_text.h"
 #include "io/import/obj/obj_scene.h"
 #include "io/import/scene_folder.h"
+#include "io/scene_text.h"
 #include "io/text/table.h"
 #include "run/run.h"
-#include "io/scene_text.h"
 
 namespace stilb::io {
 namespace {

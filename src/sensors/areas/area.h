@@ -10,10 +10,10 @@
 #include <tuple>
 #include <vector>
 
+#include "sensors/areas/plane_region.h"
 #include "sensors/fields.h"
 #include "sensors/illuminance.h"
 #include "sensors/measurand.h"
-#include "sensors/areas/plane_region.h"
 #include "sensors/requirement.h"
 
 namespace stilb::sensors {
