@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 #include <variant>
@@ -44,6 +45,9 @@ struct ProbeRaysOfShape {
         }
         return probe_rays;
     }
+    std::vector<ProbeRay> operator()(const Instance& instance) const {
+        return (*this)(triangulated(instance));
+    }
     std::vector<ProbeRay> operator()(const Rectangle& rectangle) const {
         return (*this)(triangulated(rectangle));
     }
@@ -64,7 +68,14 @@ struct ProbeRaysOfShape {
 }  // namespace
 
 Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scene_(scene), caster_(caster) {
-    for (const Object& object : scene.objects) components_.push_back(find_components(object.shape));
+    std::map<const Mesh*, std::size_t> first_of_mesh;  // instances share the components of their mesh
+    for (const Object& object : scene.objects) {
+        const auto* instance = std::get_if<Instance>(&object.shape);
+        const auto first = first_of_mesh.find(instance == nullptr ? nullptr : instance->mesh.get());
+        if (instance != nullptr) first_of_mesh.try_emplace(instance->mesh.get(), components_.size());
+        components_.push_back(first == first_of_mesh.end() ? find_components(object.shape)
+                                                           : components_[first->second]);
+    }
     join_cut_lamps();
     for (const Light& light : scene.lights) {
         std::vector<Enclosure>& enclosures = of_lights_.emplace_back();

@@ -42,7 +42,7 @@ std::vector<std::string> hole_warnings(const Scene& scene,
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        const auto* mesh = std::get_if<Mesh>(&object.shape);
+        const Mesh* mesh = geometry::stored_mesh(object.shape);
         if (mesh == nullptr || object.cut_from) continue;  // a part of a mesh is open
         const Hole hole = holes_of(*mesh, components[i]);
         if (hole.components == 0) continue;

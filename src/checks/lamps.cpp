@@ -126,7 +126,7 @@ std::vector<std::string> surrounded(std::span<const Sensor> sensors, ObjectId ob
 /// Luminous spheres and smooth bodies are meant to shine all over; of meshes and boxes that is less likely.
 bool may_be_a_mistake(const Object& object) {
     return !object.cut_from &&
-           (std::holds_alternative<Mesh>(object.shape) || std::holds_alternative<Box>(object.shape));
+           (geometry::stored_mesh(object.shape) != nullptr || std::holds_alternative<Box>(object.shape));
 }
 
 /// " of a closed surface, all around sensor "desk"".

@@ -24,11 +24,11 @@ std::vector<std::string> unit_warnings(const Scene& scene) {
     double area = 0;
     std::string name;
     for (const Object& object : scene.objects) {
-        const auto* mesh = std::get_if<Mesh>(&object.shape);
+        const Mesh* mesh = geometry::stored_mesh(object.shape);
         if (mesh == nullptr) continue;
         if (name.empty()) name = object.name;
-        for (const auto& [a, b, c] : mesh->triangles) {
-            const Vec3 &p = mesh->vertices[a], &q = mesh->vertices[b], &r = mesh->vertices[c];
+        for (std::size_t t = 0; t < mesh->triangles.size(); ++t) {
+            const auto [p, q, r] = geometry::corners_of(object.shape, t);
             bounds.include(p), bounds.include(q), bounds.include(r);
             const Vec3 doubled = cross(q - p, r - p);
             vector_area += doubled;

@@ -41,13 +41,20 @@ Trail trace_particles(const Scene& scene, const rays::RayCaster& caster) {
     return trail;
 }
 
-Location location_on(const Mesh& mesh, math::SampleStream& stream) {
-    const auto count = static_cast<double>(mesh.triangles.size());
-    const auto [i, j, k] = mesh.triangles[static_cast<std::size_t>(stream.next() * count)];
+/// On a mesh or an instance.
+template <typename Triangles>
+Location location_on(const Triangles& shape, std::size_t count, math::SampleStream& stream) {
+    const auto [a, b, c] =
+        shape.corners_of(static_cast<std::size_t>(stream.next() * static_cast<double>(count)));
     const auto [u1, u2] = stream.next_two();
     const math::Barycentric w = math::sample_triangle(u1, u2);
-    const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
     return {w.b0 * a + w.b1 * b + w.b2 * c, normalized(cross(b - a, c - a))};
+}
+Location location_on(const Mesh& mesh, math::SampleStream& stream) {
+    return location_on(mesh, mesh.triangles.size(), stream);
+}
+Location location_on(const Instance& instance, math::SampleStream& stream) {
+    return location_on(instance, instance.mesh->triangles.size(), stream);
 }
 Location location_on(const Rectangle& rectangle, math::SampleStream& stream) {
     return location_on(triangulated(rectangle), stream);

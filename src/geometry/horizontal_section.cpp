@@ -32,6 +32,7 @@ Mesh mesh_around(const std::function<Vec3(const Vec3&)>& surface) {
 
 struct Triangulation {
     Mesh operator()(const Mesh& mesh) const { return mesh; }
+    Mesh operator()(const Instance& instance) const { return triangulated(instance); }
     Mesh operator()(const Rectangle& rectangle) const { return triangulated(rectangle); }
     Mesh operator()(const Box& box) const { return triangulated(box); }
     Mesh operator()(const Sphere& sphere) const {

@@ -66,6 +66,9 @@ ConnectedComponents find_components(const Mesh& mesh) {
 ConnectedComponents find_components(const Shape& shape) {
     struct Finder {
         ConnectedComponents operator()(const Mesh& mesh) const { return find_components(mesh); }
+        ConnectedComponents operator()(const Instance& instance) const {
+            return find_components(*instance.mesh);
+        }
         ConnectedComponents operator()(const Rectangle& rectangle) const {
             return find_components(triangulated(rectangle));
         }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/shared_list.h"
 #include "geometry/shape.h"
 
 namespace stilb::geometry {
@@ -43,7 +44,7 @@ void for_each_edge(const std::vector<EdgeUse>& uses, const Visitor& visit) {
 /// as one vertex, because files often repeat them.
 struct ConnectedComponents {
     /// For each triangle (Hit::triangle), its component.
-    std::vector<std::uint32_t> of_triangle;
+    SharedList<std::uint32_t> of_triangle;
     /// For each component, the number of edges with an odd number of triangles. 0: the component is closed,
     /// every ray from inside of it meets it an odd number of times.
     std::vector<std::size_t> open_edges;

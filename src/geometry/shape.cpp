@@ -11,14 +11,19 @@
 namespace stilb::geometry {
 namespace {
 
-double area(const Mesh& mesh) {
+/// Of a mesh or an instance.
+template <typename Triangles>
+double area_of_triangles(const Triangles& shape, std::size_t count) {
     double sum = 0;
-    for (const Triangle& t : mesh.triangles) {
-        const Vec3& a = mesh.vertices[t[0]];
-        sum += length(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
+    for (std::size_t t = 0; t < count; ++t) {
+        const auto [a, b, c] = shape.corners_of(t);
+        sum += length(cross(b - a, c - a)) / 2;
     }
     return sum;
 }
+
+double area(const Mesh& mesh) { return area_of_triangles(mesh, mesh.triangles.size()); }
+double area(const Instance& instance) { return area_of_triangles(instance, instance.mesh->triangles.size()); }
 
 double area(const Rectangle& r) { return length(cross(r.edge_u, r.edge_v)); }
 
@@ -36,6 +41,11 @@ double area(const Harmonics& h) { return h.scale * h.scale * h.area->total(); }
 Bounds bounds(const Mesh& mesh) {
     Bounds all;
     for (const Vec3& vertex : mesh.vertices) all.include(vertex);
+    return all;
+}
+Bounds bounds(const Instance& instance) {
+    Bounds all;
+    for (const Vec3& vertex : instance.mesh->vertices) all.include(instance.to_world.point(vertex));
     return all;
 }
 Bounds bounds(const Rectangle& r) { return bounds(triangulated(r)); }
@@ -66,6 +76,27 @@ Bounds bounds(const Harmonics& h) {
 
 }  // namespace
 
+std::array<Vec3, 3> Instance::corners_of(std::size_t triangle) const {
+    const auto [a, b, c] = mesh->triangles[triangle];
+    const auto corner = [&](std::uint32_t vertex) { return to_world.point(mesh->vertices[vertex]); };
+    if (to_world.is_mirrored()) return {corner(a), corner(c), corner(b)};
+    return {corner(a), corner(b), corner(c)};
+}
+
+const Mesh* stored_mesh(const Shape& shape) {
+    if (const auto* instance = std::get_if<Instance>(&shape)) return instance->mesh.get();
+    return std::get_if<Mesh>(&shape);
+}
+
+std::array<Vec3, 3> corners_of(const Shape& shape, std::size_t triangle) {
+    if (const auto* instance = std::get_if<Instance>(&shape)) return instance->corners_of(triangle);
+    return std::get<Mesh>(shape).corners_of(triangle);
+}
+
+MeshInWorld::MeshInWorld(const Shape& shape) : own_(std::get_if<Mesh>(&shape)) {
+    if (const auto* instance = std::get_if<Instance>(&shape)) copy_ = triangulated(*instance);
+}
+
 Bounds bounds_of(const Shape& shape) {
     return std::visit([](const auto& s) { return bounds(s); }, shape);
 }
@@ -74,19 +105,36 @@ double area_m2(const Shape& shape) {
     return std::visit([](const auto& s) { return area(s); }, shape);
 }
 
-Vec3 shading_normal(const Mesh& mesh, std::uint32_t triangle, const Vec3& barycentric,
-                    const Vec3& geometric) {
+namespace {
+
+/// `moved` brings a vertex normal into the world.
+template <typename Moved>
+Vec3 interpolated_normal(const Mesh& mesh, std::uint32_t triangle, const Vec3& barycentric,
+                         const Vec3& geometric, const Moved& moved) {
     constexpr double kLeastCosine = 0.1;
     const Triangle& corners =
         mesh.corner_normals.empty() ? mesh.triangles[triangle] : mesh.corner_normals[triangle];
     Vec3 sum;
     for (std::size_t i = 0; i < 3; ++i) {
         if (corners[i] == kNoNormal) return geometric;
-        sum += barycentric[i] * mesh.normals[corners[i]];
+        sum += barycentric[i] * moved(mesh.normals[corners[i]]);
     }
     const double along = dot(sum, geometric), size = length(sum);
     if (!(std::abs(along) > kLeastCosine * size)) return geometric;
     return sum / std::copysign(size, along);
+}
+
+}  // namespace
+
+Vec3 shading_normal(const Mesh& mesh, std::uint32_t triangle, const Vec3& barycentric,
+                    const Vec3& geometric) {
+    return interpolated_normal(mesh, triangle, barycentric, geometric, [](const Vec3& n) { return n; });
+}
+
+Vec3 shading_normal(const Instance& instance, std::uint32_t triangle, const Vec3& barycentric,
+                    const Vec3& geometric) {
+    return interpolated_normal(*instance.mesh, triangle, barycentric, geometric,
+                               [&](const Vec3& n) { return instance.to_world.normal(n); });
 }
 
 Vec3 barycentric_of(const Mesh& mesh, std::uint32_t triangle, const Vec3& point) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "geometry/transform.h"
 
 namespace stilb {
 struct Bounds;
@@ -32,8 +33,22 @@ struct Mesh {
     /// Indices into `normals` of the corners of each triangle, or kNoNormal; empty where they are the indices
     /// of the vertices.
     std::vector<Triangle> corner_normals{};
+
+    std::array<Vec3, 3> corners_of(std::size_t triangle) const {
+        const auto [a, b, c] = triangles[triangle];
+        return {vertices[a], vertices[b], vertices[c]};
+    }
 };
 inline constexpr std::uint32_t kNoNormal = ~0u;
+
+/// A mesh that several objects share, each with a place of its own. It takes no memory beside the mesh.
+struct Instance {
+    std::shared_ptr<const Mesh> mesh;  ///< in its own coordinates; not null
+    Transform to_world;                ///< not singular; a mirrored one keeps the front of the mesh the front
+
+    /// In the world, in the order that triangulated() gives them.
+    std::array<Vec3, 3> corners_of(std::size_t triangle) const;
+};
 
 /// The parallelogram corner + s edge_u + t edge_v, 0 <= s, t <= 1; its front is edge_u x edge_v.
 struct Rectangle {
@@ -91,12 +106,15 @@ struct Harmonics {
 /// barycentric coordinates: unit, on the side of the unit vector `geometric`, the triangle's own normal. The
 /// latter is returned where there is no other, or one that deviates from it by more than 84 degrees.
 Vec3 shading_normal(const Mesh& mesh, std::uint32_t triangle, const Vec3& barycentric, const Vec3& geometric);
+/// The same in the world. `barycentric`: of the corners in the order of the shared mesh.
+Vec3 shading_normal(const Instance& instance, std::uint32_t triangle, const Vec3& barycentric,
+                    const Vec3& geometric);
 /// The barycentric coordinates of a point in the plane of a triangle.
 Vec3 barycentric_of(const Mesh& mesh, std::uint32_t triangle, const Vec3& point);
 /// Swaps the front and the back of a triangle.
 void turn_over(Mesh& mesh, std::uint32_t triangle);
 
-using Shape = std::variant<Mesh, Rectangle, Box, Sphere, Disk, Harmonics>;
+using Shape = std::variant<Mesh, Instance, Rectangle, Box, Sphere, Disk, Harmonics>;
 
 /// Whether rays meet the surface itself instead of triangles.
 inline bool is_exact(const Shape& shape) {
@@ -104,10 +122,37 @@ inline bool is_exact(const Shape& shape) {
            std::holds_alternative<Harmonics>(shape);
 }
 
+/// The mesh that a shape stores, for its triangles and their connections: of an instance the shared one, in
+/// its own coordinates. Null where it stores none.
+const Mesh* stored_mesh(const Shape& shape);
+
+/// The corners of a triangle of a shape that stores a mesh, in the world.
+std::array<Vec3, 3> corners_of(const Shape& shape, std::size_t triangle);
+
+/// The mesh of a shape in the world: its own, or a copy where it is an instance.
+class MeshInWorld {
+  public:
+    /// Keeps a reference to the shape.
+    explicit MeshInWorld(const Shape& shape);
+    /// False for shapes without a stored mesh.
+    explicit operator bool() const { return own_ != nullptr || copy_; }
+    const Mesh& operator*() const { return copy_ ? *copy_ : *own_; }
+    const Mesh* operator->() const { return &**this; }
+
+  private:
+    const Mesh* own_ = nullptr;
+    std::optional<Mesh> copy_;
+};
+
 /// The axis-parallel bounding box.
 Bounds bounds_of(const Shape& shape);
 /// The area of one side [m2].
 double area_m2(const Shape& shape);
+/// The transformed shape; fronts stay fronts under mirrored transforms. Boxes become meshes unless their axes
+/// stay axis-parallel. Precondition for spheres, disks and harmonics: the transform is a similarity.
+Shape transformed(const Shape& shape, const Transform& transform);
+/// A copy of the mesh in the world.
+Mesh triangulated(const Instance& instance);
 /// Two triangles with the rectangle's front.
 Mesh triangulated(const Rectangle& rectangle);
 /// Twelve triangles with the box's front.
@@ -124,6 +169,7 @@ using geometry::Box;
 using geometry::Disk;
 using geometry::HarmonicMethod;
 using geometry::Harmonics;
+using geometry::Instance;
 using geometry::kNoNormal;
 using geometry::Mesh;
 using geometry::Rectangle;

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "geometry/shape.h"
+
 namespace stilb::geometry {
 namespace {
 
@@ -20,15 +22,19 @@ Shape moved(const Mesh& mesh, const Transform& t) {
     Mesh result = mesh;
     for (Vec3& vertex : result.vertices) vertex = t.point(vertex);
     for (Vec3& normal : result.normals) normal = t.normal(normal);
-    if (t.determinant() < 0) {
+    if (t.is_mirrored()) {
         for (std::uint32_t i = 0; i < result.triangles.size(); ++i) turn_over(result, i);
     }
     return result;
 }
 
+Shape moved(const Instance& instance, const Transform& t) {
+    return Instance{instance.mesh, compose(t, instance.to_world)};
+}
+
 Shape moved(const Rectangle& r, const Transform& t) {
     Rectangle result{t.point(r.corner), t.direction(r.edge_u), t.direction(r.edge_v)};
-    if (t.determinant() < 0) std::swap(result.edge_u, result.edge_v);
+    if (t.is_mirrored()) std::swap(result.edge_u, result.edge_v);
     return result;
 }
 
@@ -78,6 +84,15 @@ Vec3 Transform::normal(const Vec3& n) const {
     return size > 0 ? moved / std::copysign(size, determinant()) : Vec3{};
 }
 
+Transform Transform::inverse() const {
+    // The rows of the inverse matrix are the cofactors of the columns over the determinant.
+    const double d = determinant();
+    const Vec3 x = cross(y_axis, z_axis) / d, y = cross(z_axis, x_axis) / d, z = cross(x_axis, y_axis) / d;
+    Transform inverse{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}, {}};
+    inverse.translation = -inverse.direction(translation);
+    return inverse;
+}
+
 double Transform::regularity() const {
     const double volume = length(x_axis) * length(y_axis) * length(z_axis);
     return volume > 0 ? std::abs(determinant()) / volume : 0;
@@ -97,6 +112,10 @@ Transform compose(const Transform& second, const Transform& first) {
 
 Shape transformed(const Shape& shape, const Transform& transform) {
     return std::visit([&](const auto& s) { return moved(s, transform); }, shape);
+}
+
+Mesh triangulated(const Instance& instance) {
+    return std::get<Mesh>(moved(*instance.mesh, instance.to_world));
 }
 
 }  // namespace stilb::geometry

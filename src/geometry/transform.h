@@ -1,7 +1,7 @@
-// Affine transforms of objects.
+// Affine transforms.
 #pragma once
 
-#include "geometry/shape.h"
+#include "base/vec.h"
 
 namespace stilb::geometry {
 
@@ -22,6 +22,9 @@ struct Transform {
     Vec3 point(const Vec3& p) const { return direction(p) + translation; }
     /// Volumes are multiplied by this; negative for mirrored transforms.
     double determinant() const { return dot(x_axis, cross(y_axis, z_axis)); }
+    bool is_mirrored() const { return determinant() < 0; }
+    /// Precondition: the determinant is not 0.
+    Transform inverse() const;
     /// |determinant| over the product of the axes' lengths, 0 to 1; 0 for a singular transform.
     double regularity() const;
     /// Whether angles and ratios of lengths are preserved.
@@ -30,9 +33,5 @@ struct Transform {
 
 /// First `first`, then `second`.
 Transform compose(const Transform& second, const Transform& first);
-
-/// The transformed shape; fronts stay fronts under mirrored transforms. Boxes become meshes unless their axes
-/// stay axis-parallel. Precondition for spheres, disks and harmonics: the transform is a similarity.
-Shape transformed(const Shape& shape, const Transform& transform);
 
 }  // namespace stilb::geometry

@@ -74,6 +74,9 @@ std::vector<EmitterElement> elements_of(const Mesh& mesh) {
     }
     return elements;
 }
+std::vector<EmitterElement> elements_of(const Instance& instance) {
+    return elements_of(triangulated(instance));
+}
 std::vector<EmitterElement> elements_of(const Box& box) { return elements_of(triangulated(box)); }
 template <typename Other>
 std::vector<EmitterElement> elements_of(const Other& shape) {

@@ -40,6 +40,9 @@ Division division_of(const Mesh& mesh, double longest_edge_m) {
     for (Triangle& t : division.coarse.triangles) t = {vertex_at[t[0]], vertex_at[t[1]], vertex_at[t[2]]};
     return division;
 }
+Division division_of(const Instance& instance, double longest_edge_m) {
+    return division_of(triangulated(instance), longest_edge_m);
+}
 Division division_of(const Rectangle& rectangle, double longest_edge_m) {
     return {triangulated(rectangle), longest_edge_m};
 }

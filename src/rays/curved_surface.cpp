@@ -149,6 +149,7 @@ struct Maker {
     const Vec3& origin;
 
     Made operator()(const Mesh&) const { return nullptr; }
+    Made operator()(const Instance&) const { return nullptr; }
     Made operator()(const Rectangle&) const { return nullptr; }
     Made operator()(const Box&) const { return nullptr; }
     Made operator()(const Sphere& sphere) const {

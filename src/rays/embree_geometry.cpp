@@ -94,10 +94,12 @@ void curved_occluded(const RTCOccludedFunctionNArguments* args) {
     }
 }
 
-RTCGeometry new_mesh(RTCDevice device, const Mesh& mesh, const Vec3& origin, EmbreeGeometry& kept) {
+/// Triangles larger than `largest_m` are cut.
+RTCGeometry new_mesh(RTCDevice device, const Mesh& mesh, const Vec3& origin, double largest_m,
+                     EmbreeGeometry& kept) {
     using Vertex = std::array<float, 3>;
     const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    geometry::CutTriangles parts = geometry::cut_large_triangles(mesh, origin, kLargeTriangle_m);
+    geometry::CutTriangles parts = geometry::cut_large_triangles(mesh, origin, largest_m);
     auto* vertices = static_cast<Vertex*>(rtcSetNewGeometryBuffer(
         handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vertex), parts.vertices.size()));
     for (std::size_t i = 0; i < parts.vertices.size(); ++i) {
@@ -131,11 +133,76 @@ RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origi
     kept.curved = curved_surface(shape, origin);
     if (kept.curved) return new_curved(device, kept);
     if (const auto* rectangle = std::get_if<Rectangle>(&shape))
-        return new_mesh(device, triangulated(*rectangle), origin, kept);
-    if (const auto* box = std::get_if<Box>(&shape)) return new_mesh(device, triangulated(*box), origin, kept);
+        return new_mesh(device, triangulated(*rectangle), origin, kLargeTriangle_m, kept);
+    if (const auto* box = std::get_if<Box>(&shape))
+        return new_mesh(device, triangulated(*box), origin, kLargeTriangle_m, kept);
     const Mesh& mesh = std::get<Mesh>(shape);
     if (!mesh.normals.empty()) kept.smooth = &mesh;
-    return new_mesh(device, mesh, origin, kept);
+    return new_mesh(device, mesh, origin, kLargeTriangle_m, kept);
+}
+
+std::array<Vec3, 3> EmbreeGeometry::corners_of(std::uint32_t primitive) const {
+    std::array<Vec3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& [x, y, z] = vertices[triangles[primitive][i]];
+        corners[i] = {x, y, z};
+        if (instance != nullptr) corners[i] = placement.point(corners[i]);
+    }
+    if (is_mirrored) std::swap(corners[1], corners[2]);
+    return corners;
+}
+
+RTCScene new_scene(RTCDevice device) {
+    const RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    return scene;
+}
+
+SharedMeshes::~SharedMeshes() {
+    for (const auto& [mesh, shared] : meshes_) rtcReleaseScene(shared.scene);
+}
+
+const SharedMeshes::SharedMesh& SharedMeshes::shared(RTCDevice device, const Mesh& mesh) {
+    const auto [found, is_new] = meshes_.try_emplace(&mesh);
+    SharedMesh& shared = found->second;
+    if (!is_new) return shared;
+    Bounds bounds;
+    for (const Vec3& vertex : mesh.vertices) bounds.include(vertex);
+    shared.middle = bounds.middle();
+    shared.scene = new_scene(device);
+    const RTCGeometry geometry =
+        new_mesh(device, mesh, shared.middle, std::numeric_limits<double>::infinity(), shared.geometry);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(shared.scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(shared.scene);
+    return shared;
+}
+
+RTCGeometry SharedMeshes::new_instance(RTCDevice device, const Instance& instance, const Vec3& origin,
+                                       EmbreeGeometry& kept) {
+    const SharedMesh& mesh = shared(device, *instance.mesh);
+    const geometry::Transform& to_world = instance.to_world;
+    std::array<float, 12> columns;
+    float* next = columns.data();
+    for (const Vec3& column :
+         {to_world.x_axis, to_world.y_axis, to_world.z_axis, to_world.point(mesh.middle) - origin}) {
+        for (const double value : {column.x, column.y, column.z}) *next++ = static_cast<float>(value);
+    }
+    const auto column = [&](std::size_t i) { return Vec3{columns[i], columns[i + 1], columns[i + 2]}; };
+    kept.vertices = mesh.geometry.vertices;
+    kept.triangles = mesh.geometry.triangles;
+    kept.vertex_count = mesh.geometry.vertex_count;
+    kept.triangle_count = mesh.geometry.triangle_count;
+    if (!instance.mesh->normals.empty()) kept.smooth = instance.mesh.get();
+    kept.instance = &instance;
+    kept.placement = {column(0), column(3), column(6), column(9)};  // as Embree has it
+    kept.is_mirrored = to_world.is_mirrored();
+    const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(handle, mesh.scene);
+    rtcSetGeometryTransform(handle, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+    return handle;
 }
 
 }  // namespace stilb::rays

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -57,16 +58,50 @@ struct EmbreeGeometry {
     std::vector<std::uint32_t> parents;  ///< of triangles that are parts of larger ones; empty where none is
     const Mesh* smooth = nullptr;        ///< owned by the scene, where it has vertex normals; or null
     std::unique_ptr<CurvedSurface> curved;
+    const Instance* instance = nullptr;  ///< owned by the scene; or null
+    /// Of instances: from the coordinates of the vertices to those relative to the scene's origin.
+    geometry::Transform placement;
+    bool is_mirrored = false;
 
     /// The shape's own triangle.
     std::uint32_t triangle_of(std::uint32_t primitive) const {
         return parents.empty() ? primitive : parents[primitive];
     }
+    /// Relative to the scene's origin, counterclockwise from the front.
+    std::array<Vec3, 3> corners_of(std::uint32_t primitive) const;
 };
 
 /// The shape relative to `origin`, not committed yet. `kept` is filled and must outlive the geometry and stay
 /// where it is. A curved surface's parts are the geometry's primitives.
 RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origin, EmbreeGeometry& kept);
+
+/// The meshes of instances, each of which Embree stores once.
+class SharedMeshes {
+  public:
+    SharedMeshes() = default;
+    ~SharedMeshes();
+    SharedMeshes(const SharedMeshes&) = delete;
+    SharedMeshes& operator=(const SharedMeshes&) = delete;
+
+    /// As new_geometry(); a hit on it has the instance's number in instID.
+    RTCGeometry new_instance(RTCDevice device, const Instance& instance, const Vec3& origin,
+                             EmbreeGeometry& kept);
+    bool empty() const { return meshes_.empty(); }
+
+  private:
+    /// A scene with one mesh, relative to its middle: single precision is best there.
+    struct SharedMesh {
+        Vec3 middle;
+        EmbreeGeometry geometry;
+        RTCScene scene = nullptr;
+    };
+    const SharedMesh& shared(RTCDevice device, const Mesh& mesh);
+
+    std::map<const Mesh*, SharedMesh> meshes_;
+};
+
+/// Watertight, and built for many rays.
+RTCScene new_scene(RTCDevice device);
 
 // Data of rays for Embree, for the files that include Embree.
 

@@ -150,18 +150,20 @@ void intersect_in_parts(RayHitPacket& packet, const LaneMask& lanes, const Inter
 
 /// The part of an object's data that surfaces() needs, close together.
 struct MetObject {
-    const std::array<float, 3>* vertices;  ///< null for curved surfaces
+    const std::array<float, 3>* vertices;  ///< null for curved surfaces and mirrored instances
     const Triangle* triangles;
-    const std::uint32_t* parents;  ///< null where no triangle is part of a larger one
-    const MaterialId* materials;   ///< one, or one for each triangle
+    const std::uint32_t* parents;          ///< null where no triangle is part of a larger one
+    const MaterialId* materials;           ///< one, or one for each triangle
+    const geometry::Transform* placement;  ///< of instances; else null
     bool has_one_material;
     bool is_smooth;
 
-    MetObject(const EmbreeGeometry& geometry, const std::vector<MaterialId>& materials_of_object)
-        : vertices(geometry.vertices),
+    MetObject(const EmbreeGeometry& geometry, const SharedList<MaterialId>& materials_of_object)
+        : vertices(geometry.is_mirrored ? nullptr : geometry.vertices),
           triangles(geometry.triangles),
           parents(geometry.parents.empty() ? nullptr : geometry.parents.data()),
           materials(materials_of_object.data()),
+          placement(geometry.instance == nullptr ? nullptr : &geometry.placement),
           has_one_material(materials_of_object.size() == 1),
           is_smooth(geometry.smooth != nullptr) {}
 
@@ -178,7 +180,8 @@ struct RayCaster::Implementation {
     bool has_panes = false;
     RTCDevice device = nullptr;
     RTCScene embree_scene = nullptr;
-    int packet_width = 4;                                     ///< widest that the processor takes natively
+    int packet_width = 4;  ///< widest that the processor takes natively
+    SharedMeshes shared_meshes;
     std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
     std::vector<MetObject> met_objects;
     std::optional<FewTriangles> few_triangles;  ///< all of the scene, if it has few and nothing curved
@@ -194,9 +197,7 @@ struct RayCaster::Implementation {
         rtcSetDeviceErrorFunction(device, throw_error, nullptr);
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) packet_width = 8;
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) packet_width = 16;
-        embree_scene = rtcNewScene(device);
-        rtcSetSceneFlags(embree_scene, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(embree_scene, RTC_BUILD_QUALITY_HIGH);
+        embree_scene = new_scene(device);
         for (const Object& object : scene.objects) add(object);
         rtcCommitScene(embree_scene);
         add_few_triangles();
@@ -212,7 +213,10 @@ struct RayCaster::Implementation {
 
     void add(const Object& object) {
         geometries.push_back(std::make_unique<EmbreeGeometry>());
-        const RTCGeometry embree_geometry = new_geometry(device, object.shape, center, *geometries.back());
+        const auto* instance = std::get_if<Instance>(&object.shape);
+        const RTCGeometry embree_geometry =
+            instance == nullptr ? new_geometry(device, object.shape, center, *geometries.back())
+                                : shared_meshes.new_instance(device, *instance, center, *geometries.back());
         rtcCommitGeometry(embree_geometry);
         rtcAttachGeometryByID(embree_scene, embree_geometry, static_cast<unsigned>(geometries.size() - 1));
         met_objects.emplace_back(*geometries.back(), object.materials);
@@ -222,7 +226,7 @@ struct RayCaster::Implementation {
     void add_few_triangles() {
         std::size_t count = 0;
         for (const auto& geometry : geometries) {
-            if (geometry->curved) return;
+            if (geometry->curved || geometry->instance != nullptr) return;
             count += geometry->triangle_count;
         }
         if (count > FewTriangles::kMost) return;
@@ -244,18 +248,17 @@ struct RayCaster::Implementation {
     Hit hit_of(const RTCRayHit& found) const {
         const auto& [ray, met] = found;
         const Vec3 origin{ray.org_x, ray.org_y, ray.org_z}, direction{ray.dir_x, ray.dir_y, ray.dir_z};
-        const double u = met.u, v = met.v;
-        const EmbreeGeometry& geometry = *geometries[met.geomID];
+        double u = met.u, v = met.v;
+        const std::uint32_t object = object_of(met.geomID, met.instID[0]);
+        const EmbreeGeometry& geometry = *geometries[object];
         Hit hit;
         double size = 0;
         bool at_edge = false;
         Vec3 inner_position;  // away from edges: the base of lifted points
         if (geometry.vertices != nullptr) {
-            const Triangle& t = geometry.triangles[met.primID];
-            std::array<Vec3, 3> p;
-            for (std::size_t i = 0; i < 3; ++i) {
-                const auto& [x, y, z] = geometry.vertices[t[i]];
-                p[i] = {x, y, z};
+            const std::array<Vec3, 3> p = geometry.corners_of(met.primID);
+            if (geometry.is_mirrored) std::swap(u, v);
+            for (std::size_t i = 1; i < 3; ++i) {
                 size = std::max(
                     {size, std::abs(p[i].x - p[0].x), std::abs(p[i].y - p[0].y), std::abs(p[i].z - p[0].z)});
             }
@@ -296,22 +299,37 @@ struct RayCaster::Implementation {
             }
         }
         hit.triangle = geometry.curved ? 0 : geometry.triangle_of(met.primID);
-        hit.material = material_of(met.geomID, hit.triangle);
+        hit.material = material_of(object, hit.triangle);
         hit.lifted += center;
         hit.position += center;
-        hit.shading_normal = shading_normal_of(hit, geometry, {1 - u - v, u, v});
+        hit.shading_normal = shading_normal_of(hit, geometry, {1.0 - met.u - met.v, met.u, met.v});
         hit.distance_m = ray.tfar;
-        hit.object = ObjectId{met.geomID};
+        hit.object = ObjectId{object};
         return hit;
     }
 
     /// `barycentric`: in the triangle that Embree has met.
     static Vec3 shading_normal_of(const Hit& hit, const EmbreeGeometry& geometry, const Vec3& barycentric) {
         if (geometry.smooth == nullptr) return hit.normal;
+        if (geometry.instance != nullptr)
+            return shading_normal(*geometry.instance, hit.triangle, barycentric, hit.normal);
         const Vec3 in_parent = geometry.parents.empty()
                                    ? barycentric
                                    : geometry::barycentric_of(*geometry.smooth, hit.triangle, hit.position);
         return shading_normal(*geometry.smooth, hit.triangle, in_parent, hit.normal);
+    }
+
+    /// A geometry of the scene itself is an object; within an instance, the instance is.
+    std::uint32_t object_of(std::uint32_t geometry, std::uint32_t instance) const {
+        return shared_meshes.empty() || instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance;
+    }
+
+    void find_objects(RayHitPacket& packet) const {
+        if (shared_meshes.empty()) return;
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            if (packet.object[i] != kNothing)
+                packet.object[i] = object_of(packet.object[i], packet.instance[i]);
+        }
     }
 
     MaterialId material_of(std::uint32_t object, std::uint32_t triangle) const {
@@ -417,6 +435,7 @@ void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence c
                 rtcIntersect4(valid, embree_scene, &context, part);
             });
     }
+    implementation_->find_objects(packet);
 }
 
 Hit RayCaster::hit(const RayHitPacket& packet, std::size_t lane) const {
@@ -439,7 +458,11 @@ void RayCaster::surfaces(const RayHitPacket& hits, SurfacePacket& surfaces) cons
         for (std::size_t c = 0; c < 3; ++c) {
             const auto& [x, y, z] = met.vertices[triangle[c]];
             LaneVectors& corner = corners.corner[c];
-            corner.x[i] = x, corner.y[i] = y, corner.z[i] = z;
+            if (met.placement == nullptr) {
+                corner.x[i] = x, corner.y[i] = y, corner.z[i] = z;
+            } else {
+                corner.set(i, met.placement->point({x, y, z}));
+            }
         }
         surfaces.material[i] = index_of(met.material_of(hits.primitive[i]));
         surfaces.is_smooth[i] = met.is_smooth ? -1 : 0;
@@ -453,7 +476,7 @@ void RayCaster::surfaces(const RayHitPacket& hits, SurfacePacket& surfaces) cons
 
 std::optional<TracedMesh> RayCaster::traced_mesh(ObjectId object) const {
     const EmbreeGeometry& geometry = *implementation_->geometries[index_of(object)];
-    if (geometry.curved) return std::nullopt;
+    if (geometry.curved || geometry.instance != nullptr) return std::nullopt;
     return TracedMesh{{geometry.vertices, geometry.vertex_count},
                       {geometry.triangles, geometry.triangle_count},
                       geometry.parents};

@@ -115,7 +115,7 @@ class RayCaster {
     /// For lanes that are set: `end` becomes negative where a surface is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;
 
-    /// The triangles of an object; nothing for curved surfaces.
+    /// The triangles of an object; nothing for curved surfaces and instances.
     std::optional<TracedMesh> traced_mesh(ObjectId object) const;
 
     /// The origin of packet coordinates: where single precision is best (scene::lift_of).

@@ -132,20 +132,37 @@ ShaftQuery::ShaftQuery(const Scene& scene, const Vec3& center) : center_(center)
 
 void ShaftQuery::add(const Object& object, std::uint32_t number) {
     if (const auto* mesh = std::get_if<Mesh>(&object.shape)) return add_triangles(*mesh, number);
+    if (const auto* instance = std::get_if<Instance>(&object.shape)) return add_boxes(*instance, number);
     if (const auto* rectangle = std::get_if<Rectangle>(&object.shape))
         return add_triangles(triangulated(*rectangle), number);
     if (const auto* box = std::get_if<stilb::Box>(&object.shape))
         return add_triangles(triangulated(*box), number);
     const auto surface = curved_surface(object.shape, center_);
+    for (std::size_t part = 0; part < surface->part_count(); ++part)
+        add_box(surface->bounds_of(part), number);
+}
+
+void ShaftQuery::add_box(const Bounds& bounds, std::uint32_t object) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    for (std::size_t part = 0; part < surface->part_count(); ++part) {
-        const Bounds bounds = surface->bounds_of(part);
-        Point least = to_point(bounds.min), greatest = to_point(bounds.max);
-        for (std::size_t i = 0; i < 3; ++i) {
-            least[i] = std::nextafter(least[i], -infinity);
-            greatest[i] = std::nextafter(greatest[i], infinity);
+    Point least = to_point(bounds.min), greatest = to_point(bounds.max);
+    for (std::size_t i = 0; i < 3; ++i) {
+        least[i] = std::nextafter(least[i], -infinity);
+        greatest[i] = std::nextafter(greatest[i], infinity);
+    }
+    items_.push_back({{least, greatest, greatest}, object, false});
+}
+
+/// Boxes around several triangles each, which mostly are neighbours: they take less memory than the
+/// triangles.
+void ShaftQuery::add_boxes(const Instance& instance, std::uint32_t object) {
+    constexpr std::size_t at_once = 32;
+    const std::size_t count = instance.mesh->triangles.size();
+    for (std::size_t first = 0; first < count; first += at_once) {
+        Bounds bounds;
+        for (std::size_t t = first; t < std::min(first + at_once, count); ++t) {
+            for (const Vec3& corner : instance.corners_of(t)) bounds.include(corner - center_);
         }
-        items_.push_back({{least, greatest, greatest}, number, false});
+        add_box(bounds, object);
     }
 }
 

@@ -3,8 +3,8 @@
 //
 // The shaft between two groups is the convex hull of both, bounded by the planes of [Haines, Wallace 1991]
 // for the groups' boxes. A triangle is outside of it where all of it is beyond one of these planes, or all of
-// the hull on one side of the triangle's own plane. Curved surfaces count as their parts' boxes. Thin
-// surfaces are never missed, because nothing is sampled.
+// the hull on one side of the triangle's own plane. Curved surfaces and instances count as their parts'
+// boxes. Thin surfaces are never missed, because nothing is sampled.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class ShaftQuery {
     struct Box {
         Point min, max;
     };
-    /// A triangle or, with its box alone, a part of a curved surface.
+    /// A triangle or, with its box alone, a part of a curved surface or of an instance.
     struct Item {
         std::array<Point, 3> corners;  ///< of a curved part: the least and the greatest point
         std::uint32_t object = 0;
@@ -48,6 +48,8 @@ class ShaftQuery {
     class Shaft;
 
     void add(const Object& object, std::uint32_t number);
+    void add_box(const Bounds& bounds, std::uint32_t object);
+    void add_boxes(const Instance& instance, std::uint32_t object);
     void add_triangles(const Mesh& mesh, std::uint32_t object);
     void sort();
     Box divide(std::uint32_t node, std::uint32_t first, std::uint32_t end);

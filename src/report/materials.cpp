@@ -52,12 +52,10 @@ double area_of(const Scene& scene, std::uint32_t material) {
             if (index_of(object.materials.front()) == material) area += area_m2(object.shape);
             continue;
         }
-        const auto& mesh = std::get<Mesh>(object.shape);
         for (std::size_t t = 0; t < object.materials.size(); ++t) {
             if (index_of(object.materials[t]) != material) continue;
-            const auto [a, b, c] = mesh.triangles[t];
-            area +=
-                length(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a])) / 2;
+            const auto [a, b, c] = geometry::corners_of(object.shape, t);
+            area += length(cross(b - a, c - a)) / 2;
         }
     }
     return area;

@@ -8,11 +8,12 @@ namespace stilb::scene {
 namespace {
 
 Object part_of(const Object& object, std::span<const std::uint32_t> triangles) {
-    Object part{object.name, geometry::part_of(std::get<Mesh>(object.shape), triangles), {}};
-    if (object.materials.size() == 1) {
-        part.materials = object.materials;
-    } else {
-        for (const std::uint32_t t : triangles) part.materials.push_back(object.materials[t]);
+    Object part{object.name, geometry::part_of(*geometry::MeshInWorld(object.shape), triangles),
+                object.materials};
+    if (object.materials.size() > 1) {
+        std::vector<MaterialId> materials;
+        for (const std::uint32_t t : triangles) materials.push_back(object.materials[t]);
+        part.materials = std::move(materials);
     }
     return part;
 }
@@ -30,7 +31,7 @@ ObjectId cut_out(Scene& scene, ObjectId object, std::span<const std::uint32_t> t
     Object lamp = part_of(whole, triangles);
     lamp.name = std::move(name);
     lamp.cut_from = object;
-    whole = part_of(whole, geometry::others(std::get<Mesh>(whole.shape).triangles.size(), triangles));
+    whole = part_of(whole, geometry::others(geometry::stored_mesh(whole.shape)->triangles.size(), triangles));
     scene.objects.push_back(std::move(lamp));
     return ObjectId{static_cast<std::uint32_t>(scene.objects.size() - 1)};
 }

@@ -12,6 +12,7 @@
 #include "base/rays.h"
 #include "base/vec.h"
 #include "geometry/mesh_topology.h"
+#include "scene/instances.h"
 
 namespace stilb::scene {
 namespace {
@@ -38,6 +39,7 @@ double offset_m(const Scene& scene) {
 
 /// The triangles of flat shapes; of a disk those of a polygon. Curved shapes have none.
 Mesh mesh_of(const Shape& shape) {
+    if (const auto* instance = std::get_if<Instance>(&shape)) return triangulated(*instance);
     if (const auto* rectangle = std::get_if<Rectangle>(&shape)) return triangulated(*rectangle);
     if (const auto* box = std::get_if<Box>(&shape)) return triangulated(*box);
     const auto* disk = std::get_if<Disk>(&shape);
@@ -178,6 +180,7 @@ class OverlapSearch {
     };
 
     void add(const Object& object, std::uint32_t index, bool is_lamp) {
+        if (!meet(geometry::bounds_of(object.shape), wanted_)) return;
         const auto* mesh = std::get_if<Mesh>(&object.shape);
         Shapes& shape = shapes_[index];
         if (mesh == nullptr) shape.own = mesh_of(object.shape);
@@ -354,6 +357,7 @@ struct Mover {
         for (std::size_t v = 0; v < displacements.size(); ++v)
             mesh.vertices[v] += displacements[vertex_at[v]];
     }
+    void operator()(const Instance&) const {}  // lamps have meshes of their own
     void operator()(const Sphere&) const {}
     void operator()(const Harmonics&) const {}
 
@@ -375,6 +379,7 @@ std::vector<Overlap> find_overlaps(const Scene& scene, OverlapsOf of, std::size_
 }
 
 void put_lamps_in_front(Scene& scene) {
+    for (const ObjectId lamp : lamps_of(scene)) make_own_mesh(scene.objects[index_of(lamp)]);
     constexpr std::size_t most = 10'000'000;
     const double wanted_m = kLampGap * offset_m(scene);
     std::map<ObjectId, std::vector<Push>> pushes;

@@ -10,6 +10,7 @@
 
 #include "base/ids.h"
 #include "base/rays.h"
+#include "base/shared_list.h"
 #include "base/vec.h"
 #include "geometry/shape.h"
 #include "lights/light.h"
@@ -26,8 +27,8 @@ struct NamedMaterial {
 struct Object {
     std::string name;
     Shape shape;
-    /// One material for the whole object, or (meshes) one for each triangle.
-    std::vector<MaterialId> materials;
+    /// One material for the whole object, or (meshes and instances) one for each triangle.
+    SharedList<MaterialId> materials;
     /// The object that a lamp's faces were cut out of (cut_lamps.h).
     std::optional<ObjectId> cut_from = {};
 };

@@ -33,7 +33,7 @@ double signed_volume(const Mesh& mesh) {
 /// Whether the inside of a closed shape is its front; nothing for other shapes.
 std::optional<bool> inside_is_front(const Shape& shape) {
     if (std::holds_alternative<Rectangle>(shape) || std::holds_alternative<Disk>(shape)) return std::nullopt;
-    const auto* mesh = std::get_if<Mesh>(&shape);
+    const Mesh* mesh = geometry::stored_mesh(shape);
     if (mesh == nullptr) return false;
     const geometry::ConnectedComponents components = geometry::find_components(*mesh);
     if (components.total_open_edges() > 0 || components.turned_edges > 0) return std::nullopt;

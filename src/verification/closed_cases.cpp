@@ -111,9 +111,9 @@ VerificationCase furnace(const std::string& variant, double reflectance,
     for (std::size_t m = 1; m < wall_materials.size(); ++m) {
         ids.push_back(add_material(result.scene, wall_materials[m]));
     }
-    auto& of_triangles = result.scene.objects.front().materials;
-    of_triangles.clear();
+    std::vector<MaterialId> of_triangles;
     for (std::size_t t = 0; t < room.triangles.size(); ++t) of_triangles.push_back(ids[t / 2 % ids.size()]);
+    result.scene.objects.front().materials = std::move(of_triangles);
     add_area_light(result.scene, walls, kEmitted);
     return result;
 }
@@ -170,9 +170,11 @@ std::vector<VerificationCase> open_furnaces() {
         furnace("open to an environment, luminance", reflectance, {diffuse(reflectance)})};
     for (VerificationCase& c : cases) {
         auto& mesh = std::get<Mesh>(c.scene.objects.front().shape);
-        auto& materials = c.scene.objects.front().materials;
+        SharedList<MaterialId>& materials = c.scene.objects.front().materials;
         mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 6);
-        materials.erase(materials.begin() + 2, materials.begin() + 6);
+        std::vector<MaterialId> left(materials.begin(), materials.end());
+        left.erase(left.begin() + 2, left.begin() + 6);
+        materials = std::move(left);
         add_environment(c.scene, exact::furnace_luminance_cd_m2(kEmitted, reflectance));
     }
     add_illuminances(cases[0], reflectance);

@@ -90,8 +90,8 @@ TEST(Overlaps, PlanesThatDifferByRoundingOverlap) {
 
 /// A floor of n x n squares, of two materials in turns.
 Object chequered(std::uint32_t n, double z) {
-    Object floor{"floor", Mesh{}, {}};
-    Mesh& mesh = std::get<Mesh>(floor.shape);
+    Mesh mesh;
+    std::vector<MaterialId> materials;
     for (std::uint32_t i = 0; i <= n; ++i) {
         for (std::uint32_t j = 0; j <= n; ++j) mesh.vertices.push_back({3.0 * i / n, 3.0 * j / n, z});
     }
@@ -99,10 +99,10 @@ Object chequered(std::uint32_t n, double z) {
         for (std::uint32_t j = 0; j < n; ++j) {
             const std::uint32_t a = i * (n + 1) + j, b = a + n + 1;
             mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
-            floor.materials.insert(floor.materials.end(), 2, (i + j) % 2 == 0 ? kWall : kWood);
+            materials.insert(materials.end(), 2, (i + j) % 2 == 0 ? kWall : kWood);
         }
     }
-    return floor;
+    return {"floor", mesh, materials};
 }
 
 TEST(Overlaps, EachPairOfManyTrianglesIsFoundOnce) {

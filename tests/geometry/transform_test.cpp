@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "geometry/shape.h"
+
 namespace stilb::geometry {
 namespace {
 

@@ -183,7 +183,7 @@ class SceneMeshes : public testing::Test {
     static std::string mesh(const std::string& keys) {
         return object("shape = \"mesh\"\nfile = \"room.obj\"\n" + keys);
     }
-    std::vector<MaterialId> materials(const std::string& keys) const {
+    SharedList<MaterialId> materials(const std::string& keys) const {
         return read_text(mesh(keys), directory_).scene.objects.at(0).materials;
     }
 

@@ -36,6 +36,10 @@ void meet(const Mesh& mesh, const Vec3& origin, const Vec3& direction, std::size
         }
     }
 }
+void meet(const Instance& instance, const Vec3& origin, const Vec3& direction, std::size_t object,
+          ExactHit& hit) {
+    meet(triangulated(instance), origin, direction, object, hit);
+}
 void meet(const Box& box, const Vec3& origin, const Vec3& direction, std::size_t object, ExactHit& hit) {
     meet(triangulated(box), origin, direction, object, hit);
 }
@@ -109,6 +113,11 @@ class Clutter : public testing::Test {
         const geometry::Transform turned = geometry::Transform::rotation(normalized(Vec3{1, 2, 3}), 130);
         const geometry::Transform mirrored{{0, 0.4, 0}, {0.4, 0, 0}, {0, 0, 0.4}, place({1.2, 2.7, 3.1})};
         add_object(scene_, transformed(Harmonics(rough_surface(9, 3)), compose(mirrored, turned)), Black{});
+        const auto shared = std::make_shared<const Mesh>(triangulated(Box{{-1, -1, -1}, {1, 0.5, 0.2}}));
+        add_object(scene_, Instance{shared, mirrored}, Black{});
+        geometry::Transform placed = turned;
+        placed.translation = place({3.1, 1.1, 2.2});
+        add_object(scene_, Instance{shared, placed}, Black{});
     }
     static Vec3 place(const Vec3& p) { return p + Vec3{100, -200, 50}; }
 

@@ -22,8 +22,9 @@ TEST(SurfacePacket, HasTheHitsOfSingleRays) {
         scene,
         Mesh{{{2, 1, 0.7}, {3, 1, 0.7}, {2.5, 2, 0.7}, {2.5, 1.3, 2}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}},
         diffuse(0.5));
-    scene.objects[index_of(tent)].materials.push_back(add_material(scene, diffuse(0.2)));
-    scene.objects[index_of(tent)].materials.push_back(add_material(scene, diffuse(0.3)));
+    scene.objects[index_of(tent)].materials = {add_material(scene, diffuse(0.5)),
+                                               add_material(scene, diffuse(0.2)),
+                                               add_material(scene, diffuse(0.3))};
     const RayCaster caster(scene);
     RandomPairs random(3);
     int hits = 0, misses = 0;

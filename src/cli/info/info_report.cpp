@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <set>
+
 #include "base/vec.h"
 #include "checks/checks.h"
 #include "cli/info/ugr_report.h"
@@ -58,6 +60,7 @@ Json material_json(const NamedMaterial& named) {
 
 struct ShapeReport {
     Json operator()(const Mesh& mesh) const { return of_triangles("mesh", mesh); }
+    Json operator()(const Instance& instance) const { return of_triangles("mesh", *instance.mesh); }
     Json operator()(const Rectangle& rectangle) const {
         return of_triangles("rectangle", triangulated(rectangle));
     }
@@ -177,9 +180,12 @@ Json run_json(const RunOptions& run) {
 
 std::size_t mesh_bytes(const Scene& scene) {
     std::size_t bytes = 0;
+    std::set<const void*> counted;  // what several objects share counts once
     for (const Object& object : scene.objects) {
-        bytes += object.materials.size() * sizeof(MaterialId);
-        if (const auto* mesh = std::get_if<Mesh>(&object.shape))
+        if (counted.insert(object.materials.data()).second)
+            bytes += object.materials.size() * sizeof(MaterialId);
+        const Mesh* mesh = geometry::stored_mesh(object.shape);
+        if (mesh != nullptr && counted.insert(mesh).second)
             bytes += (mesh->vertices.size() + mesh->normals.size()) * sizeof(Vec3) +
                      (mesh->triangles.size() + mesh->corner_normals.size()) * sizeof(Triangle);
     }

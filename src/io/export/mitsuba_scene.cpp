@@ -38,6 +38,7 @@ struct MitsubaShape {
     Output& output;
 
     std::string operator()(const Mesh& mesh) const { return mesh_shape(name, mesh, output); }
+    std::string operator()(const Instance& instance) const { return (*this)(triangulated(instance)); }
     std::string operator()(const Rectangle& r) const {
         if (!has_right_angle(r)) return mesh_shape(name, triangulated(r), output);
         return flat_shape("rectangle", name, r.edge_u / 2, r.edge_v / 2,

@@ -46,6 +46,7 @@ struct RadianceShape {
             modifier, "ring", name, {},
             {d.center.x, d.center.y, d.center.z, d.normal.x, d.normal.y, d.normal.z, 0, d.radius});
     }
+    std::string operator()(const Instance& instance) const { return (*this)(triangulated(instance)); }
     std::string operator()(const Box& box) const { return (*this)(triangulated(box)); }
     std::string operator()(const Harmonics&) const { return ""; }
 };

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <set>
+#include <span>
 
 #include "geometry/harmonics/surface.h"
 #include "geometry/mesh_part.h"
@@ -51,7 +52,7 @@ Mesh mesh_of(const Harmonics& body) {
 }
 
 /// The triangles of one material.
-Mesh part_of(const Mesh& mesh, const std::vector<MaterialId>& materials, MaterialId material) {
+Mesh part_of(const Mesh& mesh, std::span<const MaterialId> materials, MaterialId material) {
     std::vector<std::uint32_t> triangles;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (materials[t] == material) triangles.push_back(t);
@@ -66,7 +67,8 @@ class Division {
         : surfaces_(surfaces), identifiers_(identifiers), output_(output) {}
 
     void add(const Scene& scene, const Object& object, const std::optional<Rgb>& luminance) {
-        if (const auto* mesh = std::get_if<Mesh>(&object.shape); mesh && object.materials.size() > 1) {
+        if (object.materials.size() > 1) {
+            const geometry::MeshInWorld mesh(object.shape);
             for (const MaterialId material :
                  std::set<MaterialId>(object.materials.begin(), object.materials.end())) {
                 const std::string name = object.name + "_" + scene.materials[index_of(material)].name;
@@ -87,6 +89,7 @@ class Division {
     static const Shape& plain(const Shape& shape) {
         return shape;
     }
+    static Mesh plain(const Instance& instance) { return triangulated(instance); }
     static Mesh plain(const Box& box) { return triangulated(box); }
     static Mesh plain(const Harmonics& body) { return mesh_of(body); }
 

@@ -10,6 +10,7 @@
 #include "geometry/mesh_part.h"
 #include "geometry/mesh_topology.h"
 #include "scene/cut_lamps.h"
+#include "scene/instances.h"
 #include "scene/overlaps.h"
 #include "stilb/error.h"
 
@@ -139,13 +140,34 @@ MaterialId ImportedScene::add_material(std::string_view name, Material material)
     return MaterialId{static_cast<std::uint32_t>(file.scene.materials.size() - 1)};
 }
 
-void ImportedScene::add_object(std::string_view name, ImportedMesh imported) {
+namespace {
+
+ImportedMesh simplified(ImportedMesh imported) {
     drop_flat_normals(imported.mesh);
     auto& materials = imported.materials;
     const bool is_one = std::ranges::all_of(materials, [&](MaterialId m) { return m == materials.front(); });
     if (is_one) materials.resize(1);
+    return imported;
+}
+
+}  // namespace
+
+SharedMesh::SharedMesh(ImportedMesh imported) {
+    imported = simplified(std::move(imported));
+    mesh = std::make_shared<const Mesh>(std::move(imported.mesh));
+    materials = std::move(imported.materials);
+}
+
+void ImportedScene::add_object(std::string_view name, ImportedMesh imported) {
+    imported = simplified(std::move(imported));
     file.scene.objects.push_back(
-        {objects_.make(name, "object"), std::move(imported.mesh), std::move(materials)});
+        {objects_.make(name, "object"), std::move(imported.mesh), std::move(imported.materials)});
+}
+
+void ImportedScene::add_instance(std::string_view name, const SharedMesh& shared,
+                                 const geometry::Transform& to_world) {
+    file.scene.objects.push_back(
+        {objects_.make(name, "object"), Instance{shared.mesh, to_world}, shared.materials});
 }
 
 void ImportedScene::add_light(std::string_view name, lights::LightSource source) {
@@ -159,6 +181,7 @@ void ImportedScene::add_sensor(std::string_view name, sensors::SensorKind kind) 
 void ImportedScene::light_triangles(ObjectId object, MaterialId material,
                                     std::vector<std::uint32_t> triangles, const Emission& emission) {
     Scene& scene = file.scene;
+    scene::make_own_mesh(scene.objects[index_of(object)]);
     auto& mesh = std::get<Mesh>(scene.objects[index_of(object)].shape);
     std::optional<Object> back;
     if (emission.both_sides) {
@@ -189,7 +212,7 @@ void ImportedScene::light_faces(ObjectId id) {
         if (object.materials.size() > 1) {
             triangles = triangles_of(object, material);
         } else if (object.materials.front() == material) {
-            const auto* const mesh = std::get_if<Mesh>(&object.shape);
+            const Mesh* const mesh = geometry::stored_mesh(object.shape);
             if (mesh == nullptr) continue;
             triangles.resize(mesh->triangles.size());
             for (std::uint32_t t = 0; t < triangles.size(); ++t) triangles[t] = t;

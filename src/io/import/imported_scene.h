@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -38,6 +39,14 @@ struct ImportedMesh {
     std::vector<MaterialId> materials;
 };
 
+/// A mesh of several objects.
+struct SharedMesh {
+    std::shared_ptr<const Mesh> mesh;
+    SharedList<MaterialId> materials;
+
+    explicit SharedMesh(ImportedMesh imported);
+};
+
 class ImportedScene {
   public:
     explicit ImportedScene(const std::filesystem::path& path);
@@ -51,6 +60,7 @@ class ImportedScene {
     /// Makes all faces of a material shine.
     void set_emission(MaterialId material, const Emission& emission) { emissions_[material] = emission; }
     void add_object(std::string_view name, ImportedMesh imported);
+    void add_instance(std::string_view name, const SharedMesh& shared, const geometry::Transform& to_world);
     void add_light(std::string_view name, lights::LightSource source);
     void add_sensor(std::string_view name, sensors::SensorKind kind);
 

@@ -79,10 +79,11 @@ NamedParts named_parts(const Scene& scene, ObjectId id) {
     NamedParts parts;
     const auto add = [&](ObjectId part, const std::string& fixed_name) {
         const Object& object = scene.object(part);
-        append_mesh(parts.mesh, std::get<Mesh>(object.shape));
+        const Mesh& mesh = *geometry::stored_mesh(object.shape);
+        append_mesh(parts.mesh, mesh);
         while (parts.part_of_triangle.size() < parts.mesh.triangles.size()) {
-            const std::size_t t = std::get<Mesh>(object.shape).triangles.size() -
-                                  (parts.mesh.triangles.size() - parts.part_of_triangle.size());
+            const std::size_t t =
+                mesh.triangles.size() - (parts.mesh.triangles.size() - parts.part_of_triangle.size());
             const std::string& material =
                 material_name(scene, object.materials[object.materials.size() == 1 ? 0 : t]);
             parts.part_of_triangle.push_back(
@@ -94,10 +95,13 @@ NamedParts named_parts(const Scene& scene, ObjectId id) {
     return parts;
 }
 
+/// The tables of meshes that were written for an instance, by mesh and materials.
+using SharedTables = std::map<std::pair<const Mesh*, const MaterialId*>, TomlMembers>;
+
 class ObjectTable {
   public:
-    ObjectTable(const Scene& scene, ObjectId id, SceneOutput& output)
-        : scene_(scene), id_(id), object_(scene.object(id)), output_(output) {}
+    ObjectTable(const Scene& scene, ObjectId id, SceneOutput& output, SharedTables& shared)
+        : scene_(scene), id_(id), object_(scene.object(id)), output_(output), shared_(shared) {}
 
     TomlMembers operator()(const Mesh& mesh) const {
         const bool is_plain =
@@ -112,6 +116,19 @@ class ObjectTable {
         return {{"shape", 0, toml_text("mesh")},
                 {"file", 0, toml_text(file)},
                 {"materials", 0, {std::move(parts.materials)}}};
+    }
+    /// Instances with the same materials have the same file.
+    TomlMembers operator()(const Instance& instance) const {
+        const auto [known, is_new] = shared_.try_emplace({instance.mesh.get(), object_.materials.data()});
+        if (is_new) known->second = (*this)(*instance.mesh);
+        TomlMembers members = known->second;
+        const auto& [x, y, z, t] = instance.to_world;
+        TomlArray rows;
+        for (const double entry :
+             {x.x, y.x, z.x, t.x, x.y, y.y, z.y, t.y, x.z, y.z, z.z, t.z, 0., 0., 0., 1.})
+            rows.push_back(toml_number(entry));
+        members.push_back({"transform", 0, {std::move(rows)}});
+        return members;
     }
     TomlMembers operator()(const Rectangle& r) const {
         return with_material({{"shape", 0, toml_text("rectangle")},
@@ -150,6 +167,7 @@ class ObjectTable {
     ObjectId id_;
     const Object& object_;
     SceneOutput& output_;
+    SharedTables& shared_;
 };
 
 /// The openings of luminaires come with their lights.
@@ -189,11 +207,13 @@ TomlMembers material_tables(const Scene& scene) {
 
 TomlMembers object_tables(const Scene& scene, SceneOutput& output) {
     TomlMembers tables;
+    SharedTables shared;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const ObjectId id{i};
         if (!is_written(scene, id)) continue;
+        const Object& object = scene.object(id);
         tables.push_back(
-            {scene.objects[i].name, 0, {std::visit(ObjectTable(scene, id, output), scene.objects[i].shape)}});
+            {object.name, 0, {std::visit(ObjectTable(scene, id, output, shared), object.shape)}});
     }
     return tables;
 }

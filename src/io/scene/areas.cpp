@@ -77,7 +77,7 @@ namespace {
 
 /// The triangles of an object with plane faces.
 Mesh plane_mesh_of(const TomlItem& item, const Object& object) {
-    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) return *mesh;
+    if (const geometry::MeshInWorld mesh(object.shape); mesh) return *mesh;
     if (const auto* box = std::get_if<Box>(&object.shape)) return triangulated(*box);
     if (const auto* rectangle = std::get_if<Rectangle>(&object.shape)) return triangulated(*rectangle);
     item.fail(fmt::format("object {} has no plane faces. Allowed: meshes, polygons, boxes and rectangles.",

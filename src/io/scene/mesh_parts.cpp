@@ -27,7 +27,7 @@ Triangles triangles_where(std::size_t count, const IsWanted& is_wanted) {
 
 /// The triangles of a part of the file; nothing where it has no part of this name.
 std::optional<Triangles> triangles_of_part(std::string_view part, const std::vector<std::string>& names,
-                                           const std::vector<std::uint32_t>& of_triangle) {
+                                           const SharedList<std::uint32_t>& of_triangle) {
     const auto found = std::ranges::find(names, part);
     if (found == names.end()) return std::nullopt;
     const auto index = static_cast<std::uint32_t>(found - names.begin());
@@ -38,7 +38,7 @@ std::optional<Triangles> triangles_of_part(std::string_view part, const std::vec
 std::optional<Triangles> triangles_of_material(std::string_view name, const Object& object,
                                                const Scene& scene) {
     const auto& materials = object.materials;
-    const auto count = std::get<Mesh>(object.shape).triangles.size();
+    const auto count = geometry::stored_mesh(object.shape)->triangles.size();
     Triangles triangles = triangles_where(count, [&](std::uint32_t t) {
         return scene.materials[index_of(materials[materials.size() == 1 ? 0 : t])].name == name;
     });
@@ -85,7 +85,7 @@ Triangles picked_triangles(const TomlTable::NamedItem& part, const Object& objec
     return std::move(*picked);
 }
 
-std::vector<std::uint32_t> elements(const std::vector<std::uint32_t>& all, const Triangles& numbers) {
+std::vector<std::uint32_t> elements(const SharedList<std::uint32_t>& all, const Triangles& numbers) {
     std::vector<std::uint32_t> some;
     for (const std::uint32_t number : numbers) some.push_back(all[number]);
     return some;
@@ -101,7 +101,7 @@ MeshParts take_parts(MeshFile& file) {
 ObjectId cut_out_lamp(Scene& scene, ObjectId object, const TomlTable::NamedItem& part,
                       PartsOfObjects& parts) {
     const Object& whole = scene.object(object);
-    const auto* mesh = std::get_if<Mesh>(&whole.shape);
+    const Mesh* mesh = geometry::stored_mesh(whole.shape);
     if (mesh == nullptr) {
         part.item.fail(
             fmt::format("picks faces of a mesh, but {} is none. Allowed: an object of shape \"mesh\" "

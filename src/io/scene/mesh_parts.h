@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/shared_list.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/toml.h"
 #include "scene/scene.h"
@@ -15,9 +16,9 @@ namespace stilb::io {
 /// The names of a mesh file's parts and, for each triangle, indices into them: as in MeshFile.
 struct MeshParts {
     std::vector<std::string> material_names;
-    std::vector<std::uint32_t> material_of_triangle;
+    SharedList<std::uint32_t> material_of_triangle;
     std::vector<std::string> group_names;
-    std::vector<std::uint32_t> group_of_triangle;
+    SharedList<std::uint32_t> group_of_triangle;
 };
 MeshParts take_parts(MeshFile& file);
 

@@ -11,6 +11,7 @@
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"
+#include "io/scene/mesh_objects.h"
 #include "io/scene/sections.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
@@ -187,15 +188,6 @@ void add_face(const TomlItem& face, MeshBuilder& builder) {
     builder.add_polygon(corners);
 }
 
-void warn_of_degenerate(const std::string& where, const MeshFile& mesh, SceneFile& file) {
-    if (mesh.degenerate_triangles == 0) return;
-    std::string warning =
-        fmt::format("{}: {} triangles without area are left out.", where, mesh.degenerate_triangles);
-    // Bodies of several luminaires have the same.
-    if (std::ranges::find(file.warnings, warning) == file.warnings.end())
-        file.warnings.push_back(std::move(warning));
-}
-
 void add_vertices(const TomlItem& item, MeshBuilder& builder) {
     if (const auto* vertices = item.vertices()) {
         builder.reserve_vertices(vertices->size());
@@ -234,123 +226,8 @@ Mesh read_polygons(const TomlTable& table, SceneFile& file) {
     add_vertices(table.at("vertices"), builder);
     add_faces(table.at("faces"), builder);
     MeshFile mesh = std::move(builder).finish(table.where(), "give a face that has an area");
-    warn_of_degenerate(table.where(), mesh, file);
+    warn_of_degenerate(table.where(), mesh.degenerate_triangles, file);
     return std::move(mesh.mesh);
-}
-
-Names names_of(const std::vector<NamedMaterial>& materials) {
-    Names names;
-    for (const NamedMaterial& material : materials) names.push_back(material.name);
-    return names;
-}
-
-MaterialId read_material(const TomlItem& item, const Scene& scene) {
-    return MaterialId{static_cast<std::uint32_t>(item.index_in(names_of(scene.materials), "material"))};
-}
-
-MeshFile read_mesh(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
-    const std::filesystem::path path = item.existing_file(directory);
-    MeshFile mesh = read_mesh_file(path);
-    mesh.other_files.insert(mesh.other_files.begin(), path);
-    for (const std::filesystem::path& source : mesh.other_files)
-        if (std::ranges::find(file.sources, source) == file.sources.end()) file.sources.push_back(source);
-    return mesh;
-}
-
-/// The assignment of the scene's materials to the parts of a mesh, by the names in the mesh file.
-class PartMaterials {
-  public:
-    PartMaterials(const TomlTable& object, const MeshFile& mesh, const Scene& scene)
-        : mesh_(mesh), of_material_(mesh.material_names.size()), of_group_(mesh.group_names.size()) {
-        if (const auto rest = object.find("material")) rest_ = read_material(*rest, scene);
-        for (const auto& [part, item] : object.at("materials").table().items()) {
-            const MaterialId material = read_material(item, scene);
-            const bool is_material = assign(mesh.material_names, of_material_, part, material);
-            if (!is_material && !assign(mesh.group_names, of_group_, part, material))
-                fail_unknown(part, item);
-        }
-    }
-
-    /// One material for each triangle. The file's material names take precedence over its groups, and both
-    /// over `material`.
-    std::vector<MaterialId> of_triangles(const TomlTable& object) const {
-        std::vector<MaterialId> materials;
-        for (std::size_t t = 0; t < mesh_.mesh.triangles.size(); ++t) {
-            const std::uint32_t material = mesh_.material_of_triangle[t];
-            const std::uint32_t group = mesh_.group_of_triangle[t];
-            const auto& by_group = of_group_[group] ? of_group_[group] : rest_;
-            const auto& found = of_material_[material] ? of_material_[material] : by_group;
-            if (!found) fail_unassigned(object, material);
-            materials.push_back(*found);
-        }
-        return materials;
-    }
-
-  private:
-    using Assigned = std::vector<std::optional<MaterialId>>;
-
-    static bool assign(const std::vector<std::string>& names, Assigned& assigned, std::string_view part,
-                       MaterialId material) {
-        const auto found = std::find(names.begin(), names.end(), part);
-        if (found == names.end()) return false;
-        assigned[static_cast<std::size_t>(found - names.begin())] = material;
-        return true;
-    }
-
-    Names names() const {
-        Names names(mesh_.material_names.begin(), mesh_.material_names.end());
-        names.insert(names.end(), mesh_.group_names.begin(), mesh_.group_names.end());
-        return names;
-    }
-
-    [[noreturn]] void fail_unknown(const std::string& part, const TomlItem& item) const {
-        item.fail(fmt::format("the mesh file has no material or group {}.{}", in_quotes(part),
-                              suggestion(part, names())));
-    }
-
-    [[noreturn]] void fail_unassigned(const TomlTable& object, std::uint32_t material) const {
-        object.fail(fmt::format(
-            "the mesh file's material {} is not assigned to a material of the scene. Allowed: an entry in "
-            "\"materials\" for it, or \"material\" for all parts that are not in \"materials\".",
-            in_quotes(mesh_.material_names[material])));
-    }
-
-    const MeshFile& mesh_;
-    Assigned of_material_, of_group_;
-    std::optional<MaterialId> rest_;
-};
-
-std::vector<MaterialId> read_materials_of(const TomlTable& table, const MeshFile& mesh, const Scene& scene) {
-    if (table.has("materials")) return PartMaterials(table, mesh, scene).of_triangles(table);
-    return {read_material(table.at("material"), scene)};
-}
-
-/// The materials of the scene that have the names in the mesh file.
-std::vector<MaterialId> materials_by_name(const TomlItem& item, const MeshFile& mesh, const Scene& scene) {
-    const Names known = names_of(scene.materials);
-    std::vector<MaterialId> of_names;
-    for (const std::string& name : mesh.material_names) {
-        const auto found = std::ranges::find(known, name);
-        if (found == known.end()) {
-            item.fail(fmt::format(
-                "the scene has no material {}, which the mesh file names.{} Or give the body materials: "
-                "geometry = {{ file = ..., material = ... }}.",
-                in_quotes(name), suggestion(name, known)));
-        }
-        of_names.push_back(MaterialId{static_cast<std::uint32_t>(found - known.begin())});
-    }
-    std::vector<MaterialId> of_triangles;
-    for (const std::uint32_t material : mesh.material_of_triangle) of_triangles.push_back(of_names[material]);
-    return of_triangles;
-}
-
-Object read_mesh_object(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
-                        MeshParts& parts) {
-    MeshFile mesh = read_mesh(table.at("file"), directory, file);
-    warn_of_degenerate(table.where(), mesh, file);
-    std::vector<MaterialId> materials = read_materials_of(table, mesh, file.scene);
-    parts = take_parts(mesh);
-    return {"", std::move(mesh.mesh), std::move(materials)};
 }
 
 Shape read_simple_shape(const TomlTable& table, std::string_view shape, SceneFile& file) {
@@ -363,9 +240,9 @@ Shape read_simple_shape(const TomlTable& table, std::string_view shape, SceneFil
 
 /// `parts` is filled if the object is a mesh from a file.
 Object read_untransformed(TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
-                          MeshParts& parts) {
+                          MeshFiles& meshes, MeshParts& parts) {
     const std::string_view shape = read_shape_name(table);
-    if (shape == "mesh") return read_mesh_object(table, directory, file, parts);
+    if (shape == "mesh") return meshes.read(table, parts);
     const auto of_one_material = [&](Shape geometry) {
         return Object{"", std::move(geometry), {read_material(table.at("material"), file.scene)}};
     };
@@ -396,26 +273,6 @@ geometry::Transform transform_of(const Shape& shape, const TomlTable& table) {
 
 }  // namespace
 
-Object read_body(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
-    const auto read = [&](const TomlItem& name) {
-        MeshFile mesh = read_mesh(name, directory, file);
-        warn_of_degenerate(item.where(), mesh, file);
-        return mesh;
-    };
-    if (!item.is_table()) {
-        MeshFile mesh = read(item);
-        std::vector<MaterialId> materials = materials_by_name(item, mesh, file.scene);
-        return {"", std::move(mesh.mesh), std::move(materials)};
-    }
-    TomlTable table = item.table();
-    table.expect_keys({"file", "material", "materials", "scale", "rotate", "translate", "transform"});
-    const bool is_by_name = !table.has("material") && !table.has("materials");
-    MeshFile mesh = read(table.at("file"));
-    std::vector<MaterialId> materials =
-        is_by_name ? materials_by_name(item, mesh, file.scene) : read_materials_of(table, mesh, file.scene);
-    return {"", transformed(std::move(mesh.mesh), read_transform(table)), std::move(materials)};
-}
-
 std::vector<TypeKeys> object_shapes() {
     std::vector<TypeKeys> shapes;
     for (const ShapeKeys& shape : kShapes) shapes.push_back({shape.shape, keys_of(shape)});
@@ -425,9 +282,11 @@ std::vector<TypeKeys> object_shapes() {
 PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory,
                             SceneFile& file) {
     PartsOfObjects parts;
-    for (auto& [name, table] : named_tables(section)) {
+    std::vector<NamedTable> tables = named_tables(section);
+    MeshFiles meshes(tables, directory, file);
+    for (auto& [name, table] : tables) {
         const ObjectId id{static_cast<std::uint32_t>(file.scene.objects.size())};
-        Object object = read_untransformed(table, directory, file, parts[id]);
+        Object object = read_untransformed(table, directory, file, meshes, parts[id]);
         object.name = name;
         const geometry::Transform transform = transform_of(object.shape, table);
         expect_possible(transform, object.shape, table);

@@ -63,7 +63,7 @@ std::optional<Vec3> exact_normal(const Shape& shape, const Vec3& position) {
 }
 
 bool has_own_normals(const Shape& shape) {
-    const auto* mesh = std::get_if<Mesh>(&shape);
+    const Mesh* mesh = geometry::stored_mesh(shape);
     return mesh != nullptr && !mesh->normals.empty();
 }
 

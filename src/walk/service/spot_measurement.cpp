@@ -37,8 +37,8 @@ std::vector<LightFactor> factors_of(const nlohmann::json& request) {
 double triangles_in(const Scene& scene) {
     double count = 0;
     for (const Object& object : scene.objects) {
-        const auto* mesh = std::get_if<geometry::Mesh>(&object.shape);
-        if (mesh) count += static_cast<double>(mesh->triangles.size());
+        const geometry::Mesh* mesh = geometry::stored_mesh(object.shape);
+        if (mesh != nullptr) count += static_cast<double>(mesh->triangles.size());
     }
     return count;
 }

@@ -26,7 +26,7 @@ constexpr int kMostSweeps = 200;
 constexpr double kSharp = 100;
 
 bool is_smooth(const Shape& shape) {
-    const auto* mesh = std::get_if<Mesh>(&shape);
+    const Mesh* mesh = geometry::stored_mesh(shape);
     return mesh != nullptr && !mesh->normals.empty();
 }
 
@@ -51,7 +51,10 @@ std::vector<std::uint8_t> traced_materials(const Scene& scene) {
 std::vector<std::uint8_t> traced_objects(const Scene& scene) {
     std::vector<std::uint8_t> traced;
     for (const Object& object : scene.objects)
-        traced.push_back(geometry::is_exact(object.shape) || is_smooth(object.shape) ? 1 : 0);
+        traced.push_back(geometry::is_exact(object.shape) || is_smooth(object.shape) ||
+                                 std::holds_alternative<Instance>(object.shape)
+                             ? 1
+                             : 0);
     return traced;
 }
 

@@ -30,7 +30,8 @@ MeshFile read_gltf_mesh(const std::filesystem::path& path) {
     GroupedWarnings of_a_scene;  // a mesh has neither lines nor animations
     const auto nodes = placed_nodes(file, to_metres_and_z_up(1, UpAxis::y));
     MeshBuilder builder;
-    for (gltf::PlacedPrimitive& primitive : placed_primitives(file, nodes, of_a_scene)) {
+    for (gltf::PlacedPrimitive& primitive :
+         placed_meshes(file, nodes, gltf::Repeats::copies, of_a_scene).primitives) {
         builder.use_group(nodes[primitive.node].node->name);
         const auto& materials = file.model.materials;
         const bool has_material =

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/scene/toml.h"
+#include "scene/instances.h"
 
 namespace stilb::io::gltf {
 namespace {
@@ -137,8 +138,14 @@ void place(Mesh& mesh, const geometry::Transform& transform) {
         const double size = length(normal);
         normal = size > 1e-9 ? transform.normal(normal / size) : Vec3{};
     }
-    if (transform.determinant() >= 0) return;
+    if (!transform.is_mirrored()) return;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) turn_over(mesh, t);
+}
+
+std::map<int, std::size_t> uses_of_meshes(const std::vector<PlacedNode>& nodes) {
+    std::map<int, std::size_t> uses;
+    for (const PlacedNode& node : nodes) ++uses[node.node->mesh];
+    return uses;
 }
 
 class PrimitiveReader {
@@ -253,11 +260,13 @@ std::vector<PlacedNode> placed_nodes(const File& file, const geometry::Transform
     return std::move(walk.nodes);
 }
 
-std::vector<PlacedPrimitive> placed_primitives(const File& file, const std::vector<PlacedNode>& nodes,
-                                               GroupedWarnings& warnings) {
+PlacedMeshes placed_meshes(const File& file, const std::vector<PlacedNode>& nodes, Repeats repeats,
+                           GroupedWarnings& warnings) {
     constexpr double kLeastRegularity = 1e-6;  // as of objects in scene files
     PrimitiveReader reader(file, warnings);
-    std::vector<PlacedPrimitive> all;
+    const std::map<int, std::size_t> uses = uses_of_meshes(nodes);
+    std::map<int, std::size_t> first_of_shared;
+    PlacedMeshes placed;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const tinygltf::Node& node = *nodes[n].node;
         if (node.mesh < 0) continue;
@@ -267,15 +276,23 @@ std::vector<PlacedPrimitive> placed_primitives(const File& file, const std::vect
                          "its scale is 0 along an axis; it is left out.");
             continue;
         }
-        for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-            auto placed = reader.read(mesh.primitives[p], nodes[n],
-                                      fmt::format("meshes[{}].primitives[{}]", node.mesh, p));
-            if (!placed) continue;
-            placed->node = n;
-            all.push_back(std::move(*placed));
+        if (const auto first = first_of_shared.find(node.mesh); first != first_of_shared.end()) {
+            placed.first_of_instance[n] = first->second;
+            continue;
         }
+        std::size_t triangles = 0;
+        for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+            auto primitive = reader.read(mesh.primitives[p], nodes[n],
+                                         fmt::format("meshes[{}].primitives[{}]", node.mesh, p));
+            if (!primitive) continue;
+            primitive->node = n;
+            triangles += primitive->mesh.triangles.size();
+            placed.primitives.push_back(std::move(*primitive));
+        }
+        if (repeats == Repeats::instances && scene::are_instances(triangles, uses.at(node.mesh)))
+            first_of_shared[node.mesh] = n;
     }
-    return all;
+    return placed;
 }
 
 }  // namespace stilb::io::gltf

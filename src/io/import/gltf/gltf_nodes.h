@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "geometry/shape.h"
 #include "geometry/transform.h"
 #include "io/import/gltf/gltf_file.h"
 #include "io/text/grouped_warnings.h"
@@ -33,8 +35,17 @@ struct PlacedPrimitive {
     std::array<std::vector<std::array<double, 2>>, 2> uv{};
 };
 
+/// What becomes of a large mesh that several nodes have.
+enum class Repeats { copies, instances };
+
+struct PlacedMeshes {
+    std::vector<PlacedPrimitive> primitives;
+    /// Nodes that are instances of an earlier node, whose primitives stand for theirs.
+    std::map<std::size_t, std::size_t> first_of_instance;
+};
+
 /// The triangles of all nodes. Warns of points, lines, and what is left out.
-std::vector<PlacedPrimitive> placed_primitives(const File& file, const std::vector<PlacedNode>& nodes,
-                                               GroupedWarnings& warnings);
+PlacedMeshes placed_meshes(const File& file, const std::vector<PlacedNode>& nodes, Repeats repeats,
+                           GroupedWarnings& warnings);
 
 }  // namespace stilb::io::gltf

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "io/import/gltf/gltf_lights.h"
@@ -65,20 +66,57 @@ ImportedMesh joined(const std::vector<const gltf::PlacedPrimitive*>& primitives,
     return whole;
 }
 
-void add_objects(const gltf::File& file, const std::vector<gltf::PlacedNode>& nodes,
-                 const std::vector<gltf::PlacedPrimitive>& primitives,
-                 const std::map<int, MaterialId>& materials, ImportedScene& scene) {
-    std::vector<std::vector<const gltf::PlacedPrimitive*>> of_node(nodes.size());
-    for (const gltf::PlacedPrimitive& primitive : primitives) of_node[primitive.node].push_back(&primitive);
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        if (of_node[n].empty()) continue;
-        ImportedMesh mesh = joined(of_node[n], materials);
-        if (mesh.materials.empty()) continue;
-        const tinygltf::Node& node = *nodes[n].node;
-        const std::string& of_mesh = file.model.meshes[static_cast<std::size_t>(node.mesh)].name;
-        scene.add_object(node.name.empty() ? of_mesh : node.name, std::move(mesh));
+/// The objects of nodes.
+class ObjectsOfNodes {
+  public:
+    ObjectsOfNodes(const gltf::File& file, const std::vector<gltf::PlacedNode>& nodes,
+                   const gltf::PlacedMeshes& meshes, const std::map<int, MaterialId>& materials)
+        : file_(file), nodes_(nodes), meshes_(meshes), materials_(materials), of_node_(nodes.size()) {
+        for (const auto& primitive : meshes.primitives) of_node_[primitive.node].push_back(&primitive);
+        for (const auto& [instance, first] : meshes.first_of_instance) shared_.try_emplace(first);
     }
-}
+
+    void add_to(ImportedScene& scene) && {
+        for (std::size_t n = 0; n < nodes_.size(); ++n) {
+            const auto instance = meshes_.first_of_instance.find(n);
+            if (instance != meshes_.first_of_instance.end()) {
+                const geometry::Transform from_first = nodes_[instance->second].to_world.inverse();
+                add_instance(n, instance->second, compose(nodes_[n].to_world, from_first), scene);
+            } else if (!of_node_[n].empty()) {
+                add(n, scene);
+            }
+        }
+    }
+
+  private:
+    const std::string& name_of(std::size_t n) const {
+        const tinygltf::Node& node = *nodes_[n].node;
+        return node.name.empty() ? file_.model.meshes[static_cast<std::size_t>(node.mesh)].name : node.name;
+    }
+
+    void add(std::size_t n, ImportedScene& scene) {
+        ImportedMesh mesh = joined(of_node_[n], materials_);
+        if (mesh.materials.empty()) return;
+        const auto shared = shared_.find(n);
+        if (shared == shared_.end()) return scene.add_object(name_of(n), std::move(mesh));
+        shared->second.emplace(std::move(mesh));
+        add_instance(n, n, {}, scene);
+    }
+
+    void add_instance(std::size_t n, std::size_t first, const geometry::Transform& from_first,
+                      ImportedScene& scene) const {
+        const std::optional<SharedMesh>& shared = shared_.at(first);
+        if (shared) scene.add_instance(name_of(n), *shared, from_first);
+    }
+
+    const gltf::File& file_;
+    const std::vector<gltf::PlacedNode>& nodes_;
+    const gltf::PlacedMeshes& meshes_;
+    const std::map<int, MaterialId>& materials_;
+    std::vector<std::vector<const gltf::PlacedPrimitive*>> of_node_;
+    /// The meshes of nodes that have instances, where the node places them; nothing for invisible ones.
+    std::map<std::size_t, std::optional<SharedMesh>> shared_;
+};
 
 }  // namespace
 
@@ -91,9 +129,10 @@ SceneFile read_gltf_scene(std::string_view content, const std::filesystem::path&
     const std::vector<gltf::PlacedNode> nodes =
         placed_nodes(file, to_metres_and_z_up(options.scale.value_or(1), options.up.value_or(UpAxis::y)));
     {
-        const std::vector<gltf::PlacedPrimitive> primitives = placed_primitives(file, nodes, scene.warnings);
-        const std::map<int, MaterialId> materials = add_materials(file, primitives, scene);
-        add_objects(file, nodes, primitives, materials, scene);
+        const gltf::PlacedMeshes meshes =
+            placed_meshes(file, nodes, gltf::Repeats::instances, scene.warnings);
+        const std::map<int, MaterialId> materials = add_materials(file, meshes.primitives, scene);
+        ObjectsOfNodes(file, nodes, meshes, materials).add_to(scene);
     }
     add_lights(file, nodes, scene);
     add_cameras(file, nodes, scene);
