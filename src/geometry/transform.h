@@ -33,6 +33,6 @@ Transform compose(const Transform& second, const Transform& first);
 
 /// The transformed shape; fronts stay fronts under mirrored transforms. Boxes become meshes unless their axes
 /// stay axis-parallel. Precondition for spheres, disks and harmonics: the transform is a similarity.
-Shape transformed(const Shape& shape, const Transform& transform);
+Shape transformed(Shape shape, const Transform& transform);
 
 }  // namespace stilb::geometry

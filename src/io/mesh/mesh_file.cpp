@@ -13,10 +13,20 @@
 
 namespace stilb::io {
 
-MeshFile read_mesh_file(const std::filesystem::path& path) {
+namespace {
+
+MeshFile read_pieces(MeshFile (*read)(UnreadBytes, const std::string&), const std::filesystem::path& path,
+                     const Monitor& monitor) {
+    FilePieces file(path, monitor);
+    return read(file, path.string());
+}
+
+}  // namespace
+
+MeshFile read_mesh_file(const std::filesystem::path& path, const Monitor& monitor) {
     const std::string extension = extension_of(path);
-    if (extension == ".obj") return read_obj(read_whole_file(path), path.string());
-    if (extension == ".ply") return read_ply(read_whole_file(path), path.string());
+    if (extension == ".obj") return read_pieces(read_obj, path, monitor);
+    if (extension == ".ply") return read_pieces(read_ply, path, monitor);
     if (extension == ".gltf" || extension == ".glb") return read_gltf_mesh(path);
     if (extension.empty()) read_beginning(path, 1);  // names folders, and files that are not there
     throw InputError(
@@ -45,6 +55,12 @@ std::uint32_t PartNames::index() {
         index_ = entry->second;
     }
     return *index_;
+}
+
+void MeshBuilder::reserve_triangles(std::size_t count) {
+    file_.mesh.triangles.reserve(count);
+    file_.material_of_triangle.reserve(count);
+    file_.group_of_triangle.reserve(count);
 }
 
 void MeshBuilder::add_normal(const Vec3& normal) {

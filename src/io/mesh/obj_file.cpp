@@ -25,13 +25,15 @@ constexpr std::array kIgnored{
 constexpr std::array kSurfaces{"surf"sv, "fo"sv,  "bzp"sv,  "bsp"sv, "cdc"sv,
                                "cdp"sv,  "res"sv, "call"sv, "csh"sv};
 
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // of UTF-8
+
 bool contains(std::span<const std::string_view> names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 class ObjReader {
   public:
-    ObjReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
+    ObjReader(UnreadBytes content, const std::string& name) : lines_(content), name_(name) {}
 
     MeshFile read() && {
         while (next_statement()) {
@@ -48,9 +50,11 @@ class ObjReader {
     /// The next line, joined with its continuation lines (a backslash at the end). A comment is never
     /// continued, because a path in it may well end in a backslash.
     bool next_statement() {
-        if (!lines_.next()) return false;
+        if (!next_line()) return false;
         statement_ = lines_.line();
         line_ = lines_.number();
+        if (line_ == 1 && statement_.starts_with(kByteOrderMark))
+            statement_.remove_prefix(kByteOrderMark.size());
         if (!statement_.ends_with('\\') || trimmed(statement_).starts_with('#')) return true;
         joined_.clear();
         for (std::string_view part = statement_;; part = lines_.line()) {
@@ -58,10 +62,29 @@ class ObjReader {
             joined_ += part.substr(0, part.size() - (goes_on ? 1 : 0));
             joined_ += ' ';
             if (!goes_on) break;
-            if (!lines_.next()) fail("the file ends after a backslash, which continues the line");
+            if (!next_line()) fail("the file ends after a backslash, which continues the line");
         }
         statement_ = joined_;
         return true;
+    }
+
+    /// Throws for bytes that are not text: binary files, and text with two bytes a character.
+    bool next_line() {
+        if (!lines_.next()) return false;
+        const auto is_wrong = [](char c) {
+            return static_cast<unsigned char>(c) < ' ' && (c < '\t' || c > '\r');
+        };
+        bool is_text = true;
+        for (const char c : lines_.line())
+            is_text &= !is_wrong(c);  // without an exit, so that it is vectorised
+        if (is_text) return true;
+        const auto wrong = std::ranges::find_if(lines_.line(), is_wrong);
+        throw InputError(
+            fmt::format(
+                "byte 0x{:02x} is not text, so this is not an OBJ file; it must be plain text (ASCII or "
+                "UTF-8)",
+                static_cast<unsigned char>(*wrong)),
+            {name_, lines_.number()});
     }
 
     void obey(std::string_view word, std::string_view arguments) {
@@ -164,27 +187,8 @@ class ObjReader {
     MeshBuilder builder_;
 };
 
-/// Throws for bytes that are not text: binary files, and text with two bytes a character.
-void check_text(std::string_view content, const std::string& name) {
-    const auto is_wrong = [](char c) {
-        return static_cast<unsigned char>(c) < ' ' && (c < '\t' || c > '\r');
-    };
-    const auto wrong = std::find_if(content.begin(), content.end(), is_wrong);
-    if (wrong == content.end()) return;
-    const auto line = static_cast<std::size_t>(std::count(content.begin(), wrong, '\n')) + 1;
-    throw InputError(
-        fmt::format(
-            "byte 0x{:02x} is not text, so this is not an OBJ file; it must be plain text (ASCII or UTF-8)",
-            static_cast<unsigned char>(*wrong)),
-        {name, line});
-}
-
 }  // namespace
 
-MeshFile read_obj(std::string_view content, const std::string& name) {
-    if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);  // UTF-8's byte order mark
-    check_text(content, name);
-    return ObjReader(content, name).read();
-}
+MeshFile read_obj(UnreadBytes content, const std::string& name) { return ObjReader(content, name).read(); }
 
 }  // namespace stilb::io

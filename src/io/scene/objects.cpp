@@ -248,9 +248,10 @@ MaterialId read_material(const TomlItem& item, const Scene& scene) {
     return MaterialId{static_cast<std::uint32_t>(item.index_in(names_of(scene.materials), "material"))};
 }
 
-MeshFile read_mesh(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
+MeshFile read_mesh(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file,
+                   const Monitor& monitor) {
     const std::filesystem::path path = item.existing_file(directory);
-    MeshFile mesh = read_mesh_file(path);
+    MeshFile mesh = read_mesh_file(path, monitor);
     mesh.other_files.insert(mesh.other_files.begin(), path);
     for (const std::filesystem::path& source : mesh.other_files)
         if (std::ranges::find(file.sources, source) == file.sources.end()) file.sources.push_back(source);
@@ -275,6 +276,7 @@ class PartMaterials {
     /// over `material`.
     std::vector<MaterialId> of_triangles(const TomlTable& object) const {
         std::vector<MaterialId> materials;
+        materials.reserve(mesh_.mesh.triangles.size());
         for (std::size_t t = 0; t < mesh_.mesh.triangles.size(); ++t) {
             const std::uint32_t material = mesh_.material_of_triangle[t];
             const std::uint32_t group = mesh_.group_of_triangle[t];
@@ -345,8 +347,8 @@ std::vector<MaterialId> materials_by_name(const TomlItem& item, const MeshFile& 
 }
 
 Object read_mesh_object(const TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
-                        MeshParts& parts) {
-    MeshFile mesh = read_mesh(table.at("file"), directory, file);
+                        MeshParts& parts, const Monitor& monitor) {
+    MeshFile mesh = read_mesh(table.at("file"), directory, file, monitor);
     warn_of_degenerate(table.where(), mesh, file);
     std::vector<MaterialId> materials = read_materials_of(table, mesh, file.scene);
     parts = take_parts(mesh);
@@ -363,9 +365,9 @@ Shape read_simple_shape(const TomlTable& table, std::string_view shape, SceneFil
 
 /// `parts` is filled if the object is a mesh from a file.
 Object read_untransformed(TomlTable& table, const std::filesystem::path& directory, SceneFile& file,
-                          MeshParts& parts) {
+                          MeshParts& parts, const Monitor& monitor) {
     const std::string_view shape = read_shape_name(table);
-    if (shape == "mesh") return read_mesh_object(table, directory, file, parts);
+    if (shape == "mesh") return read_mesh_object(table, directory, file, parts, monitor);
     const auto of_one_material = [&](Shape geometry) {
         return Object{"", std::move(geometry), {read_material(table.at("material"), file.scene)}};
     };
@@ -398,7 +400,7 @@ geometry::Transform transform_of(const Shape& shape, const TomlTable& table) {
 
 Object read_body(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
     const auto read = [&](const TomlItem& name) {
-        MeshFile mesh = read_mesh(name, directory, file);
+        MeshFile mesh = read_mesh(name, directory, file, Monitor::none());
         warn_of_degenerate(item.where(), mesh, file);
         return mesh;
     };
@@ -422,16 +424,17 @@ std::vector<TypeKeys> object_shapes() {
     return shapes;
 }
 
-PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory,
-                            SceneFile& file) {
+PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file,
+                            const Monitor& monitor) {
     PartsOfObjects parts;
     for (auto& [name, table] : named_tables(section)) {
         const ObjectId id{static_cast<std::uint32_t>(file.scene.objects.size())};
-        Object object = read_untransformed(table, directory, file, parts[id]);
+        Object object = read_untransformed(table, directory, file, parts[id], monitor);
         object.name = name;
         const geometry::Transform transform = transform_of(object.shape, table);
         expect_possible(transform, object.shape, table);
-        if (transform != geometry::Transform{}) object.shape = transformed(object.shape, transform);
+        if (transform != geometry::Transform{})
+            object.shape = transformed(std::move(object.shape), transform);
         file.scene.objects.push_back(std::move(object));
     }
     return parts;
