@@ -131,8 +131,8 @@ void measure(const fs::path& path) {
     const double mesh_bytes =
         static_cast<double>(mesh.vertices.size() * sizeof(Vec3) + mesh.triangles.size() * sizeof(Triangle));
     // As `stilb info` does.
-    file.material_of_triangle = {};
-    file.group_of_triangle = {};
+    std::vector<std::uint32_t>().swap(file.material_of_triangle);
+    std::vector<std::uint32_t>().swap(file.group_of_triangle);
     const double check_start_s = processor_s();
     const std::size_t open_edges = find_components(mesh).total_open_edges();
     fmt::print(

@@ -105,13 +105,14 @@ std::vector<std::pair<EdgeKey, Uses>> edges_by_sorting(const std::vector<Triangl
 TEST(Edges, AreThoseOfAllSidesInOrder) {
     math::SampleStream stream(math::RandomKey{7}, 0);
     const auto any = [&] { return static_cast<std::uint32_t>(stream.next() * 40); };
+    std::vector<std::uint32_t> vertex_at(40);
+    for (std::uint32_t v = 0; v < 40; ++v) vertex_at[v] = v % 35;  // five vertices are repeated
     std::vector<Triangle> triangles;
     while (triangles.size() < 500) {
         const Triangle t{any(), any(), any()};
-        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+        const std::uint32_t a = vertex_at[t[0]], b = vertex_at[t[1]], c = vertex_at[t[2]];
+        if (a != b && b != c && c != a) triangles.push_back(t);
     }
-    std::vector<std::uint32_t> vertex_at(40);
-    for (std::uint32_t v = 0; v < 40; ++v) vertex_at[v] = v % 35;  // five vertices are repeated
     std::vector<std::pair<EdgeKey, Uses>> found;
     Edges(triangles, vertex_at).for_each([&](auto first, auto last) {
         Uses uses;

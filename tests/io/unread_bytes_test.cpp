@@ -1,8 +1,11 @@
 // Files that are read piece by piece: nothing changes where a piece ends.
 #include "io/text/unread_bytes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <atomic>
 #include <cmath>
 
 #include "io/import/obj/obj_scene.h"

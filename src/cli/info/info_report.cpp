@@ -255,8 +255,9 @@ InfoReport report_luminaire(const std::filesystem::path& path, UgrTables ugr) {
 InfoReport report_mesh(const std::filesystem::path& path, const Monitor& monitor) {
     io::MeshFile file = io::read_mesh_file(path, monitor);
     monitor.report(kChecking, 0);
-    file.material_of_triangle = {};  // only the names are reported, and the memory of a large file counts
-    file.group_of_triangle = {};
+    // Only the names of the parts are reported, and the memory of a large file counts.
+    std::vector<std::uint32_t>().swap(file.material_of_triangle);
+    std::vector<std::uint32_t>().swap(file.group_of_triangle);
     Scene scene;
     scene.objects.push_back({path.filename().string(), std::move(file.mesh), {}});
     const Shape& shape = scene.objects[0].shape;

@@ -143,7 +143,7 @@ void ImportedScene::add_object(std::string_view name, ImportedMesh imported) {
     drop_flat_normals(imported.mesh);
     auto& materials = imported.materials;
     const bool is_one = std::ranges::all_of(materials, [&](MaterialId m) { return m == materials.front(); });
-    if (is_one) materials = {materials.front()};
+    if (is_one) materials = std::vector(1, materials.front());
     file.scene.objects.push_back(
         {objects_.make(name, "object"), std::move(imported.mesh), std::move(materials)});
 }

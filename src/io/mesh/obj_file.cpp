@@ -88,7 +88,7 @@ class ObjReader {
     }
 
     void obey(std::string_view word, std::string_view arguments) {
-        if (word == "v") return builder_.add_vertex(read_triple(arguments, "vertex", "v x y z"));
+        if (word == "v") return read_vertex(arguments);
         if (word == "vn") return builder_.add_normal(read_triple(arguments, "normal", "vn x y z"));
         if (word == "vt") return void(++texture_coordinates_);
         if (word == "f") return read_face(arguments);
@@ -125,6 +125,22 @@ class ObjReader {
         return {triple[0], triple[1], triple[2]};
     }
 
+    void read_vertex(std::string_view arguments) {
+        builder_.add_vertex(read_triple(arguments, "vertex", "v x y z"));
+        const std::size_t count = builder_.vertex_count();
+        if (count == 1) first_vertex_ = lines_.rest().size();
+        if (count == kMany) builder_.reserve_vertices(expected_count(first_vertex_));
+    }
+
+    /// How many elements there are if the file goes on as it has begun with kMany of them, of which the first
+    /// one stood before the last `first` bytes. Lists that grow by doubling would take twice the memory for a
+    /// while; memory that is reserved in vain takes none.
+    std::size_t expected_count(std::uintmax_t first) const {
+        const auto left = static_cast<double>(lines_.rest().size());
+        const double done = static_cast<double>(first) - left;
+        return done > 0 ? kMany + static_cast<std::size_t>(kMany * left / done) : kMany;
+    }
+
     void read_face(std::string_view arguments) {
         corners_.clear();
         normals_.clear();
@@ -134,6 +150,12 @@ class ObjReader {
         if (corners_.size() < 3)
             fail(fmt::format("the face has {} corners; it needs three or more: f 1 2 3", corners_.size()));
         builder_.add_polygon(corners_, normals_);
+        const std::size_t count = builder_.triangle_count();
+        if (first_face_ == 0) first_face_ = lines_.rest().size();
+        if (count >= kMany && !is_reserved_) {
+            is_reserved_ = true;
+            builder_.reserve_triangles(expected_count(first_face_));
+        }
     }
 
     /// The indices in a word of a face: v, v/vt, v//vn or v/vt/vn.
@@ -177,8 +199,12 @@ class ObjReader {
             in_quotes(word)));
     }
 
+    static constexpr std::size_t kMany = 1 << 16;
+
     TextLines lines_;
     const std::string& name_;
+    std::uintmax_t first_vertex_ = 0, first_face_ = 0;  ///< bytes behind them
+    bool is_reserved_ = false;                          ///< memory for the triangles
     std::string_view statement_;
     std::size_t line_ = 0;  // where the statement begins
     std::string joined_;

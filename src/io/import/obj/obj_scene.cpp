@@ -185,7 +185,7 @@ std::vector<std::vector<std::uint32_t>> triangles_of_groups(const MeshFile& file
 /// memory of a large file counts.
 void add_groups(MeshFile file, const std::vector<MaterialId>& materials, ImportedScene& scene) {
     const std::vector<std::vector<std::uint32_t>> triangles = triangles_of_groups(file);
-    file.group_of_triangle = {};
+    std::vector<std::uint32_t>().swap(file.group_of_triangle);
     std::vector<Mesh> parts = geometry::parts_of(file.mesh, triangles);
     file.mesh = {};
     for (std::size_t g = 0; g < parts.size(); ++g) {
