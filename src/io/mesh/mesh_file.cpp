@@ -76,7 +76,12 @@ void MeshBuilder::add_triangle(const Triangle& t, const std::optional<Triangle>&
         return;
     }
     file_.mesh.triangles.push_back(t);
-    if (normals) file_.mesh.corner_normals.push_back(*normals);
+    if (normals) {
+        // Triangles before the first that has some may have been added without.
+        constexpr Triangle kNone{kNoNormal, kNoNormal, kNoNormal};
+        file_.mesh.corner_normals.resize(file_.mesh.triangles.size() - 1, kNone);
+        file_.mesh.corner_normals.push_back(*normals);
+    }
     file_.material_of_triangle.push_back(materials_.index());
     file_.group_of_triangle.push_back(groups_.index());
 }

@@ -41,7 +41,9 @@ class ObjReader {
             const std::string_view word = next_word(arguments);
             if (!word.empty() && word[0] != '#') obey(word, arguments);
         }
-        return std::move(builder_).finish(name_, "an OBJ file needs faces, such as: f 1 2 3");
+        MeshFile file = std::move(builder_).finish(name_, "an OBJ file needs faces, such as: f 1 2 3");
+        if (file.mesh.corner_normals.empty()) file.mesh.normals.clear();  // no face names them
+        return file;
     }
 
   private:
@@ -149,6 +151,8 @@ class ObjReader {
             read_corner(word);
         if (corners_.size() < 3)
             fail(fmt::format("the face has {} corners; it needs three or more: f 1 2 3", corners_.size()));
+        // Most large files have no normals, and lists without any would take as much memory as the triangles.
+        if (builder_.normal_count() == 0) normals_.clear();
         builder_.add_polygon(corners_, normals_);
         const std::size_t count = builder_.triangle_count();
         if (first_face_ == 0) first_face_ = lines_.rest().size();
