@@ -15,10 +15,10 @@ inline void require(bool is_kept) {
     if (!is_kept) std::abort();
 }
 
-inline void check_mesh_reader(io::MeshFile (*read)(std::string_view, const std::string&),
+inline void check_mesh_reader(io::MeshFile (*read)(io::UnreadBytes, const std::string&),
                               const std::uint8_t* data, std::size_t size) {
     try {
-        const io::MeshFile file = read({reinterpret_cast<const char*>(data), size}, "fuzzed");
+        const io::MeshFile file = read(std::string_view(reinterpret_cast<const char*>(data), size), "fuzzed");
         const std::size_t triangles = file.mesh.triangles.size();
         require(triangles > 0);
         require(file.material_of_triangle.size() == triangles && file.group_of_triangle.size() == triangles);

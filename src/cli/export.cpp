@@ -22,7 +22,8 @@ struct ExportRequest {
 
 int run_export(const ExportRequest& request) {
     const io::ExportFormat format = io::export_format(request.format);
-    const io::SceneFile file = read_scene(request.scene, request.overrides);
+    const io::SceneFile file = read_scene(request.scene, request.overrides,
+                                          request.quiet ? ShowProgress::never : ShowProgress::on_terminal);
     const io::ExportReport report = io::export_scene(file, format, request.output);
     if (!request.quiet) {
         print_warnings(file.warnings);

@@ -69,7 +69,10 @@ void check_outputs(const FitRequest& request) {
 int run_fit(const FitRequest& request) {
     const fit::MeshFitOptions options = options_of(request);
     check_outputs(request);
-    const io::MeshFile file = io::read_mesh_file(request.mesh);
+    const io::MeshFile file = [&] {
+        const LoadingProgress loading(request.quiet ? ShowProgress::never : ShowProgress::on_terminal);
+        return io::read_mesh_file(request.mesh, loading.monitor());
+    }();
     const run::Clock clock;
     FitReport report;
     report.mesh = request.mesh;

@@ -52,7 +52,8 @@ int run_import(ImportRequest request) {
     if (request.up) request.overrides.push_back("import.up=" + *request.up);
     if (request.light_scale)
         request.overrides.push_back(fmt::format("import.light_scale={}", *request.light_scale));
-    const io::SceneFile file = read_scene(request.file, request.overrides);
+    const io::SceneFile file = read_scene(request.file, request.overrides,
+                                          request.quiet ? ShowProgress::never : ShowProgress::on_terminal);
     const auto files = io::write_scene_folder(file, request.output);
     if (!request.quiet) {
         print_warnings(file.warnings);

@@ -108,7 +108,7 @@ int run_measure(const MeasureRequest& request) {
     const bool is_for_radiance = is_radiance_format(request);
     if (request.scene == "-" && request.points == "-")
         throw InputError("--points and the scene cannot both be read from standard input.");
-    io::SceneFile file = read_scene(request.scene, flags.overrides);
+    io::SceneFile file = read_scene(request.scene, flags.overrides, flags.run.show_progress());
     const std::vector<Sensor> sensors = chosen_sensors(request, file);
     if (is_for_radiance) io::require_irradiances(sensors);
     const RunOptions options = flags.options_for(sensors, file.run, request.scene);

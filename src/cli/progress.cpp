@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -75,6 +76,40 @@ void TerminalProgress::report(const Progress& progress) {
     const std::string left =
         std::isfinite(progress.remaining_s) ? fmt::format(", about {:.0f} s left", progress.remaining_s) : "";
     line_.show(progress.elapsed_s, fmt::format("{} {}{}{}", progress.samples, samples_, error, left));
+}
+
+LoadingProgress::LoadingProgress(ShowProgress show)
+    : off_terminal_(show == ShowProgress::everywhere ? OffTerminal::plain_lines : OffTerminal::nothing),
+      monitor_(nullptr, std::nullopt, [this](std::string_view stage, double share) {
+          const std::lock_guard lock(mutex_);
+          stage_ = stage;
+          share_ = share;
+      }) {
+    if (show == ShowProgress::never) return;
+    if (show == ShowProgress::everywhere || isatty(STDERR_FILENO) != 0)
+        thread_ = std::thread([this] { show_until_the_end(); });
+}
+
+LoadingProgress::~LoadingProgress() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_ended_ = true;
+    }
+    ended_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void LoadingProgress::show_until_the_end() {
+    using namespace std::chrono_literals;
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    std::unique_lock lock(mutex_);
+    if (ended_.wait_for(lock, 1s, [this] { return is_ended_; })) return;
+    ProgressLine line(off_terminal_);
+    do {
+        const double elapsed_s = std::chrono::duration<double>(Clock::now() - begin).count();
+        line.show(elapsed_s, share_ > 0 ? fmt::format("{}, {:.0f} %", stage_, 100 * share_) : stage_);
+    } while (!ended_.wait_for(lock, 100ms, [this] { return is_ended_; }));
 }
 
 void add_warnings(RunSummary& result, std::span<const std::string> of_file) {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdio>
+#include <mutex>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
 
+#include "base/monitor.h"
 #include "run/run.h"
 
 namespace stilb::cli {
@@ -46,6 +50,32 @@ class TerminalProgress : public PictureSink {
   private:
     std::string samples_;
     ProgressLine line_;
+};
+
+enum class ShowProgress { never, on_terminal, everywhere };
+
+/// The progress of reading and checking a file, from one second on: most are read in less.
+class LoadingProgress {
+  public:
+    explicit LoadingProgress(ShowProgress show = ShowProgress::on_terminal);
+    ~LoadingProgress();
+    LoadingProgress(const LoadingProgress&) = delete;
+    LoadingProgress& operator=(const LoadingProgress&) = delete;
+
+    const Monitor& monitor() const { return monitor_; }
+
+  private:
+    /// Shows the last report again and again: some stages take long without a new one.
+    void show_until_the_end();
+
+    OffTerminal off_terminal_;
+    std::mutex mutex_;
+    std::condition_variable ended_;
+    bool is_ended_ = false;
+    std::string stage_;
+    double share_ = 0;
+    Monitor monitor_;
+    std::thread thread_;
 };
 
 /// Puts the warnings of a scene's file before those of a run.

@@ -235,7 +235,7 @@ int run_render(RenderRequest request) {
             "the scene is missing. Give a scene (stilb render SCENE -o FILE) or a solution (stilb render "
             "--from FILE -o FILE).");
     }
-    io::SceneFile file = read_scene(request.scene, request.overrides);
+    io::SceneFile file = read_scene(request.scene, request.overrides, request.flags.show_progress());
     if (request.is_first_look) take_first_look(request, file);
     if (stored) require_same_light(*stored, file, request.solution);
     const Sensor& sensor = sensors::choose_camera(file.sensors, request.sensor, request.scene);

@@ -44,6 +44,10 @@ struct RunFlags {
     bool quiet = false, progress = false;
     PatchFlags patches;
 
+    ShowProgress show_progress() const {
+        if (quiet) return ShowProgress::never;
+        return progress ? ShowProgress::everywhere : ShowProgress::on_terminal;
+    }
     OffTerminal off_terminal() const { return progress ? OffTerminal::plain_lines : OffTerminal::nothing; }
 
     void add_to(Command& command);

@@ -42,10 +42,17 @@ void add_overrides(Command& command, std::vector<std::string>& overrides) {
         .repeatable();
 }
 
-io::SceneFile read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+io::SceneFile read_scene(const std::string& path, const std::vector<std::string>& overrides,
+                         const Monitor& monitor) {
     const io::FileKind kind = io::kind_of_file(path);
     if (!io::is_scene(kind)) throw InputError(io::not_a_scene(kind) + command_for(kind, path), {path});
-    return io::load_scene(path, overrides);
+    return io::load_scene(path, overrides, monitor);
+}
+
+io::SceneFile read_scene(const std::string& path, const std::vector<std::string>& overrides,
+                         ShowProgress show) {
+    const LoadingProgress progress(show);
+    return read_scene(path, overrides, progress.monitor());
 }
 
 }  // namespace stilb::cli

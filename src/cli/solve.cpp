@@ -44,7 +44,7 @@ void print_summary(const SolveResult& result, const io::StoredSolution& stored, 
 }
 
 int run_solve(const SolveRequest& request) {
-    io::SceneFile file = read_scene(request.scene, request.overrides);
+    io::SceneFile file = read_scene(request.scene, request.overrides, request.flags.show_progress());
     file.run.method = "ray-bundle";
     const RunOptions options = request.flags.over(file.run);
     io::require_output(request.output, io::FileKind::solution, file.sources);

@@ -1,6 +1,7 @@
 // stilb view: a walk through a lit scene in the browser, while its light is computed.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -23,7 +24,9 @@
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
+#include "rays/ray_caster.h"
 #include "run/solve.h"
+#include "sensors/first_look.h"
 #include "stilb/error.h"
 #include "walk/live_walk.h"
 #include "walk/service/placed_sensors.h"
@@ -48,6 +51,7 @@ struct ViewRequest {
 struct Input {
     io::SceneFile file;
     std::optional<io::StoredSolution> stored;
+    bool is_first_look = false;  ///< lit by lamps that are no part of the scene
 };
 
 /// The scene of a solution, which lies where it lay when it was solved.
@@ -74,17 +78,41 @@ void require_no_solving(const ViewRequest& request) {
 Input read_input(const ViewRequest& request) {
     Input input;
     if (io::kind_of_file(request.input) != io::FileKind::solution) {
-        input.file = read_scene(request.input, request.overrides);
+        input.file = read_scene(request.input, request.overrides, request.flags.show_progress());
         input.file.run.method = "ray-bundle";
         return input;
     }
     require_no_solving(request);
     input.stored = io::read_solution_file(request.input);
-    input.file = read_scene(scene_of(*input.stored, request.input), request.overrides);
+    input.file =
+        read_scene(scene_of(*input.stored, request.input), request.overrides, request.flags.show_progress());
     require_same_light(*input.stored, input.file, request.input);
     estimators::require_consistency(input.stored->solution, input.file.scene);
     input.file.sources.emplace_back(request.input);
     return input;
+}
+
+/// Lights a scene that has no lamps yet, and adds a camera where there is none.
+void take_first_look(const ViewRequest& request, Input& input) {
+    io::SceneFile& file = input.file;
+    if (input.stored || !file.scene.lights.empty()) return;
+    if (!request.output.empty() && !is_page(request.output)) {
+        throw InputError(
+            "the scene has no light, so there is no solution to keep. Give it a lamp; or leave -o out, or "
+            "name a "
+            "page (.html), for a first look.",
+            {request.input});
+    }
+    const rays::RayCaster caster(file.scene);
+    if (std::ranges::none_of(file.sensors, [](const Sensor& sensor) { return sensor.camera() != nullptr; }))
+        file.sensors.push_back(sensors::camera_for_first_look(file.scene, caster));
+    file.scene.lights = sensors::lights_for_first_look(file.scene, caster);
+    std::erase_if(file.warnings, [](const std::string& warning) { return warning.ends_with(io::kNoLight); });
+    file.warnings.emplace_back(
+        "the scene has no light: for a first look, a bulb in each room, one outside and an even sky light "
+        "it. "
+        "Its illuminances and luminances are not those of any lamps.");
+    input.is_first_look = true;
 }
 
 /// Refuses outputs before anything is computed.
@@ -163,6 +191,7 @@ walk::Handlers handlers_of(const io::SceneFile& file, const walk::LiveWalk& walk
 /// Prints how the computation ended, and keeps the solution where the user wants it.
 void conclude(const ViewRequest& request, const Input& input, SolveResult& result) {
     if (input.stored) return;
+    if (input.is_first_look) result.warnings.clear();  // of lamps that are no part of the scene
     const SolveResult& summary = result;
     std::optional<std::size_t> bytes;
     const bool is_kept = !request.output.empty() && !is_page(request.output);
@@ -238,6 +267,7 @@ int serve(const ViewRequest& request, const Input& input, Viewing& viewing) {
 int run_view(const ViewRequest& request) {
     Input input = read_input(request);
     require_output(request, input);
+    take_first_look(request, input);
     if (!request.flags.quiet) print_warnings(input.file.warnings);
     Viewing viewing(request, input);
     return is_page(request.output) ? write_page(request, input, viewing) : serve(request, input, viewing);

@@ -16,9 +16,9 @@ struct Neighbour {
 };
 using Neighbours = std::vector<std::vector<Neighbour>>;
 
-Neighbours neighbours_of(const std::vector<geometry::EdgeUse>& uses, std::size_t triangles) {
+Neighbours neighbours_of(const geometry::Edges& edges, std::size_t triangles) {
     Neighbours neighbours(triangles);
-    for_each_edge(uses, [&](auto first, auto last) {
+    edges.for_each([&](auto first, auto last) {
         if (last - first != 2) return;
         const geometry::EdgeUse &a = *first, &b = *(first + 1);
         const bool is_turned = a.upwards == b.upwards;
@@ -83,11 +83,10 @@ double volume_of(const Mesh& mesh, const std::vector<std::uint32_t>& part, const
 }  // namespace
 
 OutwardMesh outward(const Mesh& mesh) {
-    const std::vector<geometry::EdgeUse> uses =
-        geometry::edge_uses(mesh.triangles, geometry::welded(mesh.vertices));
+    const geometry::Edges edges(mesh);
     OutwardMesh result{mesh};
-    for_each_edge(uses, [&](auto first, auto last) { result.open_edges += last - first == 2 ? 0 : 1; });
-    const Neighbours neighbours = neighbours_of(uses, mesh.triangles.size());
+    edges.for_each([&](auto first, auto last) { result.open_edges += last - first == 2 ? 0 : 1; });
+    const Neighbours neighbours = neighbours_of(edges, mesh.triangles.size());
     Turner turner(neighbours);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::vector<std::uint32_t> part = turner.part_of(t);

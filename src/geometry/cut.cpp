@@ -16,9 +16,32 @@ double distance_to_edge(const Vec3& point, const Vec3& a, const Vec3& b) {
     return length(a + t * along - point);
 }
 
+constexpr std::size_t kNone = 3;
+
+/// Which edges are cut.
+struct CutRule {
+    Vec3 center;
+    double size_m;
+
+    /// The number of a triangle's longest edge that is cut, or kNone.
+    std::size_t longest_to_cut(const std::vector<Vec3>& vertices, const Triangle& t) const {
+        std::size_t longest = kNone;
+        double most = 0;
+        for (std::size_t edge = 0; edge < 3; ++edge) {
+            const Vec3 &a = vertices[t[edge]], &b = vertices[t[(edge + 1) % 3]];
+            const double length_m = length(b - a);
+            if (length_m <= size_m || length_m <= most || length_m <= distance_to_edge(center, a, b))
+                continue;
+            longest = edge;
+            most = length_m;
+        }
+        return longest;
+    }
+};
+
 class Cutter {
   public:
-    Cutter(const Mesh& mesh, const Vec3& center, double size_m) : center_(center), size_m_(size_m) {
+    Cutter(const Mesh& mesh, const CutRule& rule) : rule_(rule) {
         cut_.vertices = mesh.vertices;
         cut_.triangles.reserve(mesh.triangles.size());
         cut_.parents.reserve(mesh.triangles.size());
@@ -34,7 +57,7 @@ class Cutter {
         while (!open.empty()) {
             const Triangle t = open.back();
             open.pop_back();
-            const std::size_t edge = longest_to_cut(t);
+            const std::size_t edge = rule_.longest_to_cut(cut_.vertices, t);
             if (edge == kNone) {
                 cut_.triangles.push_back(t);
                 cut_.parents.push_back(parent);
@@ -47,20 +70,6 @@ class Cutter {
         }
     }
 
-    std::size_t longest_to_cut(const Triangle& t) const {
-        std::size_t longest = kNone;
-        double most = 0;
-        for (std::size_t edge = 0; edge < 3; ++edge) {
-            const Vec3 &a = cut_.vertices[t[edge]], &b = cut_.vertices[t[(edge + 1) % 3]];
-            const double length_m = length(b - a);
-            if (length_m <= size_m_ || length_m <= most || length_m <= distance_to_edge(center_, a, b))
-                continue;
-            longest = edge;
-            most = length_m;
-        }
-        return longest;
-    }
-
     /// The same for both triangles of an edge: the sum of two numbers does not depend on their order.
     std::uint32_t middle_of(std::uint32_t a, std::uint32_t b) {
         const auto next = static_cast<std::uint32_t>(cut_.vertices.size());
@@ -69,9 +78,7 @@ class Cutter {
         return found->second;
     }
 
-    static constexpr std::size_t kNone = 3;
-    Vec3 center_;
-    double size_m_;
+    CutRule rule_;
     CutTriangles cut_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
 };
@@ -79,7 +86,14 @@ class Cutter {
 }  // namespace
 
 CutTriangles cut_large_triangles(const Mesh& mesh, const Vec3& center, double size_m) {
-    return Cutter(mesh, center, size_m).take();
+    return Cutter(mesh, {center, size_m}).take();
+}
+
+bool has_large_triangles(const Mesh& mesh, const Vec3& center, double size_m) {
+    const CutRule rule{center, size_m};
+    return std::ranges::any_of(mesh.triangles, [&](const Triangle& triangle) {
+        return rule.longest_to_cut(mesh.vertices, triangle) != kNone;
+    });
 }
 
 }  // namespace stilb::geometry

@@ -21,5 +21,7 @@ struct CutTriangles {
 /// triangles with a common edge, even of different meshes. A mesh without such edges keeps its triangles, in
 /// their order.
 CutTriangles cut_large_triangles(const Mesh& mesh, const Vec3& center, double size_m);
+/// Whether it would cut any triangle.
+bool has_large_triangles(const Mesh& mesh, const Vec3& center, double size_m);
 
 }  // namespace stilb::geometry

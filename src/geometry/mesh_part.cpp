@@ -14,11 +14,17 @@ class Used {
         return numbers;
     }
 
-    std::vector<Vec3> of(const std::vector<Vec3>& all) const {
+    std::vector<Vec3> from(const std::vector<Vec3>& all) const {
         std::vector<Vec3> used;
         used.reserve(old_numbers_.size());
         for (const std::uint32_t number : old_numbers_) used.push_back(all[number]);
         return used;
+    }
+
+    /// After that, no element is used.
+    void restart() {
+        for (const std::uint32_t number : old_numbers_) new_number_[number] = kNoNumber;
+        old_numbers_.clear();
     }
 
   private:
@@ -35,19 +41,47 @@ class Used {
     std::vector<std::uint32_t> new_number_, old_numbers_;
 };
 
+/// Makes one part after the other; the numbering of the whole mesh's elements is made once.
+class Divider {
+  public:
+    explicit Divider(const Mesh& mesh)
+        : mesh_(mesh), vertices_(mesh.vertices.size()), normals_(mesh.normals.size()) {}
+
+    Mesh part(std::span<const std::uint32_t> triangles) {
+        Mesh part;
+        const bool has_corner_normals = !mesh_.corner_normals.empty();
+        part.triangles.reserve(triangles.size());
+        if (has_corner_normals) part.corner_normals.reserve(triangles.size());
+        for (const std::uint32_t t : triangles) {
+            part.triangles.push_back(vertices_.renumbered(mesh_.triangles[t]));
+            if (has_corner_normals)
+                part.corner_normals.push_back(normals_.renumbered(mesh_.corner_normals[t]));
+        }
+        part.vertices = vertices_.from(mesh_.vertices);
+        if (!mesh_.normals.empty())
+            part.normals = (has_corner_normals ? normals_ : vertices_).from(mesh_.normals);
+        vertices_.restart();
+        normals_.restart();
+        return part;
+    }
+
+  private:
+    const Mesh& mesh_;
+    Used vertices_, normals_;
+};
+
 }  // namespace
 
 Mesh part_of(const Mesh& mesh, std::span<const std::uint32_t> triangles) {
-    Mesh part;
-    Used vertices(mesh.vertices.size()), normals(mesh.normals.size());
-    const bool has_corner_normals = !mesh.corner_normals.empty();
-    for (const std::uint32_t t : triangles) {
-        part.triangles.push_back(vertices.renumbered(mesh.triangles[t]));
-        if (has_corner_normals) part.corner_normals.push_back(normals.renumbered(mesh.corner_normals[t]));
-    }
-    part.vertices = vertices.of(mesh.vertices);
-    if (!mesh.normals.empty()) part.normals = (has_corner_normals ? normals : vertices).of(mesh.normals);
-    return part;
+    return Divider(mesh).part(triangles);
+}
+
+std::vector<Mesh> parts_of(const Mesh& mesh, std::span<const std::vector<std::uint32_t>> parts) {
+    Divider divider(mesh);
+    std::vector<Mesh> meshes;
+    meshes.reserve(parts.size());
+    for (const std::vector<std::uint32_t>& triangles : parts) meshes.push_back(divider.part(triangles));
+    return meshes;
 }
 
 std::vector<std::uint32_t> others(std::size_t count, std::span<const std::uint32_t> numbers) {

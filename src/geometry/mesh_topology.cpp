@@ -1,6 +1,8 @@
 
 #include "geometry/mesh_topology.h"
 
+#include <array>
+#include <bit>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -9,38 +11,70 @@
 
 namespace stilb::geometry {
 
+namespace {
+
+/// Equal for equal positions, also for -0 and 0.
+std::uint64_t hash_of(const Vec3& position) {
+    std::uint64_t hash = 0;
+    for (const double coordinate : {position.x, position.y, position.z}) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * 0x9e3779b97f4a7c15;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> welded(std::span<const Vec3> vertices) {
-    std::vector<std::uint32_t> order(vertices.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto position = [&](std::uint32_t i) {
-        return std::tie(vertices[i].x, vertices[i].y, vertices[i].z);
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return position(a) != position(b) ? position(a) < position(b) : a < b;
-    });
+    constexpr std::uint32_t none = ~0u;
+    // An open hash table, at most half full.
+    std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), none);
     std::vector<std::uint32_t> first(vertices.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool is_repeated = i > 0 && position(order[i]) == position(order[i - 1]);
-        first[order[i]] = is_repeated ? first[order[i - 1]] : order[i];
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+        std::size_t at = hash_of(vertices[i]) & (table.size() - 1);
+        while (table[at] != none && vertices[table[at]] != vertices[i]) at = (at + 1) & (table.size() - 1);
+        if (table[at] == none) table[at] = i;
+        first[i] = table[at];
     }
     return first;
 }
 
-std::vector<EdgeUse> edge_uses(std::span<const Triangle> triangles,
-                               std::span<const std::uint32_t> vertex_at) {
-    std::vector<EdgeUse> uses;
-    uses.reserve(3 * triangles.size());
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        for (std::size_t side = 0; side < 3; ++side) {
-            const std::uint32_t from = vertex_at[triangles[t][side]];
-            const std::uint32_t to = vertex_at[triangles[t][(side + 1) % 3]];
-            uses.push_back({std::min(from, to), std::max(from, to), t, from < to});
+Edges::Edges(std::span<const Triangle> triangles, std::vector<std::uint32_t> vertex_at)
+    : triangles_(triangles), vertex_at_(std::move(vertex_at)), ends_(vertex_at_.size() + 1) {
+    for_each_low_vertex([&](std::uint32_t low, std::uint32_t) { ++ends_[low + 1]; });
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    listed_.resize(ends_.back());
+    // The begin of each list moves to its end.
+    for_each_low_vertex([&](std::uint32_t low, std::uint32_t t) { listed_[ends_[low]++] = t; });
+}
+
+/// Calls `visit(vertex, triangle)` for the lower vertices of each triangle's sides, once for each.
+template <typename Visitor>
+void Edges::for_each_low_vertex(const Visitor& visit) const {
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+        std::array<std::uint32_t, 3> low;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [from, to] = side(t, i);
+            low[i] = std::min(from, to);
+        }
+        visit(low[0], t);
+        if (low[1] != low[0]) visit(low[1], t);
+        if (low[2] != low[0] && low[2] != low[1]) visit(low[2], t);
+    }
+}
+
+void Edges::find_uses(std::uint32_t low, std::vector<EdgeUse>& uses) const {
+    uses.clear();
+    for (std::size_t i = low == 0 ? 0 : ends_[low - 1]; i < ends_[low]; ++i) {
+        const std::uint32_t t = listed_[i];
+        for (std::size_t number = 0; number < 3; ++number) {
+            const auto [from, to] = side(t, number);
+            if (std::min(from, to) == low) uses.push_back({low, std::max(from, to), t, from < to});
         }
     }
     std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-        return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+        return std::tie(a.high, a.triangle) < std::tie(b.high, b.triangle);
     });
-    return uses;
 }
 
 std::size_t ConnectedComponents::total_open_edges() const {
@@ -48,14 +82,14 @@ std::size_t ConnectedComponents::total_open_edges() const {
 }
 
 ConnectedComponents find_components(const Mesh& mesh) {
-    const std::vector<EdgeUse> uses = edge_uses(mesh.triangles, welded(mesh.vertices));
+    const Edges edges(mesh);
     math::DisjointSets groups(mesh.triangles.size());
-    for_each_edge(uses, [&](auto first, auto last) {
+    edges.for_each([&](auto first, auto last) {
         for (auto use = first + 1; use != last; ++use) groups.join(first->triangle, use->triangle);
     });
-    auto [of_triangle, count] = groups.numbered();
+    auto [of_triangle, count] = std::move(groups).numbered();
     ConnectedComponents components{std::move(of_triangle), std::vector<std::size_t>(count), 0};
-    for_each_edge(uses, [&](auto first, auto last) {
+    edges.for_each([&](auto first, auto last) {
         const auto times = last - first;
         if (times % 2 != 0) ++components.open_edges[components.of_triangle[first->triangle]];
         if (times == 2 && first->upwards == (first + 1)->upwards) ++components.turned_edges;

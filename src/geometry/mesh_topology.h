@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/shared_list.h"
@@ -19,24 +20,49 @@ std::vector<std::uint32_t> welded(std::span<const Vec3> vertices);
 struct EdgeUse {
     std::uint32_t low, high, triangle;
     bool upwards;
-
-    bool same_edge(const EdgeUse& other) const { return low == other.low && high == other.high; }
 };
 
-/// All uses of all edges, those of the same edge one after another in the order of triangles. `vertex_at` is
-/// the result of welded().
-std::vector<EdgeUse> edge_uses(std::span<const Triangle> triangles, std::span<const std::uint32_t> vertex_at);
+/// The edges of some triangles, in little memory (about 8 bytes for each triangle and each vertex): their
+/// uses are put together one edge after the other. Keeps a reference to the triangles.
+class Edges {
+  public:
+    /// `vertex_at`: the result of welded().
+    Edges(std::span<const Triangle> triangles, std::vector<std::uint32_t> vertex_at);
+    explicit Edges(const Mesh& mesh) : Edges(mesh.triangles, welded(mesh.vertices)) {}
 
-/// Calls `visit(first, last)` for the uses of every edge.
-template <typename Visitor>
-void for_each_edge(const std::vector<EdgeUse>& uses, const Visitor& visit) {
-    for (auto first = uses.begin(); first != uses.end();) {
-        const auto last =
-            std::find_if(first, uses.end(), [&](const EdgeUse& use) { return !use.same_edge(*first); });
-        visit(first, last);
-        first = last;
+    /// Calls `visit(first, last)` for the uses of every edge, which are in the order of triangles. The edges
+    /// are in the order of their vertices.
+    template <typename Visitor>
+    void for_each(const Visitor& visit) const {
+        std::vector<EdgeUse> uses;
+        for (std::uint32_t low = 0; low < vertex_at_.size(); ++low) {
+            find_uses(low, uses);
+            for (auto first = uses.cbegin(); first != uses.cend();) {
+                const auto last = std::find_if(first, uses.cend(),
+                                               [&](const EdgeUse& use) { return use.high != first->high; });
+                visit(first, last);
+                first = last;
+            }
+        }
     }
-}
+
+  private:
+    /// The vertices of a triangle's side.
+    std::pair<std::uint32_t, std::uint32_t> side(std::uint32_t triangle, std::size_t number) const {
+        const Triangle& corners = triangles_[triangle];
+        return {vertex_at_[corners[number]], vertex_at_[corners[(number + 1) % 3]]};
+    }
+    template <typename Visitor>
+    void for_each_low_vertex(const Visitor& visit) const;
+    /// Replaces `uses` by those of the edges from a vertex to higher ones, sorted.
+    void find_uses(std::uint32_t low, std::vector<EdgeUse>& uses) const;
+
+    std::span<const Triangle> triangles_;
+    std::vector<std::uint32_t> vertex_at_;
+    /// The triangles with an edge whose lower vertex is 0, those of vertex 1 and so on, and where they end.
+    std::vector<std::uint32_t> listed_;
+    std::vector<std::size_t> ends_;
+};
 
 // The connected components of a shape, and which of them are closed.
 

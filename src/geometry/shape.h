@@ -150,7 +150,7 @@ Bounds bounds_of(const Shape& shape);
 double area_m2(const Shape& shape);
 /// The transformed shape; fronts stay fronts under mirrored transforms. Boxes become meshes unless their axes
 /// stay axis-parallel. Precondition for spheres, disks and harmonics: the transform is a similarity.
-Shape transformed(const Shape& shape, const Transform& transform);
+Shape transformed(Shape shape, const Transform& transform);
 /// A copy of the mesh in the world.
 Mesh triangulated(const Instance& instance);
 /// Two triangles with the rectangle's front.

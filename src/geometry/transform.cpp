@@ -18,14 +18,13 @@ bool keeps_axes(const Transform& t) {
            t.z_axis.y == 0;
 }
 
-Shape moved(const Mesh& mesh, const Transform& t) {
-    Mesh result = mesh;
-    for (Vec3& vertex : result.vertices) vertex = t.point(vertex);
-    for (Vec3& normal : result.normals) normal = t.normal(normal);
+Shape moved(Mesh mesh, const Transform& t) {
+    for (Vec3& vertex : mesh.vertices) vertex = t.point(vertex);
+    for (Vec3& normal : mesh.normals) normal = t.normal(normal);
     if (t.is_mirrored()) {
-        for (std::uint32_t i = 0; i < result.triangles.size(); ++i) turn_over(result, i);
+        for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) turn_over(mesh, i);
     }
-    return result;
+    return mesh;
 }
 
 Shape moved(const Instance& instance, const Transform& t) {
@@ -110,8 +109,8 @@ Transform compose(const Transform& second, const Transform& first) {
             second.point(first.translation)};
 }
 
-Shape transformed(const Shape& shape, const Transform& transform) {
-    return std::visit([&](const auto& s) { return moved(s, transform); }, shape);
+Shape transformed(Shape shape, const Transform& transform) {
+    return std::visit([&](auto& s) { return moved(std::move(s), transform); }, shape);
 }
 
 Mesh triangulated(const Instance& instance) {

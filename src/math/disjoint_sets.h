@@ -1,6 +1,7 @@
 // Disjoint sets, joined step by step.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -16,20 +17,19 @@ class DisjointSets {
         std::iota(parent_.begin(), parent_.end(), 0u);
     }
 
-    void join(std::uint32_t a, std::uint32_t b) { parent_[root(b)] = root(a); }
+    void join(std::uint32_t a, std::uint32_t b) {
+        const auto [first, second] = std::minmax({root(a), root(b)});
+        parent_[second] = first;
+    }
 
     /// For each member the number of its set, in the order of the sets' first members; and the number of
     /// sets.
-    std::pair<std::vector<std::uint32_t>, std::size_t> numbered() {
-        constexpr std::uint32_t none = ~0u;
-        std::vector<std::uint32_t> number_of_root(parent_.size(), none), numbers(parent_.size());
+    std::pair<std::vector<std::uint32_t>, std::size_t> numbered() && {
         std::uint32_t count = 0;
-        for (std::uint32_t i = 0; i < parent_.size(); ++i) {
-            std::uint32_t& number = number_of_root[root(i)];
-            if (number == none) number = count++;
-            numbers[i] = number;
-        }
-        return {std::move(numbers), count};
+        // A parent comes before its members, and has its number already.
+        for (std::uint32_t i = 0; i < parent_.size(); ++i)
+            parent_[i] = parent_[i] == i ? count++ : parent_[parent_[i]];
+        return {std::move(parent_), count};
     }
 
   private:
@@ -38,6 +38,7 @@ class DisjointSets {
         return i;
     }
 
+    /// Never behind the member.
     std::vector<std::uint32_t> parent_;
 };
 

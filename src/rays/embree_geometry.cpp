@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -94,26 +95,42 @@ void curved_occluded(const RTCOccludedFunctionNArguments* args) {
     }
 }
 
-/// Triangles larger than `largest_m` are cut.
-RTCGeometry new_mesh(RTCDevice device, const Mesh& mesh, const Vec3& origin, double largest_m,
-                     EmbreeGeometry& kept) {
+/// `triangles` must stay where they are.
+RTCGeometry new_mesh(RTCDevice device, std::span<const Vec3> points, std::span<const Triangle> triangles,
+                     const Vec3& origin, EmbreeGeometry& kept) {
     using Vertex = std::array<float, 3>;
     const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    geometry::CutTriangles parts = geometry::cut_large_triangles(mesh, origin, largest_m);
     auto* vertices = static_cast<Vertex*>(rtcSetNewGeometryBuffer(
-        handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vertex), parts.vertices.size()));
-    for (std::size_t i = 0; i < parts.vertices.size(); ++i) {
-        const Vec3 p = parts.vertices[i] - origin;
+        handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vertex), points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 p = points[i] - origin;
         vertices[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
     }
-    auto* triangles = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
-        handle, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), parts.triangles.size()));
-    std::ranges::copy(parts.triangles, triangles);
-    if (parts.triangles.size() > mesh.triangles.size()) kept.parents = std::move(parts.parents);
+    rtcSetSharedGeometryBuffer(handle, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
+                               sizeof(Triangle), triangles.size());
     kept.vertices = vertices;
-    kept.triangles = triangles;
-    kept.vertex_count = parts.vertices.size();
-    kept.triangle_count = parts.triangles.size();
+    kept.triangles = triangles.data();
+    kept.vertex_count = points.size();
+    kept.triangle_count = triangles.size();
+    return handle;
+}
+
+/// A mesh of the scene, whose triangles are not copied where none has to be cut.
+RTCGeometry new_mesh(RTCDevice device, const Mesh& mesh, const Vec3& origin, EmbreeGeometry& kept) {
+    if (!geometry::has_large_triangles(mesh, origin, kLargeTriangle_m))
+        return new_mesh(device, mesh.vertices, mesh.triangles, origin, kept);
+    geometry::CutTriangles parts = geometry::cut_large_triangles(mesh, origin, kLargeTriangle_m);
+    kept.parents = std::move(parts.parents);
+    kept.own_triangles = std::move(parts.triangles);
+    return new_mesh(device, parts.vertices, kept.own_triangles, origin, kept);
+}
+
+/// A mesh of another shape.
+RTCGeometry new_triangulated(RTCDevice device, Mesh mesh, const Vec3& origin, EmbreeGeometry& kept) {
+    const RTCGeometry handle = new_mesh(device, mesh, origin, kept);
+    if (kept.parents.empty()) {
+        kept.own_triangles = std::move(mesh.triangles);  // they stay where they are
+    }
     return handle;
 }
 
@@ -133,12 +150,12 @@ RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origi
     kept.curved = curved_surface(shape, origin);
     if (kept.curved) return new_curved(device, kept);
     if (const auto* rectangle = std::get_if<Rectangle>(&shape))
-        return new_mesh(device, triangulated(*rectangle), origin, kLargeTriangle_m, kept);
+        return new_triangulated(device, triangulated(*rectangle), origin, kept);
     if (const auto* box = std::get_if<Box>(&shape))
-        return new_mesh(device, triangulated(*box), origin, kLargeTriangle_m, kept);
+        return new_triangulated(device, triangulated(*box), origin, kept);
     const Mesh& mesh = std::get<Mesh>(shape);
     if (!mesh.normals.empty()) kept.smooth = &mesh;
-    return new_mesh(device, mesh, origin, kLargeTriangle_m, kept);
+    return new_mesh(device, mesh, origin, kept);
 }
 
 std::array<Vec3, 3> EmbreeGeometry::corners_of(std::uint32_t primitive) const {
@@ -172,7 +189,7 @@ const SharedMeshes::SharedMesh& SharedMeshes::shared(RTCDevice device, const Mes
     shared.middle = bounds.middle();
     shared.scene = new_scene(device);
     const RTCGeometry geometry =
-        new_mesh(device, mesh, shared.middle, std::numeric_limits<double>::infinity(), shared.geometry);
+        new_mesh(device, mesh.vertices, mesh.triangles, shared.middle, shared.geometry);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(shared.scene, geometry);
     rtcReleaseGeometry(geometry);

@@ -52,9 +52,10 @@ std::unique_ptr<CurvedSurface> curved_surface(const Shape& shape, const Vec3& or
 
 /// The data of a geometry for rays that met it: a mesh in single precision, or a curved surface.
 struct EmbreeGeometry {
-    const std::array<float, 3>* vertices = nullptr;  ///< owned by Embree, as are the triangles; or null
-    const Triangle* triangles = nullptr;
+    const std::array<float, 3>* vertices = nullptr;  ///< owned by Embree; or null
+    const Triangle* triangles = nullptr;             ///< of own_triangles, or owned by the scene; or null
     std::size_t vertex_count = 0, triangle_count = 0;
+    std::vector<Triangle> own_triangles;
     std::vector<std::uint32_t> parents;  ///< of triangles that are parts of larger ones; empty where none is
     const Mesh* smooth = nullptr;        ///< owned by the scene, where it has vertex normals; or null
     std::unique_ptr<CurvedSurface> curved;

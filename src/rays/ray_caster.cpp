@@ -32,6 +32,15 @@ static_assert(kNothing == RTC_INVALID_GEOMETRY_ID);
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Embree's threads call it while they build. Interruptions come between stages, not from here.
+bool report_build(void* monitor, double share) {
+    try {
+        static_cast<const Monitor*>(monitor)->report("acceleration structure", share);
+    } catch (const Cancelled&) {
+    }
+    return true;
+}
+
 void throw_error(void*, RTCError, const char* message) {
     throw std::runtime_error(fmt::format("Embree: {}", message));
 }
@@ -186,7 +195,7 @@ struct RayCaster::Implementation {
     std::vector<MetObject> met_objects;
     std::optional<FewTriangles> few_triangles;  ///< all of the scene, if it has few and nothing curved
 
-    explicit Implementation(const Scene& s) : scene(s), lift_rule(scene::lift_of(s)) {
+    Implementation(const Scene& s, const Monitor& monitor) : scene(s), lift_rule(scene::lift_of(s)) {
         require_within_reach(s);
         has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
             return std::ranges::any_of(object.materials,
@@ -199,7 +208,9 @@ struct RayCaster::Implementation {
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) packet_width = 16;
         embree_scene = new_scene(device);
         for (const Object& object : scene.objects) add(object);
+        rtcSetSceneProgressMonitorFunction(embree_scene, report_build, const_cast<Monitor*>(&monitor));
         rtcCommitScene(embree_scene);
+        rtcSetSceneProgressMonitorFunction(embree_scene, nullptr, nullptr);  // the monitor may end now
         add_few_triangles();
     }
 
@@ -375,7 +386,8 @@ struct RayCaster::Implementation {
     }
 };
 
-RayCaster::RayCaster(const Scene& scene) : implementation_(std::make_unique<Implementation>(scene)) {}
+RayCaster::RayCaster(const Scene& scene, const Monitor& monitor)
+    : implementation_(std::make_unique<Implementation>(scene, monitor)) {}
 RayCaster::~RayCaster() = default;
 
 const Vec3& RayCaster::center() const { return implementation_->center; }

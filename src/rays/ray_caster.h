@@ -18,6 +18,7 @@
 #include <span>
 
 #include "base/ids.h"
+#include "base/monitor.h"
 #include "base/rays.h"
 #include "base/vec.h"
 #include "rays/surface_packet.h"
@@ -73,9 +74,10 @@ enum class Coherence { coherent, scattered };
 /// Immutable after construction; all queries may run in parallel. Keeps a reference to the scene.
 class RayCaster {
   public:
-    /// Builds the acceleration structure. Throws InputError where an object or a light is farther than 20,000
-    /// km from the origin, std::runtime_error where Embree fails (out of memory).
-    explicit RayCaster(const Scene& scene);
+    /// Builds the acceleration structure; the monitor takes the share that is built. Throws InputError where
+    /// an object or a light is farther than 20,000 km from the origin, std::runtime_error where Embree fails
+    /// (out of memory).
+    explicit RayCaster(const Scene& scene, const Monitor& monitor = Monitor::none());
     ~RayCaster();
     RayCaster(const RayCaster&) = delete;
     RayCaster& operator=(const RayCaster&) = delete;

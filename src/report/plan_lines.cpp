@@ -50,8 +50,7 @@ class Section {
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             if (!is_small(t)) add_cut(mesh, mesh.triangles[t]);
         }
-        const auto uses = geometry::edge_uses(mesh.triangles, geometry::welded(mesh.vertices));
-        geometry::for_each_edge(uses, [&](auto first, auto last) {
+        geometry::Edges(mesh).for_each([&](auto first, auto last) {
             if (!is_small(first->triangle) && is_drawn(mesh, {first, last}))
                 add_seen(mesh.vertices[first->low], mesh.vertices[first->high]);
         });

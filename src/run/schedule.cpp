@@ -127,10 +127,11 @@ Session::Session(const Scene& scene, const RunOptions& asked, const RunOptions& 
       sink_(sink),
       interrupt_(interrupt),
       monitor_(interrupt, deadline_of(asked), report_to(sink, clock_)),
-      caster_(scene),
+      caster_(scene, monitor_),
       pool_(options.threads) {}
 
 std::vector<std::string> Session::scene_warnings(std::span<const Sensor> sensors) const {
+    monitor_.report("checks", 0);
     return checks::scene_warnings(scene_, caster_, checks::Enclosures(scene_, caster_), sensors);
 }
 

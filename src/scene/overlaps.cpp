@@ -158,6 +158,7 @@ class OverlapSearch {
                 wanted_.include(lamp.min - margin_), wanted_.include(lamp.max + margin_);
             }
         }
+        if (of == OverlapsOf::all_surfaces) pieces_.reserve(triangle_count(scene));
         for (std::uint32_t i = 0; i < scene.objects.size(); ++i) add(scene.objects[i], i, is_lamp[i]);
     }
 
@@ -165,19 +166,30 @@ class OverlapSearch {
         std::vector<std::uint32_t> all(pieces_.size());
         std::iota(all.begin(), all.end(), 0u);
         Bounds box;
-        for (const Piece& piece : pieces_) box.include(piece.bounds.min), box.include(piece.bounds.max);
+        for (const Piece& piece : pieces_) {
+            const Bounds own = bounds_of(piece);
+            box.include(own.min), box.include(own.max);
+        }
         search(std::move(all), box, 0);
         return std::move(overlaps_);
     }
 
   private:
+    /// Without its bounds, which are found anew from the mesh: they would take more memory than it does.
     struct Piece {
-        Bounds bounds;  ///< with a margin of half the largest gap
         ObjectId object{};
         std::uint32_t triangle = 0;
         std::uint32_t look = 0;  ///< the same for pieces whose overlap changes nothing
-        bool is_lamp = false;
     };
+
+    /// Of meshes: other shapes have few.
+    static std::size_t triangle_count(const Scene& scene) {
+        std::size_t count = 0;
+        for (const Object& object : scene.objects) {
+            if (const auto* mesh = std::get_if<Mesh>(&object.shape)) count += mesh->triangles.size();
+        }
+        return count;
+    }
 
     void add(const Object& object, std::uint32_t index, bool is_lamp) {
         if (!meet(geometry::bounds_of(object.shape), wanted_)) return;
@@ -186,15 +198,23 @@ class OverlapSearch {
         if (mesh == nullptr) shape.own = mesh_of(object.shape);
         shape.mesh = mesh ? mesh : &shape.own;
         std::uint32_t look = look_of(object.materials[0], is_lamp ? index + 1 : 0);
+        shape.is_lamp = is_lamp;
         for (std::uint32_t t = 0; t < shape.mesh->triangles.size(); ++t) {
-            Bounds bounds;
-            for (const std::uint32_t v : shape.mesh->triangles[t]) bounds.include(shape.mesh->vertices[v]);
-            bounds = {bounds.min - margin_, bounds.max + margin_};
-            if (!meet(bounds, wanted_)) continue;
-            if (object.materials.size() > 1) look = look_of(object.materials[t], is_lamp ? index + 1 : 0);
-            pieces_.push_back({bounds, ObjectId{index}, t, look, is_lamp});
+            Piece piece{ObjectId{index}, t, look};
+            if (!meet(bounds_of(piece), wanted_)) continue;
+            if (object.materials.size() > 1)
+                piece.look = look_of(object.materials[t], is_lamp ? index + 1 : 0);
+            pieces_.push_back(piece);
         }
     }
+
+    /// With a margin of half the largest gap.
+    Bounds bounds_of(const Piece& piece) const {
+        Bounds bounds;
+        for (const Vec3& corner : corners_of(piece)) bounds.include(corner);
+        return {bounds.min - margin_, bounds.max + margin_};
+    }
+    bool is_lamp(const Piece& piece) const { return shapes_[index_of(piece.object)].is_lamp; }
 
     static bool meet(const Bounds& a, const Bounds& b) {
         return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
@@ -218,8 +238,9 @@ class OverlapSearch {
         set(low.max, axis, middle), set(high.min, axis, middle);
         std::vector<std::uint32_t> below, above;
         for (const std::uint32_t i : pieces) {
-            if (pieces_[i].bounds.min[axis] < middle) below.push_back(i);
-            if (pieces_[i].bounds.max[axis] >= middle) above.push_back(i);
+            const Bounds own = bounds_of(pieces_[i]);
+            if (own.min[axis] < middle) below.push_back(i);
+            if (own.max[axis] >= middle) above.push_back(i);
         }
         pieces = {};  // the memory is not needed any more
         search(std::move(below), low, depth + 1);
@@ -243,7 +264,7 @@ class OverlapSearch {
     AxisChoice best_axis(std::span<const std::uint32_t> pieces, const Bounds& box) const {
         Vec3 sum;
         for (const std::uint32_t i : pieces) {
-            const Bounds& own = pieces_[i].bounds;
+            const Bounds own = bounds_of(pieces_[i]);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const double inside =
                     std::min(own.max[axis], box.max[axis]) - std::max(own.min[axis], box.min[axis]);
@@ -259,22 +280,28 @@ class OverlapSearch {
     }
 
     /// All pairs whose extents along `axis` overlap.
-    void compare(std::vector<std::uint32_t>& pieces, const Bounds& box, std::size_t axis) {
-        std::ranges::sort(pieces, {},
-                          [&](std::uint32_t i) { return std::pair(pieces_[i].bounds.min[axis], i); });
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            const Piece& first = pieces_[pieces[i]];
-            for (std::size_t j = i + 1; j < pieces.size(); ++j) {
-                const Piece& second = pieces_[pieces[j]];
-                if (second.bounds.min[axis] > first.bounds.max[axis]) break;
-                if (first.look == second.look || !is_met_in(box, first.bounds, second.bounds)) continue;
-                if (first.is_lamp && !second.is_lamp) {
+    void compare(std::span<const std::uint32_t> pieces, const Bounds& box, std::size_t axis) {
+        struct Placed {
+            Bounds bounds;
+            std::uint32_t number;
+        };
+        std::vector<Placed> placed;
+        for (const std::uint32_t i : pieces) placed.push_back({bounds_of(pieces_[i]), i});
+        std::ranges::sort(placed, {},
+                          [&](const Placed& p) { return std::pair(p.bounds.min[axis], p.number); });
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            const Piece& first = pieces_[placed[i].number];
+            for (std::size_t j = i + 1; j < placed.size(); ++j) {
+                const Piece& second = pieces_[placed[j].number];
+                if (placed[j].bounds.min[axis] > placed[i].bounds.max[axis]) break;
+                if (first.look == second.look || !is_met_in(box, placed[i].bounds, placed[j].bounds))
+                    continue;
+                const bool is_lamp_first = is_lamp(first) && !is_lamp(second);
+                const bool is_lamp_second = is_lamp(second) && !is_lamp(first);
+                if (is_lamp_first || (!is_lamp_second && first.object <= second.object)) {
                     add_overlap(first, second);
-                } else if (second.is_lamp && !first.is_lamp) {
-                    add_overlap(second, first);
                 } else {
-                    add_overlap(std::min(first.object, second.object) == first.object ? first : second,
-                                std::min(first.object, second.object) == first.object ? second : first);
+                    add_overlap(second, first);
                 }
                 if (overlaps_.size() >= most_) return;
             }
@@ -308,6 +335,7 @@ class OverlapSearch {
     struct Shapes {
         Mesh own;  ///< the triangles of what is no mesh
         const Mesh* mesh = nullptr;
+        bool is_lamp = false;
     };
 
     OverlapsOf of_;

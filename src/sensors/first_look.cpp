@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <string_view>
 
+#include "sensors/areas/plane_region.h"
 #include "sensors/areas/working_planes.h"
 
 namespace stilb::sensors {
@@ -15,6 +19,8 @@ constexpr double kEyes_m = 1.6, kTarget_m = 1, kFromWalls_m = 0.4;
 /// The distance from outside, in half diagonals: all is in the picture.
 constexpr double kFromOutside = 2.2, kLeast_m = 1e-3;
 constexpr double kIlluminance_lx = 500;
+constexpr std::size_t kMostRooms = 32;
+constexpr double kSky_cd_m2 = 50;
 
 Vec3 middle_of(const std::vector<Vec3>& corners) {
     Vec3 sum;
@@ -22,29 +28,71 @@ Vec3 middle_of(const std::vector<Vec3>& corners) {
     return sum / static_cast<double>(corners.size());
 }
 
+/// Planes at the height of the eyes, the largest first.
+std::vector<WorkingPlane> rooms_of(const Scene& scene, const rays::RayCaster& caster) {
+    auto planes = working_planes(scene, caster, {.height_m = kEyes_m, .margin_m = kFromWalls_m});
+    std::ranges::stable_sort(planes, std::greater(),
+                             [](const WorkingPlane& plane) { return area_m2(plane.polygon); });
+    return planes;
+}
+
+Camera camera_outside(const Scene& scene) {
+    const Bounds bounds = scene::bounds_of(scene);
+    const double radius_m = std::max(length(bounds.max - bounds.min) / 2, kLeast_m);
+    Camera camera;
+    camera.fov_deg = kFovOutside_deg;
+    camera.target = bounds.middle();
+    camera.position = camera.target + kFromOutside * radius_m * normalized({-0.6, -0.7, 0.4});
+    return camera;
+}
+
+/// The middle of a room, or a corner where the middle is not in it.
+Vec3 place_in(const PolygonInSpace& room) {
+    const auto is_in = [](const std::vector<Vec3>& corners, const Vec3& point) {
+        Ring ring;
+        for (const Vec3& corner : corners) ring.push_back({corner.x, corner.y});
+        return contains(ring, {point.x, point.y}, 0);
+    };
+    const Vec3 middle = middle_of(room.outline);
+    const bool is_room =
+        is_in(room.outline, middle) &&
+        std::ranges::none_of(room.holes, [&](const std::vector<Vec3>& hole) { return is_in(hole, middle); });
+    return is_room ? middle : room.outline.front();
+}
+
 }  // namespace
 
 Sensor camera_for_first_look(const Scene& scene, const rays::RayCaster& caster) {
-    Camera camera;
+    const std::vector<WorkingPlane> rooms = rooms_of(scene, caster);
+    Camera camera = camera_outside(scene);
     camera.resolution = kResolution;
-    const auto planes = working_planes(scene, caster, {.height_m = kEyes_m, .margin_m = kFromWalls_m});
-    const auto largest = std::ranges::max_element(
-        planes, {}, [](const WorkingPlane& plane) { return area_m2(plane.polygon); });
-    if (largest == planes.end()) {
-        const Bounds bounds = scene::bounds_of(scene);
-        const double radius_m = std::max(length(bounds.max - bounds.min) / 2, kLeast_m);
-        camera.fov_deg = kFovOutside_deg;
-        camera.target = bounds.middle();
-        camera.position = camera.target + kFromOutside * radius_m * normalized({-0.6, -0.7, 0.4});
-        return {"preview", camera};
-    }
-    const std::vector<Vec3>& outline = largest->polygon.outline;
+    if (rooms.empty()) return {"preview", camera};
+    const std::vector<Vec3>& outline = rooms.front().polygon.outline;
     const Vec3 middle = middle_of(outline);
     camera.fov_deg = kFovInside_deg;
     camera.position = *std::ranges::max_element(
         outline, {}, [&](const Vec3& corner) { return squared_length(corner - middle); });
-    camera.target = {middle.x, middle.y, largest->floor_m + kTarget_m};
+    camera.target = {middle.x, middle.y, rooms.front().floor_m + kTarget_m};
     return {"preview", camera};
+}
+
+std::vector<Light> lights_for_first_look(const Scene& scene, const rays::RayCaster& caster) {
+    std::vector<Light> lights;
+    const auto add_bulb = [&](const std::string& name, const Vec3& position, double squared_m2,
+                              std::string_view group) {
+        lights.push_back(
+            {name, PointLight{position, Rgb::grey(kIlluminance_lx * squared_m2)}, std::string(group)});
+    };
+    for (const WorkingPlane& room : rooms_of(scene, caster)) {
+        if (lights.size() == kMostRooms) break;
+        add_bulb("bulb " + std::to_string(lights.size() + 1), place_in(room.polygon),
+                 area_m2(room.polygon) / 4, "first look: rooms");
+    }
+    const Camera outside = camera_outside(scene);
+    constexpr std::string_view group = "first look: outside";
+    add_bulb("bulb outside", outside.position, squared_length(outside.target - outside.position), group);
+    lights.push_back({"sky", EnvironmentLight{Rgb::grey(kSky_cd_m2)}, std::string(group)});
+    return lights;
 }
 
 Scene with_headlight(Scene scene, const Camera& camera) {

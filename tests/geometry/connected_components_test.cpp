@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "geometry/mesh_topology.h"
+#include "math/random.h"
 
 namespace stilb::geometry {
 namespace {
@@ -81,6 +84,49 @@ TEST(ConnectedComponents, AFlippedTriangleTurnsItsThreeEdges) {
     const ConnectedComponents components = find_components(mesh);
     EXPECT_EQ(components.total_open_edges(), 0u);
     EXPECT_EQ(components.turned_edges, 3u);
+}
+
+using EdgeKey = std::pair<std::uint32_t, std::uint32_t>;
+using Uses = std::vector<std::pair<std::uint32_t, bool>>;  // triangle, and whether it runs upwards
+
+std::vector<std::pair<EdgeKey, Uses>> edges_by_sorting(const std::vector<Triangle>& triangles,
+                                                       const std::vector<std::uint32_t>& vertex_at) {
+    std::map<EdgeKey, Uses> uses;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        for (std::size_t side = 0; side < 3; ++side) {
+            const std::uint32_t from = vertex_at[triangles[t][side]];
+            const std::uint32_t to = vertex_at[triangles[t][(side + 1) % 3]];
+            uses[std::minmax(from, to)].emplace_back(t, from < to);
+        }
+    }
+    return {uses.begin(), uses.end()};
+}
+
+TEST(Edges, AreThoseOfAllSidesInOrder) {
+    math::SampleStream stream(math::RandomKey{7}, 0);
+    const auto any = [&] { return static_cast<std::uint32_t>(stream.next() * 40); };
+    std::vector<std::uint32_t> vertex_at(40);
+    for (std::uint32_t v = 0; v < 40; ++v) vertex_at[v] = v % 35;  // five vertices are repeated
+    std::vector<Triangle> triangles;
+    while (triangles.size() < 500) {
+        const Triangle t{any(), any(), any()};
+        const std::uint32_t a = vertex_at[t[0]], b = vertex_at[t[1]], c = vertex_at[t[2]];
+        if (a != b && b != c && c != a) triangles.push_back(t);
+    }
+    std::vector<std::pair<EdgeKey, Uses>> found;
+    Edges(triangles, vertex_at).for_each([&](auto first, auto last) {
+        Uses uses;
+        for (auto use = first; use != last; ++use) uses.emplace_back(use->triangle, use->upwards);
+        found.emplace_back(EdgeKey{first->low, first->high}, uses);
+    });
+    EXPECT_EQ(found, edges_by_sorting(triangles, vertex_at));
+}
+
+TEST(Welded, VerticesAtOnePositionAreTheFirstOfThem) {
+    const std::vector<Vec3> vertices{{0, 1, 2},         {3, 4, 5}, {-0.0, 1, 2},
+                                     {3, 4, 5.0000001}, {3, 4, 5}, {0, 1, 2}};
+    EXPECT_EQ(welded(vertices), (std::vector<std::uint32_t>{0, 1, 0, 3, 1, 0}));
+    EXPECT_TRUE(welded({}).empty());
 }
 
 }  // namespace

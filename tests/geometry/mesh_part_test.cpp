@@ -35,6 +35,22 @@ TEST(MeshPart, KeepsNormalsOfCorners) {
     EXPECT_EQ(part.corner_normals, (std::vector<Triangle>{{0, 1, kNoNormal}, {1, 1, 2}}));
 }
 
+TEST(MeshPart, SeveralPartsAreThoseOneByOne) {
+    const std::vector<Vec3> normals{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+    const std::vector<Triangle> corners{{0, 0, 0}, {1, 2, kNoNormal}, {0, 1, 2}, {2, 2, 0}};
+    const Mesh mesh{kVertices, kTriangles, normals, corners};
+    const std::vector<Numbers> numbers{{0, 2}, {1}, {3, 0}};
+    const std::vector<Mesh> parts = parts_of(mesh, numbers);
+    ASSERT_EQ(parts.size(), numbers.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Mesh part = part_of(mesh, numbers[i]);
+        EXPECT_EQ(parts[i].vertices, part.vertices);
+        EXPECT_EQ(parts[i].triangles, part.triangles);
+        EXPECT_EQ(parts[i].normals, part.normals);
+        EXPECT_EQ(parts[i].corner_normals, part.corner_normals);
+    }
+}
+
 TEST(MeshPart, OthersAreTheRest) {
     EXPECT_EQ(others(5, Numbers{1, 4}), (Numbers{0, 2, 3}));
     EXPECT_EQ(others(3, Numbers{}), (Numbers{0, 1, 2}));

@@ -15,7 +15,7 @@
 
 namespace stilb::io {
 
-using MeshReader = MeshFile (*)(std::string_view content, const std::string& name);
+using MeshReader = MeshFile (*)(UnreadBytes content, const std::string& name);
 
 /// The message with which `read` refuses `content`; "accepted" where it does not.
 inline std::string refusal(MeshReader read, std::string_view content) {

@@ -54,6 +54,12 @@ TEST(ObjFile, normals_of_corners) {
     EXPECT_EQ(mesh.corner_normals[3], (Triangle{2, 0, 0}));
 }
 
+TEST(ObjFile, faces_without_normals_may_come_first) {
+    const Mesh mesh = read(kSquare + "f 1 2 3\nvn 0 0 1\nf 1//1 3//1 4//1\nf 2 3 4\n").mesh;
+    EXPECT_EQ(mesh.corner_normals,
+              (Triangles{{kNoNormal, kNoNormal, kNoNormal}, {0, 0, 0}, {kNoNormal, kNoNormal, kNoNormal}}));
+}
+
 TEST(ObjFile, normals_that_no_face_names_are_left_out) {
     const Mesh mesh = read(kSquare + "vn 0 0 1\nf 1 2 3\nf 1/ 2/ 3/\n").mesh;
     EXPECT_TRUE(mesh.normals.empty());

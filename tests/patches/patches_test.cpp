@@ -44,11 +44,10 @@ EdgeCounts edges_between_places(const Patches& patches) {
     std::vector<Vec3> places;
     for (const Float3& vertex : patches.vertices) places.emplace_back(vertex);
     EdgeCounts counts;
-    geometry::for_each_edge(
-        geometry::edge_uses(patches.corners, geometry::welded(places)), [&](auto first, auto last) {
-            const bool is_shared = last - first == 2 && first[0].upwards != first[1].upwards;
-            ++(is_shared ? counts.shared_by_two : counts.others);
-        });
+    geometry::Edges(patches.corners, geometry::welded(places)).for_each([&](auto first, auto last) {
+        const bool is_shared = last - first == 2 && first[0].upwards != first[1].upwards;
+        ++(is_shared ? counts.shared_by_two : counts.others);
+    });
     return counts;
 }
 

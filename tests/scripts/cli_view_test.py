@@ -151,6 +151,25 @@ class ViewTest(CommandLineTest):
         self.assertIn("64 steps", out)
         self.assertLess(seconds, 1)
 
+    def test_a_scene_without_lamps_is_lit_for_a_first_look(self):
+        dark = self.write("dark.toml", ROOM[: ROOM.index("[lights.")] + ROOM[ROOM.index("[sensors."):])
+        walk = self.view(dark, "--patch", "1", "--paths", "64")
+        walk.wait_for(lambda state: state["done"])
+        scene, light = header_of(walk.get("scene")), header_of(walk.get("light"))
+        self.assertEqual([group["name"] for group in scene["groups"]], ["first look: rooms", "first look: outside"])
+        self.assertEqual([light["name"] for light in scene["lights"]], ["bulb 1", "bulb outside", "sky"])
+        self.assertEqual([camera["name"] for camera in scene["cameras"]], ["preview"])
+        self.assertTrue(light["done"])
+        # The wall above the cabinet sees the bulb.
+        wall = {"kind": "illuminance", "position": [4, 1.5, 1.2], "normal": [-1, 0, 0]}
+        status, answer = walk.post("measure", wall)
+        self.assertEqual(status, 200, answer)
+        self.assertGreater(answer["value"], 10)
+        code, _, messages, _ = walk.end()
+        self.assertEqual(code, 0)
+        self.assertRegex(messages, r"^warning: the scene has no light: for a first look, a bulb in each room[^\n]*\n$")
+        self.expect_wrong_input(["view", dark, "-o", self.folder / "dark.solution"], "no solution to keep")
+
     def test_light_is_refined_until_ctrl_c(self):
         walk = self.view(self.scene, "--patch", "1")
         first = walk.wait_for(lambda state: state["light"] > 0)

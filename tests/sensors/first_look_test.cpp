@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/prisms.h"
 #include "support/scene_builder.h"
 
 namespace stilb::sensors {
@@ -45,6 +46,45 @@ TEST(FirstLook, TheHeadlightIsTheOnlyLamp) {
     const auto& bulb = std::get<PointLight>(lit.lights[0].source);
     EXPECT_EQ(bulb.position, camera.position);
     EXPECT_NEAR(bulb.intensity_cd.luminance() / squared_length(camera.target - camera.position), 500, 1e-9);
+}
+
+TEST(FirstLook, EachRoomHasABulb) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {3, 3, 2.5}}, diffuse(0.5));
+    add_object(scene, Box{{5, 0, 3}, {15, 8, 6}}, diffuse(0.5));
+    const std::vector<Light> lights = lights_for_first_look(scene, rays::RayCaster(scene));
+    ASSERT_EQ(lights.size(), 4u);
+    EXPECT_LT(length(std::get<PointLight>(lights[0].source).position - Vec3{10, 4, 4.6}), 1e-3);
+    EXPECT_LT(length(std::get<PointLight>(lights[1].source).position - Vec3{1.5, 1.5, 1.6}), 1e-3);
+    EXPECT_EQ(lights[0].group, lights[1].group);
+    EXPECT_GT(std::get<PointLight>(lights[2].source).position.z, 6);
+    EXPECT_GT(std::get<EnvironmentLight>(lights[3].source).luminance_cd_m2.luminance(), 0);
+    EXPECT_EQ(lights[2].group, lights[3].group);
+}
+
+TEST(FirstLook, TheBulbOfAnAngledRoomIsInIt) {
+    // The middle of this L is outside of it.
+    const std::vector<std::pair<double, double>> outline{{0, 0}, {12, 0}, {12, 2}, {2, 2}, {2, 12}, {0, 12}};
+    Mesh room = prism(outline, {{3, 4, 5}, {3, 5, 0}, {3, 0, 1}, {3, 1, 2}});
+    for (Vec3& vertex : room.vertices) vertex.z *= 2.8;
+    Scene scene;
+    add_object(scene, room, diffuse(0.5));
+    const std::vector<Light> lights = lights_for_first_look(scene, rays::RayCaster(scene));
+    ASSERT_EQ(lights.size(), 3u);
+    const Vec3& at = std::get<PointLight>(lights[0].source).position;
+    EXPECT_TRUE(std::min(at.x, at.y) > 0.3 && std::min(at.x, at.y) < 1.7 && std::max(at.x, at.y) < 11.7)
+        << at.x << " " << at.y;
+    EXPECT_NEAR(at.z, 1.6, 1e-3);
+}
+
+TEST(FirstLook, WithoutRoomsThereAreABulbAndASky) {
+    Scene scene;
+    add_object(scene, Sphere{{1, 2, 3}, 0.5}, diffuse(0.5));
+    const rays::RayCaster caster(scene);
+    const std::vector<Light> lights = lights_for_first_look(scene, caster);
+    ASSERT_EQ(lights.size(), 2u);
+    EXPECT_EQ(std::get<PointLight>(lights[0].source).position,
+              std::get<Camera>(camera_for_first_look(scene, caster).kind).position);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "cli/command_line.h"
 #include "cli/info/info_report.h"
 #include "cli/info/ugr_report.h"
+#include "cli/progress.h"
 #include "cli/scene_argument.h"
 #include "io/import/obj/obj_scene.h"
 #include "io/results/results_text.h"
@@ -31,7 +32,7 @@ struct InfoRequest {
     bool json = false, has_ugr = false;
 };
 
-InfoReport report_file(const InfoRequest& request) {
+InfoReport report_file(const InfoRequest& request, const Monitor& monitor) {
     const std::string& file = request.file;
     const io::FileKind kind = io::kind_of_file(file);
     if (kind == io::FileKind::ies_luminaire || kind == io::FileKind::eulumdat_luminaire)
@@ -42,13 +43,13 @@ InfoReport report_file(const InfoRequest& request) {
         case io::FileKind::obj_mesh:
             // With materials of its own, or options for it, it is a scene.
             if (io::names_materials(file) || !request.overrides.empty()) break;
-            return report_mesh(file);
+            return report_mesh(file, monitor);
         case io::FileKind::ply_mesh:
-            return report_mesh(file);
+            return report_mesh(file, monitor);
         default:
             break;
     }
-    return report_scene(read_scene(file, request.overrides), file);
+    return report_scene(read_scene(file, request.overrides, monitor), file, monitor);
 }
 
 }  // namespace
@@ -76,7 +77,10 @@ void add_info(CommandLine& line) {
                 "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"notes\", "
                 "\"run\", \"warnings\", \"memory\"}, as far as the file has them; units are in the keys");
     command.run([request] {
-        const InfoReport report = report_file(*request);
+        const InfoReport report = [&] {
+            const LoadingProgress progress;
+            return report_file(*request, progress.monitor());
+        }();
         fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
         return kExitDone;
     });

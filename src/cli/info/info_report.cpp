@@ -18,6 +18,9 @@ namespace {
 
 using Json = InfoReport;
 
+/// A stage of the work.
+constexpr std::string_view kChecking = "checks";
+
 Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 Json extent_json(const Bounds& bounds) {
     return Json::array({vector_json(bounds.min), vector_json(bounds.max)});
@@ -208,9 +211,10 @@ Json list_json(const List& list, const Describe& describe) {
 
 }  // namespace
 
-InfoReport report_scene(const io::SceneFile& file, const std::string& name) {
+InfoReport report_scene(const io::SceneFile& file, const std::string& name, const Monitor& monitor) {
     const Scene& scene = file.scene;
-    const rays::RayCaster caster(scene);
+    const rays::RayCaster caster(scene, monitor);
+    monitor.report(kChecking, 0);
     const checks::Enclosures enclosures(scene, caster);
     double total_flux_lm = 0;
     for (const Light& light : scene.lights) {
@@ -254,19 +258,25 @@ InfoReport report_luminaire(const std::filesystem::path& path, UgrTables ugr) {
             {"warnings", photometry_warnings(file, solid)}};
 }
 
-InfoReport report_mesh(const std::filesystem::path& path) {
-    io::MeshFile file = io::read_mesh_file(path);
-    Json object = shape_json(path.filename().string(), file.mesh, find_components(file.mesh));
-    object["vertices"] = file.mesh.vertices.size();
+InfoReport report_mesh(const std::filesystem::path& path, const Monitor& monitor) {
+    io::MeshFile file = io::read_mesh_file(path, monitor);
+    monitor.report(kChecking, 0);
+    // Only the names of the parts are reported, and the memory of a large file counts.
+    std::vector<std::uint32_t>().swap(file.material_of_triangle);
+    std::vector<std::uint32_t>().swap(file.group_of_triangle);
+    Scene scene;
+    scene.objects.push_back({path.filename().string(), std::move(file.mesh), {}});
+    const Shape& shape = scene.objects[0].shape;
+    const std::vector components{find_components(shape)};
+    Json object = shape_json(scene.objects[0].name, shape, components[0]);
+    object["vertices"] = std::get<Mesh>(shape).vertices.size();
     object["degenerate_triangles_left_out"] = file.degenerate_triangles;
     object["materials"] = file.material_names;
     object["groups"] = file.group_names;
-    Scene scene;
-    scene.objects.push_back({path.filename().string(), std::move(file.mesh), {}});
     return {{"stilb", STILB_VERSION},
             {"file", path.string()},
             {"objects", Json::array({object})},
-            {"warnings", checks::hole_warnings(scene, {find_components(scene.objects[0].shape)})},
+            {"warnings", checks::hole_warnings(scene, components)},
             {"memory", {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}}}};
 }
 

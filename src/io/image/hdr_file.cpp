@@ -128,7 +128,7 @@ class HdrReader {
         read_header();
         read_resolution();
         for (const auto& [field, text] : fields_) read_header_field(picture_, field, text);
-        bytes_ = lines_.rest();
+        bytes_ = lines_.rest().in_memory();
         const PrimariesConversion convert(primaries_, kRec709);
         std::vector<Rgbe> scanline(static_cast<std::size_t>(picture_.width));
         for (row_ = 0; row_ < picture_.height; ++row_) {

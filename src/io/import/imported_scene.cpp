@@ -146,7 +146,7 @@ ImportedMesh simplified(ImportedMesh imported) {
     drop_flat_normals(imported.mesh);
     auto& materials = imported.materials;
     const bool is_one = std::ranges::all_of(materials, [&](MaterialId m) { return m == materials.front(); });
-    if (is_one) materials.resize(1);
+    if (is_one) materials = std::vector(1, materials.front());
     return imported;
 }
 

@@ -13,10 +13,20 @@
 
 namespace stilb::io {
 
-MeshFile read_mesh_file(const std::filesystem::path& path) {
+namespace {
+
+MeshFile read_pieces(MeshFile (*read)(UnreadBytes, const std::string&), const std::filesystem::path& path,
+                     const Monitor& monitor) {
+    FilePieces file(path, monitor);
+    return read(file, path.string());
+}
+
+}  // namespace
+
+MeshFile read_mesh_file(const std::filesystem::path& path, const Monitor& monitor) {
     const std::string extension = extension_of(path);
-    if (extension == ".obj") return read_obj(read_whole_file(path), path.string());
-    if (extension == ".ply") return read_ply(read_whole_file(path), path.string());
+    if (extension == ".obj") return read_pieces(read_obj, path, monitor);
+    if (extension == ".ply") return read_pieces(read_ply, path, monitor);
     if (extension == ".gltf" || extension == ".glb") return read_gltf_mesh(path);
     if (extension.empty()) read_beginning(path, 1);  // names folders, and files that are not there
     throw InputError(
@@ -47,6 +57,12 @@ std::uint32_t PartNames::index() {
     return *index_;
 }
 
+void MeshBuilder::reserve_triangles(std::size_t count) {
+    file_.mesh.triangles.reserve(count);
+    file_.material_of_triangle.reserve(count);
+    file_.group_of_triangle.reserve(count);
+}
+
 void MeshBuilder::add_normal(const Vec3& normal) {
     const double size = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
     constexpr double kSmallest = 1e-100;  // its square is still a number
@@ -60,7 +76,12 @@ void MeshBuilder::add_triangle(const Triangle& t, const std::optional<Triangle>&
         return;
     }
     file_.mesh.triangles.push_back(t);
-    if (normals) file_.mesh.corner_normals.push_back(*normals);
+    if (normals) {
+        // Triangles before the first that has some may have been added without.
+        constexpr Triangle kNone{kNoNormal, kNoNormal, kNoNormal};
+        file_.mesh.corner_normals.resize(file_.mesh.triangles.size() - 1, kNone);
+        file_.mesh.corner_normals.push_back(*normals);
+    }
     file_.material_of_triangle.push_back(materials_.index());
     file_.group_of_triangle.push_back(groups_.index());
 }

@@ -11,7 +11,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/monitor.h"
 #include "geometry/shape.h"
+#include "io/text/unread_bytes.h"
 
 namespace stilb::io {
 
@@ -33,12 +35,12 @@ struct MeshFile {
 };
 
 /// Selects the reader by the file's extension (.obj, .ply, .gltf, .glb; any case). Throws InputError with
-/// file and line.
-MeshFile read_mesh_file(const std::filesystem::path& path);
+/// file and line, and Cancelled as the monitor does, which takes the share that is read of OBJ and PLY.
+MeshFile read_mesh_file(const std::filesystem::path& path, const Monitor& monitor = Monitor::none());
 
-/// The readers for content in memory; `name` is used in messages only.
-MeshFile read_obj(std::string_view content, const std::string& name);
-MeshFile read_ply(std::string_view content, const std::string& name);
+/// The readers for a text in memory, or for a file piece by piece; `name` is used in messages only.
+MeshFile read_obj(UnreadBytes content, const std::string& name);
+MeshFile read_ply(UnreadBytes content, const std::string& name);
 
 /// The content of an OBJ file, with seven digits of each coordinate.
 std::string to_obj(const Mesh& mesh);
@@ -83,6 +85,7 @@ class MeshBuilder {
   public:
     /// Reserves memory. Only for counts that the file's size confirms.
     void reserve_vertices(std::size_t count) { file_.mesh.vertices.reserve(count); }
+    void reserve_triangles(std::size_t count);
     std::size_t vertex_count() const { return file_.mesh.vertices.size(); }
     void add_vertex(const Vec3& position) { file_.mesh.vertices.push_back(position); }
     std::size_t triangle_count() const { return file_.mesh.triangles.size(); }

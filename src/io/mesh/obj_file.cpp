@@ -25,13 +25,15 @@ constexpr std::array kIgnored{
 constexpr std::array kSurfaces{"surf"sv, "fo"sv,  "bzp"sv,  "bsp"sv, "cdc"sv,
                                "cdp"sv,  "res"sv, "call"sv, "csh"sv};
 
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // of UTF-8
+
 bool contains(std::span<const std::string_view> names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 class ObjReader {
   public:
-    ObjReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
+    ObjReader(UnreadBytes content, const std::string& name) : lines_(content), name_(name) {}
 
     MeshFile read() && {
         while (next_statement()) {
@@ -39,7 +41,9 @@ class ObjReader {
             const std::string_view word = next_word(arguments);
             if (!word.empty() && word[0] != '#') obey(word, arguments);
         }
-        return std::move(builder_).finish(name_, "an OBJ file needs faces, such as: f 1 2 3");
+        MeshFile file = std::move(builder_).finish(name_, "an OBJ file needs faces, such as: f 1 2 3");
+        if (file.mesh.corner_normals.empty()) file.mesh.normals.clear();  // no face names them
+        return file;
     }
 
   private:
@@ -48,9 +52,11 @@ class ObjReader {
     /// The next line, joined with its continuation lines (a backslash at the end). A comment is never
     /// continued, because a path in it may well end in a backslash.
     bool next_statement() {
-        if (!lines_.next()) return false;
+        if (!next_line()) return false;
         statement_ = lines_.line();
         line_ = lines_.number();
+        if (line_ == 1 && statement_.starts_with(kByteOrderMark))
+            statement_.remove_prefix(kByteOrderMark.size());
         if (!statement_.ends_with('\\') || trimmed(statement_).starts_with('#')) return true;
         joined_.clear();
         for (std::string_view part = statement_;; part = lines_.line()) {
@@ -58,14 +64,33 @@ class ObjReader {
             joined_ += part.substr(0, part.size() - (goes_on ? 1 : 0));
             joined_ += ' ';
             if (!goes_on) break;
-            if (!lines_.next()) fail("the file ends after a backslash, which continues the line");
+            if (!next_line()) fail("the file ends after a backslash, which continues the line");
         }
         statement_ = joined_;
         return true;
     }
 
+    /// Throws for bytes that are not text: binary files, and text with two bytes a character.
+    bool next_line() {
+        if (!lines_.next()) return false;
+        const auto is_wrong = [](char c) {
+            return static_cast<unsigned char>(c) < ' ' && (c < '\t' || c > '\r');
+        };
+        bool is_text = true;
+        for (const char c : lines_.line())
+            is_text &= !is_wrong(c);  // without an exit, so that it is vectorised
+        if (is_text) return true;
+        const auto wrong = std::ranges::find_if(lines_.line(), is_wrong);
+        throw InputError(
+            fmt::format(
+                "byte 0x{:02x} is not text, so this is not an OBJ file; it must be plain text (ASCII or "
+                "UTF-8)",
+                static_cast<unsigned char>(*wrong)),
+            {name_, lines_.number()});
+    }
+
     void obey(std::string_view word, std::string_view arguments) {
-        if (word == "v") return builder_.add_vertex(read_triple(arguments, "vertex", "v x y z"));
+        if (word == "v") return read_vertex(arguments);
         if (word == "vn") return builder_.add_normal(read_triple(arguments, "normal", "vn x y z"));
         if (word == "vt") return void(++texture_coordinates_);
         if (word == "f") return read_face(arguments);
@@ -102,6 +127,22 @@ class ObjReader {
         return {triple[0], triple[1], triple[2]};
     }
 
+    void read_vertex(std::string_view arguments) {
+        builder_.add_vertex(read_triple(arguments, "vertex", "v x y z"));
+        const std::size_t count = builder_.vertex_count();
+        if (count == 1) first_vertex_ = lines_.rest().size();
+        if (count == kMany) builder_.reserve_vertices(expected_count(first_vertex_));
+    }
+
+    /// How many elements there are if the file goes on as it has begun with kMany of them, of which the first
+    /// one stood before the last `first` bytes. Lists that grow by doubling would take twice the memory for a
+    /// while; memory that is reserved in vain takes none.
+    std::size_t expected_count(std::uintmax_t first) const {
+        const auto left = static_cast<double>(lines_.rest().size());
+        const double done = static_cast<double>(first) - left;
+        return done > 0 ? kMany + static_cast<std::size_t>(kMany * left / done) : kMany;
+    }
+
     void read_face(std::string_view arguments) {
         corners_.clear();
         normals_.clear();
@@ -110,7 +151,15 @@ class ObjReader {
             read_corner(word);
         if (corners_.size() < 3)
             fail(fmt::format("the face has {} corners; it needs three or more: f 1 2 3", corners_.size()));
+        // Most large files have no normals, and lists without any would take as much memory as the triangles.
+        if (builder_.normal_count() == 0) normals_.clear();
         builder_.add_polygon(corners_, normals_);
+        const std::size_t count = builder_.triangle_count();
+        if (first_face_ == 0) first_face_ = lines_.rest().size();
+        if (count >= kMany && !is_reserved_) {
+            is_reserved_ = true;
+            builder_.reserve_triangles(expected_count(first_face_));
+        }
     }
 
     /// The indices in a word of a face: v, v/vt, v//vn or v/vt/vn.
@@ -154,8 +203,12 @@ class ObjReader {
             in_quotes(word)));
     }
 
+    static constexpr std::size_t kMany = 1 << 16;
+
     TextLines lines_;
     const std::string& name_;
+    std::uintmax_t first_vertex_ = 0, first_face_ = 0;  ///< bytes behind them
+    bool is_reserved_ = false;                          ///< memory for the triangles
     std::string_view statement_;
     std::size_t line_ = 0;  // where the statement begins
     std::string joined_;
@@ -164,27 +217,8 @@ class ObjReader {
     MeshBuilder builder_;
 };
 
-/// Throws for bytes that are not text: binary files, and text with two bytes a character.
-void check_text(std::string_view content, const std::string& name) {
-    const auto is_wrong = [](char c) {
-        return static_cast<unsigned char>(c) < ' ' && (c < '\t' || c > '\r');
-    };
-    const auto wrong = std::find_if(content.begin(), content.end(), is_wrong);
-    if (wrong == content.end()) return;
-    const auto line = static_cast<std::size_t>(std::count(content.begin(), wrong, '\n')) + 1;
-    throw InputError(
-        fmt::format(
-            "byte 0x{:02x} is not text, so this is not an OBJ file; it must be plain text (ASCII or UTF-8)",
-            static_cast<unsigned char>(*wrong)),
-        {name, line});
-}
-
 }  // namespace
 
-MeshFile read_obj(std::string_view content, const std::string& name) {
-    if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);  // UTF-8's byte order mark
-    check_text(content, name);
-    return ObjReader(content, name).read();
-}
+MeshFile read_obj(UnreadBytes content, const std::string& name) { return ObjReader(content, name).read(); }
 
 }  // namespace stilb::io

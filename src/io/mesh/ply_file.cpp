@@ -46,7 +46,7 @@ constexpr std::array kStatements{"format"sv,  "element"sv,  "property"sv,
 
 class HeaderReader {
   public:
-    HeaderReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
+    HeaderReader(UnreadBytes content, const std::string& name) : lines_(content), name_(name) {}
 
     PlyHeader read() && {
         if (!lines_.next() || lines_.line() != "ply")
@@ -165,7 +165,7 @@ std::size_t size_of(PlyScalar scalar) {
     return kSizes[static_cast<std::size_t>(scalar)];
 }
 
-PlyHeader read_ply_header(std::string_view content, const std::string& name) {
+PlyHeader read_ply_header(UnreadBytes content, const std::string& name) {
     return HeaderReader(content, name).read();
 }
 
@@ -196,7 +196,7 @@ class TextBody {
     TextBody(const PlyHeader& header, PlyLocation& location)
         : lines_(header.body, header.body_line), location_(location) {}
 
-    std::string_view rest() const { return lines_.rest(); }
+    const UnreadBytes& rest() const { return lines_.rest(); }
     /// The fewest bytes of a value in a row: a digit and a blank or line end.
     static std::size_t least_size(const PlyProperty&) { return 2; }
 
@@ -244,7 +244,7 @@ class BinaryBody {
     BinaryBody(const PlyHeader& header, const PlyLocation& location)
         : rest_(header.body), location_(location) {}
 
-    std::string_view rest() const { return rest_; }
+    const UnreadBytes& rest() const { return rest_; }
     static std::size_t least_size(const PlyProperty& property) {
         return size_of(property.count_type.value_or(property.type));
     }
@@ -275,7 +275,12 @@ class BinaryBody {
     }
     void skip(PlyScalar scalar, std::size_t count) {
         if (count > rest_.size() / size_of(scalar)) fail_short();
-        rest_.remove_prefix(count * size_of(scalar));
+        for (std::size_t bytes = count * size_of(scalar); bytes > 0;) {
+            if (rest_.in_memory().empty()) rest_.extend();
+            const std::size_t some = std::min(bytes, rest_.in_memory().size());
+            rest_.remove_prefix(some);
+            bytes -= some;
+        }
     }
 
   private:
@@ -285,15 +290,17 @@ class BinaryBody {
 
     template <class Number>
     Number take() {
-        if (rest_.size() < sizeof(Number)) fail_short();
+        while (rest_.in_memory().size() < sizeof(Number)) {
+            if (!rest_.extend()) fail_short();
+        }
         std::array<char, sizeof(Number)> bytes;
-        std::copy_n(rest_.begin(), bytes.size(), bytes.begin());
+        std::copy_n(rest_.in_memory().begin(), bytes.size(), bytes.begin());
         if constexpr (order != std::endian::native) std::reverse(bytes.begin(), bytes.end());
         rest_.remove_prefix(bytes.size());
         return std::bit_cast<Number>(bytes);
     }
 
-    std::string_view rest_;
+    UnreadBytes rest_;
     const PlyLocation& location_;
 };
 
@@ -310,6 +317,7 @@ class PlyReader {
             if (element.name == "vertex") {
                 read_vertices(element);
             } else if (element.name == "face") {
+                builder_.reserve_triangles(element.count);  // most files have no other polygons
                 read_lists(element, [this] { add_face(); });
             } else if (element.name == "tristrips") {
                 read_lists(element, [this] { add_strips(); });
@@ -335,7 +343,7 @@ class PlyReader {
         if (element.properties.empty()) fail_declaration(element, "has rows but no property; it needs one");
         std::size_t row_size = 0;
         for (const PlyProperty& property : element.properties) row_size += Body::least_size(property);
-        const std::size_t bytes_left =
+        const std::uintmax_t bytes_left =
             body_.rest().size() + 1;  // the last line of a text may do without its end
         if (element.count > bytes_left / row_size) {
             fail_declaration(element,
@@ -346,13 +354,20 @@ class PlyReader {
     }
 
     void check_end() const {
-        const std::string_view rest = body_.rest();
-        if (rest.find_first_not_of(std::string_view("\r\n\t \0", 5)) == rest.npos) return;
-        throw InputError(
-            fmt::format("{} bytes follow the last row that the header declares; its counts are wrong "
-                        "or the file is damaged",
-                        rest.size()),
-            {location_.file});
+        UnreadBytes rest = body_.rest();
+        const std::uintmax_t size = rest.size();
+        const std::string_view blanks("\r\n\t \0", 5);
+        do {
+            if (rest.in_memory().find_first_not_of(blanks) == std::string_view::npos) {
+                rest.remove_prefix(rest.in_memory().size());
+                continue;
+            }
+            throw InputError(
+                fmt::format("{} bytes follow the last row that the header declares; its counts are wrong "
+                            "or the file is damaged",
+                            size),
+                {location_.file});
+        } while (rest.extend());
     }
 
     /// `read_property(i)` takes a row's values of property i off the body; `use_row()` is called at the row's
@@ -487,7 +502,7 @@ class PlyReader {
 
 }  // namespace
 
-MeshFile read_ply(std::string_view content, const std::string& name) {
+MeshFile read_ply(UnreadBytes content, const std::string& name) {
     const PlyHeader header = read_ply_header(content, name);
     switch (header.format) {
         case PlyFormat::ascii:

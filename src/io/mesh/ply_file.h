@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/text/unread_bytes.h"
+
 namespace stilb::io {
 
 enum class PlyScalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -34,11 +36,11 @@ enum class PlyFormat { ascii, binary_little_endian, binary_big_endian };
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    std::string_view body;  ///< everything after the header
+    UnreadBytes body{std::string_view()};  ///< everything after the header
     std::size_t body_line = 0;
 };
 
 /// Throws InputError; `name` is the file's name for messages.
-PlyHeader read_ply_header(std::string_view content, const std::string& name);
+PlyHeader read_ply_header(UnreadBytes content, const std::string& name);
 
 }  // namespace stilb::io

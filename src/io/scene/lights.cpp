@@ -196,7 +196,7 @@ lights::BodyExtent add_body(const TomlTable& table, const TomlItem& geometry, co
         extent.below_m = std::max(extent.below_m, gap_m - vertex.z);
         extent.above_m = std::max(extent.above_m, gap_m + vertex.z);
     }
-    body.shape = transformed(body.shape, placed);
+    body.shape = transformed(std::move(body.shape), placed);
     add_object(table, std::move(body), context.file.scene);
     return extent;
 }

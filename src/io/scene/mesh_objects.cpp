@@ -38,9 +38,10 @@ void warn_of_degenerate(const std::string& where, std::size_t triangles, SceneFi
 
 namespace {
 
-MeshFile read_mesh(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
+MeshFile read_mesh(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file,
+                   const Monitor& monitor) {
     const std::filesystem::path path = item.existing_file(directory);
-    MeshFile mesh = read_mesh_file(path);
+    MeshFile mesh = read_mesh_file(path, monitor);
     mesh.other_files.insert(mesh.other_files.begin(), path);
     for (const std::filesystem::path& source : mesh.other_files)
         if (std::ranges::find(file.sources, source) == file.sources.end()) file.sources.push_back(source);
@@ -65,6 +66,7 @@ class PartMaterials {
     /// over `material`.
     std::vector<MaterialId> of_triangles(const TomlTable& object) const {
         std::vector<MaterialId> materials;
+        materials.reserve(mesh_.material_of_triangle.size());
         for (std::size_t t = 0; t < mesh_.material_of_triangle.size(); ++t) {
             const std::uint32_t material = mesh_.material_of_triangle[t];
             const std::uint32_t group = mesh_.group_of_triangle[t];
@@ -141,8 +143,8 @@ std::filesystem::path path_of(const TomlItem& item, const std::filesystem::path&
 }  // namespace
 
 MeshFiles::MeshFiles(const std::vector<NamedTable>& objects, const std::filesystem::path& directory,
-                     SceneFile& file)
-    : directory_(directory), file_(file) {
+                     SceneFile& file, const Monitor& monitor)
+    : directory_(directory), file_(file), monitor_(monitor) {
     for (const auto& [name, table] : objects) {
         const auto mesh = table.find("file");
         if (table.text_of("shape") == "mesh" && mesh && mesh->is_text()) ++uses_[path_of(*mesh, directory)];
@@ -154,7 +156,7 @@ MeshFiles::Loaded& MeshFiles::load(const TomlTable& table) {
     const auto [found, is_new] = loaded_.try_emplace(path_of(item, directory_));
     Loaded& loaded = found->second;
     if (!is_new) return loaded;
-    MeshFile mesh = read_mesh(item, directory_, file_);
+    MeshFile mesh = read_mesh(item, directory_, file_, monitor_);
     warn_of_degenerate(table.where(), mesh.degenerate_triangles, file_);
     loaded.mesh = std::make_shared<Mesh>(std::move(mesh.mesh));
     loaded.parts = take_parts(mesh);
@@ -176,7 +178,7 @@ Object MeshFiles::read(const TomlTable& table, MeshParts& parts) {
 
 Object read_body(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
     const auto read = [&](const TomlItem& name) {
-        MeshFile mesh = read_mesh(name, directory, file);
+        MeshFile mesh = read_mesh(name, directory, file, Monitor::none());
         warn_of_degenerate(item.where(), mesh.degenerate_triangles, file);
         return mesh;
     };

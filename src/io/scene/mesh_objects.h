@@ -13,9 +13,9 @@ namespace stilb::io {
 /// The mesh files of a scene's objects: each is read once, and its objects share a mesh that is large.
 class MeshFiles {
   public:
-    /// Keeps references to the directory and the scene.
-    MeshFiles(const std::vector<NamedTable>& objects, const std::filesystem::path& directory,
-              SceneFile& file);
+    /// Keeps references to the directory, the scene and the monitor.
+    MeshFiles(const std::vector<NamedTable>& objects, const std::filesystem::path& directory, SceneFile& file,
+              const Monitor& monitor);
 
     /// The object of such a table, untransformed and without a name, and the parts of its file.
     Object read(const TomlTable& table, MeshParts& parts);
@@ -30,6 +30,7 @@ class MeshFiles {
 
     const std::filesystem::path& directory_;
     SceneFile& file_;
+    const Monitor& monitor_;
     std::map<std::filesystem::path, std::size_t> uses_;
     std::map<std::filesystem::path, Loaded> loaded_;
 };

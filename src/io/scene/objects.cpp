@@ -279,18 +279,19 @@ std::vector<TypeKeys> object_shapes() {
     return shapes;
 }
 
-PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory,
-                            SceneFile& file) {
+PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file,
+                            const Monitor& monitor) {
     PartsOfObjects parts;
     std::vector<NamedTable> tables = named_tables(section);
-    MeshFiles meshes(tables, directory, file);
+    MeshFiles meshes(tables, directory, file, monitor);
     for (auto& [name, table] : tables) {
         const ObjectId id{static_cast<std::uint32_t>(file.scene.objects.size())};
         Object object = read_untransformed(table, directory, file, meshes, parts[id]);
         object.name = name;
         const geometry::Transform transform = transform_of(object.shape, table);
         expect_possible(transform, object.shape, table);
-        if (transform != geometry::Transform{}) object.shape = transformed(object.shape, transform);
+        if (transform != geometry::Transform{})
+            object.shape = transformed(std::move(object.shape), transform);
         file.scene.objects.push_back(std::move(object));
     }
     return parts;

@@ -154,7 +154,7 @@ double read_maintenance(const TomlTable& table, double otherwise) {
 }
 
 SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory,
-                     std::span<const std::string> overrides) {
+                     std::span<const std::string> overrides, const Monitor& monitor) {
     TomlValue document = parse_toml(toml, name);
     auto& members = std::get<TomlMembers>(document.content);
     if (members.empty()) {
@@ -162,13 +162,13 @@ SceneFile read_scene(std::string_view toml, const std::string& name, const std::
             "the scene file is empty. Needed: the sections materials, objects, lights and sensors.", {name});
     }
     override_values(members, overrides);
-    SceneFile file = read_scene(members, name, directory);
+    SceneFile file = read_scene(members, name, directory, {}, monitor);
     file.overrides.assign(overrides.begin(), overrides.end());
     return file;
 }
 
 SceneFile read_scene(const TomlMembers& members, const std::string& name,
-                     const std::filesystem::path& directory, SceneFile file) {
+                     const std::filesystem::path& directory, SceneFile file, const Monitor& monitor) {
     TomlTable root(members, "", name, 0);
     root.expect_keys({"scene", "defaults", "materials", "objects", "lights", "sensors", "run"});
     const TomlMembers nothing;
@@ -193,7 +193,7 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     const std::size_t first_material = file.scene.materials.size();
     std::ranges::move(read_materials(materials, defaults("materials", material_types())),
                       std::back_inserter(file.scene.materials));
-    PartsOfObjects parts = read_objects(objects, directory, file);
+    PartsOfObjects parts = read_objects(objects, directory, file, monitor);
     const TomlTable run = section_of(root, "run", none);
     if (!run.members().empty()) file.run = read_run(run);
     read_lights(lights,
@@ -208,10 +208,11 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     return file;
 }
 
-SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std::string> overrides) {
+SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std::string> overrides,
+                          const Monitor& monitor) {
     const FileKind kind = kind_of_file(path);
     if (!may_be_scene_file(kind)) throw InputError(not_a_scene(kind), {path.string()});
-    SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path(), overrides);
+    SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path(), overrides, monitor);
     file.sources.insert(file.sources.begin(), path);
     return file;
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/monitor.h"
 #include "io/scene/toml.h"
 #include "run/options.h"
 #include "scene/scene.h"
@@ -36,16 +37,19 @@ struct SceneFile {
 /// The warning of a scene without lamps.
 inline constexpr std::string_view kNoLight = "no light: the scene is dark.";
 
-/// Throws InputError with file, line, key, the value found and the allowed values.
-SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std::string> overrides = {});
+/// Throws InputError with file, line, key, the value found and the allowed values, and Cancelled as the
+/// monitor does, which takes the share that is read of mesh files.
+SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std::string> overrides = {},
+                          const Monitor& monitor = Monitor::none());
 
 /// The reader for content in memory; `directory` is the base of the scene's file paths, `name` is used in
 /// messages.
 SceneFile read_scene(std::string_view toml, const std::string& name, const std::filesystem::path& directory,
-                     std::span<const std::string> overrides = {});
+                     std::span<const std::string> overrides = {}, const Monitor& monitor = Monitor::none());
 /// The same for a tree that was built in code: its lines are 0, and messages leave an empty name out. `file`:
 /// what the scene has already; its parts can be referred to, but faces of its meshes not be picked as lamps.
 SceneFile read_scene(const TomlMembers& members, const std::string& name,
-                     const std::filesystem::path& directory, SceneFile file = {});
+                     const std::filesystem::path& directory, SceneFile file = {},
+                     const Monitor& monitor = Monitor::none());
 
 }  // namespace stilb::io

@@ -25,8 +25,8 @@ std::vector<NamedTable> named_tables(const TomlTable& section, const Defaults& d
 
 std::vector<NamedMaterial> read_materials(const TomlTable& section, const Defaults& defaults);
 /// Objects refer to the materials of `file.scene`. Returns the parts of those that are meshes.
-PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory,
-                            SceneFile& file);
+PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file,
+                            const Monitor& monitor);
 
 /// What lights depend on, besides their section.
 struct LightContext {

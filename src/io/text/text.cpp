@@ -7,11 +7,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <limits>
-#include <system_error>
 
 #include "io/scene/overrides.h"
 #include "io/scene/toml.h"
@@ -55,17 +53,9 @@ const std::string& standard_input() {
 
 std::string read_beginning(const std::filesystem::path& path, std::size_t most) {
     if (path == "-") return standard_input().substr(0, most);
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error))
-        throw InputError("cannot be read, because it is a folder. Name a file.", {path.string()});
-    const auto size = std::filesystem::file_size(path, error);
-    if (error) throw InputError(fmt::format("cannot be read: {}", error.message()), {path.string()});
-    std::string content(std::min<std::uintmax_t>(size, most), '\0');
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream.read(content.data(), static_cast<std::streamsize>(content.size())))
-        throw InputError(
-            "cannot be read completely. Check its permissions, and that no other program writes to it.",
-            {path.string()});
+    InputFile file(path);
+    std::string content(std::min<std::uintmax_t>(file.size(), most), '\0');
+    file.read(content.data(), content.size());
     return content;
 }
 
@@ -154,10 +144,15 @@ KeyWords words_of_key(std::string key) {
 }
 
 bool TextLines::next() {
-    if (rest_.empty()) return false;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    line_ = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    std::size_t end = rest_.in_memory().find('\n');
+    for (std::size_t searched = rest_.in_memory().size(); end == std::string_view::npos && rest_.extend();
+         searched = rest_.in_memory().size())
+        end = rest_.in_memory().find('\n', searched);
+    const std::string_view bytes = rest_.in_memory();
+    if (bytes.empty()) return false;
+    end = std::min(end, bytes.size());
+    line_ = bytes.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, bytes.size()));
     if (line_.ends_with('\r')) line_.remove_suffix(1);
     ++number_;
     return true;
@@ -188,7 +183,14 @@ namespace {
 constexpr std::array<std::string_view, 3> kLightSections{"materials", "objects", "lights"};
 
 std::uint64_t hash_of_files(std::span<const std::filesystem::path> files, std::uint64_t hash) {
-    for (const std::filesystem::path& file : files) hash = hash_of(read_whole_file(file), hash);
+    for (const std::filesystem::path& path : files) {
+        if (path == "-") {
+            hash = hash_of(standard_input(), hash);
+            continue;
+        }
+        FilePieces file(path);
+        while (file.left() > 0) hash = hash_of(file.extended({}), hash);
+    }
     return hash;
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/text/unread_bytes.h"
+
 namespace stilb::io {
 
 /// The file, byte for byte; the path "-" is standard input. Throws InputError where it cannot be read.
@@ -42,19 +44,19 @@ std::optional<std::string> from_base64(std::string_view text);
 class TextLines {
   public:
     /// `first_line` is the number of the text's first line in its file.
-    explicit TextLines(std::string_view text, std::size_t first_line = 1)
-        : rest_(text), number_(first_line - 1) {}
+    explicit TextLines(UnreadBytes text, std::size_t first_line = 1) : rest_(text), number_(first_line - 1) {}
 
-    /// Moves to the next line; false at the end.
+    /// Moves to the next line; false at the end. Of a file, the view of the line before becomes invalid.
     bool next();
     /// The line without its end.
     std::string_view line() const { return line_; }
     std::size_t number() const { return number_; }
     /// The text after the line.
-    std::string_view rest() const { return rest_; }
+    const UnreadBytes& rest() const { return rest_; }
 
   private:
-    std::string_view rest_, line_;
+    UnreadBytes rest_;
+    std::string_view line_;
     std::size_t number_;
 };
 

@@ -13,8 +13,6 @@
 namespace stilb::sensors {
 namespace {
 
-using geometry::EdgeUse;
-
 Vec3 area_vector(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]) / 2; }
 
 std::array<Vec3, 3> corners_of(const Mesh& mesh, std::size_t triangle) {
@@ -53,8 +51,7 @@ Vec3 longest_edge(const PlaneFace& face) {
         triangles.push_back({first, first + 1, first + 2});
     }
     Vec3 longest;
-    const std::vector<EdgeUse> uses = geometry::edge_uses(triangles, geometry::welded(vertices));
-    for_each_edge(uses, [&](auto first, auto last) {
+    geometry::Edges(triangles, geometry::welded(vertices)).for_each([&](auto first, auto last) {
         const Vec3 edge = vertices[first->high] - vertices[first->low];
         constexpr double rounding = 1e-9;
         if (last - first == 1 && length(edge) > length(longest) * (1 + rounding)) longest = edge;
@@ -112,9 +109,8 @@ std::vector<PlaneFace> plane_faces(const Mesh& mesh) {
     if (mesh.triangles.empty()) return {};
     constexpr double same_plane = 1 - 1e-9;  // cosine of the angle between normals
     math::DisjointSets sets(mesh.triangles.size());
-    const std::vector<EdgeUse> uses = geometry::edge_uses(mesh.triangles, geometry::welded(mesh.vertices));
     const auto normal_of = [&](std::size_t t) { return normalized(area_vector(corners_of(mesh, t))); };
-    for_each_edge(uses, [&](auto first, auto last) {
+    geometry::Edges(mesh).for_each([&](auto first, auto last) {
         for (auto other = first; ++other != last;) {
             if (dot(normal_of(first->triangle), normal_of(other->triangle)) > same_plane)
                 sets.join(first->triangle, other->triangle);
@@ -122,7 +118,7 @@ std::vector<PlaneFace> plane_faces(const Mesh& mesh) {
     });
     const geometry::ConnectedComponents components = geometry::find_components(mesh);
     const std::vector<double> volume = volumes(mesh, components);
-    const auto [face_of, count] = sets.numbered();
+    const auto [face_of, count] = std::move(sets).numbered();
     std::vector<PlaneFace> faces(count);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         PlaneFace& face = faces[face_of[t]];

@@ -170,13 +170,27 @@ geometry::Transform placement(const MeshFile& mesh, const ImportOptions& options
     return to_metres_and_z_up(guess.scale, up);
 }
 
-/// An object of each group of the file.
-void add_groups(const MeshFile& file, const std::vector<MaterialId>& materials, ImportedScene& scene) {
-    std::vector<std::vector<std::uint32_t>> triangles(file.group_names.size());
+/// The triangles of each group.
+std::vector<std::vector<std::uint32_t>> triangles_of_groups(const MeshFile& file) {
+    std::vector<std::size_t> counts(file.group_names.size());
+    for (const std::uint32_t group : file.group_of_triangle) ++counts[group];
+    std::vector<std::vector<std::uint32_t>> triangles(counts.size());
+    for (std::size_t g = 0; g < counts.size(); ++g) triangles[g].reserve(counts[g]);
     for (std::uint32_t t = 0; t < file.mesh.triangles.size(); ++t)
         triangles[file.group_of_triangle[t]].push_back(t);
-    for (std::size_t g = 0; g < triangles.size(); ++g) {
-        ImportedMesh part{geometry::part_of(file.mesh, triangles[g]), {}};
+    return triangles;
+}
+
+/// An object of each group of the file. What is not needed any more is released on the way, because the
+/// memory of a large file counts.
+void add_groups(MeshFile file, const std::vector<MaterialId>& materials, ImportedScene& scene) {
+    const std::vector<std::vector<std::uint32_t>> triangles = triangles_of_groups(file);
+    std::vector<std::uint32_t>().swap(file.group_of_triangle);
+    std::vector<Mesh> parts = geometry::parts_of(file.mesh, triangles);
+    file.mesh = {};
+    for (std::size_t g = 0; g < parts.size(); ++g) {
+        ImportedMesh part{std::move(parts[g]), {}};
+        part.materials.reserve(triangles[g].size());
         for (const std::uint32_t t : triangles[g])
             part.materials.push_back(materials[file.material_of_triangle[t]]);
         const std::string& name = file.group_names[g];
@@ -187,13 +201,22 @@ void add_groups(const MeshFile& file, const std::vector<MaterialId>& materials, 
 }  // namespace
 
 bool names_materials(const fs::path& path) {
-    const std::string content = read_whole_file(path);
-    return content.starts_with("mtllib") || content.find("\nmtllib") != content.npos;
+    constexpr std::string_view kStatement = "\nmtllib";
+    FilePieces file(path);
+    std::string_view bytes = file.extended({});
+    if (bytes.starts_with(kStatement.substr(1))) return true;
+    while (bytes.find(kStatement) == bytes.npos) {
+        if (file.left() == 0) return false;
+        const std::size_t border = std::min(bytes.size(), kStatement.size() - 1);
+        bytes = file.extended(bytes.substr(bytes.size() - border));
+    }
+    return true;
 }
 
-SceneFile read_obj_scene(const fs::path& path, std::span<const std::string> overrides) {
+SceneFile read_obj_scene(const fs::path& path, std::span<const std::string> overrides,
+                         const Monitor& monitor) {
     const ImportSettings settings(overrides, path.string());
-    MeshFile mesh = read_mesh_file(path);
+    MeshFile mesh = read_mesh_file(path, monitor);
     ImportedScene scene(path);
     const geometry::Transform to_world = placement(mesh, settings.options(), scene);
     for (Vec3& vertex : mesh.mesh.vertices) vertex = to_world.point(vertex);
@@ -203,7 +226,7 @@ SceneFile read_obj_scene(const fs::path& path, std::span<const std::string> over
     ObjMaterials library(mesh, path.has_parent_path() ? path.parent_path() : ".", scene);
     std::vector<MaterialId> materials;
     for (const std::string& name : mesh.material_names) materials.push_back(library.add(name));
-    add_groups(mesh, materials, scene);
+    add_groups(std::move(mesh), materials, scene);
     return std::move(scene).finish(settings);
 }
 

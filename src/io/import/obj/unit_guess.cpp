@@ -29,20 +29,23 @@ bool names_a_door(std::string name) {
            name.find("outdoor") == name.npos && name.find("indoor") == name.npos;
 }
 
+struct Extent {
+    double least = kLargestCoordinate, most = -kLargestCoordinate;
+
+    void include(double value) { least = std::min(least, value), most = std::max(most, value); }
+};
+
 /// Heights of the groups that are named as doors, in units of the file.
 std::vector<double> door_heights(const MeshFile& file, UpAxis up) {
+    std::vector<Extent> extents(file.group_names.size());
+    for (std::size_t t = 0; t < file.mesh.triangles.size(); ++t) {
+        for (const std::uint32_t corner : file.mesh.triangles[t])
+            extents[file.group_of_triangle[t]].include(height_along(file.mesh.vertices[corner], up));
+    }
     std::vector<double> heights;
-    for (std::size_t g = 0; g < file.group_names.size(); ++g) {
-        if (!names_a_door(file.group_names[g])) continue;
-        double least = kLargestCoordinate, most = -kLargestCoordinate;
-        for (std::size_t t = 0; t < file.mesh.triangles.size(); ++t) {
-            if (file.group_of_triangle[t] != g) continue;
-            for (const std::uint32_t corner : file.mesh.triangles[t]) {
-                least = std::min(least, height_along(file.mesh.vertices[corner], up));
-                most = std::max(most, height_along(file.mesh.vertices[corner], up));
-            }
-        }
-        if (most > least) heights.push_back(most - least);
+    for (std::size_t g = 0; g < extents.size(); ++g) {
+        const auto& [least, most] = extents[g];
+        if (names_a_door(file.group_names[g]) && most > least) heights.push_back(most - least);
     }
     return heights;
 }
@@ -61,14 +64,12 @@ std::string words_for(double height_m) {
 }
 
 double height_of(const MeshFile& file, UpAxis up) {
-    double least = kLargestCoordinate, most = -kLargestCoordinate;
+    Extent extent;
     for (const Triangle& triangle : file.mesh.triangles) {
-        for (const std::uint32_t corner : triangle) {
-            least = std::min(least, height_along(file.mesh.vertices[corner], up));
-            most = std::max(most, height_along(file.mesh.vertices[corner], up));
-        }
+        for (const std::uint32_t corner : triangle)
+            extent.include(height_along(file.mesh.vertices[corner], up));
     }
-    return most - least;
+    return extent.most - extent.least;
 }
 
 }  // namespace
