@@ -13,10 +13,7 @@ namespace {
 
 double area(const Mesh& mesh) {
     double sum = 0;
-    for (const Triangle& t : mesh.triangles) {
-        const Vec3& a = mesh.vertices[t[0]];
-        sum += length(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
-    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sum += triangle_area_m2(mesh, t);
     return sum;
 }
 
@@ -103,6 +100,10 @@ void turn_over(Mesh& mesh, std::uint32_t triangle) {
     std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
     if (!mesh.corner_normals.empty())
         std::swap(mesh.corner_normals[triangle][1], mesh.corner_normals[triangle][2]);
+}
+
+double triangle_area_m2(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return length(cross(b - a, c - a)) / 2;
 }
 
 Mesh triangulated(const Rectangle& r) {

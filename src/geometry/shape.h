@@ -108,6 +108,11 @@ inline bool is_exact(const Shape& shape) {
 Bounds bounds_of(const Shape& shape);
 /// The area of one side [m2].
 double area_m2(const Shape& shape);
+double triangle_area_m2(const Vec3& a, const Vec3& b, const Vec3& c);
+inline double triangle_area_m2(const Mesh& mesh, std::size_t triangle) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    return triangle_area_m2(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+}
 /// Two triangles with the rectangle's front.
 Mesh triangulated(const Rectangle& rectangle);
 /// Twelve triangles with the box's front.

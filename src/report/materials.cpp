@@ -55,9 +55,7 @@ double area_of(const Scene& scene, std::uint32_t material) {
         const auto& mesh = std::get<Mesh>(object.shape);
         for (std::size_t t = 0; t < object.materials.size(); ++t) {
             if (index_of(object.materials[t]) != material) continue;
-            const auto [a, b, c] = mesh.triangles[t];
-            area +=
-                length(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a])) / 2;
+            area += geometry::triangle_area_m2(mesh, t);
         }
     }
     return area;

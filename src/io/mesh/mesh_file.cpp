@@ -53,7 +53,8 @@ void MeshBuilder::add_normal(const Vec3& normal) {
     file_.mesh.normals.push_back(size > kSmallest ? normalized(normal / size) : Vec3{});
 }
 
-void MeshBuilder::add_triangle(const Triangle& t, const std::optional<Triangle>& normals) {
+void MeshBuilder::add_triangle(const Triangle& t, const std::optional<Triangle>& normals,
+                               const std::optional<Triangle>& coordinates) {
     const std::vector<Vec3>& vertices = file_.mesh.vertices;
     if (is_degenerate(vertices[t[0]], vertices[t[1]], vertices[t[2]])) {
         ++file_.degenerate_triangles;
@@ -61,17 +62,20 @@ void MeshBuilder::add_triangle(const Triangle& t, const std::optional<Triangle>&
     }
     file_.mesh.triangles.push_back(t);
     if (normals) file_.mesh.corner_normals.push_back(*normals);
+    if (coordinates) file_.corner_coordinates.push_back(*coordinates);
     file_.material_of_triangle.push_back(materials_.index());
     file_.group_of_triangle.push_back(groups_.index());
 }
 
-void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners,
-                              std::span<const std::uint32_t> normals) {
+void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals,
+                              std::span<const std::uint32_t> coordinates) {
     const auto add = [&](const Triangle& t) {
         const auto of = [&](std::span<const std::uint32_t> indices) {
-            return Triangle{indices[t[0]], indices[t[1]], indices[t[2]]};
+            std::optional<Triangle> found;
+            if (!indices.empty()) found = {indices[t[0]], indices[t[1]], indices[t[2]]};
+            return found;
         };
-        add_triangle(of(corners), normals.empty() ? std::nullopt : std::optional(of(normals)));
+        add_triangle(*of(corners), of(normals), of(coordinates));
     };
     if (corners.size() == 3) return add({0, 1, 2});
     polygon_.clear();

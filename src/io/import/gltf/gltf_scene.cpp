@@ -44,8 +44,9 @@ void check_extensions(const gltf::File& file, ImportedScene& scene) {
 
 /// The primitives of one node as one mesh.
 ImportedMesh joined(const std::vector<const gltf::PlacedPrimitive*>& primitives,
-                    const std::map<int, MaterialId>& materials) {
+                    const std::map<int, gltf::SurfaceMaterial>& materials) {
     ImportedMesh whole;
+    bool has_places = false;
     const bool has_normals = std::ranges::any_of(
         primitives, [](const gltf::PlacedPrimitive* p) { return !p->mesh.normals.empty(); });
     for (const gltf::PlacedPrimitive* primitive : primitives) {
@@ -60,14 +61,20 @@ ImportedMesh joined(const std::vector<const gltf::PlacedPrimitive*>& primitives,
         }
         for (const auto& [a, b, c] : mesh.triangles)
             whole.mesh.triangles.push_back({first + a, first + b, first + c});
-        whole.materials.resize(whole.mesh.triangles.size(), material->second);
+        const auto& [id, texture] = material->second;
+        whole.materials.resize(whole.mesh.triangles.size(), id);
+        has_places = has_places || texture.has_value();
+        whole.places.resize(whole.mesh.triangles.size(), no_place());
+        for (std::size_t t = 0; texture && t < mesh.triangles.size(); ++t)
+            whole.places[whole.places.size() - mesh.triangles.size() + t] = place_of(*primitive, t, *texture);
     }
+    if (!has_places) whole.places.clear();
     return whole;
 }
 
 void add_objects(const gltf::File& file, const std::vector<gltf::PlacedNode>& nodes,
                  const std::vector<gltf::PlacedPrimitive>& primitives,
-                 const std::map<int, MaterialId>& materials, ImportedScene& scene) {
+                 const std::map<int, gltf::SurfaceMaterial>& materials, ImportedScene& scene) {
     std::vector<std::vector<const gltf::PlacedPrimitive*>> of_node(nodes.size());
     for (const gltf::PlacedPrimitive& primitive : primitives) of_node[primitive.node].push_back(&primitive);
     for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -92,7 +99,7 @@ SceneFile read_gltf_scene(std::string_view content, const std::filesystem::path&
         placed_nodes(file, to_metres_and_z_up(options.scale.value_or(1), options.up.value_or(UpAxis::y)));
     {
         const std::vector<gltf::PlacedPrimitive> primitives = placed_primitives(file, nodes, scene.warnings);
-        const std::map<int, MaterialId> materials = add_materials(file, primitives, scene);
+        const auto materials = add_materials(file, primitives, options.textures, scene);
         add_objects(file, nodes, primitives, materials, scene);
     }
     add_lights(file, nodes, scene);
