@@ -193,7 +193,7 @@ TEST(TexturePieces, OtherObjectsStayAsTheyAre) {
 TEST(TexturePieces, LimitsAreKeptAndSaid) {
     TexturedScene textured(shown(noise(200)));
     textured.add(textured_box(kRoom));
-    textured.apply({.faces_of_material = 5000, .faces = 100'000, .colours = 16});
+    textured.apply({.faces_of_material = 5000, .faces = 100'000, .colours_of_material = 16, .colours = 100});
     EXPECT_GT(textured.mesh(0).triangles.size(), 4500u);
     EXPECT_LT(textured.mesh(0).triangles.size(), 5600u);
     EXPECT_EQ(textured.scene.materials.size(), 16u);
@@ -206,7 +206,8 @@ TEST(TexturePieces, LimitsAreKeptAndSaid) {
     // The faces of a scene are shared among its textures.
     TexturedScene shared(shown(noise(200)));
     shared.add(textured_box(kRoom));
-    shared.apply({.faces_of_material = 5000, .faces = 1000, .colours = 16});
+    shared.apply({.faces_of_material = 5000, .faces = 1000, .colours_of_material = 16, .colours = 8});
+    EXPECT_EQ(shared.scene.materials.size(), 8u);
     EXPECT_LT(shared.mesh(0).triangles.size(), 1200u);
 }
 

@@ -35,7 +35,7 @@ struct Piece {
     Triangle corners{};
     std::uint32_t parent = 0;  ///< the triangle of the mesh
     double area_m2 = 0;
-    Rgb colour;                 ///< mean of the texture where it is no hole, as shares of light
+    Rgb colour = {};            ///< mean of the texture where it is no hole, as shares of light
     double filled = 1;          ///< the share that is no hole
     double deviation = 0;       ///< standard deviation of the band (or the holes) that varies most
     double longest_texels = 0;  ///< the longest edge

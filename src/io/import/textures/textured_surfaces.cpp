@@ -193,11 +193,13 @@ class SurfaceDivision {
             else if (piece.filled >= half)
                 of_texture[texture].push_back(p);
         }
+        const std::size_t share = limits_.colours / textures_.size();
+        const std::size_t most_colours = std::clamp<std::size_t>(share, 1, limits_.colours_of_material);
         for (std::size_t t = 0; t < textures_.size(); ++t) {
             std::vector<WeightedColour> colours;
             for (const std::size_t p : of_texture[t])
                 colours.push_back({all.pieces[p].colour, std::max(all.pieces[p].area_m2, smallest_m2)});
-            const Palette palette = make_palette(colours, limits_.colours);
+            const Palette palette = make_palette(colours, most_colours);
             report(t, colours.size(), palette.colours.size(), all.coarsest_m[t]);
             const std::vector<MaterialId> added = add_materials(t, palette);
             for (std::size_t i = 0; i < of_texture[t].size(); ++i)
@@ -231,8 +233,7 @@ class SurfaceDivision {
         for (const Rgb& colour : palette.colours) {
             NamedMaterial material{name, given_.of_material.at(mean).material(colour)};
             if (palette.colours.size() > 1 || !is_mean_free)
-                material.name =
-                    names_.make(fmt::format("{} (texture {})", name, added.size() + 1), "material");
+                material.name = names_.make(colour_name(name, added.size() + 1), "material");
             if (std::exchange(is_mean_free, false)) {
                 added.push_back(mean);
                 scene_.materials[index_of(mean)] = std::move(material);
@@ -310,7 +311,19 @@ class SurfaceDivision {
     TexturedMesh faces_;  ///< of the joined objects
 };
 
+constexpr std::string_view kOfTexture = " (texture ";
+
 }  // namespace
+
+std::string colour_name(std::string_view material, std::size_t number) {
+    return fmt::format("{}{}{})", material, kOfTexture, number);
+}
+
+std::string_view material_of_colour(std::string_view name) {
+    const std::size_t end = name.rfind(kOfTexture);
+    const bool is_one = end != name.npos && name.ends_with(')');
+    return is_one ? name.substr(0, end) : std::string_view{};
+}
 
 void apply_textures(Scene& scene, const SceneTextures& textures, UniqueNames& names, GroupedWarnings& remarks,
                     GroupedWarnings& warnings, const TextureLimits& limits) {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/import/textures/texture_pieces.h"
@@ -30,12 +32,17 @@ struct SceneTextures {
 
 struct TextureLimits {
     std::size_t faces_of_material = 200'000, faces = 2'000'000;  ///< about
-    std::size_t colours = 256;                                   ///< of each material
+    std::size_t colours_of_material = 256, colours = 32'768;
 };
 
-/// Divides faces with textures, gives each the material of its colour, "NAME (texture 17)", and leaves holes
-/// out. Faces that touch them are divided as well, so that no gap opens. The mean colour over the surfaces of
-/// a material stays that of its texture. `remarks`: a sentence about each texture.
+/// The name of a material of one colour of a texture: "wall (texture 17)".
+std::string colour_name(std::string_view material, std::size_t number);
+/// "wall" of such a name; empty where it is none.
+std::string_view material_of_colour(std::string_view name);
+
+/// Divides faces with textures, gives each the material of its colour (colour_name()), and leaves holes out.
+/// Faces that touch them are divided as well, so that no gap opens. The mean colour over the surfaces of a
+/// material stays that of its texture. `remarks`: a sentence about each texture.
 void apply_textures(Scene& scene, const SceneTextures& textures, UniqueNames& names, GroupedWarnings& remarks,
                     GroupedWarnings& warnings, const TextureLimits& limits = {});
 
