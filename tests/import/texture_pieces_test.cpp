@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/mesh_part.h"
 #include "geometry/mesh_topology.h"
 #include "io/import/imported_scene.h"
 #include "support/closed_meshes.h"

@@ -9,6 +9,7 @@
 #include "import_folder.h"
 #include "io/import/obj/obj_scene.h"
 #include "io/import/scene_folder.h"
+#include "io/import/textures/texture_map.h"
 #include "rays/ray_caster.h"
 
 namespace stilb::io {
@@ -35,7 +36,7 @@ const std::string kShow = "import.textures=true";
 /// `texture`: members of the texture's reference; `factors`: members of the material.
 struct TexturedSquare {
     int count = 8;
-    std::string texture, sampler, members = kDiffuse;
+    std::string texture = "", sampler = "", members = kDiffuse;
     std::vector<float> uv{0, 0, 0, 1, 1, 1, 1, 0};
 
     GltfText gltf() const {
