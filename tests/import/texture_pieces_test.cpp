@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 
 #include "geometry/mesh_part.h"
 #include "geometry/mesh_topology.h"
@@ -73,7 +75,7 @@ struct TexturedScene {
     }
     void add(const ImportedMesh& mesh) {
         const ObjectId id{static_cast<std::uint32_t>(scene.objects.size())};
-        scene.objects.push_back({fmt::format("object {}", index_of(id)), mesh.mesh, {MaterialId{0}}});
+        scene.objects.push_back({"object " + std::to_string(index_of(id)), mesh.mesh, {MaterialId{0}}});
         if (!mesh.places.empty()) textures.places[id] = mesh.places;
     }
     void apply(const TextureLimits& limits = {}) {

@@ -160,10 +160,13 @@ class ObjMaterials {
         if (!shows_textures_) return scene_.remark_mean_texture(name_);
         if (material.emission_cd_m2.luminance() > 0 || !shows_diffuse(material))
             return warn("it shines or is transparent: its texture counts by its mean.");
-        scene_.set_texture(id, {{map}, [material, factor](const Rgb& colour) {
-                                    GroupedWarnings as_of_the_mean;  // which the scene has already
-                                    return mtl_surface(material, factor * colour, as_of_the_mean);
-                                }});
+        FaceTexture texture;
+        texture.texture.map = map;
+        texture.material = [material, factor](const Rgb& colour) {
+            GroupedWarnings as_of_the_mean;  // which the scene has already
+            return mtl_surface(material, factor * colour, as_of_the_mean);
+        };
+        scene_.set_texture(id, std::move(texture));
         places_.resize(mesh_.mesh.triangles.size(), no_place());
         for (const std::uint32_t t : triangles) places_[t] = place_of(t, material.diffuse_map);
     }
