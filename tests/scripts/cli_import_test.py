@@ -104,7 +104,7 @@ class ImportTest(CommandLineTest):
         self.assertIn("material paper: the texture counts by its mean over the surface; import.textures=true shows it.",
                       mean["notes"])
         result = run("import", room, "-o", self.folder / "out", "--scale", "1", "--up", "z", "--textures")
-        self.assertIn("material paper: its texture is 4 faces of 2 colours.", result.stdout, result.stderr)
+        self.assertIn("material paper: its texture is 6 faces of 2 colours.", result.stdout, result.stderr)
         materials = {item["name"]: item["reflectance"] for item in self.info(self.folder / "out/scene.toml")["materials"]}
         self.assertEqual(sorted(materials), ["paper (texture 1)", "paper (texture 2)"])
         self.assertAlmostEqual(materials["paper (texture 1)"], grey, delta=1e-6)
