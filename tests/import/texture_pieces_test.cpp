@@ -182,6 +182,23 @@ TEST(TexturePieces, NoRayPassesBetweenThem) {
         EXPECT_EQ(lost_rays(textured.scene, {2, 1.5, 1.25}, queries, 200'000, 1), 0u);
 }
 
+TEST(TexturePieces, TrianglesWithoutCoordinatesKeepTheirMaterial) {
+    EXPECT_FALSE(has_place(no_place()));
+    EXPECT_FALSE(has_place({{{0, 0}, {1e30, 0}, {0, 1}}}));
+    TexturedScene textured(shown(noise(20)));
+    ImportedMesh box = textured_box(kRoom);
+    box.places[5] = no_place();
+    textured.add(box);
+    textured.apply();
+    EXPECT_EQ(textured.scene.materials[0].name, "paper");
+    const Object& object = textured.scene.objects[0];
+    double plain_m2 = 0;
+    for (std::size_t t = 0; t < object.materials.size(); ++t) {
+        if (object.materials[t] == MaterialId{0}) plain_m2 += geometry::triangle_area_m2(textured.mesh(0), t);
+    }
+    EXPECT_NEAR(plain_m2, geometry::triangle_area_m2(box.mesh, 5), 1e-9);
+}
+
 TEST(TexturePieces, OtherObjectsStayAsTheyAre) {
     TexturedScene textured(shown(noise(20)));
     textured.add(textured_box(kRoom));

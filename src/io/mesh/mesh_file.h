@@ -43,9 +43,9 @@ struct MeshFile {
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
 /// The readers for content in memory; `name` is used in messages only.
+MeshFile read_obj(std::string_view content, const std::string& name);
 enum class TextureCoordinates { ignored, kept };
-MeshFile read_obj(std::string_view content, const std::string& name,
-                  TextureCoordinates coordinates = TextureCoordinates::ignored);
+MeshFile read_obj(std::string_view content, const std::string& name, TextureCoordinates coordinates);
 MeshFile read_ply(std::string_view content, const std::string& name);
 
 /// The content of an OBJ file, with seven digits of each coordinate.

@@ -197,6 +197,10 @@ void check_text(std::string_view content, const std::string& name) {
 
 }  // namespace
 
+MeshFile read_obj(std::string_view content, const std::string& name) {
+    return read_obj(content, name, TextureCoordinates::ignored);
+}
+
 MeshFile read_obj(std::string_view content, const std::string& name, TextureCoordinates coordinates) {
     if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);  // UTF-8's byte order mark
     check_text(content, name);

@@ -18,7 +18,11 @@ double wrapped(double coordinate, TextureWrap wrap) {
     return turn <= 1 ? turn : 2 - turn;
 }
 
-bool is_finite(const Uv& uv) { return std::isfinite(uv[0]) && std::isfinite(uv[1]); }
+/// Whether it is a number whose products are numbers, too.
+bool is_uv(const Uv& uv) {
+    constexpr double most = 1e9;
+    return std::abs(uv[0]) <= most && std::abs(uv[1]) <= most;
+}
 
 class TexelMean {
   public:
@@ -48,7 +52,7 @@ FacePlace no_place() {
     return {{{none, none}, {none, none}, {none, none}}};
 }
 
-bool has_place(const FacePlace& place) { return std::ranges::all_of(place, is_finite); }
+bool has_place(const FacePlace& place) { return std::ranges::all_of(place, is_uv); }
 
 Uv uv_at(const FacePlace& place, const std::array<double, 3>& barycentric) {
     Uv uv{};

@@ -17,8 +17,9 @@ using Uv = std::array<double, 2>;
 /// The texture coordinates of a triangle's corners.
 using FacePlace = std::array<Uv, 3>;
 
-/// The place of a triangle without texture coordinates: it has none that are numbers.
+/// The place of a triangle without texture coordinates: they are no numbers.
 FacePlace no_place();
+/// Whether all coordinates are numbers from -1e9 to 1e9.
 bool has_place(const FacePlace& place);
 /// The texture coordinates of a point of a triangle.
 Uv uv_at(const FacePlace& place, const std::array<double, 3>& barycentric);
@@ -30,7 +31,7 @@ struct TextureMap {
     std::shared_ptr<const Texture> picture;
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
 
-    /// The texel at texture coordinates, which are finite.
+    /// The texel at texture coordinates.
     const std::array<std::uint8_t, 4>& at(const Uv& uv) const;
 };
 
