@@ -21,6 +21,7 @@ struct ImportRequest {
     std::string file, output, reflectances;
     std::optional<std::string> scale, up;
     std::optional<double> light_scale;
+    bool textures = false;
     std::vector<std::string> overrides;
     bool quiet = false;
 };
@@ -32,10 +33,11 @@ std::string count_text(std::size_t count, std::string_view noun) {
 int run_import(ImportRequest request) {
     const io::FileKind kind = io::kind_of_file(request.file);
     if (kind == io::FileKind::ifc_building) {
-        if (request.scale || request.up || request.light_scale || !request.overrides.empty()) {
+        if (request.scale || request.up || request.light_scale || request.textures ||
+            !request.overrides.empty()) {
             throw InputError(
-                "--scale, --up, --light-scale and --set do not go with IFC, which states its units. Change "
-                "the scene file that import writes.",
+                "--scale, --up, --light-scale, --textures and --set do not go with IFC, which states its "
+                "units. Change the scene file that import writes.",
                 {request.file});
         }
         return import_ifc({request.file, request.output, request.reflectances});
@@ -52,6 +54,7 @@ int run_import(ImportRequest request) {
     if (request.up) request.overrides.push_back("import.up=" + *request.up);
     if (request.light_scale)
         request.overrides.push_back(fmt::format("import.light_scale={}", *request.light_scale));
+    if (request.textures) request.overrides.emplace_back("import.textures=true");
     const io::SceneFile file = read_scene(request.file, request.overrides,
                                           request.quiet ? ShowProgress::never : ShowProgress::on_terminal);
     const auto files = io::write_scene_folder(file, request.output);
@@ -98,6 +101,9 @@ void add_import(CommandLine& line) {
         .add("--light-scale", request->light_scale,
              "Factor on all light, such as 683 for files that give watts in place of lumens")
         .value_name("F");
+    command.add(
+        "--textures", request->textures,
+        "Show textures as small faces of their colours; otherwise the mean of each counts (glTF, OBJ)");
     command
         .add(
             "--reflectances", request->reflectances,

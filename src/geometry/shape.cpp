@@ -17,7 +17,7 @@ double area_of_triangles(const Triangles& shape, std::size_t count) {
     double sum = 0;
     for (std::size_t t = 0; t < count; ++t) {
         const auto [a, b, c] = shape.corners_of(t);
-        sum += length(cross(b - a, c - a)) / 2;
+        sum += triangle_area_m2(a, b, c);
     }
     return sum;
 }
@@ -151,6 +151,10 @@ void turn_over(Mesh& mesh, std::uint32_t triangle) {
     std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
     if (!mesh.corner_normals.empty())
         std::swap(mesh.corner_normals[triangle][1], mesh.corner_normals[triangle][2]);
+}
+
+double triangle_area_m2(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return length(cross(b - a, c - a)) / 2;
 }
 
 Mesh triangulated(const Rectangle& r) {

@@ -148,6 +148,11 @@ class MeshInWorld {
 Bounds bounds_of(const Shape& shape);
 /// The area of one side [m2].
 double area_m2(const Shape& shape);
+double triangle_area_m2(const Vec3& a, const Vec3& b, const Vec3& c);
+inline double triangle_area_m2(const Mesh& mesh, std::size_t triangle) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    return triangle_area_m2(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+}
 /// The transformed shape; fronts stay fronts under mirrored transforms. Boxes become meshes unless their axes
 /// stay axis-parallel. Precondition for spheres, disks and harmonics: the transform is a similarity.
 Shape transformed(Shape shape, const Transform& transform);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 
 namespace stilb::materials {
 
@@ -37,6 +38,24 @@ class AlbedoTable {
     std::array<double, kCells + 1> values_{};      ///< at the edges of cells
     std::array<double, kCells + 1> cumulative_{};  ///< chance of the cells below each edge; or all 0
     double average_ = 0;
+};
+
+/// Keeps the table that was made last: many materials in succession, the colours of a texture, differ in
+/// their colours alone, on which tables do not depend. Tabulating takes some 20 ms.
+class LastAlbedoTable {
+  public:
+    /// The table of a function of the parameters `of`, of which alpha is the first.
+    const AlbedoTable& get(const std::array<double, 2>& of, const std::function<double(double)>& albedo) {
+        if (!table_ || of_ != of) {
+            table_.emplace(of[0], albedo);
+            of_ = of;
+        }
+        return *table_;
+    }
+
+  private:
+    std::array<double, 2> of_{};
+    std::optional<AlbedoTable> table_;
 };
 
 }  // namespace stilb::materials

@@ -56,6 +56,12 @@ class Plastic {
         return 1 - reflectance;
     }
 
+    static const AlbedoTable& transmission_table(const Ggx& facets, const Parameters& parameters) {
+        thread_local LastAlbedoTable last;
+        return last.get({parameters.roughness, parameters.ior},
+                        [&](double cosine) { return transmission_at(facets, parameters.ior, cosine); });
+    }
+
     static Rgb reflectance_from_within(const Rgb& diffuse, double coat_from_within) {
         Rgb result;
         for (std::size_t b = 0; b < kBands; ++b) {
@@ -83,8 +89,7 @@ class Plastic {
 inline Plastic::Plastic(const Parameters& parameters)
     : parameters_(parameters),
       facets_(parameters.roughness),
-      transmission_(parameters.roughness,
-                    [this](double cosine) { return transmission_at(facets_, parameters_.ior, cosine); }),
+      transmission_(transmission_table(facets_, parameters)),
       base_(reflectance_from_within(parameters.diffuse,
                                     1 - transmission_.average() / (parameters.ior * parameters.ior))) {
     concentration_ = concentration_at_normal_incidence(*this);

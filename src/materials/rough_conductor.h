@@ -49,6 +49,11 @@ class RoughConductor {
         });
     }
 
+    static const AlbedoTable& loss_table(const Ggx& facets, double roughness) {
+        thread_local LastAlbedoTable last;
+        return last.get({roughness, 0}, [&](double cosine) { return loss_at(facets, cosine); });
+    }
+
     static Rgb multiple_reflectance(const Rgb& reflectance, double lost) {
         Rgb result;
         for (std::size_t b = 0; b < kBands; ++b) {
@@ -73,7 +78,7 @@ class RoughConductor {
 inline RoughConductor::RoughConductor(const Parameters& parameters)
     : parameters_(parameters),
       facets_(parameters.roughness),
-      loss_(parameters.roughness, [this](double cosine) { return loss_at(facets_, cosine); }),
+      loss_(loss_table(facets_, parameters.roughness)),
       multiple_(multiple_reflectance(parameters.reflectance, loss_.average())) {
     concentration_ = concentration_at_normal_incidence(*this);
 }

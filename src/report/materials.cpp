@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "geometry/shape.h"
 #include "io/image/tone_curve.h"
+#include "io/import/textures/textured_surfaces.h"
 #include "report/drawing.h"
 
 namespace stilb::report {
@@ -45,20 +49,54 @@ Html swatch(const Rgb& reflectance) {
     return element("span", {{"class", "swatch"}, {"style", "background:" + hexadecimal(colour)}});
 }
 
-double area_of(const Scene& scene, std::uint32_t material) {
-    double area = 0;
+/// By material.
+std::vector<double> areas_m2(const Scene& scene) {
+    std::vector<double> areas(scene.materials.size());
     for (const Object& object : scene.objects) {
         if (object.materials.size() == 1) {
-            if (index_of(object.materials.front()) == material) area += area_m2(object.shape);
+            areas[index_of(object.materials.front())] += area_m2(object.shape);
             continue;
         }
         for (std::size_t t = 0; t < object.materials.size(); ++t) {
-            if (index_of(object.materials[t]) != material) continue;
             const auto [a, b, c] = geometry::corners_of(object.shape, t);
-            area += length(cross(b - a, c - a)) / 2;
+            areas[index_of(object.materials[t])] += geometry::triangle_area_m2(a, b, c);
         }
     }
-    return area;
+    return areas;
+}
+
+/// Materials in one line: one, or the colours of a texture.
+struct Line {
+    std::string name;
+    Material material;  ///< the first
+    std::size_t colours = 0;
+    double area_m2 = 0;
+    Rgb reflected_m2 = {};  ///< the mean reflectance times the area
+
+    void add(const Material& added, double added_m2) {
+        ++colours;
+        area_m2 += added_m2;
+        reflected_m2 += added_m2 * stated_reflectance(added);
+    }
+    Rgb reflectance() const {
+        return colours == 1 || area_m2 <= 0 ? stated_reflectance(material) : reflected_m2 * (1 / area_m2);
+    }
+};
+
+std::vector<Line> lines_of(const Scene& scene) {
+    std::vector<Line> lines;
+    std::map<std::string, std::size_t, std::less<>> textures;
+    const std::vector<double> areas = areas_m2(scene);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto& [name, material] = scene.materials[i];
+        const std::string texture(io::material_of_colour(name));
+        std::size_t line = lines.size();
+        if (!texture.empty()) line = textures.try_emplace(texture, line).first->second;
+        if (line == lines.size())
+            lines.push_back({texture.empty() ? name : texture + " (texture)", material});
+        lines[line].add(material, areas[i]);
+    }
+    return lines;
 }
 
 }  // namespace
@@ -71,18 +109,19 @@ Html materials_table(const Scene& scene) {
                  {"Red, green, blue"},
                  {"Area [m²]", numbers},
                  {"Parameters"}});
-    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
-        const auto& [name, material] = scene.materials[i];
-        const Rgb reflectance = stated_reflectance(material);
+    for (const Line& line : lines_of(scene)) {
+        const Material& material = line.material;
+        const Rgb reflectance = line.reflectance();
         const std::string_view type =
             std::visit([]<typename Model>(const Model&) { return Model::kType; }, material);
         std::string parameters = parameters_text(material);
         if (passes_straight(material))
             parameters += fmt::format(", transmittance {}", number_text(straight_transmittance(material, 1)));
-        table.add({swatch(reflectance) + text(name), text(type),
+        if (line.colours > 1) parameters = fmt::format("{} colours", line.colours);
+        table.add({swatch(reflectance) + text(line.name), text(type),
                    text(fmt::format("{:.2f}", reflectance.luminance())),
                    text(fmt::format("{:.2f} {:.2f} {:.2f}", reflectance[0], reflectance[1], reflectance[2])),
-                   text(fmt::format("{:.4g}", area_of(scene, i))), text(parameters)});
+                   text(fmt::format("{:.4g}", line.area_m2)), text(parameters)});
     }
     return table.is_empty() ? Html{} : table.html();
 }

@@ -142,22 +142,9 @@ TEST(GltfMaterials, NamesWhatItLeavesOut) {
     EXPECT_EQ(gltf_refusal(gltf.text()), "s.gltf: materials[0]: baseColorFactor is 2. Allowed: from 0 to 1.");
 }
 
-// A binary PPM-like picture is not among the formats of textures; TGA is, and needs no compression.
-std::string tga(int width, int height, const std::vector<std::array<std::uint8_t, 3>>& rgb) {
-    std::string bytes(18, '\0');
-    bytes[2] = 2, bytes[12] = static_cast<char>(width), bytes[14] = static_cast<char>(height);
-    bytes[16] = 24, bytes[17] = 0x20;  // the first row is the top
-    for (const auto& [r, g, b] : rgb)
-        for (const std::uint8_t value : {b, g, r}) bytes += static_cast<char>(value);
-    return bytes;
-}
-
 SceneFile read_textured(const std::vector<float>& uv, const std::string& members) {
     GltfText gltf;
-    const std::string picture = tga(2, 1, {{255, 255, 255}, {0, 0, 0}});
-    const int view = gltf.add_view(picture.data(), picture.size());
-    gltf.images.push_back(fmt::format(R"({{"bufferView": {}, "mimeType": "image/png"}})", view));
-    gltf.textures.push_back(R"({"source": 0})");
+    gltf.add_texture(tga(2, 1, {{255, 255, 255}, {0, 0, 0}}));
     gltf.add_material(members);
     const int coordinates = gltf.add_accessor(uv, 2, 5126);
     gltf.add_node(fmt::format(

@@ -16,10 +16,29 @@
 
 namespace stilb::io {
 
+/// A picture of a few texels, row by row from the top; each is red, green, blue and, if wanted, alpha. TGA
+/// needs no compression.
+template <std::size_t N>
+std::string tga_of(int width, int height, const std::vector<std::array<std::uint8_t, N>>& texels) {
+    std::string bytes(18, '\0');
+    bytes[2] = 2;
+    bytes[12] = static_cast<char>(width % 256), bytes[13] = static_cast<char>(width / 256);
+    bytes[14] = static_cast<char>(height % 256), bytes[15] = static_cast<char>(height / 256);
+    bytes[16] = 8 * N, bytes[17] = N == 4 ? 0x28 : 0x20;  // the first row is the top
+    for (const auto& texel : texels) {
+        for (const std::size_t c : {2, 1, 0}) bytes += static_cast<char>(texel[c]);
+        if (N == 4) bytes += static_cast<char>(texel[3]);
+    }
+    return bytes;
+}
+inline std::string tga(int width, int height, const std::vector<std::array<std::uint8_t, 3>>& rgb) {
+    return tga_of(width, height, rgb);
+}
+
 /// A glTF document: the buffer is kept in it as base64. Members are JSON without their enclosing brackets.
 struct GltfText {
     std::string bytes;
-    std::vector<std::string> views, accessors, meshes, materials, nodes, cameras, images, textures;
+    std::vector<std::string> views, accessors, meshes, materials, nodes, cameras, images, textures, samplers;
     std::string extensions;           ///< of the root: "\"X\": {...}"
     std::string scene_nodes = "all";  ///< indices of the scene's nodes
 
@@ -68,6 +87,13 @@ struct GltfText {
         meshes.push_back(fmt::format(R"({{"primitives": [{}, {}]}})", primitive(first), primitive(second)));
         return static_cast<int>(meshes.size()) - 1;
     }
+    /// Returns the texture's index. `more`: of its members.
+    int add_texture(const std::string& picture, const std::string& more = "") {
+        const int view = add_view(picture.data(), picture.size());
+        images.push_back(fmt::format(R"({{"bufferView": {}, "mimeType": "image/png"}})", view));
+        textures.push_back(fmt::format(R"({{"source": {}{}}})", images.size() - 1, more));
+        return static_cast<int>(textures.size()) - 1;
+    }
     int add_node(const std::string& members) {
         nodes.push_back("{" + members + "}");
         return static_cast<int>(nodes.size()) - 1;
@@ -85,7 +111,7 @@ struct GltfText {
         };
         list("bufferViews", views), list("accessors", accessors), list("meshes", meshes);
         list("materials", materials), list("nodes", nodes), list("cameras", cameras);
-        list("images", images), list("textures", textures);
+        list("images", images), list("textures", textures), list("samplers", samplers);
         if (!bytes.empty()) {
             list("buffers",
                  {fmt::format(R"({{"byteLength": {}, "uri": "data:application/octet-stream;base64,{}"}})",

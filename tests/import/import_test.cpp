@@ -2,66 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 
 #include "gltf_text.h"
+#include "import_folder.h"
 #include "io/import/obj/obj_scene.h"
 #include "io/import/scene_folder.h"
 #include "io/scene_text.h"
-#include "io/text/table.h"
-#include "run/run.h"
 
 namespace stilb::io {
 namespace {
 
-/// A folder that ends with the test.
-class ImportTest : public testing::Test {
-  protected:
-    ImportTest()
-        : folder(
-              std::filesystem::temp_directory_path() /
-              fmt::format("stilb-import-{}", testing::UnitTest::GetInstance()->current_test_info()->name())) {
-        std::filesystem::remove_all(folder);
-        std::filesystem::create_directories(folder);
-    }
-    ~ImportTest() override { std::filesystem::remove_all(folder); }
-
-    std::filesystem::path write(const std::string& name, const std::string& content) const {
-        write_file(folder / name, content);
-        return folder / name;
-    }
-
-    std::filesystem::path folder;
-};
-
-std::vector<run::Reading> readings_of(const SceneFile& file, std::uint64_t seed = 1) {
-    RunOptions options;
-    options.paths = 8192;
-    options.seed = seed;
-    options.threads = 1;
-    return run::measure(file.scene, file.sensors, options).sensors.at(0).readings;
-}
-
-/// The same light within the intervals of both.
-void expect_same_light(const SceneFile& a, const SceneFile& b) {
-    const auto of_a = readings_of(a, 1), of_b = readings_of(b, 2);
-    ASSERT_EQ(of_a.size(), of_b.size());
-    for (std::size_t i = 0; i < of_a.size(); ++i) {
-        const auto &x = of_a[i].estimate, &y = of_b[i].estimate;
-        const double error = std::hypot(x.upper - x.lower, y.upper - y.lower);
-        EXPECT_NEAR(x.value, y.value, error);
-        EXPECT_LT(error, 0.05 * x.value);
-    }
-}
-
-/// The same digits, but for rounding.
-void expect_same_readings(const SceneFile& a, const SceneFile& b) {
-    const auto of_a = readings_of(a), of_b = readings_of(b);
-    ASSERT_EQ(of_a.size(), of_b.size());
-    for (std::size_t i = 0; i < of_a.size(); ++i)
-        EXPECT_NEAR(of_a[i].estimate.value, of_b[i].estimate.value, 1e-6 * of_a[i].estimate.value);
-}
+using ImportTest = ImportFolderTest;
 
 const std::vector<std::string> kPoints{
     "sensors.desk={type=\"illuminance\", positions=[[1, 1, 0.75], [2, 1.5, 0.75], [3, 2, 0.75]], normal=[0, "

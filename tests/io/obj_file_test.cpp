@@ -40,6 +40,21 @@ TEST(ObjFile, all_forms_of_corners) {
     }
 }
 
+TEST(ObjFile, texture_coordinates_are_kept_if_wanted) {
+    const std::string text = kSquare + "vt 0 0.5 0\nvt 1\nvt 0.25 -2\nf 1/1 2/2 3/3 4/-1\nf 1 2 3\n";
+    const MeshFile file = read_obj(text, "room", TextureCoordinates::kept);
+    EXPECT_EQ(file.texture_coordinates, (std::vector<std::array<float, 2>>{{0, 0.5f}, {1, 0}, {0.25f, -2}}));
+    ASSERT_EQ(file.corner_coordinates.size(), file.mesh.triangles.size());
+    const std::array<std::uint32_t, 4> of_vertex{0, 1, 2, 2};
+    for (std::size_t t = 0; t < 2; ++t) {
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_EQ(file.corner_coordinates[t][i], of_vertex[file.mesh.triangles[t][i]]);
+    }
+    EXPECT_EQ(file.corner_coordinates[2], (Triangle{kNoCoordinates, kNoCoordinates, kNoCoordinates}));
+    EXPECT_TRUE(read(text).texture_coordinates.empty());
+    EXPECT_TRUE(read(text).corner_coordinates.empty());
+}
+
 TEST(ObjFile, normals_of_corners) {
     const std::string normals = "vn 0 0 1\nvn 0 3 4\nvn 0 0 0\n";
     const Mesh mesh = read(kSquare + normals + "f 1//1 2//-2 3//2 4//1\nf 1 2 3\nf 2//3 3//1 4//1\n").mesh;

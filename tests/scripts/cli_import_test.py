@@ -2,8 +2,10 @@
 
 import json
 import shutil
+import struct
 import subprocess
 import unittest
+import zlib
 
 from command_line import MOST_SECONDS, PROGRAM, ROOT, CommandLineTest, run
 
@@ -84,6 +86,34 @@ class ImportTest(CommandLineTest):
         info = self.info(self.folder / "out/scene.toml")
         self.assertAlmostEqual(info["objects"][0]["area_m2"], 59 / 4, delta=1e-4)
         self.assertAlmostEqual(info["lights"][0]["luminance_cd_m2"], 2 * 2000 * 0.91404, delta=0.1)
+
+    def test_textures_are_shown_if_wanted(self):
+        # Two grey halves, as PNG writes them: a filter byte before each row of one byte a pixel.
+        def chunk(kind, content):
+            return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+        header = struct.pack(">IIBBBBB", 4, 4, 8, 0, 0, 0, 0)
+        (self.folder / "halves.png").write_bytes(
+            b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) +
+            chunk(b"IDAT", zlib.compress(4 * b"\0\xff\xff\x80\x80")) + chunk(b"IEND", b""))
+        self.write("room.mtl", "newmtl paper\nKd 0.5 0.5 0.5\nmap_Kd halves.png\n")
+        room = self.write("room.obj", "mtllib room.mtl\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                          "vt 0 1\nusemtl paper\nf 1/1 2/2 3/3 4/4\n")
+        grey = 0.5 * ((128 / 255 + 0.055) / 1.055)**2.4
+        mean = self.info(room, "--set", "import.scale=1", "--set", "import.up=z")
+        self.assertAlmostEqual(mean["materials"][0]["reflectance"], (0.5 + grey) / 2, delta=5e-4)
+        self.assertIn("material paper: the texture counts by its mean over the surface; import.textures=true shows it.",
+                      mean["notes"])
+        result = run("import", room, "-o", self.folder / "out", "--scale", "1", "--up", "z", "--textures")
+        self.assertIn("material paper: its texture is 6 faces of 2 colours.", result.stdout, result.stderr)
+        materials = {item["name"]: item["reflectance"] for item in self.info(self.folder / "out/scene.toml")["materials"]}
+        self.assertEqual(sorted(materials), ["paper (texture 1)", "paper (texture 2)"])
+        self.assertAlmostEqual(materials["paper (texture 1)"], grey, delta=1e-6)
+        self.assertAlmostEqual(materials["paper (texture 2)"], 0.5, delta=1e-6)
+        result = run("info", self.folder / "out/scene.toml")
+        self.assertRegex(result.stdout, r"Materials \(1\)\n  paper \(texture\)  diffuse   reflectance 0.108 to 0.5, 2 colours")
+        radiance = DATA / "radiance/room.rad"
+        self.expect_wrong_input(["info", radiance, "--set", "import.textures=true"], "import.textures do not go with them")
+        self.expect_wrong_input(["info", room, "--set", "import.textures=1"], "import.textures")
 
     def test_an_obj_without_materials_is_shown_as_a_mesh(self):
         plain = self.write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")

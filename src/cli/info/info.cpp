@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -17,6 +18,7 @@
 #include "cli/progress.h"
 #include "cli/scene_argument.h"
 #include "io/import/obj/obj_scene.h"
+#include "io/import/textures/textured_surfaces.h"
 #include "io/results/results_text.h"
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
@@ -96,10 +98,16 @@ std::string text(const Json& json, const char* key) { return json.at(key).get<st
 double number(const Json& json, const char* key) { return json.at(key).get<double>(); }
 std::size_t count(const Json& json, const char* key) { return json.at(key).get<std::size_t>(); }
 
+/// The colours of a texture, which are materials, count once: "wall (texture)".
 std::string joined(const Json& names) {
     std::string result;
+    std::set<std::string> textures;
     for (const Json& name : names) {
-        const auto word = name.get<std::string>();
+        auto word = name.get<std::string>();
+        if (const std::string texture(io::material_of_colour(word)); !texture.empty()) {
+            if (!textures.insert(texture).second) continue;
+            word = texture + " (texture)";
+        }
         result += fmt::format("{}{}", result.empty() ? "" : ", ", word.empty() ? "(none)" : word);
     }
     return result;
@@ -126,7 +134,37 @@ std::string parameter_text(const Json& value) {
     return std::abs(number) <= 1 ? fmt::format("{:.3g}", number) : fmt::format("{:.4g}", number);
 }
 
+/// The materials with the colours of each texture as one, which has their number and range of reflectances.
+Json with_whole_textures(const Json& materials) {
+    Json list = Json::array();
+    std::map<std::string, std::size_t> places;
+    for (Json material : materials) {
+        const std::string name = text(material, "name"), texture(io::material_of_colour(name));
+        if (!texture.empty()) {
+            const double reflectance = number(material, "reflectance");
+            if (const auto known = places.find(texture); known != places.end()) {
+                Json& whole = list[known->second];
+                whole["colours"] = count(whole, "colours") + 1;
+                whole["brightest"] = std::max(number(whole, "brightest"), reflectance);
+                whole["reflectance"] = std::min(number(whole, "reflectance"), reflectance);
+                continue;
+            }
+            places[texture] = list.size();
+            material["name"] = texture + " (texture)";
+            material["colours"] = 1;
+            material["brightest"] = reflectance;
+        }
+        list.push_back(std::move(material));
+    }
+    return list;
+}
+
 std::string material_text(const Json& material) {
+    if (material.contains("colours")) {
+        return fmt::format("{:16} {:9} reflectance {:.3g} to {:.3g}, {} colours", text(material, "name"),
+                           text(material, "type"), number(material, "reflectance"),
+                           number(material, "brightest"), count(material, "colours"));
+    }
     // The internal transmittance is part of the transmittance.
     static const std::set<std::string> left_out{"name", "type", "reflectance", "rgb",
                                                 "internal_transmittance"};
@@ -281,7 +319,9 @@ std::string to_text(const InfoReport& report) {
     const bool is_named = report.contains("name") && !text(report, "name").empty();
     std::string result = text(report, "file");
     result += is_named ? fmt::format(": {}\n", text(report, "name")) : "\n";
-    result += section_text(report, "materials", "Materials", material_text);
+    InfoReport shown = report;
+    if (report.contains("materials")) shown["materials"] = with_whole_textures(report["materials"]);
+    result += section_text(shown, "materials", "Materials", material_text);
     result += section_text(report, "objects", "Objects", object_text);
     result += section_text(report, "lights", "Lights", light_text);
     result += section_text(report, "luminaires", "Luminaires", luminaire_text);

@@ -63,14 +63,4 @@ double linear_of_srgb(std::uint8_t value) {
     return table[value];
 }
 
-std::array<double, 4> linear_mean(const Texture& texture) {
-    std::array<double, 4> sum{};
-    for (const auto& texel : texture.texels) {
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += linear_of_srgb(texel[c]);
-        sum[3] += texel[3] / 255.0;
-    }
-    for (double& value : sum) value /= static_cast<double>(texture.texels.size());
-    return sum;
-}
-
 }  // namespace stilb::io

@@ -24,7 +24,4 @@ Texture read_texture(std::string_view content, const std::string& name);
 /// A stored value as a share of light: the inverse of the tone curve of sRGB (IEC 61966-2-1).
 double linear_of_srgb(std::uint8_t value);
 
-/// The mean of all texels as shares of light; alpha is no light and stays as it is.
-std::array<double, 4> linear_mean(const Texture& texture);
-
 }  // namespace stilb::io

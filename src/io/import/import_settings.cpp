@@ -16,7 +16,7 @@ constexpr Range kLightScale{1e-9, 1e9, "a factor above 0 (from 1e-9 to 1e9)"};
 constexpr std::array<std::string_view, 3> kUpNames{"y", "z", "auto"};
 
 ImportOptions read_options(TomlTable table) {
-    table.expect_keys({"scale", "up", "light_scale"});
+    table.expect_keys({"scale", "up", "light_scale", "textures"});
     ImportOptions options;
     const auto scale = table.find("scale"), light_scale = table.find("light_scale");
     if (scale && !(scale->is_text() && scale->text() == "auto")) options.scale = scale->number(kImportScale);
@@ -25,6 +25,7 @@ ImportOptions read_options(TomlTable table) {
         const std::size_t index = up->index_in(kUpNames, "axis");
         if (index < 2) options.up = static_cast<UpAxis>(index);
     }
+    if (const auto textures = table.find("textures")) options.textures = textures->boolean();
     return options;
 }
 

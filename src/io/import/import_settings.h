@@ -14,11 +14,12 @@ namespace stilb::io {
 
 enum class UpAxis { y, z };
 
-/// The table `import` of the overrides: import.scale, import.up, import.light_scale.
+/// The table `import` of the overrides: import.scale, import.up, import.light_scale, import.textures.
 struct ImportOptions {
     std::optional<double> scale;  ///< metres per unit of length of the file; nothing: as the format decides
     std::optional<UpAxis> up;     ///< the axis of the file that points upwards; nothing: likewise
     double light_scale = 1;       ///< factor on all light
+    bool textures = false;        ///< surfaces show their textures; otherwise their mean colours
 
     bool operator==(const ImportOptions&) const = default;
 };

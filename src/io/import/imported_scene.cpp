@@ -135,9 +135,18 @@ void ImportedScene::note(std::string_view sentence) {
     file.warnings.emplace_back(InputError(std::string(sentence), {file.sources.front().string()}).what());
 }
 
+void ImportedScene::remark_mean_texture(std::string_view material) {
+    remarks_.add("material", material,
+                 "the texture counts by its mean over the surface; import.textures=true shows it.");
+}
+
 MaterialId ImportedScene::add_material(std::string_view name, Material material) {
     file.scene.materials.push_back({materials_.make(name, "material"), std::move(material)});
     return MaterialId{static_cast<std::uint32_t>(file.scene.materials.size() - 1)};
+}
+
+void ImportedScene::set_texture(MaterialId material, FaceTexture texture) {
+    textures_.of_material[material] = std::move(texture);
 }
 
 namespace {
@@ -160,6 +169,10 @@ SharedMesh::SharedMesh(ImportedMesh imported) {
 
 void ImportedScene::add_object(std::string_view name, ImportedMesh imported) {
     imported = simplified(std::move(imported));
+    if (!imported.places.empty()) {
+        const ObjectId id{static_cast<std::uint32_t>(file.scene.objects.size())};
+        textures_.places[id] = std::move(imported.places);
+    }
     file.scene.objects.push_back(
         {objects_.make(name, "object"), std::move(imported.mesh), std::move(imported.materials)});
 }
@@ -250,6 +263,9 @@ void ImportedScene::warn_of_units() {
 }
 
 SceneFile ImportedScene::finish(const ImportSettings& settings) && {
+    apply_textures(file.scene, textures_, materials_, remarks_, warnings);
+    const std::vector<std::string> notes = remarks_.list();
+    file.notes.insert(file.notes.end(), notes.begin(), notes.end());
     const auto count = static_cast<std::uint32_t>(file.scene.objects.size());
     if (count == 0)
         throw InputError("the scene has no surface: there is nothing to light.", {file.sources[0].string()});

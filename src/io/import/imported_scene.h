@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/import/import_settings.h"
+#include "io/import/textures/textured_surfaces.h"
 #include "io/scene/scene_file.h"
 #include "io/text/grouped_warnings.h"
 
@@ -37,6 +38,9 @@ struct Emission {
 struct ImportedMesh {
     Mesh mesh;
     std::vector<MaterialId> materials;
+    /// For each triangle, its place in the texture of its material (SceneTextures); empty where there are
+    /// none.
+    std::vector<FacePlace> places = {};
 };
 
 /// A mesh of several objects.
@@ -54,18 +58,22 @@ class ImportedScene {
     SceneFile file;
     GroupedWarnings warnings;
 
+    /// Says among the notes that the texture of a material counts by its mean.
+    void remark_mean_texture(std::string_view material);
     /// Adds a sentence about the scene as a whole to its warnings.
     void note(std::string_view sentence);
     MaterialId add_material(std::string_view name, Material material);
     /// Makes all faces of a material shine.
     void set_emission(MaterialId material, const Emission& emission) { emissions_[material] = emission; }
+    /// Shows the texture on the faces of a material that have a place in it.
+    void set_texture(MaterialId material, FaceTexture texture);
     void add_object(std::string_view name, ImportedMesh imported);
     void add_instance(std::string_view name, const SharedMesh& shared, const geometry::Transform& to_world);
     void add_light(std::string_view name, lights::LightSource source);
     void add_sensor(std::string_view name, sensors::SensorKind kind);
 
-    /// The scene, after shining faces became lights. Scales all light, applies the settings and warns of
-    /// unlikely sizes and units.
+    /// The scene, after faces with textures became small faces, and shining faces became lights. Scales all
+    /// light, applies the settings and warns of unlikely sizes and units.
     SceneFile finish(const ImportSettings& settings) &&;
 
   private:
@@ -76,6 +84,8 @@ class ImportedScene {
     void warn_of_units();
 
     std::map<MaterialId, Emission> emissions_;
+    SceneTextures textures_;
+    GroupedWarnings remarks_;
     UniqueNames materials_, objects_, lights_, sensors_;
 };
 

@@ -15,17 +15,20 @@ namespace stilb::io {
 
 namespace {
 
-MeshFile read_pieces(MeshFile (*read)(UnreadBytes, const std::string&), const std::filesystem::path& path,
-                     const Monitor& monitor) {
+/// By a reader of pieces, with what it takes besides them.
+template <typename Read, typename... Options>
+MeshFile read_pieces(Read read, const std::filesystem::path& path, const Monitor& monitor,
+                     const Options&... options) {
     FilePieces file(path, monitor);
-    return read(file, path.string());
+    return read(file, path.string(), options...);
 }
 
 }  // namespace
 
-MeshFile read_mesh_file(const std::filesystem::path& path, const Monitor& monitor) {
+MeshFile read_mesh_file(const std::filesystem::path& path, const Monitor& monitor,
+                        TextureCoordinates of_obj) {
     const std::string extension = extension_of(path);
-    if (extension == ".obj") return read_pieces(read_obj, path, monitor);
+    if (extension == ".obj") return read_pieces(read_obj, path, monitor, of_obj);
     if (extension == ".ply") return read_pieces(read_ply, path, monitor);
     if (extension == ".gltf" || extension == ".glb") return read_gltf_mesh(path);
     if (extension.empty()) read_beginning(path, 1);  // names folders, and files that are not there
@@ -69,30 +72,37 @@ void MeshBuilder::add_normal(const Vec3& normal) {
     file_.mesh.normals.push_back(size > kSmallest ? normalized(normal / size) : Vec3{});
 }
 
-void MeshBuilder::add_triangle(const Triangle& t, const std::optional<Triangle>& normals) {
+void MeshBuilder::add_of_last_triangle(std::vector<Triangle>& list, const std::optional<Triangle>& indices) {
+    static_assert(kNoNormal == kNoCoordinates);
+    if (!indices) return;
+    // Triangles before the first that has some may have been added without.
+    list.resize(file_.mesh.triangles.size() - 1, Triangle{kNoNormal, kNoNormal, kNoNormal});
+    list.push_back(*indices);
+}
+
+void MeshBuilder::add_triangle(const Triangle& t, const std::optional<Triangle>& normals,
+                               const std::optional<Triangle>& coordinates) {
     const std::vector<Vec3>& vertices = file_.mesh.vertices;
     if (is_degenerate(vertices[t[0]], vertices[t[1]], vertices[t[2]])) {
         ++file_.degenerate_triangles;
         return;
     }
     file_.mesh.triangles.push_back(t);
-    if (normals) {
-        // Triangles before the first that has some may have been added without.
-        constexpr Triangle kNone{kNoNormal, kNoNormal, kNoNormal};
-        file_.mesh.corner_normals.resize(file_.mesh.triangles.size() - 1, kNone);
-        file_.mesh.corner_normals.push_back(*normals);
-    }
+    add_of_last_triangle(file_.mesh.corner_normals, normals);
+    add_of_last_triangle(file_.corner_coordinates, coordinates);
     file_.material_of_triangle.push_back(materials_.index());
     file_.group_of_triangle.push_back(groups_.index());
 }
 
-void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners,
-                              std::span<const std::uint32_t> normals) {
+void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals,
+                              std::span<const std::uint32_t> coordinates) {
     const auto add = [&](const Triangle& t) {
         const auto of = [&](std::span<const std::uint32_t> indices) {
-            return Triangle{indices[t[0]], indices[t[1]], indices[t[2]]};
+            std::optional<Triangle> found;
+            if (!indices.empty()) found = {indices[t[0]], indices[t[1]], indices[t[2]]};
+            return found;
         };
-        add_triangle(of(corners), normals.empty() ? std::nullopt : std::optional(of(normals)));
+        add_triangle(*of(corners), of(normals), of(coordinates));
     };
     if (corners.size() == 3) return add({0, 1, 2});
     polygon_.clear();

@@ -1,6 +1,7 @@
 // Triangle meshes from OBJ, PLY and glTF files.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -17,8 +18,9 @@
 
 namespace stilb::io {
 
-/// The contents of a mesh file: coordinates untransformed (glTF: with z upwards), polygons triangulated,
-/// texture coordinates ignored.
+inline constexpr std::uint32_t kNoCoordinates = ~0u;
+
+/// The contents of a mesh file: coordinates untransformed (glTF: with z upwards), polygons triangulated.
 struct MeshFile {
     Mesh mesh;
     /// Names of the file's parts and, for each triangle, indices into them. Unnamed parts have the name "".
@@ -26,6 +28,10 @@ struct MeshFile {
     std::vector<std::uint32_t> material_of_triangle;
     std::vector<std::string> group_names;
     std::vector<std::uint32_t> group_of_triangle;
+    /// OBJ's texture coordinates, if asked for, and for each triangle those of its corners, or
+    /// kNoCoordinates.
+    std::vector<std::array<float, 2>> texture_coordinates;
+    std::vector<Triangle> corner_coordinates;
     /// Other files with parts of the mesh (buffers of glTF).
     std::vector<std::filesystem::path> other_files;
     /// Names of files with materials (OBJ's mtllib), as written.
@@ -36,10 +42,13 @@ struct MeshFile {
 
 /// Selects the reader by the file's extension (.obj, .ply, .gltf, .glb; any case). Throws InputError with
 /// file and line, and Cancelled as the monitor does, which takes the share that is read of OBJ and PLY.
-MeshFile read_mesh_file(const std::filesystem::path& path, const Monitor& monitor = Monitor::none());
+enum class TextureCoordinates { ignored, kept };
+MeshFile read_mesh_file(const std::filesystem::path& path, const Monitor& monitor = Monitor::none(),
+                        TextureCoordinates of_obj = TextureCoordinates::ignored);
 
 /// The readers for a text in memory, or for a file piece by piece; `name` is used in messages only.
-MeshFile read_obj(UnreadBytes content, const std::string& name);
+MeshFile read_obj(UnreadBytes content, const std::string& name,
+                  TextureCoordinates coordinates = TextureCoordinates::ignored);
 MeshFile read_ply(UnreadBytes content, const std::string& name);
 
 /// The content of an OBJ file, with seven digits of each coordinate.
@@ -98,15 +107,22 @@ class MeshBuilder {
     void use_group(std::string_view name) { groups_.use(name); }
     void add_material_library(std::string_view name) { file_.material_libraries.emplace_back(name); }
 
+    void add_texture_coordinates(const std::array<float, 2>& uv) { file_.texture_coordinates.push_back(uv); }
+
     /// A simple planar polygon of three corners or more. `normals`: those of its corners, or kNoNormal; empty
-    /// where normals have the vertices' indices, or there are none.
-    void add_polygon(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals = {});
-    void add_triangle(const Triangle& triangle, const std::optional<Triangle>& normals = std::nullopt);
+    /// where normals have the vertices' indices, or there are none. `coordinates`: likewise, of all polygons
+    /// or none.
+    void add_polygon(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals = {},
+                     std::span<const std::uint32_t> coordinates = {});
+    void add_triangle(const Triangle& triangle, const std::optional<Triangle>& normals = std::nullopt,
+                      const std::optional<Triangle>& coordinates = std::nullopt);
 
     /// Throws InputError where there is no triangle; `remedy` says what the format requires.
     MeshFile finish(const std::string& name, std::string_view remedy) &&;
 
   private:
+    /// Adds the indices of the last triangle's corners to their list.
+    void add_of_last_triangle(std::vector<Triangle>& list, const std::optional<Triangle>& indices);
     /// Removes normals that no triangle uses.
     void drop_unused_normals();
 

@@ -33,7 +33,8 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
 
 class ObjReader {
   public:
-    ObjReader(UnreadBytes content, const std::string& name) : lines_(content), name_(name) {}
+    ObjReader(UnreadBytes content, const std::string& name, TextureCoordinates coordinates)
+        : lines_(content), name_(name), keeps_coordinates_(coordinates == TextureCoordinates::kept) {}
 
     MeshFile read() && {
         while (next_statement()) {
@@ -92,7 +93,7 @@ class ObjReader {
     void obey(std::string_view word, std::string_view arguments) {
         if (word == "v") return read_vertex(arguments);
         if (word == "vn") return builder_.add_normal(read_triple(arguments, "normal", "vn x y z"));
-        if (word == "vt") return void(++texture_coordinates_);
+        if (word == "vt") return read_texture_coordinates(arguments);
         if (word == "f") return read_face(arguments);
         if (word == "usemtl") return builder_.use_material(trimmed(arguments));
         if (word == "g" || word == "o") return builder_.use_group(trimmed(arguments));
@@ -143,17 +144,29 @@ class ObjReader {
         return done > 0 ? kMany + static_cast<std::size_t>(kMany * left / done) : kMany;
     }
 
+    /// One to three numbers, of which the third is not for pictures. Without a use they may be anything.
+    void read_texture_coordinates(std::string_view arguments) {
+        ++texture_coordinates_;
+        if (!keeps_coordinates_) return;
+        std::array<float, 2> uv{};
+        for (float& coordinate : uv)
+            coordinate = static_cast<float>(parse_number(next_word(arguments)).value_or(0));
+        builder_.add_texture_coordinates(uv);
+    }
+
     void read_face(std::string_view arguments) {
         corners_.clear();
         normals_.clear();
+        coordinates_.clear();
         for (std::string_view word = next_word(arguments); !word.empty() && word[0] != '#';
              word = next_word(arguments))
             read_corner(word);
         if (corners_.size() < 3)
             fail(fmt::format("the face has {} corners; it needs three or more: f 1 2 3", corners_.size()));
-        // Most large files have no normals, and lists without any would take as much memory as the triangles.
+        // Most large files have neither, and lists without any would take as much memory as the triangles.
         if (builder_.normal_count() == 0) normals_.clear();
-        builder_.add_polygon(corners_, normals_);
+        if (texture_coordinates_ == 0) coordinates_.clear();
+        builder_.add_polygon(corners_, normals_, coordinates_);
         const std::size_t count = builder_.triangle_count();
         if (first_face_ == 0) first_face_ = lines_.rest().size();
         if (count >= kMany && !is_reserved_) {
@@ -175,8 +188,11 @@ class ObjReader {
             rest.remove_prefix(goes_on ? end + 1 : rest.size());
         }
         corners_.push_back(index(word, parts[0], "vertex", "vertices", builder_.vertex_count()));
-        if (!parts[1].empty())
-            index(word, parts[1], "texture coordinate", "texture coordinates", texture_coordinates_);
+        const std::uint32_t coordinates =
+            parts[1].empty()
+                ? kNoCoordinates
+                : index(word, parts[1], "texture coordinate", "texture coordinates", texture_coordinates_);
+        if (keeps_coordinates_) coordinates_.push_back(coordinates);
         normals_.push_back(parts[2].empty()
                                ? kNoNormal
                                : index(word, parts[2], "normal", "normals", builder_.normal_count()));
@@ -212,13 +228,16 @@ class ObjReader {
     std::string_view statement_;
     std::size_t line_ = 0;  // where the statement begins
     std::string joined_;
-    std::vector<std::uint32_t> corners_, normals_;
+    bool keeps_coordinates_;
+    std::vector<std::uint32_t> corners_, normals_, coordinates_;
     std::size_t texture_coordinates_ = 0;
     MeshBuilder builder_;
 };
 
 }  // namespace
 
-MeshFile read_obj(UnreadBytes content, const std::string& name) { return ObjReader(content, name).read(); }
+MeshFile read_obj(UnreadBytes content, const std::string& name, TextureCoordinates coordinates) {
+    return ObjReader(content, name, coordinates).read();
+}
 
 }  // namespace stilb::io

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "io/import/coated_surface.h"
+#include "io/import/gltf/gltf_surface.h"
 
 namespace stilb::io::gltf {
 namespace {
@@ -21,33 +21,33 @@ constexpr std::array<std::string_view, 7> kMaterialExtensions{"KHR_materials_tra
                                                               "KHR_materials_unlit",
                                                               "KHR_texture_transform"};
 
-/// A material's quantities as means over its surface.
-struct MeanSurface {
-    Rgb base;
-    double alpha = 1, metallic = 1, roughness = 1;
-    double transmission = 0, ior = 1.5, specular = 1;
-    bool is_solid = false;  ///< has a volume behind its surface
-    bool is_unlit = false;
-    Rgb emission_cd_m2;
-};
-
 class MaterialReader {
   public:
-    MaterialReader(File& file, const std::vector<PlacedPrimitive>& primitives, ImportedScene& scene)
-        : file_(file), primitives_(primitives), scene_(scene), textures_(file, scene.warnings) {}
+    MaterialReader(File& file, const std::vector<PlacedPrimitive>& primitives, bool shows_textures,
+                   ImportedScene& scene)
+        : file_(file),
+          primitives_(primitives),
+          shows_textures_(shows_textures),
+          scene_(scene),
+          textures_(file, scene.warnings) {}
 
-    std::optional<MaterialId> add(int index) {
-        if (index < 0) return add_default();
+    std::optional<SurfaceMaterial> add(int index) {
+        if (index < 0) return SurfaceMaterial{add_default(), {}};
         const tinygltf::Material& material = file_.model.materials[static_cast<std::size_t>(index)];
         part_ = fmt::format("materials[{}]", index);
         name_ = material.name.empty() ? fmt::format("material_{}", index) : material.name;
         const MeanSurface surface = means(material, SurfacePoints(primitives_, index));
         warn_of_extensions(material);
-        if (is_invisible(material, surface)) return std::nullopt;
-        const MaterialId id = scene_.add_material(name_, convert(material, surface));
+        std::optional<FaceTexture> texture = face_texture(material, surface);
+        if (!texture && is_invisible(material, surface)) return std::nullopt;
+        SurfaceMaterial added{scene_.add_material(name_, material_of(surface, name_, scene_.warnings)), {}};
         if (surface.emission_cd_m2.luminance() > 0)
-            scene_.set_emission(id, {surface.emission_cd_m2, material.doubleSided});
-        return id;
+            scene_.set_emission(added.id, {surface.emission_cd_m2, material.doubleSided});
+        if (texture) {
+            scene_.set_texture(added.id, std::move(*texture));
+            added.texture = uv_transform(material.pbrMetallicRoughness.baseColorTexture);
+        }
+        return added;
     }
 
   private:
@@ -71,13 +71,18 @@ class MaterialReader {
         return rgb;
     }
 
+    Rgb base_factor(const tinygltf::Material& material) const {
+        const Rgb factor = rgb_of(material.pbrMetallicRoughness.baseColorFactor, Rgb::grey(1));
+        return checked(factor, 1, "baseColorFactor");
+    }
+
     MeanSurface means(const tinygltf::Material& material, const SurfacePoints& points) {
         const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
         MeanSurface surface;
         const auto colour = textures_.mean(pbr.baseColorTexture, true, points, part_);
         const auto rough = textures_.mean(pbr.metallicRoughnessTexture, false, points, part_);
-        surface.base = checked(rgb_of(pbr.baseColorFactor, Rgb::grey(1)), 1, "baseColorFactor") *
-                       Rgb{{colour[0], colour[1], colour[2]}};
+        surface.base = base_factor(material) * Rgb{{colour[0], colour[1], colour[2]}};
+        surface.is_blended = material.alphaMode == "BLEND";
         if (pbr.baseColorFactor.size() == 4)
             surface.alpha = checked(pbr.baseColorFactor[3], 0, 1, "baseColorFactor") * colour[3];
         surface.metallic = checked(pbr.metallicFactor, 0, 1, "metallicFactor") * rough[2];
@@ -147,6 +152,31 @@ class MaterialReader {
         }
     }
 
+    /// The texture of the base colour; nothing where its mean counts.
+    std::optional<FaceTexture> face_texture(const tinygltf::Material& material, const MeanSurface& surface) {
+        const std::optional<TextureMap> map =
+            textures_.map_of(material.pbrMetallicRoughness.baseColorTexture, part_);
+        if (!map) return std::nullopt;
+        if (!shows_textures_) {
+            scene_.remark_mean_texture(name_);
+            return std::nullopt;
+        }
+        if (surface.emission_cd_m2.luminance() > 0 || !shows_base(surface)) {
+            warn("it shines or is transparent: its texture counts by its mean.");
+            return std::nullopt;
+        }
+        const std::vector<double>& factors = material.pbrMetallicRoughness.baseColorFactor;
+        const double alpha = factors.size() == 4 ? factors[3] : 1;
+        const double least_alpha = material.alphaMode == "MASK" ? material.alphaCutoff / alpha : 0;
+        return FaceTexture{{*map, least_alpha},
+                           [surface, factor = base_factor(material), name = name_](const Rgb& colour) {
+                               MeanSurface face = surface;
+                               face.base = factor * colour;
+                               GroupedWarnings as_of_the_mean;  // which the scene has already
+                               return material_of(face, name, as_of_the_mean);
+                           }};
+    }
+
     bool is_invisible(const tinygltf::Material& material, const MeanSurface& surface) {
         constexpr double kFaintest = 0.02;
         if (material.alphaMode == "MASK" && surface.alpha < material.alphaCutoff) {
@@ -158,83 +188,9 @@ class MaterialReader {
         return true;
     }
 
-    Material convert(const tinygltf::Material& material, const MeanSurface& surface) {
-        constexpr double kOpaque = 0.98;
-        if (surface.is_unlit) {
-            warn(
-                "KHR_materials_unlit is for drawings without light; a diffuse surface of its colour is "
-                "used.");
-            return Diffuse{surface.base};
-        }
-        if (surface.transmission > 0) {
-            if (surface.transmission >= 0.5) return transparent(surface);
-            warn(fmt::format("its transmission of {:.2g} is left out: the surface is opaque.",
-                             surface.transmission));
-        } else if (material.alphaMode == "BLEND" && surface.alpha < kOpaque) {
-            warn(
-                fmt::format("alphaMode BLEND becomes a clear pane that transmits {:.2g}; the light that it "
-                            "would reflect diffusely is absorbed.",
-                            1 - surface.alpha));
-            return sheet(reflectance_of_coat(surface), Rgb::grey(1 - surface.alpha));
-        }
-        return opaque(surface);
-    }
-
-    static double reflectance_of_coat(const MeanSurface& surface) {
-        return std::min(surface.specular * normal_reflectance(surface.ior), 1.0);
-    }
-
-    Material transparent(const MeanSurface& surface) {
-        if (surface.transmission < 1) {
-            warn(
-                fmt::format("its transmission of {:.2g} becomes a clear pane of this transmittance; the "
-                            "light that it would scatter is absorbed.",
-                            surface.transmission));
-        }
-        constexpr double kClear = 0.05;
-        if (surface.roughness * surface.roughness > kClear)
-            warn("light passes it without being scattered: its roughness is left out.");
-        if (surface.is_solid) {
-            const Rgb& base = surface.base;
-            if (base.min() < 0.99) warn("the colour of the solid glass is left out.");
-            return Dielectric{std::clamp(surface.ior, 1.0, 4.0)};
-        }
-        return sheet(reflectance_of_coat(surface), surface.transmission * surface.base);
-    }
-
-    Material opaque(const MeanSurface& surface) {
-        constexpr double kPure = 0.02;
-        const double alpha = surface.roughness * surface.roughness;
-        if (surface.metallic >= 1 - kPure) return metal(surface.base, alpha);
-        const double coat = reflectance_of_coat(surface);
-        if (surface.metallic > kPure) return blend(surface, coat, alpha);
-        if (coat <= 0) return Diffuse{surface.base};
-        if (coat > normal_reflectance(materials::kIor.max))
-            warn("its highlights are stronger than those of ior 4, which is used.");
-        const double ior = surface.specular == 1 ? surface.ior : ior_of_normal_reflectance(coat);
-        return plastic_returning(surface.base, ior, alpha);
-    }
-
-    static Material metal(const Rgb& reflectance, double alpha) {
-        if (alpha < materials::kRoughness.min) return Mirror{reflectance};
-        return RoughConductor({reflectance, alpha});
-    }
-
-    /// Neither metal nor not: two shares of light, because no material of Stilb mixes its models.
-    Material blend(const MeanSurface& surface, double coat, double alpha) {
-        constexpr double kWidestLobe = 0.3;  // wider lobes of this model lose light
-        warn(
-            fmt::format("it is a mixture of metal and no metal (metallic {:.2g}); a lobe over a diffuse base "
-                        "(type ward) is used.",
-                        surface.metallic));
-        const double rest = 1 - surface.metallic;
-        const Rgb specular = surface.metallic * surface.base + Rgb::grey(rest * coat);
-        const double width = std::clamp(alpha, materials::kRoughness.min, kWidestLobe);
-        return Ward({rest * (1 - coat) * surface.base, specular, {width, width}});
-    }
-
     File& file_;
     const std::vector<PlacedPrimitive>& primitives_;
+    bool shows_textures_;
     ImportedScene& scene_;
     Textures textures_;
     std::string part_, name_;
@@ -242,18 +198,18 @@ class MaterialReader {
 
 }  // namespace
 
-std::map<int, MaterialId> add_materials(File& file, const std::vector<PlacedPrimitive>& primitives,
-                                        ImportedScene& scene) {
+std::map<int, SurfaceMaterial> add_materials(File& file, const std::vector<PlacedPrimitive>& primitives,
+                                             bool shows_textures, ImportedScene& scene) {
     std::set<int> used;
     for (const PlacedPrimitive& primitive : primitives) {
         if (primitive.material >= 0)
             element(file, file.model.materials, primitive.material, "materials", "a primitive of a mesh");
         used.insert(primitive.material);
     }
-    MaterialReader reader(file, primitives, scene);
-    std::map<int, MaterialId> materials;
+    MaterialReader reader(file, primitives, shows_textures, scene);
+    std::map<int, SurfaceMaterial> materials;
     for (const int index : used) {
-        if (const auto id = reader.add(index)) materials[index] = *id;
+        if (const auto material = reader.add(index)) materials[index] = *material;
     }
     return materials;
 }

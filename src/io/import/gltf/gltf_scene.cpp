@@ -45,8 +45,9 @@ void check_extensions(const gltf::File& file, ImportedScene& scene) {
 
 /// The primitives of one node as one mesh.
 ImportedMesh joined(const std::vector<const gltf::PlacedPrimitive*>& primitives,
-                    const std::map<int, MaterialId>& materials) {
+                    const std::map<int, gltf::SurfaceMaterial>& materials) {
     ImportedMesh whole;
+    bool has_places = false;
     const bool has_normals = std::ranges::any_of(
         primitives, [](const gltf::PlacedPrimitive* p) { return !p->mesh.normals.empty(); });
     for (const gltf::PlacedPrimitive* primitive : primitives) {
@@ -61,8 +62,14 @@ ImportedMesh joined(const std::vector<const gltf::PlacedPrimitive*>& primitives,
         }
         for (const auto& [a, b, c] : mesh.triangles)
             whole.mesh.triangles.push_back({first + a, first + b, first + c});
-        whole.materials.resize(whole.mesh.triangles.size(), material->second);
+        const auto& [id, texture] = material->second;
+        whole.materials.resize(whole.mesh.triangles.size(), id);
+        has_places = has_places || texture.has_value();
+        whole.places.resize(whole.mesh.triangles.size(), no_place());
+        for (std::size_t t = 0; texture && t < mesh.triangles.size(); ++t)
+            whole.places[whole.places.size() - mesh.triangles.size() + t] = place_of(*primitive, t, *texture);
     }
+    if (!has_places) whole.places.clear();
     return whole;
 }
 
@@ -70,7 +77,7 @@ ImportedMesh joined(const std::vector<const gltf::PlacedPrimitive*>& primitives,
 class ObjectsOfNodes {
   public:
     ObjectsOfNodes(const gltf::File& file, const std::vector<gltf::PlacedNode>& nodes,
-                   const gltf::PlacedMeshes& meshes, const std::map<int, MaterialId>& materials)
+                   const gltf::PlacedMeshes& meshes, const std::map<int, gltf::SurfaceMaterial>& materials)
         : file_(file), nodes_(nodes), meshes_(meshes), materials_(materials), of_node_(nodes.size()) {
         for (const auto& primitive : meshes.primitives) of_node_[primitive.node].push_back(&primitive);
         for (const auto& [instance, first] : meshes.first_of_instance) shared_.try_emplace(first);
@@ -112,7 +119,7 @@ class ObjectsOfNodes {
     const gltf::File& file_;
     const std::vector<gltf::PlacedNode>& nodes_;
     const gltf::PlacedMeshes& meshes_;
-    const std::map<int, MaterialId>& materials_;
+    const std::map<int, gltf::SurfaceMaterial>& materials_;
     std::vector<std::vector<const gltf::PlacedPrimitive*>> of_node_;
     /// The meshes of nodes that have instances, where the node places them; nothing for invisible ones.
     std::map<std::size_t, std::optional<SharedMesh>> shared_;
@@ -129,9 +136,10 @@ SceneFile read_gltf_scene(std::string_view content, const std::filesystem::path&
     const std::vector<gltf::PlacedNode> nodes =
         placed_nodes(file, to_metres_and_z_up(options.scale.value_or(1), options.up.value_or(UpAxis::y)));
     {
-        const gltf::PlacedMeshes meshes =
-            placed_meshes(file, nodes, gltf::Repeats::instances, scene.warnings);
-        const std::map<int, MaterialId> materials = add_materials(file, meshes.primitives, scene);
+        // A texture divides the surfaces of each node on its own.
+        const auto repeats = options.textures ? gltf::Repeats::copies : gltf::Repeats::instances;
+        const gltf::PlacedMeshes meshes = placed_meshes(file, nodes, repeats, scene.warnings);
+        const auto materials = add_materials(file, meshes.primitives, options.textures, scene);
         ObjectsOfNodes(file, nodes, meshes, materials).add_to(scene);
     }
     add_lights(file, nodes, scene);

@@ -11,41 +11,23 @@
 namespace stilb::io::gltf {
 namespace {
 
-constexpr std::size_t kPoints = 16384;
-/// Irrational steps that fill the unit square evenly (Roberts, the R2 sequence).
-constexpr double kStepU = 0.7548776662466927, kStepV = 0.5698402909980532;
-
-double triangle_area_m2(const Mesh& mesh, std::size_t t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    return length(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a])) / 2;
+TextureWrap wrap_of(int mode) {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return TextureWrap::clamp;
+    return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::mirror : TextureWrap::repeat;
 }
-
-double fraction(double value) { return value - std::floor(value); }
-
-/// The position in the picture that the sampler takes for a coordinate.
-double wrapped(double coordinate, int mode) {
-    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return std::clamp(coordinate, 0.0, 1.0);
-    if (mode != TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return fraction(coordinate);
-    const double turn = fraction(coordinate / 2) * 2;
-    return turn <= 1 ? turn : 2 - turn;
-}
-
-/// KHR_texture_transform.
-struct UvTransform {
-    double offset_u = 0, offset_v = 0, scale_u = 1, scale_v = 1, rotation = 0;
-    std::size_t set = 0;
-
-    std::array<double, 2> operator()(const std::array<double, 2>& uv) const {
-        const double u = scale_u * uv[0], v = scale_v * uv[1];
-        const double c = std::cos(rotation), s = std::sin(rotation);
-        return {c * u + s * v + offset_u, -s * u + c * v + offset_v};
-    }
-};
 
 double component_in(const tinygltf::Value& table, const std::string& key, int index, double otherwise) {
     const tinygltf::Value& list = table.Get(key);
     const bool is_there = list.IsArray() && list.ArrayLen() == 2 && list.Get(index).IsNumber();
     return is_there ? list.Get(index).GetNumberAsDouble() : otherwise;
+}
+
+}  // namespace
+
+Uv UvTransform::operator()(const Uv& uv) const {
+    const double u = scale_u * uv[0], v = scale_v * uv[1];
+    const double c = std::cos(rotation), s = std::sin(rotation);
+    return {c * u + s * v + offset_u, -s * u + c * v + offset_v};
 }
 
 UvTransform uv_transform(const tinygltf::TextureInfo& info) {
@@ -62,40 +44,33 @@ UvTransform uv_transform(const tinygltf::TextureInfo& info) {
     return transform;
 }
 
-}  // namespace
+FacePlace place_of(const PlacedPrimitive& primitive, std::size_t triangle, const UvTransform& transform) {
+    if (transform.set >= primitive.uv.size() || primitive.uv[transform.set].empty()) return no_place();
+    FacePlace place{};
+    for (std::size_t corner = 0; corner < 3; ++corner)
+        place[corner] = transform(primitive.uv[transform.set][primitive.mesh.triangles[triangle][corner]]);
+    return place;
+}
 
 SurfacePoints::SurfacePoints(const std::vector<PlacedPrimitive>& primitives, int material) {
-    std::vector<Point> triangles;
-    std::vector<double> area_until;
-    double total = 0;
+    std::vector<double> areas_m2;
     for (const PlacedPrimitive& primitive : primitives) {
         if (primitive.material != material) continue;
         for (std::uint32_t t = 0; t < primitive.mesh.triangles.size(); ++t) {
-            triangles.push_back({&primitive, t, {}});
-            area_until.push_back(total += triangle_area_m2(primitive.mesh, t));
+            faces_.push_back({&primitive, t});
+            areas_m2.push_back(geometry::triangle_area_m2(primitive.mesh, t));
         }
     }
-    for (std::size_t i = 0; i < kPoints && !triangles.empty(); ++i) {
-        const double at = total * (static_cast<double>(i) + 0.5) / kPoints;
-        const auto found = std::ranges::lower_bound(area_until, at) - area_until.begin();
-        Point point = triangles[std::min(static_cast<std::size_t>(found), triangles.size() - 1)];
-        double u = fraction(kStepU * static_cast<double>(i)), v = fraction(kStepV * static_cast<double>(i));
-        if (u + v > 1) u = 1 - u, v = 1 - v;
-        point.weights = {1 - u - v, u, v};
-        points_.push_back(point);
-    }
+    points_ = points_on_surface(areas_m2);
 }
 
-std::vector<std::array<double, 2>> SurfacePoints::uv(std::size_t set) const {
-    std::vector<std::array<double, 2>> all;
-    for (const auto& [primitive, triangle, weights] : points_) {
-        if (set >= primitive->uv.size() || primitive->uv[set].empty()) return {};
-        std::array<double, 2> uv{};
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const auto& at = primitive->uv[set][primitive->mesh.triangles[triangle][corner]];
-            for (std::size_t i = 0; i < 2; ++i) uv[i] += weights[corner] * at[i];
-        }
-        all.push_back(uv);
+std::vector<Uv> SurfacePoints::uv(const UvTransform& transform) const {
+    std::vector<Uv> all;
+    for (const auto& [face, barycentric] : points_) {
+        const auto& [primitive, triangle] = faces_[face];
+        const FacePlace place = place_of(*primitive, triangle, transform);
+        if (!has_place(place)) return {};
+        all.push_back(uv_at(place, barycentric));
     }
     return all;
 }
@@ -105,7 +80,7 @@ std::string Textures::content_of(const tinygltf::Image& image, const std::string
     return {image.image.begin(), image.image.end()};  // the parser has read it
 }
 
-const Texture* Textures::texture_of(int index, const std::string& part) {
+std::shared_ptr<const Texture> Textures::picture_of(int index, const std::string& part) {
     const tinygltf::Texture& texture = element(file_, file_.model.textures, index, "textures", part);
     if (texture.source < 0) {
         warnings_.add("texture", fmt::format("textures[{}]", index),
@@ -114,10 +89,10 @@ const Texture* Textures::texture_of(int index, const std::string& part) {
     }
     const tinygltf::Image& image = element(file_, file_.model.images, texture.source, "images", part);
     const std::string name = fmt::format("images[{}]", texture.source);
-    if (const auto known = textures_.find(texture.source); known != textures_.end()) return &known->second;
+    if (const auto known = pictures_.find(texture.source); known != pictures_.end()) return known->second;
     try {
-        return &textures_.try_emplace(texture.source, read_texture(content_of(image, part), name))
-                    .first->second;
+        return pictures_[texture.source] =
+                   std::make_shared<const Texture>(read_texture(content_of(image, part), name));
     } catch (const InputError& error) {
         warnings_.add("texture", image.uri.empty() ? name : in_quotes(image.uri.substr(0, 80)),
                       fmt::format("it is left out ({}).", error.what()));
@@ -125,33 +100,23 @@ const Texture* Textures::texture_of(int index, const std::string& part) {
     }
 }
 
-std::array<double, 4> Textures::mean(const tinygltf::TextureInfo& info, bool is_colour,
-                                     const SurfacePoints& surface, const std::string& part) {
-    constexpr std::array<double, 4> ones{1, 1, 1, 1};
-    if (info.index < 0) return ones;
-    const Texture* const texture = texture_of(info.index, part);
-    if (texture == nullptr) return ones;
-    const UvTransform transform = uv_transform(info);
-    std::vector<std::array<double, 2>> uv = surface.uv(transform.set);
-    if (uv.empty()) {  // the file says nothing about its place: the whole picture counts
-        for (std::size_t i = 0; i < kPoints; ++i)
-            uv.push_back(
-                {fraction(kStepU * static_cast<double>(i)), fraction(kStepV * static_cast<double>(i))});
-    }
+std::optional<TextureMap> Textures::map_of(const tinygltf::TextureInfo& info, const std::string& part) {
+    if (info.index < 0) return std::nullopt;
+    std::shared_ptr<const Texture> picture = picture_of(info.index, part);
+    if (!picture) return std::nullopt;
     const int sampler = file_.model.textures[static_cast<std::size_t>(info.index)].sampler;
     const bool has_sampler = sampler >= 0 && static_cast<std::size_t>(sampler) < file_.model.samplers.size();
     const tinygltf::Sampler wrap =
         has_sampler ? file_.model.samplers[static_cast<std::size_t>(sampler)] : tinygltf::Sampler{};
-    std::array<double, 4> sum{};
-    for (const auto& at : uv) {
-        const auto [u, v] = transform(at);
-        if (!std::isfinite(u) || !std::isfinite(v)) return ones;
-        const auto& texel = texture->at(wrapped(u, wrap.wrapS), wrapped(v, wrap.wrapT));
-        for (std::size_t c = 0; c < 4; ++c)
-            sum[c] += is_colour && c < 3 ? linear_of_srgb(texel[c]) : texel[c] / 255.0;
-    }
-    for (double& value : sum) value /= static_cast<double>(uv.size());
-    return sum;
+    return TextureMap{std::move(picture), wrap_of(wrap.wrapS), wrap_of(wrap.wrapT)};
+}
+
+std::array<double, 4> Textures::mean(const tinygltf::TextureInfo& info, bool is_colour,
+                                     const SurfacePoints& surface, const std::string& part) {
+    const std::optional<TextureMap> map = map_of(info, part);
+    if (!map) return {1, 1, 1, 1};
+    // Where the file says nothing about its place, the whole picture counts.
+    return mean_of(*map, surface.uv(uv_transform(info)), is_colour);
 }
 
 }  // namespace stilb::io::gltf

@@ -105,21 +105,35 @@ class MtlReader {
         return {{red, green, number(word, arguments, kLargestValue)}};
     }
 
-    /// The name after options such as "-s 1 1 1": the last of the words that follow the options' numbers.
-    static std::string picture(std::string_view arguments) {
+    /// Options such as "-s 1 1 1", and the name that follows them and their values.
+    static MtlPicture picture(std::string_view arguments) {
+        MtlPicture picture;
         std::string_view rest = trimmed(arguments);
         while (rest.starts_with('-')) {
-            next_word(rest);
+            const std::string_view option = next_word(rest);
+            std::vector<std::string_view> values;
             rest = trimmed(rest);
-            while (true) {  // values of the option: numbers, on, off
+            while (true) {
                 std::string_view after = rest;
                 const std::string_view value = next_word(after);
                 const bool is_value = parse_number(value) || value == "on" || value == "off";
                 if (!is_value || trimmed(after).empty()) break;
+                values.push_back(value);
                 rest = trimmed(after);
             }
+            obey_option(option, values, picture);
         }
-        return std::string(rest);
+        picture.file = rest;
+        return picture;
+    }
+
+    static void obey_option(std::string_view option, const std::vector<std::string_view>& values,
+                            MtlPicture& picture) {
+        if (option == "-clamp") picture.is_clamped = !values.empty() && values[0] == "on";
+        if (option != "-s" && option != "-o") return;
+        auto& numbers = option == "-s" ? picture.scale : picture.offset;
+        for (std::size_t i = 0; i < std::min(values.size(), numbers.size()); ++i)
+            numbers[i] = parse_number(values[i]).value_or(numbers[i]);
     }
 
     TextLines lines_;

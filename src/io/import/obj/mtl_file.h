@@ -12,6 +12,14 @@
 
 namespace stilb::io {
 
+/// A picture that multiplies a value, with the options of its statement.
+struct MtlPicture {
+    std::string file;  ///< empty where there is none
+    /// Of texture coordinates: -s, then -o.
+    std::array<double, 2> scale{1, 1}, offset{0, 0};
+    bool is_clamped = false;  ///< -clamp on
+};
+
 /// One material, with the values of the file. [Wavefront, Advanced Visualizer, appendix B5]
 struct MtlMaterial {
     std::string name;
@@ -25,8 +33,7 @@ struct MtlMaterial {
     std::optional<double> ior;     ///< Ni
     std::optional<int> illum;
     std::optional<double> roughness, metallic;  ///< Pr, Pm of later exporters
-    /// Names of pictures that multiply diffuse, specular, emission and opacity; empty where there are none.
-    std::string diffuse_map, specular_map, emission_map, opacity_map;
+    MtlPicture diffuse_map, specular_map, emission_map, opacity_map;
     std::vector<std::string> ignored;  ///< other statements
 };
 

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "geometry/mesh_part.h"
-#include "io/image/texture_file.h"
-#include "io/import/coated_surface.h"
 #include "io/import/imported_scene.h"
 #include "io/import/obj/mtl_file.h"
+#include "io/import/obj/mtl_surface.h"
 #include "io/import/obj/unit_guess.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/text.h"
@@ -34,15 +34,30 @@ std::vector<fs::path> library_paths(const std::string& statement, const fs::path
 
 class ObjMaterials {
   public:
-    ObjMaterials(const MeshFile& mesh, const fs::path& folder, ImportedScene& scene)
-        : folder_(folder), scene_(scene) {
+    /// Keeps references to all of them.
+    ObjMaterials(const MeshFile& mesh, const fs::path& folder, bool shows_textures, ImportedScene& scene)
+        : mesh_(mesh), folder_(folder), shows_textures_(shows_textures), scene_(scene) {
         for (const std::string& statement : mesh.material_libraries) {
             for (const fs::path& path : library_paths(statement, folder)) read_library(path);
         }
+        faces_.resize(mesh.material_names.size());
+        for (std::uint32_t t = 0; t < mesh.material_of_triangle.size(); ++t)
+            faces_[mesh.material_of_triangle[t]].push_back(t);
     }
 
-    /// The scene's material of a name in the OBJ file.
-    MaterialId add(const std::string& name) {
+    /// Adds the materials of all names in the OBJ file.
+    std::vector<MaterialId> add_all() {
+        std::vector<MaterialId> materials;
+        for (std::size_t m = 0; m < mesh_.material_names.size(); ++m) materials.push_back(add(m));
+        return materials;
+    }
+
+    /// For each triangle, its place in the texture that it shows; empty where none shows one.
+    std::vector<FacePlace> places() && { return std::move(places_); }
+
+  private:
+    MaterialId add(std::size_t index) {
+        const std::string& name = mesh_.material_names[index];
         const auto known = materials_.find(name);
         name_ = name.empty() ? "default" : name;
         if (known == materials_.end()) {
@@ -50,16 +65,19 @@ class ObjMaterials {
             return scene_.add_material(name_, Diffuse{Rgb::grey(0.5)});
         }
         MtlMaterial material = known->second;
-        apply_pictures(material);
+        material.name = name_;
+        const std::optional<TextureMap> texture = map_of(material.diffuse_map);
+        apply_pictures(material, faces_[index]);
         for (const std::string& statement : material.ignored)
             warn(fmt::format("its statement {} is left out.", in_quotes(statement)));
-        const MaterialId id = scene_.add_material(name_, convert(material));
+        const MaterialId id =
+            scene_.add_material(name_, mtl_surface(material, material.diffuse, scene_.warnings));
         if (material.emission_cd_m2.luminance() > 0)
             scene_.set_emission(id, {material.emission_cd_m2, false});
+        if (texture) show_texture(id, *texture, material, known->second.diffuse, faces_[index]);
         return id;
     }
 
-  private:
     void warn(std::string_view message) { scene_.warnings.add("material", name_, message); }
 
     void read_library(const fs::path& path) {
@@ -74,79 +92,93 @@ class ObjMaterials {
         }
     }
 
-    /// The means of a picture; ones where there is none, or it cannot be read (which is a warning).
-    std::array<double, 4> mean_of(std::string picture) {
-        constexpr std::array<double, 4> ones{1, 1, 1, 1};
-        if (picture.empty()) return ones;
-        std::ranges::replace(picture, '\\', '/');
-        const fs::path path = folder_ / picture;
+    /// Nothing where there is no picture, or it cannot be read (which is a warning).
+    std::optional<TextureMap> map_of(const MtlPicture& picture) {
+        if (picture.file.empty()) return std::nullopt;
+        std::string name = picture.file;
+        std::ranges::replace(name, '\\', '/');
+        const TextureWrap wrap = picture.is_clamped ? TextureWrap::clamp : TextureWrap::repeat;
+        if (auto known = pictures_[name].lock()) return TextureMap{std::move(known), wrap, wrap};
+        const fs::path path = folder_ / name;
         try {
-            const std::array<double, 4> mean =
-                linear_mean(read_texture(read_whole_file(path), path.string()));
+            auto texture =
+                std::make_shared<const Texture>(read_texture(read_whole_file(path), path.string()));
+            pictures_[name] = texture;
             scene_.file.sources.push_back(path);
-            return mean;
+            return TextureMap{std::move(texture), wrap, wrap};
         } catch (const InputError& error) {
             warn(fmt::format("a texture is left out ({}).", error.what()));
-            return ones;
+            return std::nullopt;
         }
+    }
+
+    /// The place of a triangle in a picture, whose first row is the top while OBJ counts from the bottom.
+    FacePlace place_of(std::uint32_t triangle, const MtlPicture& picture) const {
+        if (mesh_.corner_coordinates.empty()) return no_place();
+        FacePlace place{};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const std::uint32_t index = mesh_.corner_coordinates[triangle][corner];
+            if (index == kNoCoordinates) return no_place();
+            const auto& [u, v] = mesh_.texture_coordinates[index];
+            place[corner] = {picture.scale[0] * u + picture.offset[0],
+                             1 - (picture.scale[1] * v + picture.offset[1])};
+        }
+        return place;
+    }
+
+    /// The means of a picture over triangles; ones where there is none. Where the file says nothing about its
+    /// place on one of them, the whole picture counts.
+    std::array<double, 4> mean_on(const std::vector<std::uint32_t>& triangles, const MtlPicture& picture) {
+        const std::optional<TextureMap> map = map_of(picture);
+        if (!map) return {1, 1, 1, 1};
+        std::vector<double> areas_m2;
+        for (const std::uint32_t t : triangles) areas_m2.push_back(geometry::triangle_area_m2(mesh_.mesh, t));
+        std::vector<Uv> places;
+        for (const auto& [triangle, barycentric] : points_on_surface(areas_m2)) {
+            const FacePlace place = place_of(triangles[triangle], picture);
+            if (!has_place(place)) return mean_of(*map, {}, true);
+            places.push_back(uv_at(place, barycentric));
+        }
+        return mean_of(*map, places, true);
     }
 
     static void multiply(Rgb& rgb, const std::array<double, 4>& mean) {
         rgb *= Rgb{{mean[0], mean[1], mean[2]}};
     }
 
-    void apply_pictures(MtlMaterial& material) {
-        multiply(material.diffuse, mean_of(material.diffuse_map));
-        multiply(material.specular, mean_of(material.specular_map));
-        multiply(material.emission_cd_m2, mean_of(material.emission_map));
-        const auto opacity = mean_of(material.opacity_map);
+    void apply_pictures(MtlMaterial& material, const std::vector<std::uint32_t>& triangles) {
+        multiply(material.diffuse, mean_on(triangles, material.diffuse_map));
+        multiply(material.specular, mean_on(triangles, material.specular_map));
+        multiply(material.emission_cd_m2, mean_on(triangles, material.emission_map));
+        const auto opacity = mean_on(triangles, material.opacity_map);
         material.opacity *= Rgb{{opacity[0], opacity[1], opacity[2]}}.luminance();
     }
 
-    Rgb share(const Rgb& rgb, std::string_view key) {
-        if (rgb.max() > 1) warn(fmt::format("{} is above 1; 1 is used.", key));
-        return {{std::min(rgb[0], 1.0), std::min(rgb[1], 1.0), std::min(rgb[2], 1.0)}};
+    /// `factor`: Kd, which the picture multiplies.
+    void show_texture(MaterialId id, const TextureMap& map, const MtlMaterial& material, const Rgb& factor,
+                      const std::vector<std::uint32_t>& triangles) {
+        if (!shows_textures_) return scene_.remark_mean_texture(name_);
+        if (material.emission_cd_m2.luminance() > 0 || !shows_diffuse(material))
+            return warn("it shines or is transparent: its texture counts by its mean.");
+        FaceTexture texture;
+        texture.texture.map = map;
+        texture.material = [material, factor](const Rgb& colour) {
+            GroupedWarnings as_of_the_mean;  // which the scene has already
+            return mtl_surface(material, factor * colour, as_of_the_mean);
+        };
+        scene_.set_texture(id, std::move(texture));
+        places_.resize(mesh_.mesh.triangles.size(), no_place());
+        for (const std::uint32_t t : triangles) places_[t] = place_of(t, material.diffuse_map);
     }
 
-    Material convert(const MtlMaterial& material) {
-        constexpr double kOpaque = 0.98;
-        const double ior = std::clamp(material.ior.value_or(1.5), 1.0, 4.0);
-        const Rgb diffuse = share(material.diffuse, "Kd");
-        if (material.opacity < kOpaque) {
-            if (material.illum && (*material.illum == 6 || *material.illum == 7)) {
-                warn(
-                    "illum with refraction becomes a thin pane, because an OBJ file does not say whether the "
-                    "body is solid.");
-            }
-            return sheet(normal_reflectance(ior), (1 - material.opacity) * share(material.filter, "Tf"));
-        }
-        const Rgb specular = share(material.specular, "Ks");
-        if (material.metallic && *material.metallic > 0.5) {
-            const double alpha = std::pow(material.roughness.value_or(0.5), 2);
-            return RoughConductor({diffuse, std::max(alpha, materials::kRoughness.min)});
-        }
-        if (!(specular.max() > 0) || (material.illum && *material.illum < 2)) return Diffuse{diffuse};
-        return glossy(material, diffuse, specular, ior);
-    }
-
-    Material glossy(const MtlMaterial& material, const Rgb& diffuse, const Rgb& specular, double ior) {
-        constexpr double kMirrorExponent = 1e5;
-        // Many programs write 0.5 for every material: how bright its highlights look, not a share of light.
-        constexpr double kLargestShare = 0.25, kDark = 0.1;
-        const double exponent = std::min(material.exponent, 1e6);
-        if (diffuse.max() <= 0 && exponent >= kMirrorExponent) return Mirror{specular};
-        const bool is_share = specular.max() <= kLargestShare || diffuse.max() <= kDark;
-        if (is_share && (diffuse + specular).max() <= 1) return Phong{diffuse, specular, exponent};
-        warn(fmt::format(
-            "its Ks is too large for a share of light beside its Kd; a coat of ior {:.3g} over Kd is "
-            "used (type plastic).",
-            ior));
-        return plastic_returning(diffuse, std::max(ior, 1.01), std::sqrt(2 / (exponent + 2)));
-    }
-
+    const MeshFile& mesh_;
     fs::path folder_;
+    bool shows_textures_;
     ImportedScene& scene_;
     std::map<std::string, MtlMaterial> materials_;
+    std::vector<std::vector<std::uint32_t>> faces_;  ///< triangles by the index of their material
+    std::map<std::string, std::weak_ptr<const Texture>> pictures_;  ///< those in use
+    std::vector<FacePlace> places_;
     std::string name_;
 };
 
@@ -183,16 +215,21 @@ std::vector<std::vector<std::uint32_t>> triangles_of_groups(const MeshFile& file
 
 /// An object of each group of the file. What is not needed any more is released on the way, because the
 /// memory of a large file counts.
-void add_groups(MeshFile file, const std::vector<MaterialId>& materials, ImportedScene& scene) {
+void add_groups(MeshFile file, const std::vector<MaterialId>& materials,
+                const std::vector<FacePlace>& places, ImportedScene& scene) {
     const std::vector<std::vector<std::uint32_t>> triangles = triangles_of_groups(file);
     std::vector<std::uint32_t>().swap(file.group_of_triangle);
+    std::vector<Triangle>().swap(file.corner_coordinates);
+    std::vector<std::array<float, 2>>().swap(file.texture_coordinates);
     std::vector<Mesh> parts = geometry::parts_of(file.mesh, triangles);
     file.mesh = {};
     for (std::size_t g = 0; g < parts.size(); ++g) {
-        ImportedMesh part{std::move(parts[g]), {}};
+        ImportedMesh part{std::move(parts[g]), {}, {}};
         part.materials.reserve(triangles[g].size());
         for (const std::uint32_t t : triangles[g])
             part.materials.push_back(materials[file.material_of_triangle[t]]);
+        for (const std::uint32_t t : triangles[g])
+            if (!places.empty()) part.places.push_back(places[t]);
         const std::string& name = file.group_names[g];
         scene.add_object(name.empty() ? scene.file.scene.name : name, std::move(part));
     }
@@ -216,17 +253,22 @@ bool names_materials(const fs::path& path) {
 SceneFile read_obj_scene(const fs::path& path, std::span<const std::string> overrides,
                          const Monitor& monitor) {
     const ImportSettings settings(overrides, path.string());
-    MeshFile mesh = read_mesh_file(path, monitor);
+    MeshFile mesh = read_mesh_file(path, monitor, TextureCoordinates::kept);
     ImportedScene scene(path);
     const geometry::Transform to_world = placement(mesh, settings.options(), scene);
     for (Vec3& vertex : mesh.mesh.vertices) vertex = to_world.point(vertex);
     for (Vec3& normal : mesh.mesh.normals) normal = to_world.normal(normal);
     if (mesh.degenerate_triangles > 0)
         scene.note(fmt::format("{} triangles without area are left out.", mesh.degenerate_triangles));
-    ObjMaterials library(mesh, path.has_parent_path() ? path.parent_path() : ".", scene);
     std::vector<MaterialId> materials;
-    for (const std::string& name : mesh.material_names) materials.push_back(library.add(name));
-    add_groups(std::move(mesh), materials, scene);
+    std::vector<FacePlace> places;
+    {
+        ObjMaterials library(mesh, path.has_parent_path() ? path.parent_path() : ".",
+                             settings.options().textures, scene);
+        materials = library.add_all();
+        places = std::move(library).places();
+    }
+    add_groups(std::move(mesh), materials, places, scene);
     return std::move(scene).finish(settings);
 }
 

@@ -302,8 +302,9 @@ SceneFile read_radiance_scene(const std::filesystem::path& path, std::span<const
     const ImportSettings settings(overrides, path.string());
     if (settings.options() != ImportOptions{})
         throw InputError(
-            "Radiance scenes are in metres, with z upwards: import.scale, import.up and "
-            "import.light_scale do not go with them. Turn and scale by !xform in the file.",
+            "Radiance scenes are in metres, with z upwards, and their patterns are not read: import.scale, "
+            "import.up, import.light_scale and import.textures do not go with them. Turn and scale by !xform "
+            "in the file.",
             {path.string()});
     SceneFile file = read_radiance_scene(read_whole_file(path), path.string(), path.parent_path());
     settings.apply_to(file);
