@@ -21,7 +21,7 @@ struct ImportRequest {
     std::string file, output, reflectances;
     std::optional<std::string> scale, up;
     std::optional<double> light_scale;
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides, views;
     bool quiet = false;
 };
 
@@ -32,9 +32,11 @@ std::string count_text(std::size_t count, std::string_view noun) {
 int run_import(ImportRequest request) {
     const io::FileKind kind = io::kind_of_file(request.file);
     if (kind == io::FileKind::ifc_building) {
-        if (request.scale || request.up || request.light_scale || !request.overrides.empty()) {
+        if (request.scale || request.up || request.light_scale || !request.overrides.empty() ||
+            !request.views.empty()) {
             throw InputError(
-                "--scale, --up, --light-scale and --set do not go with IFC, which states its units. Change "
+                "--scale, --up, --light-scale, --view and --set do not go with IFC, which states its units. "
+                "Change "
                 "the scene file that import writes.",
                 {request.file});
         }
@@ -52,7 +54,7 @@ int run_import(ImportRequest request) {
     if (request.up) request.overrides.push_back("import.up=" + *request.up);
     if (request.light_scale)
         request.overrides.push_back(fmt::format("import.light_scale={}", *request.light_scale));
-    const io::SceneFile file = read_scene(request.file, request.overrides);
+    const io::SceneFile file = read_scene(request.file, request.overrides, request.views);
     const auto files = io::write_scene_folder(file, request.output);
     if (!request.quiet) {
         print_warnings(file.warnings);
@@ -102,6 +104,7 @@ void add_import(CommandLine& line) {
             "--reflectances", request->reflectances,
             "For IFC: a file (TOML) with the reflectances of materials, in lines such as \"Concrete\" = 0.35")
         .value_name("FILE");
+    add_views(command, request->views);
     add_overrides(command, request->overrides);
     command.add("--quiet", request->quiet, "No warnings on stderr");
     command.run([request] { return run_import(*request); });

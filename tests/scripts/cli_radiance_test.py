@@ -69,6 +69,23 @@ class RadianceTest(CommandLineTest):
         self.expect_wrong_input([*measure, "--points", self.write("bad.pts", "1 2 3\n")], "bad.pts:1: found 3 numbers")
         self.expect_wrong_input(["info", self.write("bad.rad", "\n!gensky 6 21 12\n")], "bad.rad:2:", '"gensky"')
 
+    def test_views_of_radiance_are_cameras(self):
+        view = self.write("nice.vf", "rvu -vtv -vp 0.3 0.3 1.6 -vd 1 0.7 -0.2 -vu 0 0 1 -vh 70 -vv 50 -vs 0.1 "
+                                     "-x 60 -y 60\n")
+        picture = self.folder / "nice.hdr"
+        result = run("render", self.rad, "--view", view, "-o", picture, "--paths", "2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("nice: 60 x 40 pixels", result.stdout)
+        self.assertIn("the shift (-vs)", result.stderr)
+        again = run("render", self.rad, "--view", picture, "-o", self.folder / "again.hdr", "--paths", "2")
+        self.assertIn("nice: 60 x 40 pixels", again.stdout, again.stderr)
+        self.assertEqual(result.stdout.splitlines()[:2], again.stdout.splitlines()[:2])
+        imported = run("import", self.rad, "-o", self.folder / "box", "--view", view)
+        self.assertIn("1 sensor in", imported.stdout, imported.stderr)
+        self.expect_wrong_input(["render", self.rad, "--view", view, "--sensor", "nice", "-o", picture], "--sensor")
+        self.expect_wrong_input(["render", self.rad, "--view", self.rad, "-o", picture], "there is no view")
+        self.expect_wrong_input(["render", self.rad, "--view", picture, "-o", picture], "nice.hdr")
+
     def test_solutions_remember_all_files_of_a_scene(self):
         part = self.write("part.rad", "wall sphere ball 0 0 4  2 1.5 0.3 0.2\n")
         scene = self.write("whole.rad", BOX + "!xform -t 0.5 0 0 part.rad\n")

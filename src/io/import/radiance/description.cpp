@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <iterator>
 #include <system_error>
 
 #include "io/import/radiance/compiled_files.h"
@@ -265,6 +267,21 @@ class Reader {
     int depth_ = 0;
 };
 
+/// The folders of RAYPATH, Radiance's libraries. As in Radiance, names that begin with a dot are not looked
+/// for there.
+std::vector<std::filesystem::path> library_folders(const std::string& name) {
+    std::vector<std::filesystem::path> folders;
+    const char* const variable = std::getenv("RAYPATH");
+    if (variable == nullptr || name.starts_with('.')) return folders;
+    std::string_view rest = variable;
+    while (!rest.empty()) {
+        const std::string_view folder = rest.substr(0, rest.find(':'));
+        rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+        if (!folder.empty()) folders.emplace_back(folder);
+    }
+    return folders;
+}
+
 }  // namespace
 
 Description read_description(std::string_view text, const std::string& name,
@@ -276,12 +293,17 @@ Description read_description(std::string_view text, const std::string& name,
 
 std::filesystem::path find_file(const Description& description, const Place& place, const std::string& name) {
     std::error_code error;
-    for (const auto& folder : {description.folders[place.file], description.folders.front()}) {
+    std::vector<std::filesystem::path> folders{description.folders[place.file], description.folders.front()};
+    std::ranges::copy(library_folders(name), std::back_inserter(folders));
+    for (const std::filesystem::path& folder : folders) {
         const std::filesystem::path path = (folder / name).lexically_normal();
         if (std::filesystem::is_regular_file(path, error)) return path;
     }
     throw InputError(
-        fmt::format("there is no file {}, neither beside this file nor beside the scene's.", in_quotes(name)),
+        fmt::format(
+            "there is no file {}, neither beside this file, nor beside the scene's, nor in a folder of the "
+            "environment variable RAYPATH{}.",
+            in_quotes(name), std::getenv("RAYPATH") == nullptr ? ", which is not set" : ""),
         description.where(place));
 }
 

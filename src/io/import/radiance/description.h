@@ -66,8 +66,8 @@ struct Limits {
 Description read_description(std::string_view text, const std::string& name,
                              const std::filesystem::path& folder, const Limits& limits = {});
 
-/// The file of this name: as it is where it is absolute, else in the folder of the file that names it, or in
-/// that of the scene. Throws InputError where there is none.
+/// The file of this name: as it is where it is absolute, else in the folder of the file that names it, in
+/// that of the scene, or in those of the environment variable RAYPATH. Throws InputError where there is none.
 std::filesystem::path find_file(const Description& description, const Place& place, const std::string& name);
 
 }  // namespace stilb::io::radiance

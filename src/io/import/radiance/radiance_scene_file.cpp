@@ -164,13 +164,19 @@ class Assembly {
         const auto numbers = numbers_of(surface);
         const Modifier& material = description_.modifiers[optics.definition];
         const bool gives_way = material.type == "glow" && !(material.numbers[3] > 0);
-        sky_.push_back(
-            {{numbers[0], numbers[1], numbers[2]}, numbers[3], optics.lamp.radiance_w_sr_m2, gives_way});
+        sky_.push_back({{numbers[0], numbers[1], numbers[2]},
+                        numbers[3],
+                        optics.lamp.radiance_w_sr_m2,
+                        gives_way,
+                        optics.lamp.skies});
     }
 
     void add_to_lamp(const Surface& surface, const Optics& optics) {
         LampSurfaces& lamp = lamps_[optics.definition];
         lamp.optics = &optics;
+        if (!optics.lamp.skies.empty())
+            warnings_.add("lamp", surface.name,
+                          "the brightness of a sky by direction is left out; it is for sources.");
         if (surface.kind == SurfaceKind::sphere ||
             (surface.kind == SurfaceKind::ring && !is_one_body(optics))) {
             if (auto shape = simple_shape(surface.kind, numbers_of(surface), true)) {
