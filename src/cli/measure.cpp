@@ -89,6 +89,12 @@ void add_points(const MeasureRequest& request, io::SceneFile& file, std::vector<
     }
     file.sensors.push_back(io::read_points(request.points));
     names.emplace_back(io::kPointsSensor);
+    if (file.placement == geometry::Transform{}) return;
+    auto& points = std::get<IlluminancePoints>(file.sensors.back().kind).points;
+    for (auto& [position, normal] : points) {
+        position = file.placement.point(position);
+        normal = normalized(file.placement.direction(normal));
+    }
 }
 
 /// The sensors that are measured. Those of --points and --grid are more sensors of the scene, and the only

@@ -99,11 +99,18 @@ ViewFile read_view_file(const std::filesystem::path& path) {
     const Picture picture = read_picture(path);
     if (!picture.camera)
         throw InputError("the picture states no view that a camera can have.", {path.string()});
-    return {*picture.camera, {}};
+    return {*picture.camera, {}, !picture.origin.version.empty()};
 }
 
 std::string add_view(const std::filesystem::path& path, SceneFile& file) {
     ViewFile view = read_view_file(path);
+    if (!view.is_of_stilb && file.placement != geometry::Transform{}) {
+        Camera& camera = view.camera;
+        const Vec3 direction = camera.target - camera.position;
+        camera.position = file.placement.point(camera.position);
+        camera.target = camera.position + file.placement.direction(direction);
+        camera.up = normalized(file.placement.direction(camera.up));
+    }
     UniqueNames names;
     for (const Sensor& sensor : file.sensors) names.make(sensor.name, "");
     std::string name = names.make(path.stem().string(), "view");

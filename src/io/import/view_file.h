@@ -14,6 +14,7 @@ namespace stilb::io {
 struct ViewFile {
     Camera camera;
     std::vector<std::string> warnings;  ///< what a camera cannot have
+    bool is_of_stilb = false;           ///< a picture of Stilb: its view has the coordinates of its scene
 };
 
 /// A picture (.exr, .hdr) gives its own view and size. Other files are view files of Radiance: lines of `rvu`

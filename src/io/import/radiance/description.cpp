@@ -21,7 +21,13 @@ constexpr int kDeepest = 64;
 /// Reads files, carries out their commands, and collects the primitives.
 class Reader {
   public:
-    explicit Reader(const Limits& limits) : limits_(limits), collector_(description_, limits) {}
+    Reader(const Limits& limits, const Placement& placement)
+        : limits_(limits), collector_(description_, limits) {
+        Xform xform;
+        xform.transform = placement.transform();
+        xform.scale = placement.metres_per_unit;
+        collector_.set_xform(xform);
+    }
 
     void read(std::string_view text, const std::string& name, const std::filesystem::path& folder) {
         const auto file = add_file(name, folder);
@@ -285,8 +291,9 @@ std::vector<std::filesystem::path> library_folders(const std::string& name) {
 }  // namespace
 
 Description read_description(std::string_view text, const std::string& name,
-                             const std::filesystem::path& folder, const Limits& limits) {
-    Reader reader(limits);
+                             const std::filesystem::path& folder, const Limits& limits,
+                             const Placement& placement) {
+    Reader reader(limits, placement);
     reader.read(text, name, folder);
     return std::move(reader).take();
 }

@@ -297,8 +297,10 @@ class Assembly {
 namespace stilb::io {
 
 SceneFile read_radiance_scene(std::string_view text, const std::string& name,
-                              const std::filesystem::path& folder, const radiance::Limits& limits) {
-    const radiance::Description description = radiance::read_description(text, name, folder, limits);
+                              const std::filesystem::path& folder, const radiance::Limits& limits,
+                              const radiance::Placement& placement) {
+    const radiance::Description description =
+        radiance::read_description(text, name, folder, limits, placement);
     if (description.surfaces.empty())
         throw InputError("there is no surface. Needed: polygons, spheres or other surfaces.", {name});
     return radiance::Assembly(description).assemble();
@@ -306,12 +308,12 @@ SceneFile read_radiance_scene(std::string_view text, const std::string& name,
 
 SceneFile read_radiance_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
     const ImportSettings settings(overrides, path.string());
-    if (settings.options() != ImportOptions{})
-        throw InputError(
-            "Radiance scenes are in metres, with z upwards: import.scale, import.up and "
-            "import.light_scale do not go with them. Turn and scale by !xform in the file.",
-            {path.string()});
-    SceneFile file = read_radiance_scene(read_whole_file(path), path.string(), path.parent_path());
+    const ImportOptions& options = settings.options();
+    const radiance::Placement placement{options.scale.value_or(1), options.up.value_or(UpAxis::z)};
+    SceneFile file =
+        read_radiance_scene(read_whole_file(path), path.string(), path.parent_path(), {}, placement);
+    settings.scale_lights(file);
+    file.placement = placement.transform();
     settings.apply_to(file);
     return file;
 }
