@@ -201,13 +201,14 @@ TEST(RadianceDescription, MessagesNameFileLineAndRemedy) {
 }
 
 TEST(RadianceDescription, CommandsThatAreNotRun) {
-    EXPECT_EQ(refusal_of_rad("\n!gensky 6 21 12\n"),
-              "r.rad:2: the command \"gensky\" cannot be run, because Stilb runs no other programs. Allowed: "
-              "xform, genbox, genrev, cat. Or let a shell run it once, and include its output: !cat FILE.");
+    EXPECT_EQ(
+        refusal_of_rad("\n!gendaylit 6 21 12\n"),
+        "r.rad:2: the command \"gendaylit\" cannot be run, because Stilb runs no other programs. Allowed: "
+        "xform, genbox, genrev, gensky, cat. Or let a shell run it once, and include its output: !cat FILE.");
     EXPECT_EQ(
         refusal_of_rad("!cat a.rad; rm b\n"),
         "r.rad:1: the command contains \";\", which a shell would interpret. Stilb runs no shell. Allowed: "
-        "xform, genbox, genrev and cat, joined by \"|\"; other characters in quotes.");
+        "xform, genbox, genrev, gensky and cat, joined by \"|\"; other characters in quotes.");
     EXPECT_EQ(refusal_of_rad("!genbox m b 1 1 1 | wc\n"),
               "r.rad:1: \"wc\" behind a \"|\" is not allowed. Allowed: xform.");
     unsetenv("RAYPATH");

@@ -1,8 +1,10 @@
 // Skies of gensky and gendaylit: their formulas against rcalc with Radiance's own skybright.cal and
 // perezlum.cal, and their light against closed forms.
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/import/radiance/sky_pattern.h"
 #include "io/text/radiance_units.h"
@@ -58,6 +60,86 @@ TEST(RadianceSky, TurnsWithXform) {
     const Vec3 w = normalized(Vec3{0.6, -0.32, 0.7});
     EXPECT_NEAR(turned.factor({-w.y, w.x, w.z}), straight.factor(w), 1e-9);
     EXPECT_NE(turned.factor(w), straight.factor(w));
+}
+
+/// The numbers of the primitive of this name.
+std::vector<double> numbers_of_sky(const std::string& arguments, const std::string& name) {
+    const radiance::Description description = describe_rad("!gensky " + arguments + "\n");
+    if (name == "sun")
+        return description.surfaces.empty() ? std::vector<double>{} : numbers_of(description, 0);
+    for (const radiance::Modifier& modifier : description.modifiers) {
+        if (modifier.name == name) return modifier.numbers;
+    }
+    return {};
+}
+void expect_near(const std::vector<double>& found, const std::vector<double>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    // Four digits, directions six decimals.
+    for (std::size_t i = 0; i < found.size(); ++i)
+        EXPECT_NEAR(found[i], expected[i], 5.1e-4 * std::abs(expected[i]) + 6e-7) << i;
+}
+
+/// Expected numbers are those that gensky of pyradiance 1.3 prints.
+TEST(RadianceSky, ComesOfTheCommandGensky) {
+    const std::string munich = " -a 48 -o -11 -m -15";
+    const std::vector<double> sun{0.517649, -0.296573, 0.802549};
+    expect_near(numbers_of_sky("6 21 10 +s" + munich, "solar"), {6.951e6, 6.951e6, 6.951e6});
+    expect_near(numbers_of_sky("6 21 10 +s" + munich, "sun"), {sun[0], sun[1], sun[2], 0.5});
+    expect_near(numbers_of_sky("6 21 10 +s" + munich, "skyfunc"),
+                {1, 12.22, 24.34, 0.7314, sun[0], sun[1], sun[2]});
+    expect_near(numbers_of_sky("6 21 10 +i" + munich, "skyfunc"),
+                {4, 23.41, 7.794, 0.9765, sun[0], sun[1], sun[2]});
+    expect_near(numbers_of_sky("6 21 10 +i" + munich, "solar"), {1.043e6, 1.043e6, 1.043e6});
+    expect_near(numbers_of_sky("6 21 10 -c" + munich, "skyfunc"), {2, 34.61, 5.383});
+    expect_near(numbers_of_sky("6 21 10 -u" + munich, "skyfunc"), {3, 34.61, 6.921});
+    expect_near(numbers_of_sky("12 21 12:30 -a 60 -o 10 -m 0", "sun"), {0.029146, -0.993074, 0.113822, 0.5});
+    expect_near(numbers_of_sky("6 21 +10" + munich, "sun"), {0.458701, -0.324133, 0.827364, 0.5});
+    expect_near(numbers_of_sky("6 21 10", "sun"), {0.491441, -0.160574, 0.855980, 0.5});
+    const std::vector<double> at_40{-0.383022, -0.663414, 0.642788};
+    const auto clear = [&](double zenith, double ground) {
+        return std::vector<double>{1, zenith, ground, 0.5002, at_40[0], at_40[1], at_40[2]};
+    };
+    expect_near(numbers_of_sky("-ang 40 30 -t 4 -g .3", "skyfunc"), clear(17.14, 33.23));
+    expect_near(numbers_of_sky("-ang 40 30 -b 20", "skyfunc"), clear(20, 23.14));
+    expect_near(numbers_of_sky("-ang 40 30 -B 100", "skyfunc"), clear(18.52, 22.63));
+    expect_near(numbers_of_sky("-ang 40 30 -R 300", "skyfunc"), clear(8.325, 22.02));
+    expect_near(numbers_of_sky("-ang 40 30 -R 300", "solar"), {7.805e6, 7.805e6, 7.805e6});
+    expect_near(numbers_of_sky("-ang 40 30 -r 5e6", "skyfunc"), clear(8.325, 15.14));
+    expect_near(numbers_of_sky("-ang 40 30 -c -B 55.866", "skyfunc"), {2, 22.86, 3.557});
+    // The sun is limited to 87 degrees, and sets.
+    expect_near(numbers_of_sky("-ang 89 30", "skyfunc"),
+                {1, 148.6, 37.99, 2.714, -0.026168, -0.045324, 0.998630});
+    expect_near(numbers_of_sky("-ang -5 30", "skyfunc"),
+                {1, 1.199, 0.5044, 0.2692, -0.498097, -0.862730, -0.087156});
+    EXPECT_TRUE(numbers_of_sky("-ang -5 30", "sun").empty());
+    EXPECT_TRUE(numbers_of_sky("-ang 40 30 -s", "sun").empty());
+    EXPECT_EQ(numbers_of_sky("-ang -5 30 -c", "skyfunc"), (std::vector<double>{2, 0, 0}));
+}
+
+TEST(RadianceSky, ACommandTurnsTheSunByItsPipeline) {
+    const auto description = describe_rad("!gensky -ang 40 0 +s | xform -rz 90\n");
+    expect_numbers(description, 0, {std::cos(40 * kPi / 180), 0, std::sin(40 * kPi / 180), 0.5});
+}
+
+TEST(RadianceSky, WrongArgumentsOfGenskyAreNamed) {
+    EXPECT_EQ(refusal_of_rad("\n!gensky 6 21\n"),
+              "r.rad:2: arguments of gensky are missing. Needed: gensky MONTH DAY TIME, or gensky -ang "
+              "ALTITUDE AZIMUTH, "
+              "then the options.");
+    EXPECT_EQ(refusal_of_rad("!gensky 6 21 12EST\n"),
+              "r.rad:1: gensky: \"12EST\" is no time. Allowed: hours such as 9.5 or 9:30, with a plus sign "
+              "for solar time; "
+              "time zones are given by -m.");
+    EXPECT_EQ(refusal_of_rad("!gensky 13 21 12\n"),
+              "r.rad:1: gensky: 13 is not allowed. Allowed: whole numbers from 1 to 12. Needed: gensky MONTH "
+              "DAY TIME, or "
+              "gensky -ang ALTITUDE AZIMUTH, then the options.");
+    EXPECT_EQ(refusal_of_rad("!gensky 6 21 12 -a north\n"),
+              "r.rad:1: gensky: found \"north\" where a number is needed.");
+    EXPECT_EQ(refusal_of_rad("!gensky 6 21 12 -y 2020\n"),
+              "r.rad:1: the option \"-y\" of gensky is not supported. Allowed: -s, +s, -i, +i, -c, -u, -g, "
+              "-t, -b, -B, -r, -R, "
+              "-a, -o, -m.");
 }
 
 TEST(RadianceSky, LeavesOtherFunctionsToTheirWarning) {

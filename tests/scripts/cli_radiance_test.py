@@ -65,7 +65,7 @@ class RadianceTest(CommandLineTest):
                                 "standard output")
         self.expect_wrong_input(["measure", "-", "--points", "-"], "both")
         self.expect_wrong_input([*measure, "--points", self.write("bad.pts", "1 2 3\n")], "bad.pts:1: found 3 numbers")
-        self.expect_wrong_input(["info", self.write("bad.rad", "\n!gensky 6 21 12\n")], "bad.rad:2:", '"gensky"')
+        self.expect_wrong_input(["info", self.write("bad.rad", "\n!gensurf 6 21 12\n")], "bad.rad:2:", '"gensurf"')
 
     def test_views_of_radiance_are_cameras(self):
         view = self.write("nice.vf", "rvu -vtv -vp 0.3 0.3 1.6 -vd 1 0.7 -0.2 -vu 0 0 1 -vh 70 -vv 50 -vs 0.1 "

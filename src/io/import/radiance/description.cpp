@@ -9,6 +9,7 @@
 
 #include "io/import/radiance/compiled_files.h"
 #include "io/import/radiance/generators.h"
+#include "io/import/radiance/gensky.h"
 #include "io/import/radiance/primitives.h"
 #include "io/import/radiance/words.h"
 #include "io/text/text.h"
@@ -35,6 +36,10 @@ class Reader {
             const Place place{file, words.line()};
             words.at_command() ? run(words.take_command(), place) : read_primitive(words, place);
         }
+    }
+    /// The primitives that a program prints.
+    void read_output(std::string_view text, const Place& place) {
+        for (Words words(text); words.skip_to_word();) read_primitive(words, place);
     }
     Description take() && { return std::move(description_); }
 
@@ -180,12 +185,15 @@ class Reader {
             placed(place, [&] {
                 if (run_genrev(arguments, place, collector_)) warn_of_smoothing(place);
             });
+        } else if (last.front() == "gensky") {
+            read_output(at(place, [&] { return gensky(arguments); }), place);
         } else {
             fail(
-                fmt::format("the command {} cannot be run, because Stilb runs no other programs. Allowed: "
-                            "xform, genbox, genrev, cat. Or let a shell run it once, and include its output: "
-                            "!cat FILE.",
-                            in_quotes(last.front())),
+                fmt::format(
+                    "the command {} cannot be run, because Stilb runs no other programs. Allowed: "
+                    "xform, genbox, genrev, gensky, cat. Or let a shell run it once, and include its output: "
+                    "!cat FILE.",
+                    in_quotes(last.front())),
                 place);
         }
     }
