@@ -16,6 +16,7 @@
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
 #include "io/image/picture_file.h"
+#include "io/import/scene_formats.h"
 #include "io/import/view_file.h"
 #include "io/results/results_text.h"
 #include "io/results/solution_file.h"
@@ -209,7 +210,7 @@ void take_view(RenderRequest& request, io::SceneFile& file) {
     if (request.view.empty()) return;
     if (!request.sensor.empty())
         throw InputError("--view and --sensor both choose the camera. Leave one of them out.");
-    request.sensor = io::add_view(request.view, file);
+    request.sensor = io::add_view(request.view, io::placement_beside(request.scene, request.overrides), file);
 }
 
 /// Replaces the lamps by one at the camera, and adds a camera where there is none.

@@ -62,7 +62,9 @@ io::SceneFile read_scene(const std::string& path, const std::vector<std::string>
 io::SceneFile read_scene(const std::string& path, const std::vector<std::string>& overrides,
                          const std::vector<std::string>& views) {
     io::SceneFile file = read_scene(path, overrides);
-    for (const std::string& view : views) io::add_view(view, file);
+    if (views.empty()) return file;
+    const geometry::Transform placement = io::placement_beside(path, overrides);
+    for (const std::string& view : views) io::add_view(view, placement, file);
     return file;
 }
 

@@ -111,7 +111,7 @@ TEST(ViewFile, APictureGivesItsViewAndSize) {
                                                  std::string(8, '\x40');
     SceneFile file;
     file.sensors.push_back({"stilb-view-test", Camera{}});
-    const std::string name = add_view(path, file);
+    const std::string name = add_view(path, {}, file);
     std::filesystem::remove(path);
     EXPECT_EQ(name, "stilb-view-test_2");
     ASSERT_EQ(file.sensors.size(), 2u);

@@ -112,6 +112,36 @@ TEST(WorkingPlanes, PillarsAreHoles) {
     EXPECT_NEAR(area_m2(planes[0].polygon), 25 - 1.2 * 1.2, 0.2);  // corners of the hole are cut
 }
 
+/// A cloth of many small triangles once took minutes, before their common edges were left out.
+TEST(WorkingPlanes, FloorsOfManyTrianglesAreTheirOutline) {
+    Scene scene = room(6, 4);
+    Mesh floor;
+    constexpr std::uint32_t across = 300, along = 200;
+    for (std::uint32_t row = 0; row <= along; ++row) {
+        for (std::uint32_t column = 0; column <= across; ++column)
+            floor.vertices.push_back({6.0 * column / across, 4.0 * row / along, 0.2});
+    }
+    const auto is_hole = [](std::uint32_t row, std::uint32_t column) {
+        return row >= 90 && row < 110 && column >= 140 && column < 160;
+    };
+    for (std::uint32_t row = 0; row < along; ++row) {
+        for (std::uint32_t column = 0; column < across; ++column) {
+            if (is_hole(row, column)) continue;
+            const std::uint32_t a = row * (across + 1) + column, b = a + across + 1;
+            floor.triangles.push_back({a, a + 1, b + 1});
+            floor.triangles.push_back({a, b, b + 1});  // the other side upwards
+        }
+    }
+    add_object(scene, std::move(floor), diffuse(0.5));
+    add_object(scene, Box{{2.8, 1.8, 0}, {3.2, 2.2, 3}}, diffuse(0.5));
+    const auto planes = planes_in(scene);
+    const auto upper =
+        std::ranges::find_if(planes, [](const WorkingPlane& plane) { return plane.floor_m > 0.1; });
+    ASSERT_NE(upper, planes.end());
+    ASSERT_EQ(upper->polygon.holes.size(), 1u);
+    EXPECT_NEAR(area_m2(upper->polygon), 15 - 1.4 * 1.4, 0.2);  // corners of the hole are cut
+}
+
 TEST(WorkingPlanes, EachStoreyOfSlabsHasItsOwn) {
     Scene scene;
     for (const double top : {0., 3., 6.})

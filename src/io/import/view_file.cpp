@@ -102,14 +102,15 @@ ViewFile read_view_file(const std::filesystem::path& path) {
     return {*picture.camera, {}, !picture.origin.version.empty()};
 }
 
-std::string add_view(const std::filesystem::path& path, SceneFile& file) {
+std::string add_view(const std::filesystem::path& path, const geometry::Transform& placement,
+                     SceneFile& file) {
     ViewFile view = read_view_file(path);
-    if (!view.is_of_stilb && file.placement != geometry::Transform{}) {
+    if (!view.is_of_stilb && placement != geometry::Transform{}) {
         Camera& camera = view.camera;
         const Vec3 direction = camera.target - camera.position;
-        camera.position = file.placement.point(camera.position);
-        camera.target = camera.position + file.placement.direction(direction);
-        camera.up = normalized(file.placement.direction(camera.up));
+        camera.position = placement.point(camera.position);
+        camera.target = camera.position + placement.direction(direction);
+        camera.up = normalized(placement.direction(camera.up));
     }
     UniqueNames names;
     for (const Sensor& sensor : file.sensors) names.make(sensor.name, "");

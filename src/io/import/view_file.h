@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/transform.h"
 #include "io/scene/scene_file.h"
 #include "sensors/camera.h"
 
@@ -26,6 +27,8 @@ ViewFile read_view_file(const std::filesystem::path& path);
 ViewFile read_view_file(std::string_view content, const std::string& name);
 
 /// Adds the view as a camera with the name of the file, and its warnings. Returns the name of the camera.
-std::string add_view(const std::filesystem::path& path, SceneFile& file);
+/// `placement`: from the coordinates of views of other programs to those of the scene.
+std::string add_view(const std::filesystem::path& path, const geometry::Transform& placement,
+                     SceneFile& file);
 
 }  // namespace stilb::io

@@ -28,8 +28,6 @@ struct SceneFile {
     /// Unusual but valid contents (degenerate triangles dropped, normals normalised, ...), for `info` and
     /// stderr.
     std::vector<std::string> warnings;
-    /// From the coordinates of files that go with the scene (points, views) to those of the scene.
-    geometry::Transform placement = {};
     /// Contents of luminaire files that are parts of the scene's file, by NamedSolid::file: `import` writes
     /// them as files of their own.
     std::map<std::string, std::string> embedded_luminaires;

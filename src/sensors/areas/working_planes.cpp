@@ -89,6 +89,43 @@ bool contains(const Piece& piece, const ClipperLib::IntPoint& point) {
                piece.holes, [&](const Path& hole) { return ClipperLib::PointInPolygon(point, hole) != 0; });
 }
 
+/// The outlines of triangles that all turn the same way, without the edges between neighbours: around each
+/// point they turn as often as it is covered. Clipper is slow with many small triangles.
+Paths outlines_of(const Paths& triangles) {
+    using Edge = std::pair<ClipperLib::IntPoint, ClipperLib::IntPoint>;
+    const auto order = [](const Edge& a, const Edge& b) {
+        return std::tie(a.first.X, a.first.Y, a.second.X, a.second.Y) <
+               std::tie(b.first.X, b.first.Y, b.second.X, b.second.Y);
+    };
+    std::multiset<Edge, decltype(order)> edges(order);
+    for (const Path& path : triangles) {
+        for (std::size_t i = 0; i < path.size(); ++i) {
+            const ClipperLib::IntPoint &from = path[i], &to = path[(i + 1) % path.size()];
+            if (const auto opposite = edges.find({to, from}); opposite != edges.end()) {
+                edges.erase(opposite);
+            } else {
+                edges.insert({from, to});
+            }
+        }
+    }
+    Paths outlines;
+    constexpr auto kFirst = std::numeric_limits<ClipperLib::cInt>::min();
+    while (!edges.empty()) {
+        Path& outline = outlines.emplace_back();
+        // As many edges end in a point as begin there.
+        for (auto edge = edges.begin();
+             edge != edges.end() && (outline.empty() || edge->first == outline.back());) {
+            const ClipperLib::IntPoint to = edge->second;
+            if (outline.empty()) outline.push_back(edge->first);
+            edges.erase(edge);
+            if (to == outline.front()) break;
+            outline.push_back(to);
+            edge = edges.lower_bound({to, {kFirst, kFirst}});
+        }
+    }
+    return outlines;
+}
+
 /// All objects but lamps, as triangles.
 struct Surface {
     ObjectId object;
@@ -253,7 +290,7 @@ std::vector<WorkingPlane> working_planes(const Scene& scene, const rays::RayCast
     const std::vector<Surface> surfaces = surfaces_of(scene);
     std::vector<WorkingPlane> all;
     for (const Level& level : levels_of(surfaces, floors_of)) {
-        for (const Piece& floor : pieces_of(level.triangles)) {
+        for (const Piece& floor : pieces_of(outlines_of(level.triangles))) {
             if (area_m2(floor) < kLeastFloor_m2) continue;
             const auto room_height_m = height_of_room(floor, level.z, caster);
             if (!room_height_m || share_of_steps(floor, level.z, caster) > kMostSteps) continue;

@@ -60,6 +60,8 @@ class ObjMaterials {
     }
 
   private:
+    static constexpr double kOpaque = 0.98, kDark = 0.1;
+
     void warn(std::string_view message) { scene_.warnings.add("material", name_, message); }
 
     void read_library(const fs::path& path) {
@@ -109,7 +111,6 @@ class ObjMaterials {
     }
 
     Material convert(const MtlMaterial& material) {
-        constexpr double kOpaque = 0.98;
         const double ior = std::clamp(material.ior.value_or(1.5), 1.0, 4.0);
         const Rgb diffuse = share(material.diffuse, "Kd");
         if (material.opacity < kOpaque) {
@@ -129,13 +130,22 @@ class ObjMaterials {
         return glossy(material, diffuse, specular, ior);
     }
 
+    /// Whether bright materials have the same Ks: then it is that of all materials, and no share of dark
+    /// ones.
+    bool is_habit(const Rgb& specular) const {
+        return std::ranges::any_of(materials_, [&](const auto& entry) {
+            const MtlMaterial& other = entry.second;
+            return other.specular == specular && other.diffuse.max() > kDark && other.opacity >= kOpaque;
+        });
+    }
     Material glossy(const MtlMaterial& material, const Rgb& diffuse, const Rgb& specular, double ior) {
         constexpr double kMirrorExponent = 1e5;
         // Many programs write 0.5 for every material: how bright its highlights look, not a share of light.
-        constexpr double kLargestShare = 0.25, kDark = 0.1;
+        constexpr double kLargestShare = 0.25;
         const double exponent = std::min(material.exponent, 1e6);
         if (diffuse.max() <= 0 && exponent >= kMirrorExponent) return Mirror{specular};
-        const bool is_share = specular.max() <= kLargestShare || diffuse.max() <= kDark;
+        const bool is_share =
+            specular.max() <= kLargestShare || (diffuse.max() <= kDark && !is_habit(material.specular));
         if (is_share && (diffuse + specular).max() <= 1) return Phong{diffuse, specular, exponent};
         warn(fmt::format(
             "its Ks is too large for a share of light beside its Kd; a coat of ior {:.3g} over Kd is "

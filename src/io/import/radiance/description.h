@@ -70,6 +70,11 @@ struct Placement {
     geometry::Transform transform() const { return to_metres_and_z_up(metres_per_unit, up); }
 };
 
+/// In metres with z upwards where the options do not say otherwise.
+inline Placement placement_of(const ImportOptions& options) {
+    return {options.scale.value_or(1), options.up.value_or(UpAxis::z)};
+}
+
 /// Reads a description and all files that it includes. `name` is that of the file in messages, `folder` the
 /// base of its file names. Throws InputError with file and line.
 Description read_description(std::string_view text, const std::string& name,

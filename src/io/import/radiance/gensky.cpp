@@ -133,7 +133,7 @@ class SkyArguments {
     void place_sun() {
         constexpr std::array<int, 12> days_before{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
         const double day = days_before[static_cast<std::size_t>(month_ - 1)] + day_;
-        const double declination = 0.4093 * std::sin(2 * kPi / 368 * (day - 81));
+        const double declination = 0.4093 * std::sin(2 * kPi / 365 * (day - 81));
         double solar_hour = hour_;
         if (!is_solar_time_) {
             solar_hour += 0.170 * std::sin(4 * kPi / 373 * (day - 80)) -
@@ -152,7 +152,7 @@ class SkyArguments {
     int month_ = 1, day_ = 1;
     double hour_ = 12;
     bool is_solar_time_ = false;
-    double latitude_ = 37.7 * kRadians, longitude_ = 122.2 * kRadians, meridian_ = 120 * kRadians;
+    double latitude_ = 0.66, longitude_ = 2.13, meridian_ = 120 * kRadians;
     SkyRequest request_;
 };
 

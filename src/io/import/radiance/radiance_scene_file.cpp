@@ -308,12 +308,9 @@ SceneFile read_radiance_scene(std::string_view text, const std::string& name,
 
 SceneFile read_radiance_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
     const ImportSettings settings(overrides, path.string());
-    const ImportOptions& options = settings.options();
-    const radiance::Placement placement{options.scale.value_or(1), options.up.value_or(UpAxis::z)};
-    SceneFile file =
-        read_radiance_scene(read_whole_file(path), path.string(), path.parent_path(), {}, placement);
+    SceneFile file = read_radiance_scene(read_whole_file(path), path.string(), path.parent_path(), {},
+                                         radiance::placement_of(settings.options()));
     settings.scale_lights(file);
-    file.placement = placement.transform();
     settings.apply_to(file);
     return file;
 }
