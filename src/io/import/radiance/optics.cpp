@@ -323,7 +323,7 @@ void OpticsReader::note_patterns(const std::vector<std::size_t>& patterns, Optic
         } else {
             warnings_.add(
                 own.type, own.name,
-                fmt::format("patterns are not supported; {} has its own colour everywhere.", optics.name));
+                "patterns of surfaces are not supported; their materials have their own colours everywhere.");
         }
     }
 }
