@@ -103,6 +103,32 @@ TEST(WorkingPlanes, FurnitureIsNeitherAFloorNorAWall) {
     EXPECT_NEAR(area_m2(planes[0].polygon), 15, kRounding);
 }
 
+/// A narrow office, of which a desk and a shelf cover two thirds.
+TEST(WorkingPlanes, FurnitureMayCoverMostOfAFloor) {
+    Scene scene = room(2.6, 6);
+    add_object(scene, Box{{0, 0.2, 0.72}, {1.7, 4.6, 0.75}}, diffuse(0.5));
+    add_object(scene, Box{{0, 4.7, 0}, {1.7, 5.9, 1.2}}, diffuse(0.5));
+    const auto planes = planes_in(scene);
+    ASSERT_EQ(planes.size(), 1u);
+    EXPECT_NEAR(planes[0].floor_m, 0, kRounding);
+    EXPECT_NEAR(area_m2(planes[0].polygon), 1.6 * 5, kRounding);
+}
+
+/// Walls that begin above the floor, a little beside it, as behind a skirting.
+TEST(WorkingPlanes, WallsMayBeginAboveTheFloor) {
+    Scene scene;
+    add_object(scene, Rectangle{{0.01, 0.01, 0}, {3.98, 0, 0}, {0, 2.98, 0}}, diffuse(0.2));
+    add_object(scene, Rectangle{{0, 0, -0.3}, {4, 0, 0}, {0, 3, 0}}, diffuse(0.2));
+    add_object(scene, Rectangle{{0, 0, 3}, {0, 3, 0}, {4, 0, 0}}, diffuse(0.7));
+    const std::vector<Vec3> corners{{0, 0, 0.05}, {4, 0, 0.05}, {4, 3, 0.05}, {0, 3, 0.05}};
+    for (std::size_t i = 0; i < 4; ++i)
+        add_object(scene, wall_from(corners[i], corners[(i + 1) % 4]), diffuse(0.5));
+    const auto planes = planes_in(scene);
+    ASSERT_EQ(planes.size(), 1u);
+    EXPECT_NEAR(planes[0].floor_m, 0, kRounding);
+    EXPECT_NEAR(area_m2(planes[0].polygon), 2.98 * 1.98, 0.05);
+}
+
 TEST(WorkingPlanes, PillarsAreHoles) {
     Scene scene = room(6, 6);
     add_object(scene, Box{{2.9, 2.9, 0}, {3.1, 3.1, 3}}, diffuse(0.5));

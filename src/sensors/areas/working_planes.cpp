@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <polyclipping/clipper.hpp>
@@ -24,8 +25,11 @@ constexpr double kSameLevel_m = 5e-3;
 constexpr double kLevelCosine = 0.999;
 constexpr double kLeastFloor_m2 = 1, kLeastPlane_m2 = 0.1;
 constexpr double kLeastClear_m = 1.8, kSection_m = 1.9, kSectionShare = 0.9;
+constexpr double kLeastStanding = 0.25, kMostOpen = 0.5;
 /// The edges of floors are looked at in steps, a little beside and above them.
 constexpr double kEdgeStep_m = 0.1, kBeside_m = 0.02, kAbove_m = 0.01;
+/// Heights at which a wall or a railing may bar an edge: skirtings and slits may be at its foot.
+constexpr std::array<double, 3> kBarred_m{kAbove_m, 0.1, 1};
 constexpr double kMostSteps = 1. / 3;
 /// Walls are at least so thick: they part rooms without a margin, too.
 constexpr double kLeastMargin_m = 1e-3;
@@ -199,13 +203,26 @@ std::vector<double> clear_heights(const Piece& piece, double z, const rays::RayC
     return heights;
 }
 
-/// The median height of what is above most of a piece; nothing where that is open, or too low for a room.
+/// The median height of the places where one can stand; nothing where these are few, or where most of the
+/// piece is open to the sky. Tables and shelves may cover most of a floor.
 std::optional<double> height_of_room(const Piece& piece, double z, const rays::RayCaster& caster) {
-    std::vector<double> heights = clear_heights(piece, z, caster);
-    if (heights.empty()) return std::nullopt;
-    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-    std::ranges::nth_element(heights, middle);
-    if (!std::isfinite(*middle) || *middle < kLeastClear_m) return std::nullopt;
+    const std::vector<double> heights = clear_heights(piece, z, caster);
+    std::vector<double> standing;
+    std::size_t open = 0;
+    for (const double height : heights) {
+        if (!std::isfinite(height)) {
+            ++open;
+        } else if (height >= kLeastClear_m) {
+            standing.push_back(height);
+        }
+    }
+    const auto share = [&](std::size_t count) {
+        return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(heights.size(), 1));
+    };
+    if (standing.empty() || share(standing.size()) < kLeastStanding || share(open) > kMostOpen)
+        return std::nullopt;
+    const auto middle = standing.begin() + static_cast<std::ptrdiff_t>(standing.size() / 2);
+    std::ranges::nth_element(standing, middle);
     return *middle;
 }
 
@@ -223,7 +240,11 @@ double share_of_steps(const Piece& piece, double z, const rays::RayCaster& caste
             for (int k = 0; k < count; ++k) {
                 const Vec3 edge = from + (k + 0.5) / count * (to - from);
                 ++all;
-                if (caster.occluded(edge + aside, edge - aside)) continue;
+                const auto is_barred = [&](double above_m) {
+                    const Vec3 up{0, 0, above_m - kAbove_m};
+                    return caster.occluded(edge + aside + up, edge - aside + up);
+                };
+                if (std::ranges::any_of(kBarred_m, is_barred)) continue;
                 for (const Vec3& side : {edge + aside, edge - aside}) {
                     const auto below = caster.closest(side, {0, 0, -1});
                     if (below && below->distance_m < kAbove_m + kBeside_m) continue;
