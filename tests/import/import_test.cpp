@@ -336,6 +336,16 @@ TEST_F(ImportTest, ObjThatStandsOnTheGroundTellsItsUpwardAxis) {
     EXPECT_NE(slab.notes.at(0).find("% of the faces across y or z lie across z"), std::string::npos);
 }
 
+/// A stool of 98 cm, which is no room of 98 inches.
+TEST_F(ImportTest, ObjThatIsNarrowIsFurniture) {
+    const SceneFile file =
+        read_obj_scene(write("stool.obj", box_in_obj("stool", "a", {0, 0, 0}, {42, 42, 98})));
+    EXPECT_NEAR(bounds_of(file.scene).max.z - bounds_of(file.scene).min.z, 0.98, 1e-9);
+    const SceneFile room =
+        read_obj_scene(write("room.obj", box_in_obj("room", "a", {0, 0, 0}, {142, 130, 98})));
+    EXPECT_NEAR(bounds_of(room.scene).max.z - bounds_of(room.scene).min.z, 98 * 0.0254, 1e-9);
+}
+
 TEST_F(ImportTest, ObjLongerThanTwoHundredMetresHasAnotherUnit) {
     const SceneFile file =
         read_obj_scene(write("hall.obj", box_in_obj("hall", "a", {0, 0, 0}, {800, 600, 40})));

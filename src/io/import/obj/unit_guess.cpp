@@ -21,6 +21,7 @@ constexpr std::array kUnits{Unit{"metres", 1}, Unit{"millimetres", 1e-3}, Unit{"
 constexpr double kLowestStorey_m = 2.2, kHighestStorey_m = 4;
 /// Longer scenes than this are likely to have another unit.
 constexpr double kLongestInMetres = 200;
+constexpr double kNarrowestRoom_m = 1.5;
 constexpr double kLowestDoor_m = 1.85, kHighestDoor_m = 2.5;
 
 double height_along(const Vec3& v, UpAxis up) { return up == UpAxis::z ? v.z : v.y; }
@@ -50,17 +51,18 @@ std::vector<double> door_heights(const MeshFile& file, UpAxis up) {
     return heights;
 }
 
-/// From 0 (impossible) on.
-int likelihood(double height_m) {
+/// From 0 (impossible) on. `breadth_m`: the shorter horizontal side.
+int likelihood(double height_m, double breadth_m) {
+    if (breadth_m < kNarrowestRoom_m) return height_m >= 0.3 && height_m <= 60 ? 1 : 0;
     if (height_m >= kLowestStorey_m && height_m <= kHighestStorey_m) return 3;  // one storey
     if (height_m > kHighestStorey_m && height_m <= 60) return 2;                // several storeys, or a hall
     return height_m >= 0.3 && height_m < kLowestStorey_m ? 1 : 0;               // furniture
 }
 
-std::string words_for(double height_m) {
+std::string words_for(int likelihood) {
     constexpr std::array<std::string_view, 4> kWords{"", "as furniture is", "as a hall or some storeys are",
                                                      "as one storey is (2.2 to 4 m)"};
-    return std::string(kWords[static_cast<std::size_t>(likelihood(height_m))]);
+    return std::string(kWords[static_cast<std::size_t>(likelihood)]);
 }
 
 /// The box around the triangles.
@@ -139,13 +141,17 @@ ScaleGuess guess_scale(const MeshFile& file, UpAxis up) {
     }
     const Extent extent = extent_of(file);
     const double height = height_along(extent.size(), up);
+    const double breadth = std::min(extent.size().x, up == UpAxis::z ? extent.size().y : extent.size().z);
+    const auto likelihood_in = [&](const Unit& unit) {
+        return likelihood(height * unit.metres, breadth * unit.metres);
+    };
     // Metres stand if they are possible at all: halls are high, and models of furniture low.
     const Unit* best = &kUnits[0];
-    if (likelihood(height) == 0 || extent.longest() > kLongestInMetres) {
+    if (likelihood_in(*best) == 0 || extent.longest() > kLongestInMetres) {
         // Inches and feet are rare: they need the height of one storey.
         const auto rank = [&](const Unit& unit) {
             if (extent.longest() * unit.metres > kLongestInMetres) return 0;
-            const int of_height = likelihood(height * unit.metres);
+            const int of_height = likelihood_in(unit);
             return unit.is_imperial ? std::max(of_height - 1, std::min(of_height, 1)) : of_height;
         };
         for (const Unit& unit : kUnits) {
@@ -153,13 +159,13 @@ ScaleGuess guess_scale(const MeshFile& file, UpAxis up) {
         }
     }
     const double height_m = height * best->metres;
-    if (likelihood(height_m) == 0)
+    if (likelihood_in(*best) == 0)
         return {1,
                 fmt::format("scale = 1 (metres), because in no usual unit the height of {:.3g} is that of a "
                             "room or of furniture.",
                             height)};
     return {best->metres, fmt::format("scale = {} ({}), because the model is then {:.3g} m high, {}.",
-                                      best->metres, best->name, height_m, words_for(height_m))};
+                                      best->metres, best->name, height_m, words_for(likelihood_in(*best)))};
 }
 
 }  // namespace stilb::io
