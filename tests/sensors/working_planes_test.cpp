@@ -114,6 +114,26 @@ TEST(WorkingPlanes, FurnitureMayCoverMostOfAFloor) {
     EXPECT_NEAR(area_m2(planes[0].polygon), 1.6 * 5, kRounding);
 }
 
+/// The floor of a house at the height of the grounds, in one surface with them.
+TEST(WorkingPlanes, AHouseOnItsGroundsHasAFloor) {
+    Scene scene;
+    add_object(scene, Rectangle{{-20, -20, 0}, {50, 0, 0}, {0, 50, 0}}, diffuse(0.2));
+    add_room(scene, 6, 4);
+    const auto planes = planes_in(scene);
+    ASSERT_EQ(planes.size(), 1u);
+    EXPECT_NEAR(area_m2(planes[0].polygon), 15, 0.05);
+}
+
+/// A bed in a corner has edges on two sides only, with a frame a little below its top.
+TEST(WorkingPlanes, ABedIsNoFloor) {
+    Scene scene = room(4, 4);
+    add_object(scene, Box{{0, 0, 0}, {2, 2, 0.48}}, diffuse(0.5));
+    add_object(scene, Rectangle{{0, 0, 0.5}, {1.97, 0, 0}, {0, 1.97, 0}}, diffuse(0.5));
+    const auto planes = planes_in(scene);
+    ASSERT_EQ(planes.size(), 1u);
+    EXPECT_NEAR(planes[0].floor_m, 0, kRounding);
+}
+
 /// Walls that begin above the floor, a little beside it, as behind a skirting.
 TEST(WorkingPlanes, WallsMayBeginAboveTheFloor) {
     Scene scene;
