@@ -176,6 +176,8 @@ class _Reader:
         self.path = path
         self.reflectances = reflectances
         self.materials: dict[str, Material] = {}
+        self.material_names: Counter[str] = Counter()
+        self.known: dict[tuple[str, bool, float], Material] = {}
         self.storeys: dict[str, Mesh] = {}
         self.spaces: list[Space] = []
         self.warnings: list[str] = []
@@ -234,16 +236,38 @@ class _Reader:
         return name if self.names[name] == 1 else f"{name}_{self.names[name]}"
 
     def _material_of(self, product: Any, style: Any) -> Material:
+        """The material of this name and look: the parts of an element may share a name, as pane and frame do."""
         import ifcopenshell.util.element
 
-        name = style.name if style is not None else ""
-        if not name or name.startswith("Ifc") or "-surface-style" in name.lower():
+        name = self._style_name(style)
+        if not name:
             known = ifcopenshell.util.element.get_materials(product)
             name = (known[0].Name if known else "") or product.is_a()[3:].lower()
-        name = _plain(name)
-        if name not in self.materials:
-            self.materials[name] = self._new_material(name, product, style)
-        return self.materials[name]
+        material = self._new_material(_plain(name), product, style)
+        key = (material.name, material.is_glass, material.reflectance)
+        if key not in self.known:
+            self.known[key] = material
+            self.material_names[material.name] += 1
+            count = self.material_names[material.name]
+            if count > 1:
+                material.name = f"{material.name}_{count}"
+            self.materials[material.name] = material
+        return self.known[key]
+
+    def _style_name(self, style: Any) -> str:
+        """The name that the file gives the style; ifcopenshell calls many by their number alone."""
+        name = style.name if style is not None else ""
+        number = re.search(r"-(\d+)$", name)
+        if not name.startswith("Ifc") and "surface-style" not in name.lower():
+            return name
+        if number is None:
+            return ""
+        try:
+            entity = self.model.by_id(int(number[1]))
+        except RuntimeError:
+            return ""
+        owners = [entity, *self.model.get_inverse(entity)]
+        return next((owner.Name for owner in owners if owner.is_a("IfcSurfaceStyle") and owner.Name), "")
 
     def _new_material(self, name: str, product: Any, style: Any) -> Material:
         lower = name.lower()
@@ -276,7 +300,7 @@ class _Reader:
         self.spaces.append(Space(name, outline))
 
     def _name_failures(self) -> None:
-        lacking = [product for product in self.model.by_type("IfcBuildingElement")
+        lacking = [product for product in _products(self.model, "IfcBuildingElement", "IfcBuiltElement")
                    if product.Representation is None and not product.IsDecomposedBy]
         if lacking:
             self.warnings.append(f"{len(lacking)} elements have no geometry, such as {lacking[0].is_a()[3:]} "
@@ -288,7 +312,7 @@ class _Reader:
 
         metres = ifcopenshell.util.unit.calculate_unit_scale(self.model)
         fixtures = []
-        for product in self.model.by_type("IfcLightFixture"):
+        for product in _light_fixtures(self.model):
             matrix = np.array(ifcopenshell.util.placement.get_local_placement(product.ObjectPlacement))
             axis, across = 0.0 - matrix[:3, 2], matrix[:3, 0]
             spin_deg = float(np.degrees(np.arctan2(across[1], across[0]))) if abs(axis[2]) > 0.999 else 0.0
@@ -326,6 +350,27 @@ class _Reader:
                 return candidate
         self.warnings.append(f'photometric file "{location}" was not found beside {self.path.name}.')
         return None
+
+
+def _products(model: Any, *kinds: str) -> list[Any]:
+    """All products of these kinds; the schemas have different ones."""
+    products = []
+    for kind in kinds:
+        try:
+            products += model.by_type(kind)
+        except RuntimeError:  # not in this schema
+            continue
+    return products
+
+
+def _light_fixtures(model: Any) -> list[Any]:
+    """The luminaires: in IFC2X3 they are terminals whose type says so."""
+    import ifcopenshell.util.element
+
+    terminals = [] if model.schema != "IFC2X3" else model.by_type("IfcFlowTerminal")
+    typed = [(product, ifcopenshell.util.element.get_type(product)) for product in terminals]
+    return _products(model, "IfcLightFixture") + [product for product, kind in typed
+                                                  if kind is not None and kind.is_a("IfcLightFixtureType")]
 
 
 def _light_sources(model: Any, product: Any) -> list[Any]:

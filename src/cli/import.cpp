@@ -22,7 +22,7 @@ struct ImportRequest {
     std::optional<std::string> scale, up;
     std::optional<double> light_scale;
     bool textures = false;
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides, views;
     bool quiet = false;
 };
 
@@ -34,9 +34,9 @@ int run_import(ImportRequest request) {
     const io::FileKind kind = io::kind_of_file(request.file);
     if (kind == io::FileKind::ifc_building) {
         if (request.scale || request.up || request.light_scale || request.textures ||
-            !request.overrides.empty()) {
+            !request.overrides.empty() || !request.views.empty()) {
             throw InputError(
-                "--scale, --up, --light-scale, --textures and --set do not go with IFC, which states its "
+                "--scale, --up, --light-scale, --textures, --view and --set do not go with IFC, which states its "
                 "units. Change the scene file that import writes.",
                 {request.file});
         }
@@ -55,7 +55,7 @@ int run_import(ImportRequest request) {
     if (request.light_scale)
         request.overrides.push_back(fmt::format("import.light_scale={}", *request.light_scale));
     if (request.textures) request.overrides.emplace_back("import.textures=true");
-    const io::SceneFile file = read_scene(request.file, request.overrides,
+    const io::SceneFile file = read_scene(request.file, request.overrides, request.views,
                                           request.quiet ? ShowProgress::never : ShowProgress::on_terminal);
     const auto files = io::write_scene_folder(file, request.output);
     if (!request.quiet) {
@@ -109,6 +109,7 @@ void add_import(CommandLine& line) {
             "--reflectances", request->reflectances,
             "For IFC: a file (TOML) with the reflectances of materials, in lines such as \"Concrete\" = 0.35")
         .value_name("FILE");
+    add_views(command, request->views);
     add_overrides(command, request->overrides);
     command.add("--quiet", request->quiet, "No warnings on stderr");
     command.run([request] { return run_import(*request); });

@@ -14,6 +14,7 @@
 #include "cli/scene_argument.h"
 #include "estimators/estimator_list.h"
 #include "io/import/rtrace.h"
+#include "io/import/scene_formats.h"
 #include "io/results/results_writer.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
@@ -89,6 +90,13 @@ void add_points(const MeasureRequest& request, io::SceneFile& file, std::vector<
     }
     file.sensors.push_back(io::read_points(request.points));
     names.emplace_back(io::kPointsSensor);
+    const geometry::Transform placement = io::placement_beside(request.scene, request.flags.overrides);
+    if (placement == geometry::Transform{}) return;
+    auto& points = std::get<IlluminancePoints>(file.sensors.back().kind).points;
+    for (auto& [position, normal] : points) {
+        position = placement.point(position);
+        normal = normalized(placement.direction(normal));
+    }
 }
 
 /// The sensors that are measured. Those of --points and --grid are more sensors of the scene, and the only

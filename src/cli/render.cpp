@@ -16,6 +16,8 @@
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
 #include "io/image/picture_file.h"
+#include "io/import/scene_formats.h"
+#include "io/import/view_file.h"
 #include "io/results/results_text.h"
 #include "io/results/solution_file.h"
 #include "io/scene/overrides.h"
@@ -39,7 +41,7 @@ constexpr std::uint64_t kFirstLookPasses = 16;
 constexpr int kFirstLookWidth = 720;
 
 struct RenderRequest {
-    std::string scene, solution, sensor, output, preview, command;
+    std::string scene, solution, sensor, view, output, preview, command;
     bool is_first_look = false;
     std::vector<std::string> overrides;
     std::vector<LightFactor> factors;  ///< of lights, with a solution
@@ -203,6 +205,14 @@ void settle_preview(RenderRequest& request) {
         request.output = std::filesystem::path(request.scene).stem().string() + "-preview.png";
 }
 
+/// Adds the camera of --view, and chooses it.
+void take_view(RenderRequest& request, io::SceneFile& file) {
+    if (request.view.empty()) return;
+    if (!request.sensor.empty())
+        throw InputError("--view and --sensor both choose the camera. Leave one of them out.");
+    request.sensor = io::add_view(request.view, io::placement_beside(request.scene, request.overrides), file);
+}
+
 /// Replaces the lamps by one at the camera, and adds a camera where there is none.
 void take_first_look(RenderRequest& request, io::SceneFile& file) {
     if (std::ranges::none_of(file.sensors, [](const Sensor& sensor) { return sensor.camera() != nullptr; }))
@@ -236,6 +246,7 @@ int run_render(RenderRequest request) {
             "--from FILE -o FILE).");
     }
     io::SceneFile file = read_scene(request.scene, request.overrides, request.flags.show_progress());
+    take_view(request, file);
     if (request.is_first_look) take_first_look(request, file);
     if (stored) require_same_light(*stored, file, request.solution);
     const Sensor& sensor = sensors::choose_camera(file.sensors, request.sensor, request.scene);
@@ -276,6 +287,7 @@ void add_render(CommandLine& line) {
         "  stilb render office.toml -o office.png --time 20 --sensor desk\n"
         "  stilb render office.toml -o office.hdr --preview now.png --paths 256\n"
         "  stilb render office.toml --preview\n"
+        "  stilb render office.rad --view desk.vf -o desk.hdr\n"
         "  stilb render --from office.solution --sensor door -o door.png\n"
         "  stilb render --from office.solution --set desk_lamp=0.4 --set ceiling=0 -o evening.png\n");
     auto request = std::make_shared<RenderRequest>();
@@ -292,6 +304,12 @@ void add_render(CommandLine& line) {
              "look)")
         .value_name("FILE");
     command.add("--sensor", request->sensor, "The camera, if the scene has several").value_name("NAME");
+    command
+        .add("--view", request->view,
+             "The camera, in place of the scene's: a view file of Radiance (.vf), or a picture (.hdr, .exr) "
+             "with "
+             "its view and size")
+        .value_name("FILE");
     command
         .add(
             "--preview", request->preview,

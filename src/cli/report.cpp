@@ -30,6 +30,7 @@ constexpr double kUsualViewTime_s = 60;
 
 struct ReportRequest {
     std::string scene, output, command;
+    std::vector<std::string> views;
     std::optional<double> view_time_s;
     std::optional<std::uint64_t> view_passes;
     MeasureFlags flags;
@@ -141,8 +142,8 @@ void print_summary(const report::Report& report, const std::string& output, std:
 }
 
 int run_report(const ReportRequest& request) {
-    io::SceneFile file =
-        read_scene(request.scene, request.flags.overrides, request.flags.run.show_progress());
+    io::SceneFile file = read_scene(request.scene, request.flags.overrides, request.views,
+                                    request.flags.run.show_progress());
     std::vector<std::string> planes;
     request.flags.add_planes(file, request.scene, planes);
     const auto [meters, cameras] = choose_sensors(file.sensors, request.flags.sensors, request.scene);
@@ -186,6 +187,7 @@ void add_report(CommandLine& line) {
              "time")
         .from_to(2, 1'000'000)
         .value_name("N");
+    add_views(command, request->views);
     request->flags.add_to(command);
     command.find("--sensor").description("Report only this sensor or camera (may be repeated)");
     command.run([request, &line] {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "io/import/scene_formats.h"
+#include "io/import/view_file.h"
 #include "io/text/file_kind.h"
 #include "stilb/error.h"
 
@@ -42,6 +43,16 @@ void add_overrides(Command& command, std::vector<std::string>& overrides) {
         .repeatable();
 }
 
+void add_views(Command& command, std::vector<std::string>& views) {
+    command
+        .add("--view", views,
+             "A camera more, with the name of this file: a view file of Radiance (.vf), or a picture (.hdr, "
+             ".exr) "
+             "with its view and size (may be repeated)")
+        .value_name("FILE")
+        .repeatable();
+}
+
 io::SceneFile read_scene(const std::string& path, const std::vector<std::string>& overrides,
                          const Monitor& monitor) {
     const io::FileKind kind = io::kind_of_file(path);
@@ -53,6 +64,15 @@ io::SceneFile read_scene(const std::string& path, const std::vector<std::string>
                          ShowProgress show) {
     const LoadingProgress progress(show);
     return read_scene(path, overrides, progress.monitor());
+}
+
+io::SceneFile read_scene(const std::string& path, const std::vector<std::string>& overrides,
+                         const std::vector<std::string>& views, ShowProgress show) {
+    io::SceneFile file = read_scene(path, overrides, show);
+    if (views.empty()) return file;
+    const geometry::Transform placement = io::placement_beside(path, overrides);
+    for (const std::string& view : views) io::add_view(view, placement, file);
+    return file;
 }
 
 }  // namespace stilb::cli

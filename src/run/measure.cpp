@@ -177,6 +177,7 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
     for (std::size_t s = 0; s < sensors.size(); ++s) {
         views.push_back(glare.described_views(s, estimates[s], scene));
         attained.push_back(statistics::attained_error(estimates[s].readings.readings));
+        if (scene.lights.empty()) continue;  // all is dark; the scene reader warns of it
         std::ranges::move(rarity_warnings(estimates[s].readings, campaign.samples_in_all(), sensors[s]),
                           std::back_inserter(result.warnings));
     }

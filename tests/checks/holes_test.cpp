@@ -57,6 +57,37 @@ TEST(Holes, SheetsAndOpenBoxesAreMeantSo) {
     EXPECT_TRUE(warnings_of(box).empty());
 }
 
+/// Both ends of a tube have opposite vector areas, but are no small holes.
+TEST(Holes, TubesAreMeantSo) {
+    constexpr std::uint32_t sides = 24;
+    Mesh tube;
+    for (std::uint32_t s = 0; s < sides; ++s) {
+        const double phi = 2 * 3.14159265358979 * s / sides;
+        for (const double z : {0.0, 1.0})
+            tube.vertices.push_back({0.1 * std::cos(phi), 0.1 * std::sin(phi), z});
+        const std::uint32_t a = 2 * s, b = 2 * ((s + 1) % sides);
+        tube.triangles.push_back({a, b, b + 1});
+        tube.triangles.push_back({a, b + 1, a + 1});
+    }
+    EXPECT_TRUE(warnings_of(tube).empty());
+}
+
+TEST(Holes, ManyObjectsAreOneSentence) {
+    Mesh mesh = ball();
+    mesh.triangles.erase(mesh.triangles.begin() + 100);
+    Scene scene{"", {{"wall", Black{}}}, {}, {}, {}};
+    std::vector<geometry::ConnectedComponents> components;
+    for (const char* name : {"a", "b", "c", "d"}) {
+        scene.objects.push_back({name, mesh, {MaterialId{0}}});
+        components.push_back(find_components(mesh));
+    }
+    const auto warnings = hole_warnings(scene, components);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0].substr(0, 80),
+              "objects \"a\", \"b\", \"c\" and 1 more: they or parts of them nearly close, except for");
+    EXPECT_NE(warnings[0].find("12 open edges"), std::string::npos);
+}
+
 TEST(Holes, AnEmittersFrontsMustFaceOneSide) {
     Mesh mesh = ball();
     std::swap(mesh.triangles[100][0], mesh.triangles[100][1]);

@@ -246,7 +246,7 @@ TEST_F(ImportTest, ObjSaysWhichUnitItChose) {
     std::string warnings;
     for (const std::string& warning : file.warnings) warnings += warning + "\n";
     for (const std::string& note : file.notes) warnings += note + "\n";
-    EXPECT_NE(warnings.find("up = \"y\", because 56 % of the faces across y or z lie across y"),
+    EXPECT_NE(warnings.find("up = \"y\", because the model begins at y = 0, as things that stand"),
               std::string::npos)
         << warnings;
     EXPECT_NE(
@@ -256,6 +256,69 @@ TEST_F(ImportTest, ObjSaysWhichUnitItChose) {
     const SceneFile given =
         read_obj_scene(folder / "room.obj", std::vector<std::string>{"import.scale=0.02", "import.up=z"});
     EXPECT_NEAR(area_m2(given.scene.objects.at(0).shape), 59 * 4, 1e-6);
+}
+
+/// A box that is given with z upwards, in a file with y upwards.
+std::string box_in_obj(const std::string& name, const std::string& material, const Vec3& min,
+                       const Vec3& max) {
+    const Mesh box = box_in_gltf(min, max);
+    std::string text = fmt::format("o {}\nusemtl {}\n", name, material);
+    for (const Vec3& v : box.vertices) text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
+    const auto count = static_cast<int>(box.vertices.size());
+    for (const auto& [a, b, c] : box.triangles)
+        text += fmt::format("f {} {} {}\n", int(a) - count, int(b) - count, int(c) - count);
+    return text;
+}
+
+/// Furniture has large fronts, which look like floors of a scene with z upwards.
+TEST_F(ImportTest, ObjThatStandsOnTheGroundTellsItsUpwardAxis) {
+    const std::string cupboards = box_in_obj("shelf", "a", {-165, 1.3, 0}, {-55, 41, 199.5}) +
+                                  box_in_obj("sideboard", "a", {55, 1.3, 0}, {165, 37, 121}) +
+                                  box_in_obj("board", "a", {-55, 1.1, 150}, {94, 33, 153});
+    const SceneFile file = read_obj_scene(write("cupboards.obj", cupboards));
+    EXPECT_EQ(file.notes.at(0),
+              "up = \"y\", because the model begins at y = 0, as things that stand on the ground do.");
+    const Bounds bounds = bounds_of(file.scene);
+    EXPECT_NEAR(bounds.max.z - bounds.min.z, 1.995, 1e-9);  // centimetres, not inches
+    EXPECT_NEAR(bounds.max.x - bounds.min.x, 3.3, 1e-9);
+    // Where floors and ceilings are most of it, they decide.
+    const SceneFile slab =
+        read_obj_scene(write("slab.obj", box_in_obj("slab", "a", {0, -3.4, 0}, {9, -3, 7})));
+    EXPECT_NE(slab.notes.at(0).find("% of the faces across y or z lie across z"), std::string::npos);
+}
+
+/// A stool of 98 cm, which is no room of 98 inches.
+TEST_F(ImportTest, ObjThatIsNarrowIsFurniture) {
+    const SceneFile file =
+        read_obj_scene(write("stool.obj", box_in_obj("stool", "a", {0, 0, 0}, {42, 42, 98})));
+    EXPECT_NEAR(bounds_of(file.scene).max.z - bounds_of(file.scene).min.z, 0.98, 1e-9);
+    const SceneFile room =
+        read_obj_scene(write("room.obj", box_in_obj("room", "a", {0, 0, 0}, {142, 130, 98})));
+    EXPECT_NEAR(bounds_of(room.scene).max.z - bounds_of(room.scene).min.z, 98 * 0.0254, 1e-9);
+}
+
+TEST_F(ImportTest, ObjLongerThanTwoHundredMetresHasAnotherUnit) {
+    const SceneFile file =
+        read_obj_scene(write("hall.obj", box_in_obj("hall", "a", {0, 0, 0}, {800, 600, 40})));
+    const Bounds bounds = bounds_of(file.scene);
+    EXPECT_NEAR(bounds.max.x - bounds.min.x, 8, 1e-9);
+}
+
+/// Programs that write the same Ks for all materials do not mean a share of light, of dark ones neither.
+TEST_F(ImportTest, ObjWithOneKsForAllMaterialsHasNoBlackMirrors) {
+    write("a.mtl",
+          "newmtl screen\nKd .06 .06 .06\nKs .5 .5 .5\nNs 96\nillum 2\nNi 1.5\n"
+          "newmtl wood\nKd .6 .5 .4\nKs .5 .5 .5\nNs 20\nillum 2\n"
+          "newmtl chrome\nKd .06 .06 .06\nKs .7 .7 .7\nNs 96\nillum 2\n");
+    const SceneFile file =
+        read_obj_scene(write("a.obj", "mtllib a.mtl\n" + box_in_obj("a", "screen", {0, 0, 0}, {1, 1, 1}) +
+                                          box_in_obj("b", "wood", {2, 0, 0}, {3, 1, 1}) +
+                                          box_in_obj("c", "chrome", {4, 0, 0}, {5, 1, 1})));
+    const auto& materials = file.scene.materials;
+    ASSERT_EQ(materials.size(), 3u);
+    EXPECT_TRUE(std::holds_alternative<Plastic>(materials[0].material));
+    EXPECT_TRUE(std::holds_alternative<Plastic>(materials[1].material));
+    EXPECT_TRUE(std::holds_alternative<Phong>(materials[2].material));
 }
 
 }  // namespace

@@ -201,17 +201,21 @@ TEST(RadianceDescription, MessagesNameFileLineAndRemedy) {
 }
 
 TEST(RadianceDescription, CommandsThatAreNotRun) {
-    EXPECT_EQ(refusal_of_rad("\n!gensky 6 21 12\n"),
-              "r.rad:2: the command \"gensky\" cannot be run, because Stilb runs no other programs. Allowed: "
-              "xform, genbox, genrev, cat. Or let a shell run it once, and include its output: !cat FILE.");
+    EXPECT_EQ(
+        refusal_of_rad("\n!gendaylit 6 21 12\n"),
+        "r.rad:2: the command \"gendaylit\" cannot be run, because Stilb runs no other programs. Allowed: "
+        "xform, genbox, genrev, gensky, cat. Or let a shell run it once, and include its output: !cat FILE.");
     EXPECT_EQ(
         refusal_of_rad("!cat a.rad; rm b\n"),
         "r.rad:1: the command contains \";\", which a shell would interpret. Stilb runs no shell. Allowed: "
-        "xform, genbox, genrev and cat, joined by \"|\"; other characters in quotes.");
+        "xform, genbox, genrev, gensky and cat, joined by \"|\"; other characters in quotes.");
     EXPECT_EQ(refusal_of_rad("!genbox m b 1 1 1 | wc\n"),
               "r.rad:1: \"wc\" behind a \"|\" is not allowed. Allowed: xform.");
-    EXPECT_EQ(refusal_of_rad("!cat none.rad\n"),
-              "r.rad:1: there is no file \"none.rad\", neither beside this file nor beside the scene's.");
+    unsetenv("RAYPATH");
+    EXPECT_EQ(
+        refusal_of_rad("!cat none.rad\n"),
+        "r.rad:1: there is no file \"none.rad\", neither beside this file, nor beside the scene's, nor in a "
+        "folder of the environment variable RAYPATH, which is not set.");
     EXPECT_EQ(refusal_of_rad("!xform -t 1 0 x.rad\n"),
               "r.rad:1: \"x.rad\" behind \"-t\" is not allowed. Allowed: a number from -1e9 to 1e9.");
     EXPECT_EQ(refusal_of_rad("!xform -t 1 0 0\n"),
@@ -225,6 +229,23 @@ TEST(RadianceDescription, CommandsThatAreNotRun) {
         "void.");
     EXPECT_EQ(refusal_of_rad(with_material("!genrev m v t 'foo(t)' 3\n")),
               "r.rad:2: formula \"foo(t)\": there is no \"foo\".");
+}
+
+TEST_F(RadianceFiles, LibrariesAreInTheFoldersOfRaypath) {
+    write("parts/ball.rad", "m sphere ball 0 0 4 0 0 0 2\n");
+    std::filesystem::create_directories(folder_ / "scene");
+    const auto balls = [&](const std::string& command) {
+        return radiance::read_description(with_material(command), "r.rad", folder_ / "scene").surfaces.size();
+    };
+    setenv(
+        "RAYPATH",
+        ("." + std::string(":") + (folder_ / "none").string() + "::" + (folder_ / "parts").string()).c_str(),
+        1);
+    EXPECT_EQ(balls("!xform -t 1 0 0 ball.rad\n!cat ball.rad\n"), 2u);
+    EXPECT_THROW(balls("!cat ./ball.rad\n"), InputError);
+    EXPECT_THROW(balls("!cat box.rad\n"), InputError);
+    unsetenv("RAYPATH");
+    EXPECT_THROW(balls("!cat ball.rad\n"), InputError);
 }
 
 TEST_F(RadianceFiles, ErrorsInNestedFilesNameThem) {

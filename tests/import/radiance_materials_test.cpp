@@ -127,7 +127,8 @@ TEST(RadianceMaterials, WhatIsNotSupportedIsNamedWithItsStandIn) {
         "0 0\nwood plastic m 0 0 5 .5 .5 .5 0 0");
     EXPECT_EQ(textured.warnings,
               (std::vector<std::string>{
-                  "colorpict wood: patterns are not supported; m has its own colour everywhere.",
+                  "colorpict wood: patterns of surfaces are not supported; their materials have their own "
+                  "colours everywhere.",
                   "texfunc waves: textures are not supported; the surface is left as it is."}));
     const ReadMaterial mixed = read_material(
         "void plastic a 0 0 5 .2 .2 .2 0 0\nvoid plastic b 0 0 5 .4 .4 .4 0 0\nvoid mixfunc m 4 b a v m.cal "

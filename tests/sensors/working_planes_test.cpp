@@ -103,6 +103,52 @@ TEST(WorkingPlanes, FurnitureIsNeitherAFloorNorAWall) {
     EXPECT_NEAR(area_m2(planes[0].polygon), 15, kRounding);
 }
 
+/// A narrow office, of which a desk and a shelf cover two thirds.
+TEST(WorkingPlanes, FurnitureMayCoverMostOfAFloor) {
+    Scene scene = room(2.6, 6);
+    add_object(scene, Box{{0, 0.2, 0.72}, {1.7, 4.6, 0.75}}, diffuse(0.5));
+    add_object(scene, Box{{0, 4.7, 0}, {1.7, 5.9, 1.2}}, diffuse(0.5));
+    const auto planes = planes_in(scene);
+    ASSERT_EQ(planes.size(), 1u);
+    EXPECT_NEAR(planes[0].floor_m, 0, kRounding);
+    EXPECT_NEAR(area_m2(planes[0].polygon), 1.6 * 5, kRounding);
+}
+
+/// The floor of a house at the height of the grounds, in one surface with them.
+TEST(WorkingPlanes, AHouseOnItsGroundsHasAFloor) {
+    Scene scene;
+    add_object(scene, Rectangle{{-20, -20, 0}, {50, 0, 0}, {0, 50, 0}}, diffuse(0.2));
+    add_room(scene, 6, 4);
+    const auto planes = planes_in(scene);
+    ASSERT_EQ(planes.size(), 1u);
+    EXPECT_NEAR(area_m2(planes[0].polygon), 15, 0.05);
+}
+
+/// A bed in a corner has edges on two sides only, with a frame a little below its top.
+TEST(WorkingPlanes, ABedIsNoFloor) {
+    Scene scene = room(4, 4);
+    add_object(scene, Box{{0, 0, 0}, {2, 2, 0.48}}, diffuse(0.5));
+    add_object(scene, Rectangle{{0, 0, 0.5}, {1.97, 0, 0}, {0, 1.97, 0}}, diffuse(0.5));
+    const auto planes = planes_in(scene);
+    ASSERT_EQ(planes.size(), 1u);
+    EXPECT_NEAR(planes[0].floor_m, 0, kRounding);
+}
+
+/// Walls that begin above the floor, a little beside it, as behind a skirting.
+TEST(WorkingPlanes, WallsMayBeginAboveTheFloor) {
+    Scene scene;
+    add_object(scene, Rectangle{{0.01, 0.01, 0}, {3.98, 0, 0}, {0, 2.98, 0}}, diffuse(0.2));
+    add_object(scene, Rectangle{{0, 0, -0.3}, {4, 0, 0}, {0, 3, 0}}, diffuse(0.2));
+    add_object(scene, Rectangle{{0, 0, 3}, {0, 3, 0}, {4, 0, 0}}, diffuse(0.7));
+    const std::vector<Vec3> corners{{0, 0, 0.05}, {4, 0, 0.05}, {4, 3, 0.05}, {0, 3, 0.05}};
+    for (std::size_t i = 0; i < 4; ++i)
+        add_object(scene, wall_from(corners[i], corners[(i + 1) % 4]), diffuse(0.5));
+    const auto planes = planes_in(scene);
+    ASSERT_EQ(planes.size(), 1u);
+    EXPECT_NEAR(planes[0].floor_m, 0, kRounding);
+    EXPECT_NEAR(area_m2(planes[0].polygon), 2.98 * 1.98, 0.05);
+}
+
 TEST(WorkingPlanes, PillarsAreHoles) {
     Scene scene = room(6, 6);
     add_object(scene, Box{{2.9, 2.9, 0}, {3.1, 3.1, 3}}, diffuse(0.5));
@@ -110,6 +156,36 @@ TEST(WorkingPlanes, PillarsAreHoles) {
     ASSERT_EQ(planes.size(), 1u);
     ASSERT_EQ(planes[0].polygon.holes.size(), 1u);
     EXPECT_NEAR(area_m2(planes[0].polygon), 25 - 1.2 * 1.2, 0.2);  // corners of the hole are cut
+}
+
+/// A cloth of many small triangles once took minutes, before their common edges were left out.
+TEST(WorkingPlanes, FloorsOfManyTrianglesAreTheirOutline) {
+    Scene scene = room(6, 4);
+    Mesh floor;
+    constexpr std::uint32_t across = 300, along = 200;
+    for (std::uint32_t row = 0; row <= along; ++row) {
+        for (std::uint32_t column = 0; column <= across; ++column)
+            floor.vertices.push_back({6.0 * column / across, 4.0 * row / along, 0.2});
+    }
+    const auto is_hole = [](std::uint32_t row, std::uint32_t column) {
+        return row >= 90 && row < 110 && column >= 140 && column < 160;
+    };
+    for (std::uint32_t row = 0; row < along; ++row) {
+        for (std::uint32_t column = 0; column < across; ++column) {
+            if (is_hole(row, column)) continue;
+            const std::uint32_t a = row * (across + 1) + column, b = a + across + 1;
+            floor.triangles.push_back({a, a + 1, b + 1});
+            floor.triangles.push_back({a, b, b + 1});  // the other side upwards
+        }
+    }
+    add_object(scene, std::move(floor), diffuse(0.5));
+    add_object(scene, Box{{2.8, 1.8, 0}, {3.2, 2.2, 3}}, diffuse(0.5));
+    const auto planes = planes_in(scene);
+    const auto upper =
+        std::ranges::find_if(planes, [](const WorkingPlane& plane) { return plane.floor_m > 0.1; });
+    ASSERT_NE(upper, planes.end());
+    ASSERT_EQ(upper->polygon.holes.size(), 1u);
+    EXPECT_NEAR(area_m2(upper->polygon), 15 - 1.4 * 1.4, 0.2);  // corners of the hole are cut
 }
 
 TEST(WorkingPlanes, EachStoreyOfSlabsHasItsOwn) {

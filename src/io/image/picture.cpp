@@ -8,7 +8,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "io/image/radiance_view.h"
 #include "io/text/text.h"
+#include "stilb/error.h"
 
 namespace stilb::io {
 
@@ -70,49 +72,19 @@ HeaderField view_field(const Camera& camera) {
 
 namespace {
 
-std::optional<Vec3> read_vector(std::string_view& words) {
-    Vec3 v;
-    for (double* component : {&v.x, &v.y, &v.z}) {
-        const std::optional<double> number = parse_number(next_word(words));
-        if (!number || std::abs(*number) > 1e9) return std::nullopt;
-        *component = *number;
-    }
-    return v;
-}
-
-std::optional<Projection> projection_of(std::string_view word) {
-    if (word == "-vtv") return Projection::perspective;
-    if (word == "-vta") return Projection::fisheye;
-    return std::nullopt;
-}
-
-/// Absent fields have Radiance's defaults.
+/// Nothing where the view has no equal.
 std::optional<Camera> read_view(std::string_view words, Projection projection) {
-    Camera camera;
-    camera.fov_deg = 45;
-    camera.projection = projection;
-    Vec3 direction{0, 1, 0};
-    for (std::string_view word = next_word(words); !word.empty(); word = next_word(words)) {
-        if (word.starts_with("-vt")) {
-            const std::optional<Projection> found = projection_of(word);
-            if (!found) return std::nullopt;
-            camera.projection = *found;
-        } else if (word == "-vh") {
-            camera.fov_deg = parse_number(next_word(words)).value_or(0);
-        } else if (word == "-vp" || word == "-vd" || word == "-vu") {
-            const std::optional<Vec3> v = read_vector(words);
-            if (!v) return std::nullopt;
-            (word == "-vp" ? camera.position : word == "-vd" ? direction : camera.up) = *v;
-        } else if (word == "-vs" || word == "-vl") {
-            // A view that is shifted off its axis.
-            if (parse_number(next_word(words)).value_or(1) != 0) return std::nullopt;
-        }
+    RadianceView view;
+    try {
+        if (projection != Projection::perspective) view.type = 'a';
+        view.read(words);
+        if (view.shift != 0 || view.lift != 0) return std::nullopt;
+        std::optional<Camera> camera = view.camera();
+        if (camera && projection == Projection::panorama) camera->projection = projection;
+        return camera;
+    } catch (const InputError&) {
+        return std::nullopt;
     }
-    const double most_deg = camera.projection == Projection::perspective ? 179.9 : 360;
-    const bool has_axes = length(cross(direction, camera.up)) > 1e-9 * length(direction) * length(camera.up);
-    if (!has_axes || !(camera.fov_deg > 0 && camera.fov_deg <= most_deg)) return std::nullopt;
-    camera.target = camera.position + direction;
-    return camera;
 }
 
 bool is_same_name(std::string_view a, std::string_view b) {

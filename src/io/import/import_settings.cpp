@@ -50,6 +50,12 @@ TomlTable ImportSettings::section(std::string_view key) const {
     return item ? item->table() : TomlTable(nothing_, std::string(key), name_, 0);
 }
 
+void ImportSettings::scale_lights(SceneFile& file) const {
+    if (options_.light_scale == 1) return;
+    for (Light& light : file.scene.lights)
+        light.source = lights::scaled(light.source, Rgb::grey(options_.light_scale));
+}
+
 void ImportSettings::apply_to(SceneFile& file) const {
     const TomlTable run = section("run");
     file.run = read_run(run);

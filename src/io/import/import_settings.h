@@ -31,6 +31,7 @@ class ImportSettings {
     ImportSettings(std::span<const std::string> overrides, std::string name);
 
     const ImportOptions& options() const { return options_; }
+    void scale_lights(SceneFile& file) const;
     /// Reads the sensors and the options of the run; scales the lamps by the maintenance factor.
     void apply_to(SceneFile& file) const;
 

@@ -234,11 +234,6 @@ void ImportedScene::light_faces(ObjectId id) {
     }
 }
 
-void ImportedScene::scale_lights(double factor) {
-    if (factor == 1) return;
-    for (Light& light : file.scene.lights) light.source = lights::scaled(light.source, Rgb::grey(factor));
-}
-
 void ImportedScene::warn_of_units() {
     const Bounds bounds = bounds_of(file.scene);
     const double longest_m = 2 * bounds.half_extent();
@@ -271,7 +266,7 @@ SceneFile ImportedScene::finish(const ImportSettings& settings) && {
         throw InputError("the scene has no surface: there is nothing to light.", {file.sources[0].string()});
     for (std::uint32_t i = 0; i < count; ++i) light_faces(ObjectId{i});
     scene::put_lamps_in_front(file.scene);
-    scale_lights(settings.options().light_scale);
+    settings.scale_lights(file);
     warn_of_units();
     if (file.scene.lights.empty()) note(kNoLight);
     const std::string prefix = file.sources[0].string() + ": ";

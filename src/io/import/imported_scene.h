@@ -80,7 +80,6 @@ class ImportedScene {
     void light_faces(ObjectId object);
     void light_triangles(ObjectId object, MaterialId material, std::vector<std::uint32_t> triangles,
                          const Emission& emission);
-    void scale_lights(double factor);
     void warn_of_units();
 
     std::map<MaterialId, Emission> emissions_;

@@ -40,4 +40,10 @@ SceneFile load_scene(const std::filesystem::path& path, std::span<const std::str
                                          : format->read(path, overrides, monitor);
 }
 
+geometry::Transform placement_beside(const std::filesystem::path& path,
+                                     std::span<const std::string> overrides) {
+    if (overrides.empty() || kind_of_file(path) != FileKind::radiance_scene) return {};
+    return radiance::placement_of(ImportSettings(overrides, path.string()).options()).transform();
+}
+
 }  // namespace stilb::io

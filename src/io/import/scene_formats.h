@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/monitor.h"
+#include "geometry/transform.h"
 #include "io/scene/scene_file.h"
 #include "io/text/file_kind.h"
 
@@ -19,5 +20,10 @@ bool is_scene(FileKind kind);
 /// Cancelled as the monitor does.
 SceneFile load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {},
                      const Monitor& monitor = Monitor::none());
+
+/// From the coordinates of points and views that come with a scene to those of the scene. They differ where a
+/// Radiance scene is turned or scaled by the overrides.
+geometry::Transform placement_beside(const std::filesystem::path& path,
+                                     std::span<const std::string> overrides);
 
 }  // namespace stilb::io

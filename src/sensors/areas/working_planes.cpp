@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <polyclipping/clipper.hpp>
@@ -24,8 +25,12 @@ constexpr double kSameLevel_m = 5e-3;
 constexpr double kLevelCosine = 0.999;
 constexpr double kLeastFloor_m2 = 1, kLeastPlane_m2 = 0.1;
 constexpr double kLeastClear_m = 1.8, kSection_m = 1.9, kSectionShare = 0.9;
+constexpr double kLargestFurniture_m2 = 6, kHighestFurniture_m = 1.2;
+constexpr double kLeastStanding = 0.25, kMostOpen = 0.5;
 /// The edges of floors are looked at in steps, a little beside and above them.
 constexpr double kEdgeStep_m = 0.1, kBeside_m = 0.02, kAbove_m = 0.01;
+/// Heights at which a wall or a railing may bar an edge: skirtings and slits may be at its foot.
+constexpr std::array<double, 3> kBarred_m{kAbove_m, 0.1, 1};
 constexpr double kMostSteps = 1. / 3;
 /// Walls are at least so thick: they part rooms without a margin, too.
 constexpr double kLeastMargin_m = 1e-3;
@@ -89,6 +94,50 @@ bool contains(const Piece& piece, const ClipperLib::IntPoint& point) {
                piece.holes, [&](const Path& hole) { return ClipperLib::PointInPolygon(point, hole) != 0; });
 }
 
+/// The outlines of triangles that all turn the same way, without the edges between neighbours: around each
+/// point they turn as often as it is covered. Clipper is slow with many small triangles.
+Paths outlines_of(const Paths& triangles) {
+    using PlanEdge = std::pair<ClipperLib::IntPoint, ClipperLib::IntPoint>;
+    const auto order = [](const PlanEdge& a, const PlanEdge& b) {
+        return std::tie(a.first.X, a.first.Y, a.second.X, a.second.Y) <
+               std::tie(b.first.X, b.first.Y, b.second.X, b.second.Y);
+    };
+    std::multiset<PlanEdge, decltype(order)> edges(order);
+    for (const Path& path : triangles) {
+        for (std::size_t i = 0; i < path.size(); ++i) {
+            const ClipperLib::IntPoint &from = path[i], &to = path[(i + 1) % path.size()];
+            if (const auto opposite = edges.find({to, from}); opposite != edges.end()) {
+                edges.erase(opposite);
+            } else {
+                edges.insert({from, to});
+            }
+        }
+    }
+    Paths outlines;
+    constexpr auto kFirst = std::numeric_limits<ClipperLib::cInt>::min();
+    while (!edges.empty()) {
+        Path& outline = outlines.emplace_back();
+        // As many edges end in a point as begin there.
+        for (auto edge = edges.begin();
+             edge != edges.end() && (outline.empty() || edge->first == outline.back());) {
+            const ClipperLib::IntPoint to = edge->second;
+            if (outline.empty()) outline.push_back(edge->first);
+            edges.erase(edge);
+            if (to == outline.front()) break;
+            outline.push_back(to);
+            edge = edges.lower_bound({to, {kFirst, kFirst}});
+        }
+    }
+    return outlines;
+}
+
+/// The same with the edges.
+bool reaches(const Piece& piece, const ClipperLib::IntPoint& point) {
+    return ClipperLib::PointInPolygon(point, piece.outline) != 0 &&
+           std::ranges::none_of(
+               piece.holes, [&](const Path& hole) { return ClipperLib::PointInPolygon(point, hole) == 1; });
+}
+
 /// All objects but lamps, as triangles.
 struct Surface {
     ObjectId object;
@@ -137,8 +186,11 @@ std::vector<Level> levels_of(std::span<const Surface> surfaces, std::span<const 
 
 /// The heights of free space above points that are spread over a piece; infinite where nothing is above.
 std::vector<double> clear_heights(const Piece& piece, double z, const rays::RayCaster& caster) {
-    constexpr double kPoints = 100;
-    const double step = std::sqrt(area_m2(piece) / kPoints) * kUnits_per_m;
+    // A house on its grounds is found where the points are a metre apart.
+    constexpr double kLeastPoints = 100, kMostPoints = 40'000, kStep_m = 1;
+    const double step_m = std::max(std::min(std::sqrt(area_m2(piece) / kLeastPoints), kStep_m),
+                                   std::sqrt(area_m2(piece) / kMostPoints));
+    const double step = step_m * kUnits_per_m;
     const ClipperLib::IntRect bounds = [&] {
         ClipperLib::IntRect of{piece.outline[0].X, piece.outline[0].Y, piece.outline[0].X,
                                piece.outline[0].Y};
@@ -162,14 +214,30 @@ std::vector<double> clear_heights(const Piece& piece, double z, const rays::RayC
     return heights;
 }
 
-/// The median height of what is above most of a piece; nothing where that is open, or too low for a room.
-std::optional<double> height_of_room(const Piece& piece, double z, const rays::RayCaster& caster) {
-    std::vector<double> heights = clear_heights(piece, z, caster);
-    if (heights.empty()) return std::nullopt;
-    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-    std::ranges::nth_element(heights, middle);
-    if (!std::isfinite(*middle) || *middle < kLeastClear_m) return std::nullopt;
-    return *middle;
+/// What is above a piece.
+struct Headroom {
+    double height_m = 0;            ///< the median of the places where one can stand
+    double standing = 0, open = 0;  ///< the shares of these places, and of those that are open to the sky
+
+    /// Tables and shelves may cover most of a floor.
+    bool is_room() const { return standing >= kLeastStanding && open <= kMostOpen; }
+};
+Headroom headroom_of(const Piece& piece, double z, const rays::RayCaster& caster) {
+    const std::vector<double> heights = clear_heights(piece, z, caster);
+    std::vector<double> standing;
+    std::size_t open = 0;
+    for (const double height : heights) {
+        if (!std::isfinite(height)) {
+            ++open;
+        } else if (height >= kLeastClear_m) {
+            standing.push_back(height);
+        }
+    }
+    if (standing.empty()) return {};
+    const auto all = static_cast<double>(heights.size());
+    const auto middle = standing.begin() + static_cast<std::ptrdiff_t>(standing.size() / 2);
+    std::ranges::nth_element(standing, middle);
+    return {*middle, static_cast<double>(standing.size()) / all, static_cast<double>(open) / all};
 }
 
 /// The share of a piece's edges over which one may step down.
@@ -186,7 +254,11 @@ double share_of_steps(const Piece& piece, double z, const rays::RayCaster& caste
             for (int k = 0; k < count; ++k) {
                 const Vec3 edge = from + (k + 0.5) / count * (to - from);
                 ++all;
-                if (caster.occluded(edge + aside, edge - aside)) continue;
+                const auto is_barred = [&](double above_m) {
+                    const Vec3 up{0, 0, above_m - kAbove_m};
+                    return caster.occluded(edge + aside + up, edge - aside + up);
+                };
+                if (std::ranges::any_of(kBarred_m, is_barred)) continue;
                 for (const Vec3& side : {edge + aside, edge - aside}) {
                     const auto below = caster.closest(side, {0, 0, -1});
                     if (below && below->distance_m < kAbove_m + kBeside_m) continue;
@@ -245,6 +317,28 @@ std::vector<WorkingPlane> planes_over(const Piece& floor, double floor_m, const 
     return planes;
 }
 
+/// The parts of a horizontal surface on the sides of walls: a house and its grounds may be one surface.
+std::vector<Piece> parts_between(const Piece& piece, const Paths& walls) {
+    Paths outlines = piece.holes;
+    outlines.push_back(piece.outline);
+    return pieces_of(combined(outlines, ClipperLib::ctDifference,
+                              widened(walls, ClipperLib::etOpenSquare, kLeastMargin_m)));
+}
+
+struct Floor {
+    double z = 0;
+    Piece piece;
+};
+/// Whether a small floor is the top of a bed or a table that stands on a larger one.
+bool is_furniture(const Floor& floor, const std::vector<Floor>& below) {
+    if (area_m2(floor.piece) > kLargestFurniture_m2) return false;
+    return std::ranges::any_of(below, [&](const Floor& other) {
+        const double height_m = floor.z - other.z;
+        return height_m > kSameLevel_m && height_m < kHighestFurniture_m &&
+               reaches(other.piece, floor.piece.outline.front());
+    });
+}
+
 }  // namespace
 
 std::vector<WorkingPlane> working_planes(const Scene& scene, const rays::RayCaster& caster,
@@ -252,14 +346,29 @@ std::vector<WorkingPlane> working_planes(const Scene& scene, const rays::RayCast
                                          std::span<const ObjectId> floors_of) {
     const std::vector<Surface> surfaces = surfaces_of(scene);
     std::vector<WorkingPlane> all;
+    std::vector<Floor> floors;
     for (const Level& level : levels_of(surfaces, floors_of)) {
-        for (const Piece& floor : pieces_of(level.triangles)) {
-            if (area_m2(floor) < kLeastFloor_m2) continue;
-            const auto room_height_m = height_of_room(floor, level.z, caster);
-            if (!room_height_m || share_of_steps(floor, level.z, caster) > kMostSteps) continue;
-            const double section_m = level.z + std::min(kSection_m, kSectionShare * *room_height_m);
-            for (WorkingPlane& plane : planes_over(floor, level.z, section_at(surfaces, section_m), options))
-                all.push_back(std::move(plane));
+        for (const Piece& piece : pieces_of(outlines_of(level.triangles))) {
+            if (area_m2(piece) < kLeastFloor_m2) continue;
+            const Headroom headroom = headroom_of(piece, level.z, caster);
+            if (!(headroom.standing > 0)) continue;
+            const Paths walls =
+                section_at(surfaces, level.z + std::min(kSection_m, kSectionShare * headroom.height_m));
+            const std::size_t known = floors.size();
+            for (Piece& part : parts_between(piece, walls)) {
+                if (area_m2(part) < kLeastFloor_m2 || !headroom_of(part, level.z, caster).is_room()) continue;
+                if (share_of_steps(part, level.z, caster) > kMostSteps) continue;
+                Floor floor{level.z, std::move(part)};
+                if (is_furniture(floor, floors)) continue;
+                floors.push_back(std::move(floor));
+            }
+            if (floors.size() == known) continue;
+            for (WorkingPlane& plane : planes_over(piece, level.z, walls, options)) {
+                const ClipperLib::IntPoint corner = to_units(plane.polygon.outline.front());
+                const auto is_over = [&](const Floor& floor) { return reaches(floor.piece, corner); };
+                if (std::any_of(floors.begin() + static_cast<std::ptrdiff_t>(known), floors.end(), is_over))
+                    all.push_back(std::move(plane));
+            }
         }
     }
     const auto place = [](const WorkingPlane& plane) {

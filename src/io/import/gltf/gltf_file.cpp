@@ -34,7 +34,9 @@ bool file_exists(const std::string& path, void* data) {
     auto& access = *static_cast<FileAccess*>(data);
     std::error_code error;
     if (!is_within(access.folder, path)) {
-        if (access.refused.empty()) access.refused = path;
+        // The parser also looks in the folder of the process; only names beside the scene are the file's own.
+        const bool is_beside = path.starts_with(access.folder.string() + "/");
+        if (is_beside && access.refused.empty()) access.refused = path;
         return false;
     }
     return fs::is_regular_file(path, error);
@@ -110,6 +112,12 @@ void File::fail(std::string_view part, std::string_view message) const {
                      {path.string()});
 }
 
+void File::fail_for_extension(const std::string& extension) const {
+    fail("", fmt::format("it needs the extension {}, which Stilb does not read. Export the scene without it "
+                         "(compression of meshes and textures is usually an option of the exporter).",
+                         in_quotes(extension)));
+}
+
 std::string File::read_beside(const std::string& uri, std::string_view part) {
     const fs::path place = folder_of(path) / uri;
     if (!is_within(folder_of(path), place)) {
@@ -169,7 +177,13 @@ File parse(std::string_view content, const fs::path& path) {
                               "of the scene and below it.",
                               in_quotes(access.refused)));
     }
-    if (!is_read) file.fail("", "no glTF 2.0 that can be read: " + one_line(error));
+    if (!is_read) {
+        // Without the data of such an extension the parser finds accessors without a buffer.
+        for (const std::string& extension : file.model.extensionsRequired) {
+            if (extension.ends_with("compression")) file.fail_for_extension(extension);
+        }
+        file.fail("", "no glTF 2.0 that can be read: " + one_line(error));
+    }
     file.sources = std::move(access.read);
     return file;
 }

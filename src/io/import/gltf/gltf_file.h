@@ -25,6 +25,8 @@ struct File {
 
     /// Throws an InputError that names the file and the part of it: "meshes[2]".
     [[noreturn]] void fail(std::string_view part, std::string_view message) const;
+    /// Refuses a file that needs an extension which is not read.
+    [[noreturn]] void fail_for_extension(const std::string& extension) const;
     /// Bytes of a file beside the scene. `part`: where it is named. Throws where it does not exist, or lies
     /// outside of the scene's folder.
     std::string read_beside(const std::string& uri, std::string_view part);

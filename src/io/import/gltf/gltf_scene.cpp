@@ -31,10 +31,7 @@ bool is_known(const std::string& extension) {
 void check_extensions(const gltf::File& file, ImportedScene& scene) {
     for (const std::string& extension : file.model.extensionsRequired) {
         if (is_known(extension) || extension.starts_with("KHR_materials_")) continue;
-        file.fail("", fmt::format(
-                          "it needs the extension {}, which Stilb does not read. Export the scene without it "
-                          "(compression of meshes and textures is usually an option of the exporter).",
-                          in_quotes(extension)));
+        file.fail_for_extension(extension);
     }
     for (const std::string& extension : file.model.extensionsUsed) {
         if (!is_known(extension) && !extension.starts_with("KHR_materials_"))

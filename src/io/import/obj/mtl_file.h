@@ -35,6 +35,9 @@ struct MtlMaterial {
     std::optional<double> roughness, metallic;  ///< Pr, Pm of later exporters
     MtlPicture diffuse_map, specular_map, emission_map, opacity_map;
     std::vector<std::string> ignored;  ///< other statements
+    /// Whether bright materials of the file have the same Ks: then it is that of all materials, and no share
+    /// of dark ones.
+    bool has_usual_specular = false;
 };
 
 /// Throws InputError with file and line for values that are missing or no numbers.

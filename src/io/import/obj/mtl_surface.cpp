@@ -10,6 +10,8 @@
 namespace stilb::io {
 namespace {
 
+constexpr double kDark = 0.1;
+
 Rgb at_most_one(const Rgb& rgb) {
     return {{std::min(rgb[0], 1.0), std::min(rgb[1], 1.0), std::min(rgb[2], 1.0)}};
 }
@@ -50,10 +52,11 @@ class MtlConversion {
         const Rgb mean = at_most_one(material.diffuse);  // decides, so that all parts are of one type
         constexpr double kMirrorExponent = 1e5;
         // Many programs write 0.5 for every material: how bright its highlights look, not a share of light.
-        constexpr double kLargestShare = 0.25, kDark = 0.1;
+        constexpr double kLargestShare = 0.25;
         const double exponent = std::min(material.exponent, 1e6);
         if (mean.max() <= 0 && exponent >= kMirrorExponent) return Mirror{specular};
-        const bool is_share = specular.max() <= kLargestShare || mean.max() <= kDark;
+        const bool is_share =
+            specular.max() <= kLargestShare || (mean.max() <= kDark && !material.has_usual_specular);
         if (is_share && (mean + specular).max() <= 1) {
             Rgb rest;
             for (std::size_t b = 0; b < kBands; ++b) rest[b] = std::min(diffuse[b], 1 - specular[b]);
@@ -74,6 +77,15 @@ class MtlConversion {
 
 Material mtl_surface(const MtlMaterial& material, const Rgb& diffuse, GroupedWarnings& warnings) {
     return MtlConversion(material.name, warnings).convert(material, diffuse);
+}
+
+void find_usual_specular(std::map<std::string, MtlMaterial>& materials) {
+    for (auto& [name, material] : materials) {
+        material.has_usual_specular = std::ranges::any_of(materials, [&](const auto& entry) {
+            const MtlMaterial& other = entry.second;
+            return other.specular == material.specular && other.diffuse.max() > kDark && shows_diffuse(other);
+        });
+    }
 }
 
 bool shows_diffuse(const MtlMaterial& material) {

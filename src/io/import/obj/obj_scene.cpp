@@ -40,6 +40,7 @@ class ObjMaterials {
         for (const std::string& statement : mesh.material_libraries) {
             for (const fs::path& path : library_paths(statement, folder)) read_library(path);
         }
+        find_usual_specular(materials_);
         faces_.resize(mesh.material_names.size());
         for (std::uint32_t t = 0; t < mesh.material_of_triangle.size(); ++t)
             faces_[mesh.material_of_triangle[t]].push_back(t);

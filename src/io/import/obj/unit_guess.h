@@ -13,7 +13,8 @@ struct UpGuess {
     UpAxis up = UpAxis::y;
     std::string reason;  ///< a sentence
 };
-/// The axis across which most area lies: floors and ceilings are the largest faces of most rooms.
+/// The axis across which most area lies: floors and ceilings are the largest faces of most rooms. Where that
+/// is not clear, the axis along which the model begins at 0.
 UpGuess guess_up(const MeshFile& file);
 
 struct ScaleGuess {
@@ -21,7 +22,7 @@ struct ScaleGuess {
     std::string reason;
 };
 /// The unit (metre, millimetre, centimetre, inch, foot) in which a door is about 2 m high and the whole is as
-/// high as a storey or some of them. `up`: the model's vertical axis.
+/// high as a storey or some of them, and no longer than 200 m. `up`: the model's vertical axis.
 ScaleGuess guess_scale(const MeshFile& file, UpAxis up);
 
 }  // namespace stilb::io

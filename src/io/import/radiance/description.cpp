@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <iterator>
 #include <system_error>
 
 #include "io/import/radiance/compiled_files.h"
 #include "io/import/radiance/generators.h"
+#include "io/import/radiance/gensky.h"
 #include "io/import/radiance/primitives.h"
 #include "io/import/radiance/words.h"
 #include "io/text/text.h"
@@ -19,7 +22,13 @@ constexpr int kDeepest = 64;
 /// Reads files, carries out their commands, and collects the primitives.
 class Reader {
   public:
-    explicit Reader(const Limits& limits) : limits_(limits), collector_(description_, limits) {}
+    Reader(const Limits& limits, const Placement& placement)
+        : limits_(limits), collector_(description_, limits) {
+        Xform xform;
+        xform.transform = placement.transform();
+        xform.scale = placement.metres_per_unit;
+        collector_.set_xform(xform);
+    }
 
     void read(std::string_view text, const std::string& name, const std::filesystem::path& folder) {
         const auto file = add_file(name, folder);
@@ -27,6 +36,10 @@ class Reader {
             const Place place{file, words.line()};
             words.at_command() ? run(words.take_command(), place) : read_primitive(words, place);
         }
+    }
+    /// The primitives that a program prints.
+    void read_output(std::string_view text, const Place& place) {
+        for (Words words(text); words.skip_to_word();) read_primitive(words, place);
     }
     Description take() && { return std::move(description_); }
 
@@ -172,12 +185,15 @@ class Reader {
             placed(place, [&] {
                 if (run_genrev(arguments, place, collector_)) warn_of_smoothing(place);
             });
+        } else if (last.front() == "gensky") {
+            read_output(at(place, [&] { return gensky(arguments); }), place);
         } else {
             fail(
-                fmt::format("the command {} cannot be run, because Stilb runs no other programs. Allowed: "
-                            "xform, genbox, genrev, cat. Or let a shell run it once, and include its output: "
-                            "!cat FILE.",
-                            in_quotes(last.front())),
+                fmt::format(
+                    "the command {} cannot be run, because Stilb runs no other programs. Allowed: "
+                    "xform, genbox, genrev, gensky, cat. Or let a shell run it once, and include its output: "
+                    "!cat FILE.",
+                    in_quotes(last.front())),
                 place);
         }
     }
@@ -265,23 +281,44 @@ class Reader {
     int depth_ = 0;
 };
 
+/// The folders of RAYPATH, Radiance's libraries. As in Radiance, names that begin with a dot are not looked
+/// for there.
+std::vector<std::filesystem::path> library_folders(const std::string& name) {
+    std::vector<std::filesystem::path> folders;
+    const char* const variable = std::getenv("RAYPATH");
+    if (variable == nullptr || name.starts_with('.')) return folders;
+    std::string_view rest = variable;
+    while (!rest.empty()) {
+        const std::string_view folder = rest.substr(0, rest.find(':'));
+        rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+        if (!folder.empty()) folders.emplace_back(folder);
+    }
+    return folders;
+}
+
 }  // namespace
 
 Description read_description(std::string_view text, const std::string& name,
-                             const std::filesystem::path& folder, const Limits& limits) {
-    Reader reader(limits);
+                             const std::filesystem::path& folder, const Limits& limits,
+                             const Placement& placement) {
+    Reader reader(limits, placement);
     reader.read(text, name, folder);
     return std::move(reader).take();
 }
 
 std::filesystem::path find_file(const Description& description, const Place& place, const std::string& name) {
     std::error_code error;
-    for (const auto& folder : {description.folders[place.file], description.folders.front()}) {
+    std::vector<std::filesystem::path> folders{description.folders[place.file], description.folders.front()};
+    std::ranges::copy(library_folders(name), std::back_inserter(folders));
+    for (const std::filesystem::path& folder : folders) {
         const std::filesystem::path path = (folder / name).lexically_normal();
         if (std::filesystem::is_regular_file(path, error)) return path;
     }
     throw InputError(
-        fmt::format("there is no file {}, neither beside this file nor beside the scene's.", in_quotes(name)),
+        fmt::format(
+            "there is no file {}, neither beside this file, nor beside the scene's, nor in a folder of the "
+            "environment variable RAYPATH{}.",
+            in_quotes(name), std::getenv("RAYPATH") == nullptr ? ", which is not set" : ""),
         description.where(place));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/transform.h"
+#include "io/import/import_settings.h"
 #include "stilb/error.h"
 
 namespace stilb::io::radiance {
@@ -61,13 +62,27 @@ struct Limits {
     std::size_t primitives = 50'000'000;
 };
 
+/// The turn of a scene whose y axis, or whose z axis, points upwards, and its scale to metres.
+struct Placement {
+    double metres_per_unit = 1;
+    UpAxis up = UpAxis::z;
+
+    geometry::Transform transform() const { return to_metres_and_z_up(metres_per_unit, up); }
+};
+
+/// In metres with z upwards where the options do not say otherwise.
+inline Placement placement_of(const ImportOptions& options) {
+    return {options.scale.value_or(1), options.up.value_or(UpAxis::z)};
+}
+
 /// Reads a description and all files that it includes. `name` is that of the file in messages, `folder` the
 /// base of its file names. Throws InputError with file and line.
 Description read_description(std::string_view text, const std::string& name,
-                             const std::filesystem::path& folder, const Limits& limits = {});
+                             const std::filesystem::path& folder, const Limits& limits = {},
+                             const Placement& placement = {});
 
-/// The file of this name: as it is where it is absolute, else in the folder of the file that names it, or in
-/// that of the scene. Throws InputError where there is none.
+/// The file of this name: as it is where it is absolute, else in the folder of the file that names it, in
+/// that of the scene, or in those of the environment variable RAYPATH. Throws InputError where there is none.
 std::filesystem::path find_file(const Description& description, const Place& place, const std::string& name);
 
 }  // namespace stilb::io::radiance

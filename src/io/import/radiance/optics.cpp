@@ -311,6 +311,8 @@ void OpticsReader::note_patterns(const std::vector<std::size_t>& patterns, Optic
         if (optics.kind == Optics::Kind::lamp) {
             if (own.type == "brightdata") {
                 optics.lamp.patterns.push_back(pattern);
+            } else if (auto sky = SkyPattern::read(own, description_)) {
+                optics.lamp.skies.push_back(std::move(*sky));
             } else {
                 warnings_.add(
                     own.type, own.name,
@@ -321,7 +323,7 @@ void OpticsReader::note_patterns(const std::vector<std::size_t>& patterns, Optic
         } else {
             warnings_.add(
                 own.type, own.name,
-                fmt::format("patterns are not supported; {} has its own colour everywhere.", optics.name));
+                "patterns of surfaces are not supported; their materials have their own colours everywhere.");
         }
     }
 }

@@ -7,6 +7,7 @@
 
 #include "base/rgb.h"
 #include "io/import/radiance/description.h"
+#include "io/import/radiance/sky_pattern.h"
 #include "io/text/grouped_warnings.h"
 #include "materials/material.h"
 
@@ -22,6 +23,7 @@ struct Lamp {
     Rgb radiance_w_sr_m2;
     std::optional<Cone> cone;
     std::vector<std::size_t> patterns;  ///< of type brightdata, indices into Description::modifiers
+    std::vector<SkyPattern> skies;      ///< of type brightfunc, for sources
 };
 
 /// The meaning of a modifier for the surfaces that it modifies.

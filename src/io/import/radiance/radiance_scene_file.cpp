@@ -164,13 +164,19 @@ class Assembly {
         const auto numbers = numbers_of(surface);
         const Modifier& material = description_.modifiers[optics.definition];
         const bool gives_way = material.type == "glow" && !(material.numbers[3] > 0);
-        sky_.push_back(
-            {{numbers[0], numbers[1], numbers[2]}, numbers[3], optics.lamp.radiance_w_sr_m2, gives_way});
+        sky_.push_back({{numbers[0], numbers[1], numbers[2]},
+                        numbers[3],
+                        optics.lamp.radiance_w_sr_m2,
+                        gives_way,
+                        optics.lamp.skies});
     }
 
     void add_to_lamp(const Surface& surface, const Optics& optics) {
         LampSurfaces& lamp = lamps_[optics.definition];
         lamp.optics = &optics;
+        if (!optics.lamp.skies.empty())
+            warnings_.add("lamp", surface.name,
+                          "the brightness of a sky by direction is left out; it is for sources.");
         if (surface.kind == SurfaceKind::sphere ||
             (surface.kind == SurfaceKind::ring && !is_one_body(optics))) {
             if (auto shape = simple_shape(surface.kind, numbers_of(surface), true)) {
@@ -291,8 +297,10 @@ class Assembly {
 namespace stilb::io {
 
 SceneFile read_radiance_scene(std::string_view text, const std::string& name,
-                              const std::filesystem::path& folder, const radiance::Limits& limits) {
-    const radiance::Description description = radiance::read_description(text, name, folder, limits);
+                              const std::filesystem::path& folder, const radiance::Limits& limits,
+                              const radiance::Placement& placement) {
+    const radiance::Description description =
+        radiance::read_description(text, name, folder, limits, placement);
     if (description.surfaces.empty())
         throw InputError("there is no surface. Needed: polygons, spheres or other surfaces.", {name});
     return radiance::Assembly(description).assemble();
@@ -300,13 +308,12 @@ SceneFile read_radiance_scene(std::string_view text, const std::string& name,
 
 SceneFile read_radiance_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
     const ImportSettings settings(overrides, path.string());
-    if (settings.options() != ImportOptions{})
-        throw InputError(
-            "Radiance scenes are in metres, with z upwards, and their patterns are not read: import.scale, "
-            "import.up, import.light_scale and import.textures do not go with them. Turn and scale by !xform "
-            "in the file.",
-            {path.string()});
-    SceneFile file = read_radiance_scene(read_whole_file(path), path.string(), path.parent_path());
+    if (settings.options().textures)
+        throw InputError("patterns of Radiance are not read: import.textures does not go with it.",
+                         {path.string()});
+    SceneFile file = read_radiance_scene(read_whole_file(path), path.string(), path.parent_path(), {},
+                                         radiance::placement_of(settings.options()));
+    settings.scale_lights(file);
     settings.apply_to(file);
     return file;
 }

@@ -44,15 +44,15 @@ class SkyPainter {
     Panorama::Image paint() && {
         const auto width = static_cast<std::size_t>(image_.width);
         image_.rgb_cd_m2.resize(width * static_cast<std::size_t>(image_.height));
-        std::vector<double> hits(sources_.size());
+        std::vector<Cover> covers(sources_.size());
         for (int row = 0; row < image_.height; ++row) {
             for (int column = 0; column < image_.width; ++column) {
-                std::ranges::fill(hits, 0);
-                count_hits(row, column, hits);
+                std::ranges::fill(covers, Cover{});
+                find_covers(row, column, covers);
                 const std::size_t pixel =
                     static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
-                for (std::size_t s = 0; s < hits.size(); ++s) {
-                    if (hits[s] > 0) add(s, pixel, hits[s], row_sr(row));
+                for (std::size_t s = 0; s < covers.size(); ++s) {
+                    if (covers[s].share > 0) add(s, pixel, covers[s], row_sr(row));
                 }
             }
         }
@@ -61,15 +61,19 @@ class SkyPainter {
     }
 
   private:
-    /// The pixels of a source, with the shares of them that it covers.
+    /// The share of a pixel that a source covers, and its mean factor there times this share.
+    struct Cover {
+        double share = 0, factor = 0;
+    };
+    /// The pixels of a source, with its factors there.
     struct Drawing {
-        std::vector<std::pair<std::size_t, double>> shares;
+        std::vector<std::pair<std::size_t, double>> factors;
         double drawn_sr = 0;
     };
 
-    void add(std::size_t source, std::size_t pixel, double share, double sr) {
-        drawings_[source].shares.emplace_back(pixel, share);
-        drawings_[source].drawn_sr += share * sr;
+    void add(std::size_t source, std::size_t pixel, const Cover& cover, double sr) {
+        drawings_[source].factors.emplace_back(pixel, cover.factor);
+        drawings_[source].drawn_sr += cover.share * sr;
     }
     /// Small sources get their exact solid angle; of others the edge of pixels matters little, and a part may
     /// be hidden.
@@ -77,13 +81,13 @@ class SkyPainter {
         constexpr double small_deg = 5;
         Drawing& drawing = drawings_[source];
         const DistantSource& of = sources_[source];
-        if (drawing.shares.empty() && of.angle_deg < small_deg) add_smallest(source);
+        if (drawing.factors.empty() && of.angle_deg < small_deg) add_smallest(source);
         const double exact = solid_angle_sr(of.angle_deg);
         const double correction = of.angle_deg < small_deg ? exact / drawing.drawn_sr : 1;
         const Rgb luminance = photometric(of.radiance_w_sr_m2) * correction;
-        for (const auto& [pixel, share] : drawing.shares) {
+        for (const auto& [pixel, factor] : drawing.factors) {
             for (std::size_t b = 0; b < kBands; ++b)
-                image_.rgb_cd_m2[pixel][b] += static_cast<float>(share * luminance[b]);
+                image_.rgb_cd_m2[pixel][b] += static_cast<float>(factor * luminance[b]);
         }
     }
     /// The pixel of a source that is smaller than the steps of the search.
@@ -97,7 +101,7 @@ class SkyPainter {
         add(source,
             static_cast<std::size_t>(row) * static_cast<std::size_t>(image_.width) +
                 static_cast<std::size_t>(column),
-            1, row_sr(row));
+            {1, sources_[source].factor(w)}, row_sr(row));
     }
 
     double row_sr(int row) const {
@@ -109,8 +113,7 @@ class SkyPainter {
         const double polar = kPi * row / image_.height, azimuth = 2 * kPi * (0.5 - column / image_.width);
         return {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)};
     }
-    /// The share of a pixel that each source covers.
-    void count_hits(int row, int column, std::vector<double>& shares) const {
+    void find_covers(int row, int column, std::vector<Cover>& covers) const {
         const Vec3 middle = direction_at(row + 0.5, column + 0.5);
         const double reach = 2 * kPi / image_.height;  // more than from the middle to a corner
         const bool is_at_edge = std::ranges::any_of(discs_, [&](const Disc& disc) {
@@ -120,7 +123,11 @@ class SkyPainter {
         for (int i = 0; i < samples; ++i) {
             for (int j = 0; j < samples; ++j) {
                 const Vec3 w = direction_at(row + (i + 0.5) / samples, column + (j + 0.5) / samples);
-                if (const auto seen = source_towards(w)) shares[*seen] += 1.0 / (samples * samples);
+                const auto seen = source_towards(w);
+                if (!seen) continue;
+                const double share = 1.0 / (samples * samples);
+                covers[*seen].share += share;
+                covers[*seen].factor += share * sources_[*seen].factor(w);
             }
         }
     }
@@ -148,10 +155,15 @@ std::optional<EnvironmentLight> environment_of(const std::vector<DistantSource>&
         std::ranges::all_of(all, [](const DistantSource& s) { return !(s.radiance_w_sr_m2.max() > 0); });
     if (is_dark) return std::nullopt;
     EnvironmentLight light;
-    if (all.size() == 1 && all.front().angle_deg >= 360) {
+    if (all.size() == 1 && all.front().angle_deg >= 360 && all.front().patterns.empty()) {
         light.luminance_cd_m2 = photometric(all.front().radiance_w_sr_m2);
     } else {
-        light.panorama = std::make_shared<const Panorama>(SkyPainter(all).paint());
+        Panorama::Image image = SkyPainter(all).paint();
+        const auto is_black = [](const std::array<float, 3>& pixel) {
+            return pixel == std::array<float, 3>{};
+        };
+        if (std::ranges::all_of(image.rgb_cd_m2, is_black)) return std::nullopt;
+        light.panorama = std::make_shared<const Panorama>(std::move(image));
     }
     return light;
 }
