@@ -36,7 +36,8 @@ int run_import(ImportRequest request) {
         if (request.scale || request.up || request.light_scale || request.textures ||
             !request.overrides.empty() || !request.views.empty()) {
             throw InputError(
-                "--scale, --up, --light-scale, --textures, --view and --set do not go with IFC, which states its "
+                "--scale, --up, --light-scale, --textures, --view and --set do not go with IFC, which states "
+                "its "
                 "units. Change the scene file that import writes.",
                 {request.file});
         }

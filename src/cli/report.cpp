@@ -142,8 +142,8 @@ void print_summary(const report::Report& report, const std::string& output, std:
 }
 
 int run_report(const ReportRequest& request) {
-    io::SceneFile file = read_scene(request.scene, request.flags.overrides, request.views,
-                                    request.flags.run.show_progress());
+    io::SceneFile file =
+        read_scene(request.scene, request.flags.overrides, request.views, request.flags.run.show_progress());
     std::vector<std::string> planes;
     request.flags.add_planes(file, request.scene, planes);
     const auto [meters, cameras] = choose_sensors(file.sensors, request.flags.sensors, request.scene);

@@ -216,8 +216,8 @@ std::vector<std::vector<std::uint32_t>> triangles_of_groups(const MeshFile& file
 
 /// An object of each group of the file. What is not needed any more is released on the way, because the
 /// memory of a large file counts.
-void add_groups(MeshFile file, const std::vector<MaterialId>& materials,
-                const std::vector<FacePlace>& places, ImportedScene& scene) {
+void add_groups(MeshFile file, const std::vector<MaterialId>& materials, const std::vector<FacePlace>& places,
+                ImportedScene& scene) {
     const std::vector<std::vector<std::uint32_t>> triangles = triangles_of_groups(file);
     std::vector<std::uint32_t>().swap(file.group_of_triangle);
     std::vector<Triangle>().swap(file.corner_coordinates);
