@@ -330,6 +330,11 @@ struct RayCaster::Implementation {
         return shading_normal(*geometry.smooth, hit.triangle, in_parent, hit.normal);
     }
 
+    /// The coherent traversal of Embree 3.13 does not always end where there are instances.
+    RTCIntersectContext context_for_packets(Coherence coherence) const {
+        return context_for(shared_meshes.empty() ? coherence : Coherence::scattered);
+    }
+
     /// A geometry of the scene itself is an object; within an instance, the instance is.
     std::uint32_t object_of(std::uint32_t geometry, std::uint32_t instance) const {
         return shared_meshes.empty() || instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance;
@@ -430,7 +435,7 @@ void RayCaster::closest(std::span<const Ray> rays, Coherence coherence,
 void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence coherence) const {
     if (implementation_->takes_few_triangles(lanes, coherence))
         return implementation_->few_triangles->closest(packet, lanes);
-    RTCIntersectContext context = context_for(coherence);
+    RTCIntersectContext context = implementation_->context_for_packets(coherence);
     const RTCScene embree_scene = implementation_->embree_scene;
     packet.object.fill(kNothing);
     switch (implementation_->packet_width) {
@@ -556,7 +561,7 @@ RayCaster::FirstHit RayCaster::seen(const Ray& ray) const {
 void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
     if (implementation_->takes_few_triangles(lanes, coherence))
         return implementation_->few_triangles->occlude(packet, lanes);
-    RTCIntersectContext context = context_for(coherence);
+    RTCIntersectContext context = implementation_->context_for_packets(coherence);
     const RTCScene embree_scene = implementation_->embree_scene;
     switch (implementation_->packet_width) {
         case 16:

@@ -149,7 +149,7 @@ class SurfaceDivision {
             for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
                 is_textured.push_back(texture_of(ObjectId{i}, t) != kNoTexture);
         }
-        const std::vector<std::uint32_t> component_of = geometry::find_components(all.mesh).of_triangle;
+        const SharedList<std::uint32_t> component_of = geometry::find_components(all.mesh).of_triangle;
         std::set<std::uint32_t> divided;
         for (std::size_t t = 0; t < is_textured.size(); ++t) {
             if (is_textured[t]) divided.insert(component_of[t]);
