@@ -15,12 +15,10 @@ namespace stilb::io {
 
 namespace {
 
-/// By a reader of pieces, with what it takes besides them.
-template <typename Read, typename... Options>
-MeshFile read_pieces(Read read, const std::filesystem::path& path, const Monitor& monitor,
-                     const Options&... options) {
+MeshFile read_pieces(MeshFile (*read)(UnreadBytes, const std::string&), const std::filesystem::path& path,
+                     const Monitor& monitor) {
     FilePieces file(path, monitor);
-    return read(file, path.string(), options...);
+    return read(file, path.string());
 }
 
 }  // namespace
@@ -28,7 +26,10 @@ MeshFile read_pieces(Read read, const std::filesystem::path& path, const Monitor
 MeshFile read_mesh_file(const std::filesystem::path& path, const Monitor& monitor,
                         TextureCoordinates of_obj) {
     const std::string extension = extension_of(path);
-    if (extension == ".obj") return read_pieces(read_obj, path, monitor, of_obj);
+    if (extension == ".obj") {
+        FilePieces file(path, monitor);
+        return read_obj(file, path.string(), of_obj);
+    }
     if (extension == ".ply") return read_pieces(read_ply, path, monitor);
     if (extension == ".gltf" || extension == ".glb") return read_gltf_mesh(path);
     if (extension.empty()) read_beginning(path, 1);  // names folders, and files that are not there

@@ -47,8 +47,8 @@ MeshFile read_mesh_file(const std::filesystem::path& path, const Monitor& monito
                         TextureCoordinates of_obj = TextureCoordinates::ignored);
 
 /// The readers for a text in memory, or for a file piece by piece; `name` is used in messages only.
-MeshFile read_obj(UnreadBytes content, const std::string& name,
-                  TextureCoordinates coordinates = TextureCoordinates::ignored);
+MeshFile read_obj(UnreadBytes content, const std::string& name);
+MeshFile read_obj(UnreadBytes content, const std::string& name, TextureCoordinates coordinates);
 MeshFile read_ply(UnreadBytes content, const std::string& name);
 
 /// The content of an OBJ file, with seven digits of each coordinate.

@@ -236,6 +236,10 @@ class ObjReader {
 
 }  // namespace
 
+MeshFile read_obj(UnreadBytes content, const std::string& name) {
+    return read_obj(content, name, TextureCoordinates::ignored);
+}
+
 MeshFile read_obj(UnreadBytes content, const std::string& name, TextureCoordinates coordinates) {
     return ObjReader(content, name, coordinates).read();
 }

@@ -284,15 +284,17 @@ class SurfaceDivision {
             }
             if (mesh.normals.empty()) mesh.corner_normals.clear();
             if (of_pieces.empty()) empty.insert(id);
-            use_one_material(of_pieces);
-            object.materials = std::move(of_pieces);
+            object.materials = simplified(std::move(of_pieces));
         }
         remove(empty);
     }
 
-    static void use_one_material(std::vector<MaterialId>& materials) {
-        if (std::ranges::all_of(materials, [&](MaterialId m) { return m == materials.front(); }))
-            materials.resize(std::min<std::size_t>(materials.size(), 1));
+    static SharedList<MaterialId> simplified(std::vector<MaterialId> materials) {
+        const bool is_one = !materials.empty() && std::ranges::all_of(materials, [&](MaterialId m) {
+            return m == materials.front();
+        });
+        if (is_one) return {materials.front()};
+        return materials;
     }
 
     void remove(const std::set<ObjectId>& objects) {
