@@ -64,7 +64,8 @@ TEST(SceneFormats, RadianceScenesAreReadByTheirExtension) {
     EXPECT_EQ(measured.run.method, "path");
     ASSERT_EQ(measured.sensors.size(), 1u);
     EXPECT_EQ(measured.sensors[0].name, "desk");
-    EXPECT_THROW(load_scene(room, std::vector<std::string>{"import.scale=0.01"}), InputError);
+    const SceneFile scaled = load_scene(room, std::vector<std::string>{"import.scale=0.01"});
+    EXPECT_NEAR(bounds_of(scaled.scene).half_extent(), 0.01 * bounds_of(measured.scene).half_extent(), 1e-9);
     EXPECT_THROW(load_scene(room, std::vector<std::string>{"materials.red.reflectance=0.1"}), InputError);
 }
 

@@ -32,7 +32,7 @@ std::string_view view_options(std::string_view line) {
 }
 
 /// Whole pixels that fill a box as far as the shape of the picture allows.
-std::array<int, 2> pixels_of(const RadianceView& view) {
+std::array<int, 2> pixels_for(const RadianceView& view) {
     constexpr int usual = 1280;
     const int width = view.width.value_or(view.height.value_or(usual));
     const int height = view.height.value_or(width);
@@ -85,7 +85,7 @@ ViewFile read_view_file(std::string_view content, const std::string& name) {
                             view.type));
         }
         file.camera = *camera;
-        file.camera.resolution = pixels_of(view);
+        file.camera.resolution = pixels_for(view);
         for (std::string& warning : file.warnings) warning = InputError(warning, {name}).what();
         return file;
     } catch (const InputError& error) {

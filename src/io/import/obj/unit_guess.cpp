@@ -81,7 +81,7 @@ struct Extent {
         return std::abs(height_along(least, up)) < rounding * longest() && height_along(most, up) > 0;
     }
 };
-Extent extent_of(const MeshFile& file) {
+Extent extent_of_triangles(const MeshFile& file) {
     Extent extent;
     for (const Triangle& triangle : file.mesh.triangles) {
         for (const std::uint32_t corner : triangle) {
@@ -118,7 +118,7 @@ UpGuess guess_up(const MeshFile& file) {
             UpAxis::y,
             "up = \"y\", because no face is level in either direction, and most OBJ files have y upwards."};
     const double share = std::max(across_y, across_z) / both;
-    const Extent extent = extent_of(file);
+    const Extent extent = extent_of_triangles(file);
     const bool stands_on_y = extent.stands_at_zero(UpAxis::y), stands_on_z = extent.stands_at_zero(UpAxis::z);
     if (share < kClearShare && stands_on_y != stands_on_z) {
         const UpAxis standing = stands_on_z ? UpAxis::z : UpAxis::y;
@@ -142,7 +142,7 @@ ScaleGuess guess_scale(const MeshFile& file, UpAxis up) {
                                              unit.metres, unit.name, height_m)};
         }
     }
-    const Extent extent = extent_of(file);
+    const Extent extent = extent_of_triangles(file);
     const double height = height_along(extent.size(), up);
     const double breadth = std::min(extent.size().x, up == UpAxis::z ? extent.size().y : extent.size().z);
     const auto likelihood_in = [&](const Unit& unit) {
