@@ -11,20 +11,12 @@
 namespace stilb::io {
 namespace {
 
-<<<<<<< HEAD
-constexpr double kLargestNumber = 1e9;
-=======
 constexpr double kLargestOfView = 1e9;
->>>>>>> real
 
 double read_view_number(std::string_view& words, std::string_view option) {
     const std::string_view word = next_word(words);
     const auto number = parse_number(word);
-<<<<<<< HEAD
-    if (number && std::abs(*number) <= kLargestNumber) return *number;
-=======
     if (number && std::abs(*number) <= kLargestOfView) return *number;
->>>>>>> real
     throw InputError(
         fmt::format("the option {} of the view needs a number from -1e9 to 1e9, but {} was found.", option,
                     word.empty() ? "nothing" : in_quotes(word)));
