@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 import radiance
-from programs import MitsubaSession, StilbSession
+from programs import LONGEST_S, MitsubaSession, StilbSession, TakesTooLong
 from references import Reference, reference
 from tasks import ROOT, TASKS, Task
 
@@ -99,10 +99,13 @@ def rows_of(task: Task, ref: Reference, arguments) -> list[Row]:
             continue
         session = open_session()
         size = session.first_size
-        for target in task.targets:
-            size = find_size(session, ref, target, arguments.limit, size)
-            rows.append(row_of(task, name, session, ref, target, size, arguments.seeds or task.seeds))
-            print(line_of(rows[-1], rows), flush=True)
+        try:
+            for target in task.targets:
+                size = find_size(session, ref, target, arguments.limit, size)
+                rows.append(row_of(task, name, session, ref, target, size, arguments.seeds or task.seeds))
+                print(line_of(rows[-1], rows), flush=True)
+        except TakesTooLong:
+            print(f"| {task.name} | | {name} | a run takes more than {LONGEST_S} s | | | | | | |", flush=True)
         session.close()
     return rows
 

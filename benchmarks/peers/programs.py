@@ -6,6 +6,7 @@ without what it does once; set_up_s() is the latter.
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -24,7 +25,12 @@ mi.set_variant("scalar_rgb")  # to read pictures
 STILB = Path(os.environ.get("STILB", ROOT / "build/release/stilb"))
 EXPORTS = ROOT / "build/peers/exports"
 SHORT_S, SHORT_RUNS = 0.5, 9
+LONGEST_S = 150  # of one run, on the clock
 LLVM = "/usr/lib/x86_64-linux-gnu/libLLVM.so.19.1"
+
+
+class TakesTooLong(Exception):
+    """A run took longer than LONGEST_S."""
 
 
 @dataclass
@@ -59,12 +65,21 @@ class PeakOfMemory:
 
 
 def finished(command: list, **options) -> tuple[subprocess.CompletedProcess, float, float]:
-    """The processor time of the process and all that it started [s], and its peak of memory [MB]."""
-    process = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, **options)
+    """The processor time of the process and all that it started [s], and its peak of memory [MB].
+
+    Raises TakesTooLong, after it has ended the process and what that started.
+    """
+    words = [str(word) for word in command]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, start_new_session=True, **options)
+    end = threading.Timer(LONGEST_S, lambda: os.killpg(process.pid, signal.SIGKILL))
+    end.start()
     peak = PeakOfMemory(process.pid)
     output = process.stdout.read()
     _, status, usage = os.wait4(process.pid, 0)
+    end.cancel()
     process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode == -signal.SIGKILL:
+        raise TakesTooLong
     if process.returncode not in (0, 3):
         raise RuntimeError(f"{command[0]} ended with exit code {process.returncode}")
     done = subprocess.CompletedProcess(command, process.returncode, output)
