@@ -192,7 +192,9 @@ TEST(RadianceLamps, PatternsThatAreNotOfIes2radAreLeftOut) {
     EXPECT_EQ(
         refusal_of_rad("void brightdata d 4 corr x.dat source.cal src_theta 0 0\nd light l 0 0 3 1 1 1\n"
                        "l sphere s 0 0 4 0 0 0 1\n"),
-        "r.rad:1: there is no file \"x.dat\", neither beside this file nor beside the scene's.");
+        "r.rad:1: there is no file \"x.dat\", neither beside this file, nor beside the scene's, nor in a "
+        "folder of "
+        "the environment variable RAYPATH, which is not set.");
 }
 
 }  // namespace
