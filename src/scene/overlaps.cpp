@@ -192,6 +192,8 @@ class OverlapSearch {
     }
 
     void add(const Object& object, std::uint32_t index, bool is_lamp) {
+        // The triangles of instances would take the memory that instances save.
+        if (of_ == OverlapsOf::all_surfaces && std::holds_alternative<Instance>(object.shape)) return;
         if (!meet(geometry::bounds_of(object.shape), wanted_)) return;
         const auto* mesh = std::get_if<Mesh>(&object.shape);
         Shapes& shape = shapes_[index];

@@ -21,7 +21,8 @@ enum class OverlapsOf { all_surfaces, lamps };
 
 /// Pairs of triangles closer than rays can tell apart (2^-18 of half the scene's extent) that share more
 /// than a thousandth of the smaller one. Ends after `most`. Disks count as polygons; other curved shapes are
-/// left out. `lamps`: only pairs of a lamp and another surface that is no lamp.
+/// left out, as are instances. `lamps`: only pairs of a lamp and another surface that is no lamp, with
+/// instances.
 std::vector<Overlap> find_overlaps(const Scene& scene, OverlapsOf of, std::size_t most);
 
 /// Moves lamps that lie in the plane of another surface in front of it, on the side that they light: by twice
