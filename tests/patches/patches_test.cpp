@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "geometry/harmonics/surface.h"
@@ -62,6 +63,19 @@ TEST(Patches, FlatSurfacesKeepTheirArea) {
             EXPECT_NEAR(area, area_m2(shape), 2e-7 * area_m2(shape)) << shape.index() << ", " << size_m;
         }
     }
+}
+
+TEST(Patches, InstancesAreDividedAsCopies) {
+    const auto mesh = std::make_shared<const Mesh>(icosphere({{}, 1}, 1));
+    const geometry::Transform mirrored{{-1, 0, 0}, {0, 2, 0.3}, {0, 0, 1}, {4, 5, 6}};
+    Scene instance, copy;
+    add_object(instance, Instance{mesh, mirrored}, diffuse(0.5));
+    add_object(copy, triangulated(Instance{mesh, mirrored}), diffuse(0.5));
+    const Patches a = make_patches(instance, 0.4), b = make_patches(copy, 0.4);
+    EXPECT_GT(a.count(), 500u);
+    EXPECT_EQ(a.corners, b.corners);
+    EXPECT_EQ(a.count(), b.count());
+    for (std::uint32_t p = 0; p < a.count(); ++p) EXPECT_EQ(a.middle(p), b.middle(p));
 }
 
 /// Inscribed polygons: the missing area goes with the square of the edges.
