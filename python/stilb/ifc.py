@@ -367,10 +367,12 @@ def _light_fixtures(model: Any) -> list[Any]:
     """The luminaires: in IFC2X3 they are terminals whose type says so."""
     import ifcopenshell.util.element
 
+    def is_luminaire(terminal: Any) -> bool:
+        kind: Any = ifcopenshell.util.element.get_type(terminal)
+        return kind is not None and bool(kind.is_a("IfcLightFixtureType"))
+
     terminals = [] if model.schema != "IFC2X3" else model.by_type("IfcFlowTerminal")
-    typed = [(product, ifcopenshell.util.element.get_type(product)) for product in terminals]
-    return _products(model, "IfcLightFixture") + [product for product, kind in typed
-                                                  if kind is not None and kind.is_a("IfcLightFixtureType")]
+    return _products(model, "IfcLightFixture") + [terminal for terminal in terminals if is_luminaire(terminal)]
 
 
 def _light_sources(model: Any, product: Any) -> list[Any]:

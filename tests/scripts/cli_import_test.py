@@ -112,7 +112,7 @@ class ImportTest(CommandLineTest):
         result = run("info", self.folder / "out/scene.toml")
         self.assertRegex(result.stdout, r"Materials \(1\)\n  paper \(texture\)  diffuse   reflectance 0.108 to 0.5, 2 colours")
         radiance = DATA / "radiance/room.rad"
-        self.expect_wrong_input(["info", radiance, "--set", "import.textures=true"], "import.textures do not go with them")
+        self.expect_wrong_input(["info", radiance, "--set", "import.textures=true"], "import.textures does not go with them")
         self.expect_wrong_input(["info", room, "--set", "import.textures=1"], "import.textures")
 
     def test_an_obj_without_materials_is_shown_as_a_mesh(self):

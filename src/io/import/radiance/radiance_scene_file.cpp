@@ -309,7 +309,7 @@ SceneFile read_radiance_scene(std::string_view text, const std::string& name,
 SceneFile read_radiance_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
     const ImportSettings settings(overrides, path.string());
     if (settings.options().textures)
-        throw InputError("patterns of Radiance are not read: import.textures does not go with it.",
+        throw InputError("patterns of Radiance scenes are not read: import.textures does not go with them.",
                          {path.string()});
     SceneFile file = read_radiance_scene(read_whole_file(path), path.string(), path.parent_path(), {},
                                          radiance::placement_of(settings.options()));
