@@ -52,9 +52,11 @@ using Parameters = Value::Table;
 /// Objects, materials, lights and sensors. Immutable; copies share their data.
 class Scene {
   public:
-    /// Reads a scene file, or a scene of another program that Stilb reads (glTF, OBJ, Radiance). Throws
-    /// InputError: file, line, key, what was found, and what is allowed.
-    static Scene load(const std::filesystem::path& path);
+    /// Reads a scene file, or a scene of another program that Stilb reads (glTF, OBJ, Radiance). `settings`:
+    /// "KEY=VALUE", as `--set` on the command line ("import.scale=0.01"). Throws InputError: file, line, key,
+    /// what was found, and what is allowed; Cancelled where `control` interrupts.
+    static Scene load(const std::filesystem::path& path, std::span<const std::string> settings = {},
+                      const Control& control = {});
     /// Reads a scene from a text; file names in it are relative to `directory`.
     static Scene parse(std::string_view toml, const std::filesystem::path& directory = ".");
 

@@ -8,7 +8,9 @@
 #include <nanobind/stl/vector.h>
 
 #include <span>
+#include <utility>
 
+#include "bindings/called_run.h"
 #include "bindings/parts.h"
 #include "bindings/values.h"
 #include "run/options.h"
@@ -100,7 +102,14 @@ void add_builder(nb::module_& module) {
 void add_scenes(nb::module_& module) {
     add_options(module);
     nb::class_<Scene>(module, "Scene")
-        .def_static("load", &Scene::load, nb::arg("path"), nb::call_guard<nb::gil_scoped_release>())
+        .def_static(
+            "load",
+            [](const std::filesystem::path& path, const std::vector<std::string>& settings,
+               nb::object progress) {
+                return CalledRun(std::move(progress))(
+                    [&](const Control& control) { return Scene::load(path, settings, control); });
+            },
+            nb::arg("path"), nb::arg("settings"), nb::arg("progress").none())
         .def("name", &Scene::name)
         .def("sensors", &Scene::sensors)
         .def("options", &Scene::options);

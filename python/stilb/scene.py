@@ -39,6 +39,15 @@ class Limits(TypedDict, total=False):
     target: str | None
 
 
+class ImportSettings(TypedDict, total=False):
+    """How a scene of another program is read: `help(stilb.load)`."""
+
+    scale: float | str
+    up: str
+    light_scale: float
+    textures: bool
+
+
 class Section(MutableMapping[str, Part]):
     """The materials, objects, lights or sensors of a scene, by name and in order.
 
@@ -121,15 +130,23 @@ class Scene:
         self._built_state: Any = None
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Scene:
-        """Reads a scene file. Errors name file, line and key.
+    def load(cls, path: str | os.PathLike[str], *, progress: Progress = None, **settings: Unpack[ImportSettings]) -> Scene:
+        """Reads a scene file, or a scene of another program. Errors name file, line and key.
 
-        The parts of a file that is not TOML stay as they are; others can be added to them.
+        The parts of a file that is not TOML (glTF, OBJ, Radiance) stay as they are; others can be added to them. How it is
+        read can be set:
+
+        scale        metres per unit of the file, or "auto"
+        up           the axis of the file that points upwards: "y", "z" or "auto"
+        light_scale  a factor on all light
+        textures     True: surfaces show the textures of their base colours; False: the mean of each counts
+        progress     as in runs: help(stilb.Scene)
         """
         scene = cls()
         scene._path = Path(path)
         scene._directory = scene._path.parent
-        scene._built = _stilb.Scene.load(scene._path)
+        scene._built = _stilb.Scene.load(scene._path, [_setting(key, value) for key, value in settings.items()],
+                                         sink_of(progress))
         scene.name = scene._built.name()
         document = _toml_document(scene._path)
         if document is None:
@@ -257,9 +274,17 @@ class Scene:
         return Result(result)._only(points.shape[:-1])
 
 
-def load(path: str | os.PathLike[str]) -> Scene:
-    """Reads a scene from a file."""
-    return Scene.load(path)
+def load(path: str | os.PathLike[str], *, progress: Progress = None, **settings: Unpack[ImportSettings]) -> Scene:
+    """Reads a scene from a file: `help(stilb.Scene.load)`.
+
+    `settings` are `scale`, `up`, `light_scale` and `textures` of scenes of other programs.
+    """
+    return Scene.load(path, progress=progress, **settings)
+
+
+def _setting(key: str, value: Any) -> str:
+    """As on the command line."""
+    return f"import.{key}={str(value).lower() if isinstance(value, bool) else value}"
 
 
 def _toml_document(path: Path) -> dict[str, Any] | None:

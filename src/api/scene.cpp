@@ -4,10 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "api/scene_data.h"
+#include "base/monitor.h"
 #include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "io/import/scene_formats.h"
@@ -49,7 +52,18 @@ Scene make_scene(io::SceneFile file, const std::filesystem::path& path = {}) {
 
 }  // namespace
 
-Scene Scene::load(const std::filesystem::path& path) { return make_scene(io::load_scene(path), path); }
+Scene Scene::load(const std::filesystem::path& path, std::span<const std::string> settings,
+                  const Control& control) {
+    const auto start = Monitor::Clock::now();
+    const Monitor monitor(control.interrupt, {}, [&](std::string_view stage, double share) {
+        if (!control.report) return;
+        const double elapsed_s = std::chrono::duration<double>(Monitor::Clock::now() - start).count();
+        constexpr double unknown = std::numeric_limits<double>::infinity();
+        control.report(
+            {std::string(stage), elapsed_s, share > 0 ? elapsed_s * (1 / share - 1) : unknown, unknown});
+    });
+    return make_scene(io::load_scene(path, settings, monitor), path);
+}
 
 Scene Scene::parse(std::string_view toml, const std::filesystem::path& directory) {
     return make_scene(io::read_scene(toml, "", directory));

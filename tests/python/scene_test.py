@@ -96,6 +96,34 @@ class SceneFiles(unittest.TestCase):
         with self.assertRaisesRegex(stilb.InputError, "stilb import"):
             scene.save(self.folder / "floor.toml")
 
+    def test_scenes_of_other_programs_are_read_with_settings(self):
+        file = self.folder / "floor.rad"
+        file.write_text("void glow lamp 0 0 4 1 1 1 0\nlamp ring light 0 0 8 0 0 1 0 0 -1 0 0.1\n"
+                        "void plastic grey 0 0 5 0.5 0.5 0.5 0 0\n"
+                        "grey polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0\n")
+
+        def illuminance(**settings):
+            return stilb.load(file, **settings).illuminance([0, 0, 0], [0, 0, 1], paths=PATHS).value
+
+        plain = illuminance()
+        np.testing.assert_allclose(illuminance(light_scale=2), 2 * plain, rtol=1e-9)
+        np.testing.assert_allclose(illuminance(scale=0.01), plain, rtol=1e-6)  # of solid angles alone
+        with self.assertRaisesRegex(stilb.InputError, "light_scale"):
+            illuminance(light_scale=-1)
+        with self.assertRaisesRegex(stilb.InputError, "import"):
+            stilb.load(self.file, scale=0.01)  # a scene file states its positions in metres
+
+    def test_reading_reports_its_progress(self):
+        corners = np.arange(3_000_000).reshape(-1, 3) % 1009
+        file = self.folder / "large.obj"
+        lines = [f"v {x} {y} {z}" for x, y, z in corners] + [f"f {i} {i + 1} {i + 2}" for i in range(1, 999_990, 3)]
+        file.write_text("\n".join(lines))
+        reports = []
+        stilb.load(file, scale=1, up="z", progress=reports.append)
+        self.assertTrue(any("large.obj" in report.stage for report in reports))
+        with self.assertRaises(stilb.Cancelled):
+            stilb.load(file, scale=1, up="z", progress=lambda report: False)
+
     def test_odd_scenes_are_reported(self):
         scene = built()
         self.assertEqual(scene.check(), [])
