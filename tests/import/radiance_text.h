@@ -8,11 +8,11 @@
 
 #include "io/import/radiance/radiance_scene_file.h"
 #include "stilb/error.h"
+#include "support/source_directory.h"
 
 namespace stilb::io {
 
-inline const std::filesystem::path kRadianceData =
-    std::filesystem::path(STILB_SOURCE_DIR) / "tests" / "data" / "radiance";
+inline const std::filesystem::path kRadianceData = source_directory() / "tests/data/radiance";
 
 inline SceneFile read_rad(const std::string& text,
                           const std::filesystem::path& folder = "no-such-directory") {

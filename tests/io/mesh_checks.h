@@ -12,6 +12,7 @@
 
 #include "io/mesh/mesh_file.h"
 #include "stilb/error.h"
+#include "support/source_directory.h"
 
 namespace stilb::io {
 
@@ -49,7 +50,7 @@ inline std::size_t open_edges(const Mesh& mesh) {
 }
 
 inline std::filesystem::path shared_mesh(const std::string& name) {
-    return std::filesystem::path(STILB_SOURCE_DIR) / ".." / "shared" / "data" / "meshes" / name;
+    return source_directory() / "../shared/data/meshes" / name;
 }
 
 }  // namespace stilb::io

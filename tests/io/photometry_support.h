@@ -12,6 +12,7 @@
 
 #include "io/photometry/photometry_file.h"
 #include "stilb/error.h"
+#include "support/source_directory.h"
 
 namespace stilb::photometry_test {
 
@@ -55,8 +56,6 @@ inline double midpoint_flux(const PhotometricSolid& solid) {
     return sum * (360 * kDegree / kPlanes) * (180 * kDegree / kRings);
 }
 
-inline std::filesystem::path shared_photometry() {
-    return std::filesystem::path(STILB_SOURCE_DIR) / "../shared/data/photometry";
-}
+inline std::filesystem::path shared_photometry() { return source_directory() / "../shared/data/photometry"; }
 
 }  // namespace stilb::photometry_test

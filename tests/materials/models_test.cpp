@@ -11,6 +11,7 @@
 #include "math/sampling.h"
 #include "stilb/error.h"
 #include "support/random_pairs.h"
+#include "support/source_directory.h"
 
 namespace stilb::materials {
 namespace {
@@ -174,7 +175,7 @@ TEST(EveryModel, HasATypeOfItsOwn) {
 }
 
 TEST(EveryModel, HasItsParametersInTheDocuments) {
-    const auto path = std::filesystem::path(STILB_SOURCE_DIR) / "docs/materials.md";
+    const auto path = source_directory() / "docs/materials.md";
     std::ostringstream text;
     text << std::ifstream(path).rdbuf();
     const auto expect_row = [&](const std::string& row) {

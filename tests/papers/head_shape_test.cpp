@@ -9,6 +9,7 @@
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh_checks.h"
+#include "support/source_directory.h"
 
 namespace stilb::papers {
 namespace {
@@ -46,7 +47,7 @@ TEST(HeadShape, TheMeshIsClosedAndItsFrontsAreSeenFromOutsideOnly) {
 }
 
 TEST(HeadShape, TheSceneHasItsSeries) {
-    const auto path = std::filesystem::path(STILB_SOURCE_DIR) / "scenes/head/head.json";
+    const auto path = source_directory() / "scenes/head/head.json";
     const io::HarmonicsFile file = io::read_harmonics(path);
     const fit::MeshFit fit = fit::fit_mesh(head_mesh(), {.degree = 32, .center = file.center}, "head");
     ASSERT_EQ(file.coefficients.size(), fit.coefficients.size());
