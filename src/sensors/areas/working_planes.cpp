@@ -294,7 +294,7 @@ std::vector<Vec3> corners_at(const Path& path, double z) {
 std::vector<Vec3> outline_at(Path path, double z) {
     const auto lower_left =
         std::ranges::min_element(path, {}, [](const ClipperLib::IntPoint& p) { return p.X + p.Y; });
-    std::ranges::rotate(path, lower_left);
+    std::rotate(path.begin(), lower_left, path.end());
     return corners_at(path, z);
 }
 

@@ -57,10 +57,10 @@ Palette make_palette(std::span<const WeightedColour> given, std::size_t most) {
             done.push_back(group);
             continue;
         }
-        const auto above = std::ranges::partition(group.members, [&](std::uint32_t i) {
+        const auto above = std::partition(group.members.begin(), group.members.end(), [&](std::uint32_t i) {
             return given[i].rgb[group.band] <= group.mean[group.band];
         });
-        const std::size_t below = group.members.size() - above.size();
+        const auto below = static_cast<std::size_t>(above - group.members.begin());
         open.push(group_of(group.members.first(below), given));
         open.push(group_of(group.members.subspan(below), given));
     }
