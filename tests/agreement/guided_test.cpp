@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "agreement/sanitized.h"
@@ -188,6 +189,33 @@ TEST_F(PaleBall, PacesKeepTheExpectation) {
             << "reading " << j << ": " << paced.value << " +- " << paced.standard_error << ", "
             << all[j].value << " +- " << all[j].standard_error;
     }
+}
+
+/// An eye that looks along a desk is no receiver like the points of the desk beside it. Where points of light
+/// were chosen for four receivers of its packet, the light that is near to the eye alone was rare.
+TEST(GuidedReadings, AnEyeAmongPointsOfADeskIsAsExactAsAlone) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5));
+    add_area_light(scene, Rectangle{{1.1, 1.1, 2.99}, {0, 0.8, 0}, {0.8, 0, 0}}, Rgb::grey(2500));
+    const rays::RayCaster caster(scene);
+    std::vector<Measurand> measurands{MeasuringPoint{{1.2, 2.2, 0.8}, {0, -1, 0}}};
+    for (int i = 0; i < 144; ++i) {
+        const Vec3 point{0.3 + 0.2 * (i % 12), 0.3 + 0.2 * (i / 12), 0.8};
+        measurands.push_back(MeasuringPoint{point, {0, 0, 1}});
+    }
+    const math::RandomKey key{22};
+    const auto eye = [&](std::span<const Measurand> all) {
+        const estimators::Problem problem{.scene = scene,
+                                          .caster = caster,
+                                          .max_reflections = transport::kUnlimited,
+                                          .preparation_key = key.derived(2),
+                                          .measurands = all};
+        constexpr std::uint64_t samples = 256 / static_cast<std::uint64_t>(kCoarser * kCoarser);
+        return measure(*estimators::make_guided(problem), all.size(), key.derived(all.size()), samples)[0];
+    };
+    const auto alone = eye(std::span(measurands).first(1)), among_points = eye(measurands);
+    EXPECT_LT(among_points.standard_error, 1.8 * alone.standard_error);
+    EXPECT_LT(std::abs(statistics::z_score(among_points, alone)), 3.5);
 }
 
 std::string name_of(const testing::TestParamInfo<std::size_t>& place) {

@@ -110,21 +110,28 @@ void GuidedReadings::add_known(std::span<Rgb> readings) const {
 auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_extent_m)
     -> std::vector<Group> {
     constexpr double parallel = 0.95;
+    const auto is_like_first_of = [&](const PointTile& group, const PointTile& tile) {
+        const transport::Receiver& first = group.receivers[0];
+        return std::ranges::all_of(tile.receivers, [&](const transport::Receiver& receiver) {
+            return dot(receiver.normal(), first.normal()) > parallel &&
+                   length(receiver.position() - first.position()) < largest_extent_m;
+        });
+    };
     std::vector<Group> groups;
     for (std::size_t t = 0; t < tiles.size(); ++t) {
-        const bool is_near =
-            !groups.empty() &&
-            std::ranges::all_of(tiles[t].receivers, [&](const transport::Receiver& receiver) {
-                const transport::Receiver& first = tiles[groups.back().first].receivers[0];
-                return dot(receiver.normal(), first.normal()) > parallel &&
-                       length(receiver.position() - first.position()) < largest_extent_m;
-            });
+        const PointTile* const first = groups.empty() ? nullptr : &tiles[groups.back().first];
+        const bool is_near = first && is_like_first_of(*first, *first) && is_like_first_of(*first, tiles[t]);
         if (!is_near) groups.push_back({t, t, {}});
         groups.back().last = t + 1;
     }
     for (Group& group : groups) {
+        const PointTile& first = tiles[group.first];
         const std::size_t count = group.last - group.first;
-        const std::size_t spread = std::clamp(count, kSpread, std::size_t{kPacketWidth});
+        // Of receivers that differ, each must be among those for which points are chosen: light that is near
+        // to it alone would be rare.
+        const std::size_t spread = is_like_first_of(first, first)
+                                       ? std::clamp(count, kSpread, std::size_t{kPacketWidth})
+                                       : first.receivers.size();
         for (std::size_t i = 0; i < spread; ++i) {
             const auto& receivers = tiles[group.first + i * count / spread].receivers;
             group.spread.push_back(receivers[(2 * i + 1) * receivers.size() / (2 * spread)]);

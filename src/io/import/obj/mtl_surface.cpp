@@ -80,9 +80,10 @@ Material mtl_surface(const MtlMaterial& material, const Rgb& diffuse, GroupedWar
 }
 
 void find_usual_specular(std::map<std::string, MtlMaterial>& materials) {
-    for (auto& [name, material] : materials) {
-        material.has_usual_specular = std::ranges::any_of(materials, [&](const auto& entry) {
-            const MtlMaterial& other = entry.second;
+    for (auto& entry : materials) {
+        MtlMaterial& material = entry.second;
+        material.has_usual_specular = std::ranges::any_of(materials, [&](const auto& one) {
+            const MtlMaterial& other = one.second;
             return other.specular == material.specular && other.diffuse.max() > kDark && shows_diffuse(other);
         });
     }
