@@ -98,7 +98,8 @@ format-check: setup-lint ## fail where a source is not in the project's format
 lint: setup-lint odr ## clang-tidy, the directions of includes, and one definition of each name
 	@scripts/check-includes
 	@cmake --preset release -B build/lint -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSTILB_UNITY=OFF
-	@run-clang-tidy-14 -quiet -j $(JOBS) -p build/lint '^$(CURDIR)/(src|experiments)/'
+	@# Not the server: clang 14 does not know the coroutines of C++20.
+	@run-clang-tidy-14 -quiet -j $(JOBS) -p build/lint '^$(CURDIR)/(src|experiments)/(?!walk/service/server.cpp)'
 
 odr: setup ## link with link-time optimisation: fails where two files define one name in two ways
 	@$(call configure,odr)
