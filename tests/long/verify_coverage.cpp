@@ -59,6 +59,7 @@ constexpr Case kCases[] = {
     {"white_box", "path", 2048, 0, "path", kMillion / 2},
     {"beam", "double-local", 8192, 0, "auto", 4 * kMillion},
     {"beam", "auto", 8192, 0, "auto", 4 * kMillion},
+    {"eyes", "auto", 0, 0.005, "path", 2 * kMillion},
 };
 
 RunOptions options_of(std::string_view method, std::uint64_t seed) {
@@ -163,7 +164,7 @@ bool cover(std::string_view name, const Scene& scene, std::span<const Sensor> se
     if (std::ranges::any_of(tallies, &Tally::is_close))
         add_runs(scene, sensors, options, seeds + 1, 4 * seeds + 1, tallies);
     const std::string limit = options.paths ? fmt::format("{} paths", *options.paths)
-                                            : fmt::format("error {:.0f} %", 100 * *options.error);
+                                            : fmt::format("error {:g} %", 100 * *options.error);
     const std::string run = fmt::format("{} | {}, {}", name, options.method, limit);
     bool all_hold = true;
     for (Tally& tally : tallies) all_hold = print(run, tally) && all_hold;
