@@ -99,7 +99,7 @@ std::optional<Answer> answer_to_unread(const error_code& failure) {
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// Of a header field; empty without it.
+/// The value of a header field; empty if the request has no such field.
 std::string_view value_of(const Request& request, http::field field) { return view_of(request[field]); }
 
 /// Counts itself while it lives.
@@ -233,7 +233,7 @@ class Server::Http {
         stream.expires_after(limits_.request);
         RequestParser parser;
         parser.header_limit(static_cast<std::uint32_t>(limits_.header_bytes));
-        // Who asks counts first, then how much: refusal_of().
+        // No limit yet: refusal_of() checks first who asks, then the length.
         parser.body_limit(std::numeric_limits<std::uint64_t>::max());
         error_code failure;
         co_await http::async_read_header(stream, buffer, parser,
@@ -304,7 +304,7 @@ class Server::Http {
         return origin.starts_with(scheme) && is_own(origin.substr(scheme.size()));
     }
 
-    /// Of a request whose body is not read yet.
+    /// Checks a request before its body is read.
     std::optional<Answer> refusal_of(const RequestParser& parser) const {
         using http::status, http::verb;
         const Request& request = parser.get();

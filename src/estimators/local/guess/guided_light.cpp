@@ -127,8 +127,8 @@ auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_
     for (Group& group : groups) {
         const PointTile& first = tiles[group.first];
         const std::size_t count = group.last - group.first;
-        // Of receivers that differ, each must be among those for which points are chosen: light that is near
-        // to it alone would be rare.
+        // If receivers differ, points are chosen for each of them. A receiver that is left out would get the
+        // light near to it from few points, with large weights.
         const std::size_t spread = is_like_first_of(first, first)
                                        ? std::clamp(count, kSpread, std::size_t{kPacketWidth})
                                        : first.receivers.size();
