@@ -16,8 +16,8 @@ constexpr std::array<int, 2> kResolution{720, 480};
 constexpr double kFovInside_deg = 90, kFovOutside_deg = 50;
 /// Inside, heights above the floor, and the distance from walls.
 constexpr double kEyes_m = 1.6, kTarget_m = 1, kFromWalls_m = 0.4;
-/// The distance from outside, in half diagonals: all is in the picture.
-constexpr double kFromOutside = 2.2, kLeast_m = 1e-3;
+/// The distance from outside, over that at which all is just in the picture.
+constexpr double kFromOutside = 1.1, kLeast_m = 1e-3;
 constexpr double kIlluminance_lx = 500;
 constexpr std::size_t kMostRooms = 32;
 constexpr double kSky_cd_m2 = 50;
@@ -36,13 +36,28 @@ std::vector<WorkingPlane> rooms_of(const Scene& scene, const rays::RayCaster& ca
     return planes;
 }
 
+/// All of the scene is in its picture.
 Camera camera_outside(const Scene& scene) {
     const Bounds bounds = scene::bounds_of(scene);
-    const double radius_m = std::max(length(bounds.max - bounds.min) / 2, kLeast_m);
     Camera camera;
+    camera.resolution = kResolution;
     camera.fov_deg = kFovOutside_deg;
     camera.target = bounds.middle();
-    camera.position = camera.target + kFromOutside * radius_m * normalized({-0.6, -0.7, 0.4});
+    const Vec3 back = normalized({-0.6, -0.7, 0.4});
+    camera.position = camera.target + back;
+    const CameraView view(camera);
+    const double across = std::tan(kFovOutside_deg / 2 * kPi / 180),
+                 upwards = across * kResolution[1] / kResolution[0];
+    double distance_m = kLeast_m;
+    for (const double x : {bounds.min.x, bounds.max.x})
+        for (const double y : {bounds.min.y, bounds.max.y})
+            for (const double z : {bounds.min.z, bounds.max.z}) {
+                const Vec3 corner = Vec3{x, y, z} - camera.target;
+                const double aside = std::max(std::abs(dot(corner, view.right())) / across,
+                                              std::abs(dot(corner, view.up())) / upwards);
+                distance_m = std::max(distance_m, dot(corner, back) + aside);
+            }
+    camera.position = camera.target + kFromOutside * distance_m * back;
     return camera;
 }
 
@@ -65,7 +80,6 @@ Vec3 place_in(const PolygonInSpace& room) {
 Sensor camera_for_first_look(const Scene& scene, const rays::RayCaster& caster) {
     const std::vector<WorkingPlane> rooms = rooms_of(scene, caster);
     Camera camera = camera_outside(scene);
-    camera.resolution = kResolution;
     if (rooms.empty()) return {"preview", camera};
     const std::vector<Vec3>& outline = rooms.front().polygon.outline;
     const Vec3 middle = middle_of(outline);

@@ -67,31 +67,38 @@ double LightSampler::rough_illuminance_lx(std::size_t light, const Vec3& from, c
                       emitters_[light]);
 }
 
-std::optional<math::DiscreteChoice> LightSampler::choose(const Vec3& from, const Vec3& normal,
-                                                         double u) const {
-    if (goes_by_tree()) return choose_by_tree(from, normal, u);
-    std::array<double, kFew> sums;
-    double total = 0;
-    for (std::size_t light = 0; light < count(); ++light) {
-        sums[light] = total += rough_illuminance_lx(light, from, normal);
+LightSampler::Choices::Choices(const LightSampler& lights, const Vec3& from, const Vec3& normal)
+    : lights_(lights), from_(from), normal_(normal) {
+    if (lights.goes_by_tree()) {
+        cut_ = lights.tree_.cut(from, normal, rough());
+        if (lights.outside_ != kNoLight) outside_lx_ = rough()(lights.outside_);
+        all_lx_ = outside_lx_ + cut_.total_lx();
+        return;
     }
-    if (!(total > 0)) return std::nullopt;
-    return math::choose_by_sums({sums.data(), count()}, u);
+    for (std::uint32_t light = 0; light < lights.count(); ++light)
+        sums_lx_[light] = all_lx_ += rough()(light);
 }
 
-std::optional<math::DiscreteChoice> LightSampler::choose_by_tree(const Vec3& from, const Vec3& normal,
-                                                                 double u) const {
-    const auto rough_lx = [&](std::uint32_t light) { return rough_illuminance_lx(light, from, normal); };
-    const LightTree::Cut cut = tree_.cut(from, normal, rough_lx);
-    const double outside_lx = outside_ == kNoLight ? 0 : rough_lx(outside_),
-                 all_lx = outside_lx + cut.total_lx();
-    if (!(all_lx > 0)) return std::nullopt;
-    const double outside = outside_lx / all_lx;
-    if (u < outside) return math::DiscreteChoice{outside_, outside, u / outside};
+math::DiscreteChoice LightSampler::Choices::choose(double u) const {
+    if (!lights_.goes_by_tree()) return math::choose_by_sums({sums_lx_.data(), lights_.count()}, u);
+    const double outside = outside_lx_ / all_lx_;
+    if (u < outside) return {lights_.outside_, outside, u / outside};
     const double rest = std::min((u - outside) / (1 - outside), math::kBelowOne);
-    math::DiscreteChoice choice = tree_.choose(cut, from, normal, rest, rough_lx);
+    math::DiscreteChoice choice = lights_.tree_.choose(cut_, from_, normal_, rest, rough());
     choice.probability *= 1 - outside;
     return choice;
+}
+
+std::optional<IncidentLight> LightSampler::Choices::sample(const math::DiscreteChoice& choice,
+                                                           const std::array<double, 2>& u,
+                                                           std::uint32_t choices) const {
+    auto incident = lights_.sample_incident(choice.index, {from_, normal_}, u);
+    if (incident) {
+        const double expected = choices * choice.probability;
+        incident->normal_illuminance_lx *= 1 / expected;
+        incident->pdf_per_sr *= expected;
+    }
+    return incident;
 }
 
 double LightSampler::tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const {
@@ -135,18 +142,12 @@ double LightSampler::extended_pdf_per_sr(const rays::Hit& hit, const ReceivingPo
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
                                                             math::SampleStream& stream) const {
-    const ReceivingPoint at{from, normal};
-    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, at, stream.next_two());
+    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, {from, normal}, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
-    const auto choice = choose(from, normal, u);
-    if (!choice) return std::nullopt;
-    auto incident = sample_incident(choice->index, at, point);
-    if (incident) {
-        incident->normal_illuminance_lx *= 1 / choice->probability;
-        incident->pdf_per_sr *= choice->probability;
-    }
-    return incident;
+    const Choices choices(*this, from, normal);
+    if (choices.is_empty()) return std::nullopt;
+    return choices.sample(choices.choose(u), point, 1);
 }
 
 double LightSampler::pdf_of_its_light_per_sr(const rays::Hit& hit, const Vec3& from) const {

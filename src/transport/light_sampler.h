@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -59,6 +61,11 @@ class LightSampler {
     /// lights); divided by the choice's probability. Allocates no memory.
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
                                                   math::SampleStream& stream) const;
+    /// Calls `visit(light)` for so many samples, whose sources are chosen in the same way and evenly: each
+    /// source as often as is its expected number, but for one; divided by their expected numbers.
+    template <typename Visit>
+    void sample_some_lights(const Vec3& from, const Vec3& normal, std::uint32_t samples,
+                            math::SampleStream& stream, const Visit& visit) const;
 
     /// Calls `visit(light)` for samples of all lights but points: for one of each or, where there are many
     /// and the point has a normal, for some that are chosen as in sample_one_light(), divided by their
@@ -112,8 +119,7 @@ class LightSampler {
         return
             [this, &at](std::uint32_t light) { return rough_illuminance_lx(light, at.position, *at.normal); };
     }
-    std::optional<math::DiscreteChoice> choose(const Vec3& from, const Vec3& normal, double u) const;
-    std::optional<math::DiscreteChoice> choose_by_tree(const Vec3& from, const Vec3& normal, double u) const;
+    class Choices;
     double tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const;
 
     std::vector<lights::Emitter> emitters_;
@@ -127,6 +133,45 @@ class LightSampler {
     std::uint32_t outside_ = kNoLight;  ///< the light from infinity
     bool has_visible_lights_ = false;
 };
+
+/// The lights at a point of a surface, by their unshadowed contributions. Keeps references to its arguments.
+class LightSampler::Choices {
+  public:
+    Choices(const LightSampler& lights, const Vec3& from, const Vec3& normal);
+    /// Whether no light reaches the point.
+    bool is_empty() const { return !(all_lx_ > 0); }
+    /// Precondition: not empty.
+    math::DiscreteChoice choose(double u) const;
+    /// A sample of a chosen light, divided by its expected number among so many choices.
+    std::optional<IncidentLight> sample(const math::DiscreteChoice& choice, const std::array<double, 2>& u,
+                                        std::uint32_t choices) const;
+
+  private:
+    auto rough() const {
+        return [this](std::uint32_t light) { return lights_.rough_illuminance_lx(light, from_, normal_); };
+    }
+
+    const LightSampler& lights_;
+    const Vec3 &from_, &normal_;
+    std::array<double, kFew> sums_lx_;  ///< running, of few lights; unset where they go by the tree
+    LightTree::Cut cut_;                ///< of many lights
+    double outside_lx_ = 0, all_lx_ = 0;
+};
+
+template <typename Visit>
+void LightSampler::sample_some_lights(const Vec3& from, const Vec3& normal, std::uint32_t samples,
+                                      math::SampleStream& stream, const Visit& visit) const {
+    const Choices choices(*this, from, normal);
+    if (choices.is_empty()) return;
+    const auto [first, across] = stream.next_two();
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const auto choice = choices.choose((i + first) / samples);
+        // The remainders of one light's samples are even, and so are multiples of the golden ratio.
+        const double v = across + 0.6180339887498949 * i;
+        if (const auto light = choices.sample(choice, {choice.remainder, v - std::floor(v)}, samples))
+            visit(*light);
+    }
+}
 
 template <typename Visit>
 void LightSampler::sample_extended(const ReceivingPoint& at, math::SampleStream& stream,

@@ -36,6 +36,29 @@ TEST(FirstLook, LooksAtBodiesFromOutside) {
     EXPECT_LT(std::tan(angle), std::tan(camera.fov_deg / 2 * kPi / 180) * 480 / 720);
 }
 
+TEST(FirstLook, AllCornersAreInThePictureFromOutside) {
+    // Too narrow or too low for rooms.
+    for (const Vec3& size : {Vec3{1, 1, 1}, Vec3{0.7, 0.7, 30}, Vec3{40, 1, 1}, Vec3{1, 50, 0.1}}) {
+        Scene scene;
+        add_object(scene, Box{{0, 0, 0}, size}, diffuse(0.5));
+        const Camera camera = camera_of(scene);
+        const CameraView view(camera);
+        const double half_width = std::tan(camera.fov_deg / 2 * kPi / 180);
+        double farthest = 0;  // 1 at the picture's edge
+        for (const double x : {0., size.x})
+            for (const double y : {0., size.y})
+                for (const double z : {0., size.z}) {
+                    const Vec3 d = Vec3{x, y, z} - camera.position;
+                    const double depth = dot(d, view.forward());
+                    ASSERT_GT(depth, 0);
+                    farthest = std::max({farthest, std::abs(dot(d, view.right())) / depth / half_width,
+                                         std::abs(dot(d, view.up())) / depth / half_width * 720 / 480});
+                }
+        EXPECT_LT(farthest, 1);
+        EXPECT_GT(farthest, 0.8);
+    }
+}
+
 TEST(FirstLook, TheHeadlightIsTheOnlyLamp) {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {3, 3, 2.5}}, diffuse(0.5));

@@ -178,6 +178,46 @@ TEST(IncidentLight, OfOneChosenLightIsThatOfAll) {
               4);
 }
 
+/// Few lights, which are chosen one by one, and many, by the tree: samples that are spread over them have the
+/// expectation of all lights, and less noise than as many that are chosen one by one.
+TEST(IncidentLight, OfSomeLightsIsThatOfAll) {
+    const exact::Receiver receiver{{0, 0, 0}, {0.6, 0, 0.8}};
+    constexpr std::uint32_t kSamples = 32;
+    for (const int count : {9, 60}) {
+        Scene scene;
+        double exact_lx = 0;
+        for (int i = 0; i < count; ++i) {
+            const Vec3 place{i % 10 - 1.0, i / 10 - 2.0, 2.5 + 0.05 * i};
+            add_area_light(scene, Sphere{place, 0.3}, Rgb::grey(10 + i));
+            exact_lx += exact::illuminance_by_sphere_lx(receiver, place, 0.3, 10 + i);
+        }
+        const rays::RayCaster caster(scene);
+        const LightSampler lights(scene, caster);
+        statistics::RunningMoments spread, apart;
+        for (std::uint64_t i = 0; i < 4096; ++i) {
+            const auto received_lx = [&](const IncidentLight& light) {
+                return std::max(0.0, dot(light.direction, receiver.normal)) *
+                       light.normal_illuminance_lx.luminance();
+            };
+            math::SampleStream stream(math::RandomKey{i}, 0);
+            double sum_lx = 0;
+            lights.sample_some_lights(receiver.position, receiver.normal, kSamples, stream,
+                                      [&](const IncidentLight& light) { sum_lx += received_lx(light); });
+            spread.add(sum_lx);
+            sum_lx = 0;
+            for (std::uint32_t k = 0; k < kSamples; ++k) {
+                math::SampleStream single(math::RandomKey{i}.derived(1 + k), 0);  // independent
+                const auto light = lights.sample_one_light(receiver.position, receiver.normal, single);
+                if (light) sum_lx += received_lx(*light) / kSamples;
+            }
+            apart.add(sum_lx);
+        }
+        EXPECT_LT(std::abs(spread.mean() - exact_lx), 4 * spread.standard_error()) << count;
+        EXPECT_LT(spread.standard_error(), 1e-3 * exact_lx) << count;
+        EXPECT_LT(spread.variance(), apart.variance() / 10) << count;
+    }
+}
+
 TEST(IncidentLight, DensityIsAboutThatOfRaysThatMeetTheEmitter) {
     Scene scene;
     add_area_light(scene, Box{{1, 1, 1}, {1.5, 1.3, 1.2}}, 10 * kWhite);

@@ -31,8 +31,8 @@ class BoundedDirect {
 
     enum class Part { bounded, all };
     /// Calls `visit(arrival)` for so many samples of the first part, or of all direct light, divided by their
-    /// number (a power of two): of every light, spread evenly over it, or, where lights are many, of some.
-    /// One sample only where all would be the same.
+    /// number (a power of two): of every light, spread evenly over it, or, where lights are many, of kEach
+    /// times so many, which are chosen. A point light that is not chosen gets one sample: all are the same.
     template <typename Visit>
     void sample(const SidePoint& at, Part part, std::uint32_t samples, math::SampleStream& stream,
                 const Visit& visit) const;
@@ -48,10 +48,8 @@ class BoundedDirect {
     bool has_particles() const { return has_points_; }
 
   private:
-    static constexpr std::size_t kEach = 4;
+    static constexpr std::uint32_t kEach = 4;
 
-    /// Whether several samples at one point differ.
-    bool varies() const { return lights_.has_visible_lights() || lights_.count() > kEach; }
     double share(double squared_distance) const { return std::min(1.0, squared_distance / near_m2_); }
     template <typename Visit>
     void add(const std::optional<lights::IncidentLight>& light, double weight, const SidePoint& at, Part part,
@@ -66,9 +64,10 @@ class BoundedDirect {
 template <typename Visit>
 void BoundedDirect::sample(const SidePoint& at, Part part, std::uint32_t samples, math::SampleStream& stream,
                            const Visit& visit) const {
-    if (!varies()) samples = 1;
-    const double weight = 1. / samples;
-    if (lights_.count() <= kEach) {
+    const bool are_points = !lights_.has_visible_lights();
+    if (lights_.count() <= (are_points ? kEach * samples : kEach)) {
+        if (are_points) samples = 1;
+        const double weight = 1. / samples;
         for (std::size_t light = 0; light < lights_.count(); ++light) {
             const std::array<double, 2> shift = stream.next_two();
             for (std::uint32_t i = 0; i < samples; ++i)
@@ -78,8 +77,8 @@ void BoundedDirect::sample(const SidePoint& at, Part part, std::uint32_t samples
         }
         return;
     }
-    for (std::size_t i = 0; i < samples * kEach; ++i)
-        add(lights_.sample_one_light(at.position, at.normal, stream), weight / kEach, at, part, visit);
+    lights_.sample_some_lights(at.position, at.normal, kEach * samples, stream,
+                               [&](const lights::IncidentLight& light) { add(light, 1, at, part, visit); });
 }
 
 template <typename Visit>

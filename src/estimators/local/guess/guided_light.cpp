@@ -11,7 +11,7 @@ namespace {
 
 /// Paths of the residual for each sample of readings, and the number of their vertices that are connected.
 constexpr std::uint64_t kPathsPerSample = 32;
-constexpr std::uint64_t kVerticesPerSample = 4;
+constexpr std::uint64_t kVerticesPerSample = 8;
 /// The largest extent of tiles that share a choice of points and vertices, over half of the scene's.
 constexpr double kGroupExtent = 0.1;
 /// Receivers of a group for which points and vertices are chosen, at least.

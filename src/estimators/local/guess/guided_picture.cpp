@@ -20,8 +20,8 @@ constexpr std::size_t kPoints = 32;
 /// Vertices of the residual that are connected to a packet.
 constexpr std::size_t kVertices = 12;
 /// Pixels for each path of the residual, and the largest number of paths in a pass.
-constexpr std::uint64_t kPixelsPerPath = 64;
-constexpr std::uint64_t kMostPaths = 4096;
+constexpr std::uint64_t kPixelsPerPath = 128;
+constexpr std::uint64_t kMostPaths = 2048;
 
 class GuidedPicture final : public LocalPicture {
   public:

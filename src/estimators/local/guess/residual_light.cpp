@@ -17,6 +17,8 @@ namespace {
 constexpr std::uint64_t kResidualPackets = 2;
 /// Samples of direct light there, where they differ.
 constexpr std::uint32_t kResidualDirect = 8;
+/// Paths that go on from a start, which costs more than they do. A power of two.
+constexpr std::uint32_t kBranches = 4;
 /// Paths start with a density that is at least this share of what it would be if r were as large as the
 /// guess; and so many of them, beside the others, evenly over all sides: light that the pilot has missed must
 /// not be rare.
@@ -237,24 +239,35 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     if (gloss != Rgb{})
         nodes.push_back(
             {position, lifted, normal, normal, start.arrival.direction, &*parts.gloss, arriving, 1});
-    // The path goes on by one of the parts.
-    const double sum = magnitude(diffuse).luminance() + gloss.luminance();
+    branch_out(start, parts, missing, arriving, stream, nodes);
+}
+
+/// Goes on from a start with some paths, each by one of the parts of the material.
+void ResidualLight::branch_out(const Start& start, const materials::SplitMaterial& parts,
+                               const Rgb& missing_lm, const Rgb& arriving_lm, math::SampleStream& stream,
+                               std::vector<transport::LightVertex>& nodes) const {
+    const double diffuse = magnitude(missing_lm * parts.diffuse_reflectance()).luminance();
+    const double sum = diffuse + (arriving_lm * parts.gloss_reflectance()).luminance();
     if (!(sum > 0)) return;
-    const double by_diffuse = magnitude(diffuse).luminance() / sum;
-    const bool is_diffuse = stream.next() < by_diffuse;
-    const Rgb incident = is_diffuse ? missing : arriving;
-    const Rgb reflectance = is_diffuse ? parts.diffuse_reflectance() : parts.gloss_reflectance();
-    const double survival = transport::survival_probability(magnitude(incident), reflectance);
-    if (stream.next() >= survival) return;
-    const auto [u1, u2] = stream.next_two();
-    const materials::ShadedSurface surface(is_diffuse ? parts.diffuse : *parts.gloss, normal, normal);
-    const auto scattered = surface.sample_outgoing(
-        surface.frame().to_local(is_diffuse ? normal : start.arrival.direction), u1, u2);
-    if (!scattered) return;
-    const Vec3 direction = surface.frame().to_world(scattered->direction);
-    walk(caster_.closest(lifted, direction), direction,
-         incident * scattered->weight * (1 / (survival * (is_diffuse ? by_diffuse : 1 - by_diffuse))), stream,
-         nodes);
+    const Vec3& normal = start.point.normal;
+    const double first = stream.next();
+    const std::array<double, 2> shift = stream.next_two();
+    for (std::uint32_t i = 0; i < kBranches; ++i) {
+        const bool is_diffuse = (i + first) / kBranches < diffuse / sum;
+        const Rgb& incident = is_diffuse ? missing_lm : arriving_lm;
+        const Rgb& reflectance = is_diffuse ? parts.diffuse_reflectance() : parts.gloss_reflectance();
+        const double survival = transport::survival_probability(magnitude(incident), reflectance);
+        if (stream.next() >= survival) continue;
+        const auto [u1, u2] = math::even_point(i, kBranches, shift);
+        const materials::ShadedSurface surface(is_diffuse ? parts.diffuse : *parts.gloss, normal, normal);
+        const auto scattered = surface.sample_outgoing(
+            surface.frame().to_local(is_diffuse ? normal : start.arrival.direction), u1, u2);
+        if (!scattered) continue;
+        const Vec3 direction = surface.frame().to_world(scattered->direction);
+        const double probability = survival * (is_diffuse ? diffuse : sum - diffuse) / sum;
+        walk(caster_.closest(start.point.lifted, direction), direction,
+             incident * scattered->weight * (1 / (kBranches * probability)), stream, nodes);
+    }
 }
 
 void ResidualLight::trace_particle(math::SampleStream stream,

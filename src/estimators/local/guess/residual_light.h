@@ -53,6 +53,10 @@ class ResidualLight {
     double pilot(std::uint32_t side, math::RandomKey key) const;
     void trace_particle(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
+    /// `missing_lm`, `arriving_lm`: flux that the parts of the material reflect.
+    void branch_out(const Start& start, const materials::SplitMaterial& parts, const Rgb& missing_lm,
+                    const Rgb& arriving_lm, math::SampleStream& stream,
+                    std::vector<transport::LightVertex>& nodes) const;
     void walk(std::optional<rays::Hit> hit, Vec3 direction, Rgb flux_lm, math::SampleStream& stream,
               std::vector<transport::LightVertex>& nodes) const;
     void trace_light_paths_only(math::RandomKey key, std::uint64_t first, std::uint64_t end,

@@ -8,7 +8,7 @@ namespace stilb::estimators {
 namespace {
 
 /// A group with more lights than this has as many lights chosen at random at each point.
-constexpr std::size_t kSamplesOfManyLights = 16;
+constexpr std::uint32_t kSamplesOfManyLights = 16;
 
 }  // namespace
 
@@ -46,10 +46,9 @@ void GroupedLights::add_reflected(const rays::Hit& surface, const Vec3& out, mat
                     lights_.sample_incident(light, {surface.position, surface.normal}, stream.next_two()));
             continue;
         }
-        for (std::size_t i = 0; i < kSamplesOfManyLights; ++i)
-            of_groups[g] +=
-                reflected(group.sampler->sample_one_light(surface.position, surface.normal, stream)) *
-                (1. / kSamplesOfManyLights);
+        group.sampler->sample_some_lights(
+            surface.position, surface.normal, kSamplesOfManyLights, stream,
+            [&](const transport::IncidentLight& light) { of_groups[g] += reflected(light); });
     }
 }
 
