@@ -73,10 +73,12 @@ TEST(Auto, TakesAGuessForManyPointsUnderAnAreaLamp) {
 }
 
 /// Light paths end before a guess is made.
-TEST(Auto, TakesNoGuessForSomePointsUnderPointLights) {
-    const Choice choice(room_with_point_lights(), grid({1, 1, 0.8}, 1.6, 0.8, 12, 6));
-    EXPECT_EQ(choice.granularity(make_auto), choice.granularity(make_balanced));
-    EXPECT_NE(choice.granularity(make_auto), choice.granularity(make_guided));
+TEST(Auto, TakesNoGuessUnderPointLightsForALargeError) {
+    const Choice choice(room_with_point_lights(), grid({1, 1, 0.8}, 1.6, 0.8, 16, 8));
+    Problem problem = choice.problem();
+    problem.error = 0.02;
+    EXPECT_EQ(make_auto(problem)->batch_granularity(), choice.granularity(make_balanced));
+    EXPECT_NE(choice.granularity(make_balanced), choice.granularity(make_guided));
 }
 
 TEST(Auto, TakesNoGuessWhereReflectionsHaveALimit) {

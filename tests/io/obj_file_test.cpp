@@ -164,9 +164,19 @@ TEST(ObjFile, wrong_vertices) {
     expect_refusal("v # none\n", ":1: the vertex has 0 coordinates; it needs three: v x y z");
 }
 
+/// As modellers leave them behind.
+TEST(ObjFile, faces_of_one_or_two_corners_are_left_out_and_counted) {
+    const MeshFile file = read(kSquare + "f 1 2\nf 1 2 3\nf 4\n");
+    EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));
+    EXPECT_EQ(file.degenerate_triangles, 2U);
+    expect_refusal(kSquare + "f 1 2\n",
+                   ": no triangle found (1 without area left out), so there is no surface; an "
+                   "OBJ file needs faces, such as: f 1 2 3");
+}
+
 TEST(ObjFile, wrong_faces) {
-    expect_refusal(kSquare + "f 1 2\n", ":5: the face has 2 corners; it needs three or more: f 1 2 3");
-    expect_refusal(kSquare + "f", ":5: the face has 0 corners; it needs three or more: f 1 2 3");
+    expect_refusal(kSquare + "f", ":5: the face has no corners; it needs three or more: f 1 2 3");
+    expect_refusal(kSquare + "f # none\n", ":5: the face has no corners; it needs three or more: f 1 2 3");
     const std::string range = ", but 4 vertices stand before it; they count from 1, or backwards from -1";
     expect_refusal(kSquare + "f 1 2 5\nv 9 9 9\n", ":5: the face's corner \"5\" names vertex 5" + range);
     expect_refusal(kSquare + "vt 0 0\nf 1 2/1 -5/1\n",

@@ -336,8 +336,11 @@ TEST(PlyFile, wrong_values) {
     expect_refusal(
         face("3 0 1 1.5\n"),
         ":14: element face, row 1 of 1: the vertex number is 1.5; it must be a whole number from 0 to 3");
+    expect_refusal(face("0\n"),
+                   ":14: element face, row 1 of 1: the face has no corners; it needs three or more");
     expect_refusal(face("2 0 1\n"),
-                   ":14: element face, row 1 of 1: the face has 2 corners; it needs three or more");
+                   ": no triangle found (1 without area left out), so there is no surface; a PLY file "
+                   "needs an element vertex and an element face (or tristrips)");
     expect_refusal(face("-3 0 1 2\n"),
                    ":14: element face, row 1 of 1: the list vertex_indices has the length -3; it must be a "
                    "whole number, 0 or more");

@@ -36,7 +36,8 @@ struct MeshFile {
     std::vector<std::filesystem::path> other_files;
     /// Names of files with materials (OBJ's mtllib), as written.
     std::vector<std::string> material_libraries;
-    /// The number of triangles without area (or with a repeated vertex), which are left out.
+    /// The number of triangles without area (with a repeated vertex, or faces of one or two corners), which
+    /// are left out.
     std::size_t degenerate_triangles = 0;
 };
 
@@ -114,6 +115,8 @@ class MeshBuilder {
     /// or none.
     void add_polygon(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals = {},
                      std::span<const std::uint32_t> coordinates = {});
+    /// Counts a face of one or two corners, which has no area.
+    void leave_out_face() { ++file_.degenerate_triangles; }
     void add_triangle(const Triangle& triangle, const std::optional<Triangle>& normals = std::nullopt,
                       const std::optional<Triangle>& coordinates = std::nullopt);
 

@@ -161,8 +161,9 @@ class ObjReader {
         for (std::string_view word = next_word(arguments); !word.empty() && word[0] != '#';
              word = next_word(arguments))
             read_corner(word);
-        if (corners_.size() < 3)
-            fail(fmt::format("the face has {} corners; it needs three or more: f 1 2 3", corners_.size()));
+        if (corners_.empty()) fail("the face has no corners; it needs three or more: f 1 2 3");
+        // Modellers leave such faces behind where corners were merged.
+        if (corners_.size() < 3) return builder_.leave_out_face();
         // Most large files have neither, and lists without any would take as much memory as the triangles.
         if (builder_.normal_count() == 0) normals_.clear();
         if (texture_coordinates_ == 0) coordinates_.clear();

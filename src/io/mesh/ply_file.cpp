@@ -459,10 +459,10 @@ class PlyReader {
     }
 
     void add_face() {
-        if (list_.size() < 3)
-            location_.fail(fmt::format("the face has {} corners; it needs three or more", list_.size()));
+        if (list_.empty()) location_.fail("the face has no corners; it needs three or more");
         corners_.clear();
         for (const double number : list_) corners_.push_back(vertex_index(number));
+        if (corners_.size() < 3) return builder_.leave_out_face();
         builder_.add_polygon(corners_);
     }
 
