@@ -116,10 +116,10 @@ TEST(UnreadBytes, ObjFilesInPieces) {
 TEST(UnreadBytes, MistakesInObjFilesInPieces) {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
     for (const auto& [end, line] : {std::pair{"f 1 2 4\n", ":4: "},
-                                    {"f 1 \\\n2 3\nf 1 2", ":6: "},
+                                    {"f 1 \\\n2 3\nf 1 9", ":6: "},
                                     {"v 0 0 1e\n", ":4: "},
                                     {"f 1 2 3\nv 0 \1 0\n", ":5: "},
-                                    {"f 1 2 \\", ":4: "},
+                                    {"f 1 9 \\", ":4: "},
                                     {"face 1 2 3", ":4: "}}) {
         const std::string message = expect_same_in_pieces(read_obj, corners + end);
         EXPECT_NE(message.find(line), message.npos) << message;
