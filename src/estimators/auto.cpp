@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "base/parallel.h"
@@ -186,11 +185,7 @@ struct Survey {
     static std::vector<std::uint32_t> neighbours(std::span<const Measurand> measurands) {
         std::vector<Vec3> positions;
         for (const Measurand& measurand : measurands) positions.push_back(sensors::position_of(measurand));
-        const std::vector<std::uint64_t> codes = math::morton_codes(positions);
-        std::vector<std::uint32_t> order(measurands.size());
-        std::iota(order.begin(), order.end(), 0u);
-        std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return codes[i]; });
-        return order;
+        return math::morton_order(positions);
     }
 };
 

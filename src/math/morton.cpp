@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "base/vec.h"
 
@@ -33,6 +34,14 @@ std::vector<std::uint64_t> morton_codes(std::span<const Vec3> points) {
                         spread_bits(static_cast<std::uint64_t>(q.z)) << 2);
     }
     return codes;
+}
+
+std::vector<std::uint32_t> morton_order(std::span<const Vec3> points) {
+    const std::vector<std::uint64_t> codes = morton_codes(points);
+    std::vector<std::uint32_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return codes[i]; });
+    return order;
 }
 
 }  // namespace stilb::math

@@ -183,10 +183,7 @@ void ShaftQuery::sort() {
         const Box box = box_of(item);
         middles.push_back(0.5 * (to_vector(box.min) + to_vector(box.max)));
     }
-    const std::vector<std::uint64_t> codes = math::morton_codes(middles);
-    std::vector<std::uint32_t> order(items_.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return codes[i]; });
+    const std::vector<std::uint32_t> order = math::morton_order(middles);
     std::vector<Item> sorted;
     sorted.reserve(items_.size());
     for (const std::uint32_t i : order) sorted.push_back(items_[i]);

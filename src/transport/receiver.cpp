@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "math/morton.h"
 #include "transport/weights.h"
@@ -131,10 +130,7 @@ std::optional<Receiver> receiver_of_illuminance(std::uint32_t reading, const Mea
 std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
     std::vector<Vec3> positions;
     for (const Receiver& receiver : receivers) positions.push_back(receiver.position());
-    const std::vector<std::uint64_t> codes = math::morton_codes(positions);
-    std::vector<std::uint32_t> order(receivers.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return codes[a] < codes[b]; });
+    std::vector<std::uint32_t> order = math::morton_order(positions);
     // Bodies follow all others, so that at most one packet has both.
     std::stable_partition(order.begin(), order.end(), [&](auto i) { return !receivers[i].is_body(); });
     std::vector<Receiver> sorted;

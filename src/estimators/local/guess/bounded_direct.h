@@ -32,7 +32,8 @@ class BoundedDirect {
     enum class Part { bounded, all };
     /// Calls `visit(arrival)` for so many samples of the first part, or of all direct light, divided by their
     /// number (a power of two): of every light, spread evenly over it, or, where lights are many, of kEach
-    /// times so many, which are chosen. A point light that is not chosen gets one sample: all are the same.
+    /// times so many, which are chosen. Where all lights are points, one sample of each that is not chosen:
+    /// all samples of it would be the same.
     template <typename Visit>
     void sample(const SidePoint& at, Part part, std::uint32_t samples, math::SampleStream& stream,
                 const Visit& visit) const;
