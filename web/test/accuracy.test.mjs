@@ -162,7 +162,7 @@ for (const { what, file, camera, steps } of CASES) {
     const resolution = `sensors.view.resolution=[${FINER * SIZE.width}, ${FINER * SIZE.height}]`;
     await stilb("render", "--from", solution, "-o", picture, "--set", resolution);
     const rendered = coarser(readRadiancePicture(readFileSync(picture)).luminances);
-    const exact = await measured(file, camera, pixels, "--error", "5%");
+    const exact = await measured(file, camera, pixels, "--error", "3%");
     const showsOne = await showOneSurface(file, camera, pixels);
     const seen = await byPage(html, camera, pixels);
 
