@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "exact/configuration_factors.h"
+#include "lights/solid_angle/projected_parallelogram.h"
 #include "math/sampling.h"
 
 namespace stilb::lights {
@@ -105,7 +107,7 @@ TEST(ProjectedSolidAngle, AgreesWithTheExactFactors) {
 TEST(ProjectedSolidAngle, SamplesAreUniform) {
     const std::vector<Case> cases = random_cases({3});
     double squares = 0, worst = 0;
-    int tests = 0;
+    int tests = 0, weighted = 0;
     for (std::size_t c = 0; c < cases.size(); ++c) {
         const EmitterElement element = emitter_elements(cases[c].whole).front();
         for (std::uint64_t place = 0; place < 20; ++place) {
@@ -117,16 +119,19 @@ TEST(ProjectedSolidAngle, SamplesAreUniform) {
             const double whole = exact_sr(cases[c].whole, at), part = exact_sr(cases[c].part, at);
             if (!(whole > 0) || !(part > 0.001 * whole) || !(part < 0.999 * whole)) continue;
             constexpr int count = 1000;
-            int inside = 0;
+            double inside = 0;
             for (std::uint64_t i = 0; i < count; ++i) {
                 math::SampleStream stream(math::RandomKey{5}.derived(c).derived(place), i, 0);
                 const auto sample = sample_projected(element, at, stream);
                 ASSERT_TRUE(sample) << c << " " << place;
-                ASSERT_NEAR(sample->projected_solid_angle_sr, whole, 1e-11);
+                const double weight = sample->weight_sr / whole;
+                const bool is_rectangle = std::holds_alternative<Rectangle>(cases[c].whole);
+                ASSERT_NEAR(weight, 1, is_rectangle ? 0.3 : 1e-11 / whole);
+                weighted += std::abs(weight - 1) > 1e-6;
                 const Vec3 towards = sample->point.position - at.position;
                 ASSERT_GE(dot(towards, at.normal), -1e-9);
                 ASSERT_LE(dot(towards, sample->point.normal), 1e-9);
-                inside += is_in(cases[c].part, at, sample->point.position);
+                inside += is_in(cases[c].part, at, sample->point.position) ? weight : 0;
             }
             const double share = part / whole;
             const double z = (inside - count * share) / std::sqrt(count * share * (1 - share));
@@ -136,8 +141,36 @@ TEST(ProjectedSolidAngle, SamplesAreUniform) {
         }
     }
     EXPECT_GT(tests, 800);
+    EXPECT_GT(weighted, 10'000);  // far rectangles
     EXPECT_LT(worst, 4.5);
     EXPECT_NEAR(squares / tests, 1, 5 * std::sqrt(2. / tests));
+}
+
+TEST(ProjectedSolidAngle, WeightsOfFarRectanglesHaveItAsMean) {
+    std::size_t far = 0;
+    const std::vector<Case> cases = random_cases({6});
+    for (const Case& of : cases) {
+        const auto* r = std::get_if<Rectangle>(&of.whole);
+        if (!r) continue;
+        for (std::uint64_t place = 0; place < 20; ++place) {
+            math::SampleStream placing(math::RandomKey{7}, place, 0);
+            const LitPoint at{4 * random_vector(placing), random_direction(placing)};
+            const Frame frame = Frame::around(at.normal);
+            const Vec3 corner = frame.to_local(r->corner - at.position);
+            const Vec3 u = frame.to_local(r->edge_u), v = frame.to_local(r->edge_v);
+            const double whole = projected_solid_angle_sr(emitter_elements(of.whole).front(), at);
+            if (!(corner.z + std::min(u.z, 0.0) + std::min(v.z, 0.0) > 0) || !(whole > 0)) continue;
+            const FarParallelogram parallelogram(corner, u, v);
+            if (!parallelogram.is_far()) continue;
+            constexpr int steps = 32;
+            double sum = 0;
+            for (int i = 0; i < steps * steps; ++i)
+                sum += parallelogram.sample((i % steps + 0.5) / steps, (i / steps + 0.5) / steps).weight_sr;
+            EXPECT_NEAR(sum / (steps * steps), whole, 1e-3 * whole);
+            ++far;
+        }
+    }
+    EXPECT_GT(far, 100u);
 }
 
 TEST(ProjectedSolidAngle, NothingArrivesInThePlaneOfAFlatEmitterAndBehindIt) {

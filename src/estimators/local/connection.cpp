@@ -19,6 +19,9 @@ using Floats = PointTile::Floats;
 /// Vertices whose contributions are summed in single precision before they are added to the sums in double.
 constexpr std::size_t kBlock = 64;
 
+/// Whether vertex n of `count` is the last of its block.
+bool ends_block(std::size_t n, std::size_t count) { return n % kBlock == kBlock - 1 || n + 1 == count; }
+
 /// A light vertex in the form of the inner loop. Its coefficient is its flux alone where the BRDF depends on
 /// direction.
 struct ConnectedVertex : EmittingPoint {
@@ -78,11 +81,10 @@ void add_visible_directional(const ConnectedVertex& node, const PointTile& tile,
 /// Constant responses are multiplied here, once for a block of vertices; others are in the sums.
 void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
-        const transport::Receiver& receiver = tile.receivers[i];
-        const Rgb response = tile.directional ? Rgb::grey(1) : *receiver.constant_response();
+        const Rgb response = tile.response_of(i);
         const Rgb received{{sums.band[0][i], sums.band[1][i], sums.band[2][i]}};
-        readings.sum[receiver.reading()] += response * received;
-        double& largest = readings.largest[receiver.reading()];
+        readings.sum[tile.readings[i]] += response * received;
+        double& largest = readings.largest[tile.readings[i]];
         largest = std::max(largest, response.luminance() * double{sums.largest[i]});
     }
     sums = {};
@@ -126,9 +128,8 @@ void Connections::collect(std::span<const transport::LightVertex> nodes, Reading
                     add_visible(node, tile, packet, lanes, g_per_m2, tile_sums);
                 }
             }
-            if (n % kBlock == kBlock - 1) flush(tile, tile_sums, sums);
+            if (ends_block(n, connected_vertices.size())) flush(tile, tile_sums, sums);
         }
-        flush(tile, tile_sums, sums);
     }
 }
 
@@ -144,9 +145,8 @@ void connect_points(const rays::RayCaster& caster, const PointTile& tile,
             caster.occlude(packet, lanes);
             add_visible(points[n], tile, packet, lanes, g_per_m2, tile_sums);
         }
-        if (n % kBlock == kBlock - 1) flush(tile, tile_sums, sums);
+        if (ends_block(n, points.size())) flush(tile, tile_sums, sums);
     }
-    flush(tile, tile_sums, sums);
 }
 
 }  // namespace stilb::estimators

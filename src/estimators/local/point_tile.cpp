@@ -52,6 +52,13 @@ bool connect_bodies(const SegmentOrigin& origin, std::int32_t reflections, const
     return any;
 }
 
+void set_responses(PointTile& tile) {
+    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+        const Rgb response = tile.directional ? Rgb::grey(1) : *tile.receivers[i].constant_response();
+        for (std::size_t b = 0; b < kBands; ++b) tile.response[b][i] = static_cast<float>(response[b]);
+    }
+}
+
 }  // namespace
 
 std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
@@ -74,12 +81,14 @@ std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
         tile.normal_y[i] = static_cast<float>(normal.y);
         tile.normal_z[i] = static_cast<float>(normal.z);
         tile.inverse_k[i] = static_cast<float>(1 / k_per_m2[j]);
+        tile.readings[i] = receiver.reading();
         tile.reflections_left[i] = receiver.reflections_left(max_reflections);
         tile.choice = choice;
         tile.receivers = receivers.subspan(first, i + 1);
         tile.directional = tile.directional || !receiver.constant_response();
         tile.has_bodies = tile.has_bodies || receiver.is_body();
     }
+    for (PointTile& tile : tiles) set_responses(tile);
     return tiles;
 }
 

@@ -21,10 +21,17 @@ struct alignas(64) PointTile {
     Floats inverse_k{};                         ///< of the bounded connection [m2]
     /// The number of reflections that light may have met before it arrives.
     std::array<std::int32_t, kPacketWidth> reflections_left{};
-    std::span<const transport::Receiver> receivers;  ///< of the first lanes
+    /// The constant responses of the receivers; 1 where the tile is directional.
+    std::array<Floats, kBands> response{};
+    std::array<std::uint32_t, kPacketWidth> readings{};  ///< of the receivers
+    std::span<const transport::Receiver> receivers;      ///< of the first lanes
     bool directional = false;                        ///< the response of one of them depends on direction
     bool has_bodies = false;                         ///< one of them is on no surface; its normal is 0
     transport::VertexChoice choice{};                ///< of vertices that are connected
+
+    Rgb response_of(std::size_t lane) const {
+        return {{response[0][lane], response[1][lane], response[2][lane]}};
+    }
 };
 
 /// Receivers in packets, in their order; keeps references to them. `k_per_m2`: of each receiver; may be

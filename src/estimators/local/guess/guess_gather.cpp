@@ -61,8 +61,10 @@ std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::siz
 }
 
 GatherLanes::GatherLanes(const PointTile& tile, std::span<const std::array<double, 2>> shifts) {
+    Frame frame;
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
-        const Frame frame = Frame::around(tile.receivers[i].normal());
+        const Vec3 normal{tile.normal_x[i], tile.normal_y[i], tile.normal_z[i]};
+        if (i == 0 || normal != frame.w) frame = Frame::around(normal);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             u[axis][i] = static_cast<float>(frame.u[axis]);
             v[axis][i] = static_cast<float>(frame.v[axis]);
@@ -139,11 +141,10 @@ Rgb GuessGather::gathered_cd_m2(const GuessedLight& light, std::size_t lane, flo
 
 void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, ReadingSums& readings) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
-        const transport::Receiver& receiver = tile.receivers[i];
-        const Rgb per_ray = *receiver.constant_response() * (kPi * weight);
+        const Rgb per_ray = tile.response_of(i) * (kPi * weight);
         Rgb sum = sums.found[i];
         for (std::size_t b = 0; b < kBands; ++b) sum[b] += double{sums.guessed[b][i]};
-        readings.add(receiver.reading(), per_ray * sum, per_ray.luminance() * sums.largest[i]);
+        readings.add(tile.readings[i], per_ray * sum, per_ray.luminance() * sums.largest[i]);
     }
 }
 

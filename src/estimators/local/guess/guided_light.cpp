@@ -95,7 +95,7 @@ void GuidedReadings::make_sources() {
             for (std::size_t i = 0; i < tiles_[t].receivers.size(); ++i) {
                 const Rgb received{{lx[0][i], lx[1][i], lx[2][i]}};
                 certain_lx += received.luminance() / static_cast<double>(receivers[g].size());
-                known_[t * kPacketWidth + i] = received * *tiles_[t].receivers[i].constant_response();
+                known_[t * kPacketWidth + i] = received * tiles_[t].response_of(i);
             }
         }
         sources_.push_back({light_.points.uncertain_sides(groups_[g].spread, sights[g], certain_lx, kPoints),
