@@ -25,9 +25,9 @@ struct alignas(64) PointTile {
     std::array<Floats, kBands> response{};
     std::array<std::uint32_t, kPacketWidth> readings{};  ///< of the receivers
     std::span<const transport::Receiver> receivers;      ///< of the first lanes
-    bool directional = false;                        ///< the response of one of them depends on direction
-    bool has_bodies = false;                         ///< one of them is on no surface; its normal is 0
-    transport::VertexChoice choice{};                ///< of vertices that are connected
+    bool directional = false;                            ///< the response of one of them depends on direction
+    bool has_bodies = false;                             ///< one of them is on no surface; its normal is 0
+    transport::VertexChoice choice{};                    ///< of vertices that are connected
 
     Rgb response_of(std::size_t lane) const {
         return {{response[0][lane], response[1][lane], response[2][lane]}};

@@ -30,7 +30,7 @@ class FarParallelogram {
     double bilinear_sr(double u, double v) const;
 
     Vec3 corner_, edge_u_, edge_v_;
-    double factor_m3_ = 0;                  ///< the area times the height of the element over its plane
+    double factor_m3_ = 0;                 ///< the area times the height of the element over its plane
     std::array<double, 4> at_corners_sr_;  ///< first along edge u
 };
 

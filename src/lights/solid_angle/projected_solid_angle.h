@@ -1,12 +1,13 @@
 // The light of uniform emitters on a surface in closed form: the projected solid angle of an emitter's front,
 // which is the integral of the cosine over the directions to it above the horizon. Times the luminance it is
 // the illuminance without shadows. Points are sampled by it, too, so that every sample that is seen carries
-// the same light.
+// the same light, or about the same where a rectangle is far.
 //
 // A polygon's is Lambert's formula after clipping at the horizon [Lambert 1760]; it is sampled in sectors
 // about the normal after [Peters 2021, BRDF importance sampling for polygonal lights], a rectangle wholly
-// above the horizon along its edges (projected_parallelogram.h). A sphere's cone is an ellipse in the projection, cut off by the
-// horizon. A disk's is the contour integral along its rim, and it is sampled through its square.
+// above the horizon along its edges (projected_parallelogram.h). A sphere's cone is an ellipse in the
+// projection, cut off by the horizon. A disk's is the contour integral along its rim, and it is sampled
+// through its square.
 #pragma once
 
 #include <optional>
