@@ -53,8 +53,8 @@ class KernelChoice {
   private:
     using Floats = std::vector<float>;
 
-    /// The light that the points reflect towards a position relative to the centre.
-    Floats reflected_towards(const Vec3& position) const;
+    /// The light that the points reflect towards a position relative to the centre; with lobes, in `light`.
+    std::span<const float> reflected_towards(const Vec3& position, Floats& light) const;
     /// Sets light x w G of all points for a receiver. Returns the sum.
     float weigh_for(const transport::Receiver& receiver, double k_per_m2, Floats& weights) const;
 
