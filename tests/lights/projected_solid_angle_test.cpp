@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -171,6 +173,40 @@ TEST(ProjectedSolidAngle, WeightsOfFarRectanglesHaveItAsMean) {
         }
     }
     EXPECT_GT(far, 100u);
+}
+
+/// A parallelogram in front of the origin: skewed, a square or a strip, about as far as it is long or nearer.
+std::optional<FarParallelogram> random_parallelogram(math::SampleStream& stream) {
+    const Vec3 u = random_vector(stream), across = random_vector(stream);
+    const double kind = stream.next();
+    const double width = kind < 1. / 3 ? 1 : kind < 2. / 3 ? 0.1 : 0.01;
+    const Vec3 v = stream.next() < 0.5 ? across : width * normalized(cross(cross(u, across), u));
+    const auto [a, b] = stream.next_two();
+    const Vec3 corner =
+        -(3 * a - 1) * u - (3 * b - 1) * v - std::exp(10 * stream.next() - 9) * normalized(cross(u, v));
+    const Frame frame = Frame::around(random_direction(stream));
+    const Vec3 local = frame.to_local(corner), local_u = frame.to_local(u), local_v = frame.to_local(v);
+    if (!(local.z + std::min(local_u.z, 0.0) + std::min(local_v.z, 0.0) > 0)) return std::nullopt;
+    return FarParallelogram(local, local_u, local_v);
+}
+
+TEST(ProjectedSolidAngle, WeightsOfFarRectanglesAreNeverLarge) {
+    int far = 0;
+    for (std::uint64_t i = 0; i < 100'000; ++i) {
+        math::SampleStream stream({8}, i, 0);
+        const auto parallelogram = random_parallelogram(stream);
+        if (!parallelogram || !parallelogram->is_far()) continue;
+        ++far;
+        double least = std::numeric_limits<double>::infinity(), greatest = 0;
+        constexpr int steps = 20;
+        for (int j = 0; j < steps * steps; ++j) {
+            const double weight =
+                parallelogram->sample((j % steps + 0.5) / steps, (j / steps + 0.5) / steps).weight_sr;
+            least = std::min(least, weight), greatest = std::max(greatest, weight);
+        }
+        ASSERT_LT(greatest / least, 2) << i;
+    }
+    EXPECT_GT(far, 1000);
 }
 
 TEST(ProjectedSolidAngle, NothingArrivesInThePlaneOfAFlatEmitterAndBehindIt) {

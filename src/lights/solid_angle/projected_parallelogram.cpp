@@ -8,8 +8,10 @@ namespace {
 
 /// Newton's method ends with a step from an error below this, in shares of the whole: each step squares it.
 constexpr double kLastError = 1e-6;
-/// The density of a far parallelogram differs by no more than this factor from the bilinear one.
-constexpr double kFarFactor = 1.25;
+/// A far parallelogram is at least so many radii away. In the middles and at the centre its density differs
+/// by no more than this factor from the bilinear one; in between, at this distance, it then does by 1.4 at
+/// most.
+constexpr double kFarRadii = 3, kFarFactor = 1.25;
 
 Vec3 normal_of(const Vec3& from, const Vec3& edge) {
     const Vec3 across = cross(from, edge);
@@ -70,6 +72,10 @@ double FarParallelogram::bilinear_sr(double u, double v) const {
 }
 
 bool FarParallelogram::is_far() const {
+    const double diagonals_m2 =
+        std::max(squared_length(edge_u_ + edge_v_), squared_length(edge_u_ - edge_v_));
+    const Vec3 middle = corner_ + (edge_u_ + edge_v_) / 2;
+    if (squared_length(middle) < kFarRadii * kFarRadii / 4 * diagonals_m2) return false;
     constexpr std::array<std::array<double, 2>, 5> places{
         {{0.5, 0}, {0, 0.5}, {0.5, 0.5}, {1, 0.5}, {0.5, 1}}};
     return std::ranges::all_of(places, [&](const auto& place) {
