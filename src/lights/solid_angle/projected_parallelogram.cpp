@@ -8,10 +8,6 @@ namespace {
 
 /// Newton's method ends with a step from an error below this, in shares of the whole: each step squares it.
 constexpr double kLastError = 1e-6;
-/// A far parallelogram is at least so many radii away. In the middles and at the centre its density differs
-/// by no more than this factor from the bilinear one; in between, at this distance, it then does by 1.4 at
-/// most.
-constexpr double kFarRadii = 3, kFarFactor = 1.25;
 
 Vec3 normal_of(const Vec3& from, const Vec3& edge) {
     const Vec3 across = cross(from, edge);
@@ -48,49 +44,7 @@ double inverse_of_linear(double at_start, double at_end, double share) {
     return at_start + root > 0 ? share * (at_start + at_end) / (at_start + root) : share;
 }
 
-double between(double at_start, double at_end, double share) {
-    return at_start + share * (at_end - at_start);
-}
-
 }  // namespace
-
-FarParallelogram::FarParallelogram(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v)
-    : corner_(corner), edge_u_(edge_u), edge_v_(edge_v), factor_m3_(-dot(corner, cross(edge_u, edge_v))) {
-    for (std::size_t i = 0; i < at_corners_sr_.size(); ++i)
-        at_corners_sr_[i] = density_sr(static_cast<double>(i % 2), static_cast<double>(i / 2));
-}
-
-double FarParallelogram::density_sr(double u, double v) const {
-    const Vec3 point = corner_ + u * edge_u_ + v * edge_v_;
-    const double squared_m2 = squared_length(point);
-    return factor_m3_ * point.z / (squared_m2 * squared_m2);
-}
-
-double FarParallelogram::bilinear_sr(double u, double v) const {
-    const auto& [a, b, c, d] = at_corners_sr_;
-    return between(between(a, b, u), between(c, d, u), v);
-}
-
-bool FarParallelogram::is_far() const {
-    const double diagonals_m2 =
-        std::max(squared_length(edge_u_ + edge_v_), squared_length(edge_u_ - edge_v_));
-    const Vec3 middle = corner_ + (edge_u_ + edge_v_) / 2;
-    if (squared_length(middle) < kFarRadii * kFarRadii / 4 * diagonals_m2) return false;
-    constexpr std::array<std::array<double, 2>, 5> places{
-        {{0.5, 0}, {0, 0.5}, {0.5, 0.5}, {1, 0.5}, {0.5, 1}}};
-    return std::ranges::all_of(places, [&](const auto& place) {
-        const double ratio = density_sr(place[0], place[1]) / bilinear_sr(place[0], place[1]);
-        return ratio < kFarFactor && ratio > 1 / kFarFactor;
-    });
-}
-
-FarParallelogram::Sample FarParallelogram::sample(double u1, double u2) const {
-    const auto& [a, b, c, d] = at_corners_sr_;
-    const double u = inverse_of_linear(a + c, b + d, u1);
-    const double v = inverse_of_linear(between(a, b, u), between(c, d, u), u2);
-    const double whole_sr = (a + b + c + d) / 4;
-    return {u, v, whole_sr * density_sr(u, v) / bilinear_sr(u, v)};
-}
 
 /// The density of projected solid angle along a line parallel to edge v, by its share t of the edge: height
 /// times z over the fourth power of the distance, times the area.

@@ -2,37 +2,9 @@
 // parallel to an edge, as shadows of furniture often are, take even shares of low-discrepancy points.
 #pragma once
 
-#include <array>
-
 #include "geometry/shape.h"
 
 namespace stilb::lights {
-
-/// Far parallelograms: points by a bilinear density, which is that of the projected solid angle at the
-/// corners. Weights make up for the rest. A point takes a tenth of the time that Newton's method takes.
-class FarParallelogram {
-  public:
-    /// As ProjectedParallelogram.
-    FarParallelogram(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v);
-
-    /// Whether the weights are about equal.
-    bool is_far() const;
-    /// Shares of the edges from the corner.
-    struct Sample {
-        double u = 0, v = 0;
-        double weight_sr = 0;  ///< its mean is the projected solid angle
-    };
-    Sample sample(double u1, double u2) const;
-
-  private:
-    /// Of the projected solid angle, by the shares of both edges.
-    double density_sr(double u, double v) const;
-    double bilinear_sr(double u, double v) const;
-
-    Vec3 corner_, edge_u_, edge_v_;
-    double factor_m3_ = 0;                 ///< the area times the height of the element over its plane
-    std::array<double, 4> at_corners_sr_;  ///< first along edge u
-};
 
 /// A parallelogram above the horizon of an element at the origin, whose normal is the z axis.
 class ProjectedParallelogram {

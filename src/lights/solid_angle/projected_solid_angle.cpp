@@ -75,13 +75,8 @@ std::optional<ProjectedSample> sample_flat(const Rectangle& r, const Vec3& norma
     const double lowest = corner.z + std::min(0.0, u.z) + std::min(0.0, v.z);
     if (!(lowest > 0) || !sees_front(r.corner - at.position, normal))
         return sample_polygon(r, normal, at, stream);
-    const auto [u1, u2] = stream.next_two();
-    if (const FarParallelogram far(corner, u, v); far.is_far()) {
-        const auto sample = far.sample(u1, u2);
-        return ProjectedSample{{r.corner + sample.u * r.edge_u + sample.v * r.edge_v, normal},
-                               sample.weight_sr};
-    }
     const ProjectedParallelogram projection(corner, u, v);
+    const auto [u1, u2] = stream.next_two();
     if (!(projection.projected_solid_angle_sr() > 0)) return std::nullopt;
     const auto shares = projection.sample(u1, u2);
     return ProjectedSample{{r.corner + shares.u * r.edge_u + shares.v * r.edge_v, normal},

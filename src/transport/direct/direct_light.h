@@ -7,9 +7,8 @@
 // The projected solid angle has a closed form (lights/solid_angle/projected_solid_angle.h). The fraction is 1
 // for certain where no surface lies in the shaft between tile and lamp (rays/shaft_query.h), and for readings
 // 0 where one flat face hides all of the lamp: then no ray is traced. Elsewhere one shadow ray goes to a
-// point that is drawn by projected solid angle (about so on far rectangles), so that it is 0 or 1 but for
-// panes: there is little noise where all of the lamp is seen, and none where nothing of it is. The shadow
-// rays of a tile form packets.
+// point that is drawn by projected solid angle, so that it is 0 or 1 but for panes: there is no noise where
+// all of the lamp is seen, or nothing of it. The shadow rays of a tile form packets.
 //
 // A luminaire's opening that a reading sees for certain is integrated by quadrature, once
 // (transport/direct/opening_lamp.h).

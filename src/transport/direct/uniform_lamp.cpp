@@ -31,15 +31,14 @@ double UniformLamp::projected_solid_angle_sr(const lights::LitPoint& at) const {
 }
 
 std::optional<LampSample> UniformLamp::sample(const lights::LitPoint& at, math::SampleStream& stream) const {
-    const auto sample_of = [&](const lights::EmitterElement& element,
-                               double probability) -> std::optional<LampSample> {
+    const auto sample_of = [&](const lights::EmitterElement& element) -> std::optional<LampSample> {
         const auto sample = lights::sample_projected(element, at, stream);
         if (!sample) return std::nullopt;
         const auto& [position, normal, weight] = sample->point;
         return LampSample{position + lift_.offset_m(position, element.size_m) * normal,
-                          sample->weight_sr / probability * luminance_cd_m2_};
+                          sample->projected_solid_angle_sr * luminance_cd_m2_};
     };
-    if (elements_.size() == 1) return sample_of(elements_[0], 1);
+    if (elements_.size() == 1) return sample_of(elements_[0]);
     const double u = stream.next();
     std::array<double, kMostElements> sums;
     double total = 0;
@@ -47,7 +46,9 @@ std::optional<LampSample> UniformLamp::sample(const lights::LitPoint& at, math::
         sums[i] = total += lights::projected_solid_angle_sr(elements_[i], at);
     if (!(total > 0)) return std::nullopt;
     const auto choice = math::choose_by_sums({sums.data(), elements_.size()}, u);
-    return sample_of(elements_[choice.index], choice.probability);
+    auto sample = sample_of(elements_[choice.index]);
+    if (sample) sample->illuminance_lx = total * luminance_cd_m2_;
+    return sample;
 }
 
 }  // namespace stilb::transport
