@@ -100,14 +100,8 @@ SineMoments sine_moments(double start, double width) {
             sine * cosine_half + cosine * sine_half};
 }
 
-/// The interval of increasing `bounds` that holds `value`, which lies between the first and the last. Where
-/// the bounds are evenly spaced, as most tables are, it is found at once.
+/// The interval of increasing `bounds` that holds `value`, which lies between the first and the last.
 std::size_t interval_of(std::span<const double> bounds, double value) {
-    const std::size_t last = bounds.size() - 2;
-    const double place = (value - bounds.front()) / (bounds.back() - bounds.front());
-    const double even = place * static_cast<double>(last + 1);
-    const std::size_t guess = even > 0 ? std::min(static_cast<std::size_t>(even), last) : 0;
-    if (bounds[guess] <= value && value < bounds[guess + 1]) return guess;
     const auto above = std::upper_bound(bounds.begin() + 1, bounds.end() - 1, value);
     return static_cast<std::size_t>(above - bounds.begin()) - 1;
 }
@@ -176,7 +170,6 @@ PhotometricSolid::PhotometricSolid(const Grid& grid) : axes_(axes_of(grid.type))
         planes_ = {0, 2 * std::numbers::pi};
         const std::vector<double> only_plane = relative_intensity_;
         relative_intensity_.insert(relative_intensity_.end(), only_plane.begin(), only_plane.end());
-        is_symmetric_ = true;
     }
     add_up_flux();
     find_bounds();
@@ -238,10 +231,6 @@ double PhotometricSolid::intensity_cd(const Vec3& direction) const {
     const double polar = std::atan2(std::sqrt(local.x * local.x + local.y * local.y), local.z);
     if (polar < polar_.front() - kBorderRad || polar > polar_.back() + kBorderRad) return 0;
 
-    const std::size_t ring = interval_of(polar_, polar);
-    const double t = std::clamp((polar - polar_[ring]) / (polar_[ring + 1] - polar_[ring]), 0.0, 1.0);
-    if (is_symmetric_) return peak_cd_ * std::lerp(relative(0, ring), relative(0, ring + 1), t);
-
     const double turn = 2 * std::numbers::pi;
     double plane_angle = std::atan2(local.y, local.x);
     const double border = planes_.back() - planes_.front() < turn - kBorderRad ? kBorderRad : 0;
@@ -249,8 +238,10 @@ double PhotometricSolid::intensity_cd(const Vec3& direction) const {
     if (border > 0 && plane_angle > planes_.back() + border) return 0;
 
     const std::size_t plane = interval_of(planes_, plane_angle);
+    const std::size_t ring = interval_of(polar_, polar);
     const double s =
         std::clamp((plane_angle - planes_[plane]) / (planes_[plane + 1] - planes_[plane]), 0.0, 1.0);
+    const double t = std::clamp((polar - polar_[ring]) / (polar_[ring + 1] - polar_[ring]), 0.0, 1.0);
     const double here = std::lerp(relative(plane, ring), relative(plane, ring + 1), t);
     const double next = std::lerp(relative(plane + 1, ring), relative(plane + 1, ring + 1), t);
     return peak_cd_ * std::lerp(here, next, s);

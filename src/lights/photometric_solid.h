@@ -68,7 +68,6 @@ class PhotometricSolid {
     std::array<double, kBounds> bound_cd_{};  ///< in equal steps of cos(polar angle), from -1 on
     double flux_lm_ = 0;
     double peak_cd_ = 0;
-    bool is_symmetric_ = false;  ///< the same in all planes
 };
 
 }  // namespace stilb::lights
