@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -78,9 +77,7 @@ struct Tally {
     std::vector<double> half_widths{};
 
     void add(const statistics::Estimate& estimate, bool is_warned) {
-        // Exact readings differ by the rounding of sums over different numbers of samples.
-        const double rounding = 1e-12 * std::abs(truth);
-        const bool holds = estimate.lower - rounding <= truth && truth <= estimate.upper + rounding;
+        const bool holds = estimate.lower <= truth && truth <= estimate.upper;
         held += holds;
         warned += is_warned;
         wrong += !holds && !is_warned;

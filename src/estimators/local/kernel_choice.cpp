@@ -107,9 +107,8 @@ void KernelChoice::add(const Vec3& position, const Vec3& normal, double light, c
     lobes_.sharpness[i] = static_cast<float>(lobe.sharpness);
 }
 
-std::span<const float> KernelChoice::reflected_towards(const Vec3& position, Floats& light) const {
-    if (lobes_.base.empty()) return light_;
-    light = light_;
+auto KernelChoice::reflected_towards(const Vec3& position) const -> Floats {
+    Floats light = light_;
     const auto from = [&](const Floats& values) { return values.data() + first_lobe_; };
     reflect(FloatPoint(position, {}), lobes_.base.size(), from(position_[0]), from(position_[1]),
             from(position_[2]), lobes_.direction[0].data(), lobes_.direction[1].data(),
@@ -120,8 +119,9 @@ std::span<const float> KernelChoice::reflected_towards(const Vec3& position, Flo
 
 float KernelChoice::weigh_for(const transport::Receiver& receiver, double k_per_m2, Floats& weights) const {
     const Vec3 position = receiver.position() - center_;
-    Floats with_lobes;
-    const std::span<const float> light = reflected_towards(position, with_lobes);
+    Floats by_lobes;
+    if (!lobes_.base.empty()) by_lobes = reflected_towards(position);
+    const Floats& light = lobes_.base.empty() ? light_ : by_lobes;
     Sixteen parts{};
     weigh(FloatPoint(position, receiver.normal()), static_cast<float>(k_per_m2), weights.size(),
           position_[0].data(), position_[1].data(), position_[2].data(), normal_[0].data(), normal_[1].data(),

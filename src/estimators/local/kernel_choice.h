@@ -53,8 +53,9 @@ class KernelChoice {
   private:
     using Floats = std::vector<float>;
 
-    /// The light that the points reflect towards a position relative to the centre; with lobes, in `light`.
-    std::span<const float> reflected_towards(const Vec3& position, Floats& light) const;
+    /// The light that the points reflect towards a position relative to the centre. Precondition: there are
+    /// lobes; without, it is the same for all positions.
+    Floats reflected_towards(const Vec3& position) const;
     /// Sets light x w G of all points for a receiver. Returns the sum.
     float weigh_for(const transport::Receiver& receiver, double k_per_m2, Floats& weights) const;
 

@@ -21,7 +21,8 @@ struct alignas(64) PointTile {
     Floats inverse_k{};                         ///< of the bounded connection [m2]
     /// The number of reflections that light may have met before it arrives.
     std::array<std::int32_t, kPacketWidth> reflections_left{};
-    /// The constant responses of the receivers; 1 where the tile is directional.
+    /// The constant responses of the receivers: 1 of illuminance, [1/sr] of luminance. 1 where the tile is
+    /// directional.
     std::array<Floats, kBands> response{};
     std::array<std::uint32_t, kPacketWidth> readings{};  ///< of the receivers
     std::span<const transport::Receiver> receivers;      ///< of the first lanes

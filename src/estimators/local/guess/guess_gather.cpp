@@ -61,7 +61,7 @@ std::array<double, 2> gather_shift(const std::array<double, 2>& random, std::siz
 }
 
 GatherLanes::GatherLanes(const PointTile& tile, std::span<const std::array<double, 2>> shifts) {
-    Frame frame;
+    Frame frame;  // most receivers of a tile face alike
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const Vec3 normal{tile.normal_x[i], tile.normal_y[i], tile.normal_z[i]};
         if (i == 0 || normal != frame.w) frame = Frame::around(normal);
