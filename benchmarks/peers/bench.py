@@ -56,7 +56,8 @@ def sessions(task: Task, threads: int) -> dict:
 
 def find_size(session, ref: Reference, target: float, most_s: float, size: int) -> int:
     """The size that about reaches the target, or the largest one within `most_s`."""
-    pilots = max(int(8 / ref.values.size**0.5), 1)  # one run says little about the error of a single reading
+    # One run says little about the error of a single reading. Those of biased programs are long.
+    pilots = max(int((4 if session.is_biased else 32) / ref.values.size**0.5), 1)
     while True:
         runs = [session.run(size, 1001 + i) for i in range(pilots)]
         growth = np.mean([ref.squared_error(run.values) for run in runs]) / target**2
@@ -102,7 +103,8 @@ def rows_of(task: Task, ref: Reference, arguments) -> list[Row]:
         try:
             for target in task.targets:
                 size = find_size(session, ref, target, arguments.limit, size)
-                rows.append(row_of(task, name, session, ref, target, size, arguments.seeds or task.seeds))
+                seeds = arguments.seeds or (min(task.seeds, 4) if session.is_biased else task.seeds)
+                rows.append(row_of(task, name, session, ref, target, size, seeds))
                 print(line_of(rows[-1], rows), flush=True)
         except TakesTooLong:
             print(f"| {task.name} | | {name} | a run takes more than {LONGEST_S} s | | | | | | |", flush=True)

@@ -241,16 +241,21 @@ class ReachCheck {
         return false;
     }
 
+    /// Whether walks of a sensor have met a lamp, or the light from outside.
+    bool meets_light(const Trail& walks) const {
+        return (has_outside_ && walks.leaves_scene) ||
+               std::ranges::any_of(
+                   lamps_, [&](ObjectId lamp) -> bool { return walks.is_object_met[index_of(lamp)]; });
+    }
+
     void add_dark_sensors(std::vector<std::string>& warnings) {
         std::vector<std::string> dark;
         connections_ = 0;
-        const std::vector<Location> lit = lit_places(scene_, caster_);
+        std::vector<Location> lit;  // found for the first sensor that meets no light: it takes time
         for (const Surroundings& around : around_) {
-            const Trail& trail = around.trail;
-            const bool meets_lamp = std::ranges::any_of(
-                lamps_, [&](ObjectId lamp) -> bool { return trail.is_object_met[index_of(lamp)]; });
-            if (meets_lamp || (has_outside_ && trail.leaves_scene) ||
-                std::ranges::any_of(trail.locations,
+            if (meets_light(around.trail)) continue;
+            if (lit.empty()) lit = lit_places(scene_, caster_);
+            if (std::ranges::any_of(around.trail.locations,
                                     [&](const Location& place) { return is_connected(place, lit); }))
                 continue;
             if (connections_ > kMostConnections) break;

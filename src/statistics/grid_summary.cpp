@@ -101,7 +101,7 @@ class ExtremeFinder {
     }
 
     static StudentQuantiles quantiles(double tail, const PooledErrors<double>& errors) {
-        return {1 - tail, *std::ranges::max_element(errors.degrees_of_freedom)};
+        return {1 - tail, errors.degrees_of_freedom};
     }
 
     double sign_;

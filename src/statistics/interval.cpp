@@ -19,9 +19,13 @@ double student_t_quantile(double probability, int degrees_of_freedom) {
     return boost::math::quantile(distribution, probability);
 }
 
-StudentQuantiles::StudentQuantiles(double probability, int most) {
-    for (int degrees = 1; degrees <= most; ++degrees)
-        quantiles_.push_back(student_t_quantile(probability, degrees));
+StudentQuantiles::StudentQuantiles(double probability, std::span<const int> degrees_of_freedom)
+    : quantiles_(*std::ranges::max_element(degrees_of_freedom) + 1) {
+    std::vector<bool> occurs(quantiles_.size());
+    for (const int degrees : degrees_of_freedom) occurs[degrees] = true;
+    for (std::size_t degrees = 1; degrees < occurs.size(); ++degrees) {
+        if (occurs[degrees]) quantiles_[degrees] = student_t_quantile(probability, static_cast<int>(degrees));
+    }
 }
 
 std::vector<Estimate> estimate_readings(const ReplicateTable& table, double confidence,
@@ -30,7 +34,7 @@ std::vector<Estimate> estimate_readings(const ReplicateTable& table, double conf
     const auto& [standard_errors, degrees] = moments.errors;
     std::vector<Estimate> estimates(table.readings);
     if (estimates.empty()) return estimates;
-    const StudentQuantiles quantiles((1 + confidence) / 2, *std::ranges::max_element(degrees));
+    const StudentQuantiles quantiles((1 + confidence) / 2, degrees);
     for (std::size_t j = 0; j < estimates.size(); ++j) {
         const double half_width = quantiles(degrees[j]) * standard_errors[j];
         const double upper = rare_light.empty() ? half_width : std::hypot(half_width, rare_light[j]);

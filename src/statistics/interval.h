@@ -42,14 +42,15 @@ struct ReplicateTable {
 /// probability < 1).
 double student_t_quantile(double probability, int degrees_of_freedom);
 
-/// The quantiles of one probability for 1 to `most` degrees of freedom.
+/// The quantiles of one probability for the degrees of freedom (at least 1) that occur among many.
 class StudentQuantiles {
   public:
-    StudentQuantiles(double probability, int most);
-    double operator()(int degrees_of_freedom) const { return quantiles_[degrees_of_freedom - 1]; }
+    StudentQuantiles(double probability, std::span<const int> degrees_of_freedom);
+    /// For degrees of freedom that were given.
+    double operator()(int degrees_of_freedom) const { return quantiles_[degrees_of_freedom]; }
 
   private:
-    std::vector<double> quantiles_;
+    std::vector<double> quantiles_;  ///< by degrees of freedom; 0 for those that do not occur
 };
 
 /// Mean, standard error and two-sided Student-t interval, whose upper end allows for rare light (in

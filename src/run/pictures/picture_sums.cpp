@@ -125,8 +125,8 @@ statistics::PooledErrors<float> PictureSums::errors() const {
 double PictureSums::attained_error(const std::vector<bool>& blind) const {
     if (replicates() < 2) return std::numeric_limits<double>::infinity();
     const statistics::PooledErrors<float> errors = this->errors();
-    const int most = *std::ranges::max_element(errors.degrees_of_freedom);
-    const statistics::StudentQuantiles quantiles((1 + statistics::kStoppedConfidence) / 2, most);
+    const statistics::StudentQuantiles quantiles((1 + statistics::kStoppedConfidence) / 2,
+                                                 errors.degrees_of_freedom);
     std::vector<double> half_widths;
     for (std::size_t i = 0; i < blind.size(); ++i) {
         if (blind[i]) continue;
