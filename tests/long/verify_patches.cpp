@@ -22,8 +22,9 @@ constexpr std::array kDiffuseScenes{"ClosedBox", "ColouredBox", "Corners"};
 constexpr std::array kPhongScenes{"BroadPhong", "NarrowPhong"};
 constexpr std::array kSizes_m{0.6, 0.3, 0.15};
 constexpr double kTolerance = 0.01;
-/// A run is repeated with four times the paths until its own standard errors are this small.
+/// A run is repeated with more paths until its own standard errors are this small.
 constexpr double kNoise = 0.0025;
+constexpr double kLeastGrowth = 1.5, kMostGrowth = 16;  ///< of the paths
 constexpr std::uint64_t kFewestSteps = 128, kFewestParticles = 1 << 18, kFewestSamples = 1 << 9;
 constexpr int kMostRuns = 5;
 constexpr Vec3 kMiddle{2, 1.5, 1.3};
@@ -126,11 +127,17 @@ Difference difference(const statistics::Estimate& found, const statistics::Estim
 std::vector<Difference> differences(const Scene& scene, std::span<const Sensor> sensors, RunOptions options,
                                     std::span<const statistics::Estimate> expected) {
     std::vector<Difference> all;
-    for (int run = 0; run < kMostRuns; ++run, *options.paths *= 4) {
+    for (int run = 0; run < kMostRuns; ++run) {
         const auto found = means(run::measure(scene, sensors, options));
         all.clear();
-        for (std::size_t i = 0; i < found.size(); ++i) all.push_back(difference(found[i], expected[i]));
-        if (std::ranges::all_of(all, [](const Difference& one) { return one.own_error < kNoise; })) break;
+        double noise = 0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            all.push_back(difference(found[i], expected[i]));
+            noise = std::max(noise, all.back().own_error / kNoise);
+        }
+        if (noise < 1) break;
+        const double growth = std::clamp(1.3 * noise * noise, kLeastGrowth, kMostGrowth);
+        *options.paths = static_cast<std::uint64_t>(growth * static_cast<double>(*options.paths));
     }
     return all;
 }
