@@ -21,10 +21,8 @@ double student_t_quantile(double probability, int degrees_of_freedom) {
 
 StudentQuantiles::StudentQuantiles(double probability, std::span<const int> degrees_of_freedom)
     : quantiles_(*std::ranges::max_element(degrees_of_freedom) + 1) {
-    std::vector<bool> occurs(quantiles_.size());
-    for (const int degrees : degrees_of_freedom) occurs[degrees] = true;
-    for (std::size_t degrees = 1; degrees < occurs.size(); ++degrees) {
-        if (occurs[degrees]) quantiles_[degrees] = student_t_quantile(probability, static_cast<int>(degrees));
+    for (const int degrees : degrees_of_freedom) {
+        if (quantiles_[degrees] == 0) quantiles_[degrees] = student_t_quantile(probability, degrees);
     }
 }
 
