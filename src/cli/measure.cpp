@@ -59,7 +59,7 @@ void write_files(const RunResult& result, const MeasureRequest& request) {
     const auto replicates =
         request.has_replicates ? io::ReplicateValues::written : io::ReplicateValues::left_out;
     for (const std::string& file : json_files(request))
-        io::replace_file(file, io::to_json(result, request.scene, replicates));
+        io::replace_file(file, io::json_parts(result, request.scene, replicates));
     if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
     if (!request.picture.empty()) {
         plot::FalseColourOptions options;

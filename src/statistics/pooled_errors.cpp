@@ -15,9 +15,17 @@ constexpr std::size_t kReach = 2;
 /// share samples.
 constexpr double kMostPrior = 20;
 
-double relative_variance(double value, double standard_error) {
-    const double relative = standard_error / value;
-    return relative * relative;
+/// Relative variances; 0 where the value is not positive.
+template <typename Real>
+std::vector<double> relative_variances(std::span<const Real> values, std::span<const Real> standard_errors) {
+    std::vector<double> variances(values.size());
+    parallel_for_parts(values.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const double relative = double{standard_errors[i]} / double{values[i]};
+            variances[i] = values[i] > 0 ? relative * relative : 0;
+        }
+    });
+    return variances;
 }
 
 struct Pooled {
@@ -44,6 +52,7 @@ PooledErrors<Real> pool_errors(std::size_t width, std::span<const Real> values,
     PooledErrors<Real> result{{standard_errors.begin(), standard_errors.end()},
                               std::vector<int>(values.size(), degrees_of_freedom)};
     const std::size_t height = values.size() / width;
+    const std::vector<double> variances = relative_variances(values, standard_errors);
     parallel_for(height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
             const std::size_t own = y * width + x;
@@ -52,15 +61,13 @@ PooledErrors<Real> pool_errors(std::size_t width, std::span<const Real> values,
             for (std::size_t v = y - std::min(y, kReach); v <= std::min(height - 1, y + kReach); ++v) {
                 for (std::size_t u = x - std::min(x, kReach); u <= std::min(width - 1, x + kReach); ++u) {
                     const std::size_t other = v * width + u;
-                    if (!(values[other] > 0)) continue;
-                    const double variance =
-                        relative_variance(double{values[other]}, double{standard_errors[other]});
-                    ++count, sum += variance, squares += variance * variance;
+                    const double variance = variances[other];
+                    count += values[other] > 0 ? 1 : 0;
+                    sum += variance, squares += variance * variance;
                 }
             }
             const auto [variance, degrees] =
-                pooled(relative_variance(double{values[own]}, double{standard_errors[own]}), sum / count,
-                       squares * count / (sum * sum), degrees_of_freedom);
+                pooled(variances[own], sum / count, squares * count / (sum * sum), degrees_of_freedom);
             result.standard_errors[own] = static_cast<Real>(std::sqrt(variance) * double{values[own]});
             result.degrees_of_freedom[own] = static_cast<int>(degrees);
         }

@@ -78,6 +78,9 @@ TEST(Table, ReplacesFilesInOneStepAndLeavesLinks) {
     std::filesystem::create_symlink(path.string() + ".target", loose);
     replace_file(loose, "through a link to no file");
     EXPECT_EQ(read_text(path.string() + ".target"), "through a link to no file");
+    const std::vector<std::string> parts{"in ", "", "parts"};
+    replace_file(link, parts);
+    EXPECT_EQ(read_text(path), "in parts");
     replace_file("/dev/null", "nowhere");
     EXPECT_THROW(replace_file("/no/such/folder/a", ""), InputError);
 }

@@ -220,43 +220,43 @@ void append_reading(const SensorResult& result, std::size_t j, ReplicateValues r
     if (replicates == ReplicateValues::written) add_replicates(result, j, object);
 }
 
-/// The readings of a sensor as JSON, in their order, a line for each; in parts, which are made in parallel.
-std::vector<std::string> reading_texts(const SensorResult& result, ReplicateValues replicates) {
+/// Appends the readings of a sensor as JSON, in their order, a line for each; in parts, which are made in
+/// parallel.
+void append_readings(const SensorResult& result, ReplicateValues replicates,
+                     std::vector<std::string>& parts) {
     constexpr std::size_t kPart = 1024;
-    const std::size_t count = result.readings.size();
-    std::vector<std::string> parts((count + kPart - 1) / kPart);
-    parallel_for(parts.size(), [&](std::size_t p) {
+    const std::size_t count = result.readings.size(), before = parts.size();
+    parts.resize(before + (count + kPart - 1) / kPart);
+    parallel_for(parts.size() - before, [&](std::size_t p) {
+        std::string& part = parts[before + p];
         for (std::size_t j = p * kPart; j < std::min(count, (p + 1) * kPart); ++j) {
-            parts[p] += j > 0 ? ",\n    " : "\n    ";
-            append_reading(result, j, replicates, parts[p]);
+            part += j > 0 ? ",\n    " : "\n    ";
+            append_reading(result, j, replicates, part);
         }
     });
-    return parts;
 }
 
 /// `document` with an array of the readings in place of each `"values": null`.
-std::string with_readings(std::string_view document, std::span<const SensorResult> sensors,
-                          ReplicateValues replicates) {
+std::vector<std::string> with_readings(std::string_view document, std::span<const SensorResult> sensors,
+                                       ReplicateValues replicates) {
     constexpr std::string_view kKey = "\"values\": ", kNull = "null";
-    std::string text;
+    std::vector<std::string> parts;
     for (const SensorResult& sensor : sensors) {
         // It occurs for each sensor only, because quotation marks within texts are escaped.
         const std::size_t end = document.find(kKey) + kKey.size();
-        const std::vector<std::string> parts = reading_texts(sensor, replicates);
-        std::size_t length = text.size() + document.size();
-        for (const std::string& part : parts) length += part.size();
-        text.reserve(length + 8);
-        text.append(document.substr(0, end)).append("[");
-        for (const std::string& part : parts) text += part;
-        text += "\n   ]";
+        parts.push_back(fmt::format("{}[", document.substr(0, end)));
+        append_readings(sensor, replicates, parts);
+        parts.emplace_back("\n   ]");
         document.remove_prefix(end + kNull.size());
     }
-    return text.append(document);
+    parts.emplace_back(document);
+    return parts;
 }
 
 }  // namespace
 
-std::string to_json(const RunResult& result, const std::string& scene, ReplicateValues replicates) {
+std::vector<std::string> json_parts(const RunResult& result, const std::string& scene,
+                                    ReplicateValues replicates) {
     Json json{{"stilb", STILB_VERSION},
               {"scene", scene},
               {"scene_name", result.scene_name},
@@ -287,7 +287,11 @@ std::string to_json(const RunResult& result, const std::string& scene, Replicate
     Json list = Json::array();
     for (const SensorResult& sensor : result.sensors) list.push_back(sensor_json(sensor, sensor.sensor));
     json["sensors"] = std::move(list);
-    return with_readings(json.dump(1), result.sensors, replicates) + "\n";
+    return with_readings(json.dump(1) + "\n", result.sensors, replicates);
+}
+
+std::string to_json(const RunResult& result, const std::string& scene) {
+    return fmt::format("{}", fmt::join(json_parts(result, scene, ReplicateValues::left_out), ""));
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "run/result.h"
 
@@ -12,10 +13,14 @@ namespace stilb::io {
 /// Whether each reading is written with its values in all replicates.
 enum class ReplicateValues { left_out, written };
 
-/// `scene` is the scene file as the user named it. Two runs with the same results give the same text except
-/// for elapsed_s and first_shot_set_up_s.
-std::string to_json(const RunResult& result, const std::string& scene,
-                    ReplicateValues replicates = ReplicateValues::left_out);
+/// The document in parts that follow each other: that of half a million readings has 100 megabytes. `scene`
+/// is the scene file as the user named it. Two runs with the same results give the same text except for
+/// elapsed_s and first_shot_set_up_s.
+std::vector<std::string> json_parts(const RunResult& result, const std::string& scene,
+                                    ReplicateValues replicates);
+
+/// The same as a whole, without the replicates.
+std::string to_json(const RunResult& result, const std::string& scene);
 
 // The results of a run as CSV, a file per sensor.
 

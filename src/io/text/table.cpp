@@ -17,6 +17,8 @@ namespace stilb::io {
 
 namespace {
 
+using Parts = std::span<const std::string_view>;
+
 InputError cannot_write(const std::filesystem::path& path) {
     return InputError(
         fmt::format("cannot write '{}'. Check that its folder exists and is writable.", path.string()));
@@ -36,6 +38,14 @@ std::filesystem::path without_links(const std::filesystem::path& path) {
     return error ? path : target;
 }
 
+void write_parts(const std::filesystem::path& path, Parts parts) {
+    std::ofstream file(path, std::ios::binary);
+    for (const std::string_view part : parts)
+        file.write(part.data(), static_cast<std::streamsize>(part.size()));
+    file.close();
+    if (!file) throw cannot_write(path);
+}
+
 std::atomic<const char*> unfinished = nullptr;
 static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads it");
 
@@ -43,13 +53,12 @@ static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler r
 /// system. It is the unfinished one, and is removed at the end unless it has taken the other one's name.
 class TemporaryFile {
   public:
-    TemporaryFile(const std::filesystem::path& beside, std::string_view content)
-        : beside_(beside), path_(beside) {
+    TemporaryFile(const std::filesystem::path& beside, Parts parts) : beside_(beside), path_(beside) {
         path_ += fmt::format(".{:08x}", std::random_device()());
         const char* none = nullptr;
         is_announced_ = unfinished.compare_exchange_strong(none, path_.c_str());
         try {
-            write_file(path_, content);
+            write_parts(path_, parts);
         } catch (const InputError&) {
             remove();
             throw cannot_write(beside);
@@ -76,6 +85,17 @@ class TemporaryFile {
     bool is_announced_ = false;
 };
 
+void replace_file_by(const std::filesystem::path& path, Parts parts) {
+    if (is_standard_output(path)) {
+        // Errors are not handled here: main() checks at the end whether standard output was written.
+        for (const std::string_view part : parts) std::fwrite(part.data(), 1, part.size(), stdout);
+        return;
+    }
+    const std::filesystem::path target = without_links(path);
+    if (must_stay(target)) return write_parts(path, parts);
+    TemporaryFile(target, parts).take_name();
+}
+
 }  // namespace
 
 bool is_standard_output(const std::filesystem::path& path) { return path == "-"; }
@@ -93,27 +113,21 @@ void require_writable(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(target, error)) {
         throw InputError("the file cannot be written: this is a folder. Name a file in it.", {path.string()});
     }
-    if (!must_stay(target)) const TemporaryFile attempt(target, "");
+    if (!must_stay(target)) const TemporaryFile attempt(target, {});
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
-    std::ofstream file(path, std::ios::binary);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
-    if (!file) throw cannot_write(path);
+    write_parts(path, {&content, 1});
 }
 
 const char* unfinished_file() { return unfinished; }
 
 void replace_file(const std::filesystem::path& path, std::string_view content) {
-    if (is_standard_output(path)) {
-        // Errors are not handled here: main() checks at the end whether standard output was written.
-        std::fwrite(content.data(), 1, content.size(), stdout);
-        return;
-    }
-    const std::filesystem::path target = without_links(path);
-    if (must_stay(target)) return write_file(path, content);
-    TemporaryFile(target, content).take_name();
+    replace_file_by(path, {&content, 1});
+}
+
+void replace_file(const std::filesystem::path& path, std::span<const std::string> parts) {
+    replace_file_by(path, std::vector<std::string_view>(parts.begin(), parts.end()));
 }
 
 namespace {

@@ -26,6 +26,8 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// the file that it leads to is replaced. (What is not a plain file, such as a device, is written to
 /// directly.)
 void replace_file(const std::filesystem::path& path, std::string_view content);
+/// The content in parts that follow each other.
+void replace_file(const std::filesystem::path& path, std::span<const std::string> parts);
 
 /// The temporary file that replace_file() is writing, or nullptr. For a signal handler, which may remove it;
 /// it is one of them where several threads write files.
