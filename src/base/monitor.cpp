@@ -9,6 +9,14 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenReports{100};
 
+std::string place(std::string_view stage, double share) {
+    return fmt::format(" ({}, {:.0f} % done)", stage, 100 * share);
+}
+
+Cancelled interrupted(std::string_view where) {
+    return Cancelled(fmt::format("interrupted during set-up{}: there is no result yet", where));
+}
+
 }  // namespace
 
 const Monitor& Monitor::none() {
@@ -17,15 +25,12 @@ const Monitor& Monitor::none() {
 }
 
 void Monitor::require_more() const {
-    if (is_interrupted()) throw Cancelled("interrupted");
-    if (is_time_over()) throw Cancelled("time limit reached");
+    if (is_interrupted()) throw interrupted("");
+    if (is_time_over()) throw time_over("");
 }
 
 void Monitor::report(std::string_view stage, double share) const {
-    if (is_interrupted()) {
-        throw Cancelled(fmt::format("interrupted during set-up ({}, {:.0f} % done): there is no result yet",
-                                    stage, 100 * share));
-    }
+    if (is_interrupted()) throw interrupted(place(stage, share));
     if (!report_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return;
@@ -37,12 +42,15 @@ void Monitor::report(std::string_view stage, double share) const {
 }
 
 void Monitor::require_time(std::string_view stage, double share) const {
-    if (!is_time_over()) return;
+    if (is_time_over()) throw time_over(place(stage, share));
+}
+
+Cancelled Monitor::time_over(std::string_view where) const {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    throw Cancelled(
-        fmt::format("time limit reached during set-up after {:.2g} s ({}, {:.0f} % done): there is no result "
-                    "yet. Allow more time, or reduce the work: larger patches, a lower resolution.",
-                    elapsed_s, stage, 100 * share));
+    return Cancelled(
+        fmt::format("time limit reached during set-up after {:.2g} s{}: there is no result yet. Allow more "
+                    "time, or reduce the work: fewer readings or pixels, larger patches.",
+                    elapsed_s, where));
 }
 
 Stage::Stage(const Monitor& monitor, std::string name, std::size_t parts)

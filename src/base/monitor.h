@@ -34,8 +34,8 @@ class Monitor {
 
     bool is_interrupted() const { return interrupt_ && *interrupt_; }
     bool is_time_over() const { return deadline_ && Clock::now() > *deadline_; }
-    /// Throws Cancelled where the user has interrupted or the time limit is reached. Some 30 ns: for every
-    /// microsecond or more of work.
+    /// Throws Cancelled where the user has interrupted or the time limit is reached; its message is that of a
+    /// set-up. Some 30 ns: for every microsecond or more of work.
     void require_more() const;
     /// Throws Cancelled where the user has interrupted.
     void report(std::string_view stage, double share) const;
@@ -43,6 +43,8 @@ class Monitor {
     void require_time(std::string_view stage, double share) const;
 
   private:
+    Cancelled time_over(std::string_view where) const;
+
     const std::atomic<bool>* interrupt_ = nullptr;
     std::optional<Clock::time_point> deadline_;
     Report report_;

@@ -137,6 +137,20 @@ Watcher sleeper(const char* stage, double until_s) {
     return watcher;
 }
 
+/// Where a stage does not say how far it is, the message still says what was reached, and what to do.
+TEST(Monitor, SaysWhatEndsASetUp) {
+    std::atomic<bool> interrupt = true;
+    const Monitor interrupted(&interrupt, std::nullopt, {});
+    EXPECT_EQ(cancelled([&] { interrupted.require_more(); }),
+              "interrupted during set-up: there is no result yet");
+    const Monitor late(nullptr, Monitor::Clock::now(), {});
+    const std::string message = cancelled([&] { late.require_more(); });
+    EXPECT_TRUE(message.starts_with("time limit reached during set-up after")) << message;
+    EXPECT_NE(message.find("there is no result yet. Allow more time, or"), std::string::npos) << message;
+    const Monitor patient(nullptr, std::nullopt, {});
+    EXPECT_NO_THROW(patient.require_more());
+}
+
 TEST(TimeLimit, EndsTheSetUpWithoutAResult) {
     for (const auto& [method, stage] : {std::pair{"radiosity", "first shot"},
                                         {"ray-bundle", "first shot"},
