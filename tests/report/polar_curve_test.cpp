@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "report/luminaires.h"
 
@@ -24,16 +26,17 @@ PhotometricSolid solid_of(const Intensity& intensity_cd) {
 struct PathPoint {
     double x, y;
 };
+/// The path of the class with more than two points; the key has one of two.
 std::vector<PathPoint> curve(const std::string& markup, const std::string& css_class) {
-    std::smatch found;
+    const std::string start = "class=\"" + css_class + "\" d=\"";
     std::vector<PathPoint> points;
-    if (!std::regex_search(markup, found,
-                           std::regex("class=\"" + css_class + "\" d=\"(M[^\"]*L[^\"]*L[^\"]*)\"")))
-        return points;
-    const std::string path = found[1];
-    const std::regex pair("[ML](-?[0-9.]+) (-?[0-9.]+)");
-    for (auto i = std::sregex_iterator(path.begin(), path.end(), pair); i != std::sregex_iterator(); ++i)
-        points.push_back({std::stod((*i)[1]), std::stod((*i)[2])});
+    for (std::size_t at = markup.find(start); at != std::string::npos && points.size() < 3;
+         at = markup.find(start, at + 1)) {
+        std::istringstream path(markup.substr(at + start.size()));
+        points.clear();
+        PathPoint point{};
+        for (char command = 0; path >> command >> point.x >> point.y;) points.push_back(point);
+    }
     return points;
 }
 
