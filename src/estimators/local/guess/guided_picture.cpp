@@ -23,6 +23,27 @@ constexpr std::size_t kVertices = 12;
 constexpr std::uint64_t kPixelsPerPath = 128;
 constexpr std::uint64_t kMostPaths = 2048;
 
+/// Points of the guess for the sub-points of a cell, chosen for some that are spread over it.
+struct CellPoints {
+    struct Spread {
+        Vec3 position, normal;
+    };
+    std::vector<Spread> spread;
+    GuessPoints::Choice choice;
+
+    /// Whether each receiver is near to one of these and faces alike. If not, what brings most of its light
+    /// may be chosen rarely, and count much then: wall and floor see each other, but not themselves.
+    bool is_for(std::span<const transport::Receiver> receivers, double k_per_m2) const {
+        constexpr double parallel = 0.9, near = 0.25;  // connections vary little over a distance of k^-1/2
+        return std::ranges::all_of(receivers, [&](const transport::Receiver& receiver) {
+            return std::ranges::any_of(spread, [&](const Spread& other) {
+                return dot(receiver.normal(), other.normal) > parallel &&
+                       squared_length(receiver.position() - other.position) * k_per_m2 < near;
+            });
+        });
+    }
+};
+
 class GuidedPicture final : public LocalPicture {
   public:
     GuidedPicture(const LocalTransport& transport, const Problem& problem, const GuidedLight& guide)
@@ -92,10 +113,13 @@ class GuidedPicture final : public LocalPicture {
             const GuidedLight& guide = picture_.guide_;
             std::vector<std::array<double, 2>> shifts;
             for (const Pixel& pixel : packet.pixels) shifts.push_back(shift_of(pixel, pass_));
-            const GuessPoints::Choice& near = picture_.points_of(packet.pixels[0]);
+            const CellPoints& of_cell = picture_.points_of(packet.pixels[0]);
+            std::optional<GuessPoints::Choice> own;
+            if (!of_cell.is_for(packet.receivers, guide.points.k_per_m2(kPoints)))
+                own = guide.points.all_sides(packet.receivers, kPoints);
             std::vector<EmittingPoint> points;
             guide.points.select(
-                near,
+                own ? *own : of_cell.choice,
                 {fraction(selection_point_[0] + shifts[0][0]), fraction(selection_point_[1] + shifts[0][1])},
                 points);
             for (const PointTile& tile : tiles) {
@@ -140,11 +164,15 @@ class GuidedPicture final : public LocalPicture {
         return divided;
     }
 
-    /// The weights of the guess's points for the sub-points around a pixel.
-    const GuessPoints::Choice& points_of(const Pixel& pixel) const {
+    const CellPoints& points_of(const Pixel& pixel) const {
         const std::size_t cell = sub_points_.cell_of(pixel);
-        return points_of_.of(
-            cell, [&] { return guide_.points.all_sides(sub_points_.of_cell(cell, plan_), kPoints); });
+        return points_of_.of(cell, [&] {
+            const std::vector<transport::Receiver> receivers = sub_points_.of_cell(cell, plan_);
+            CellPoints points{{}, guide_.points.all_sides(receivers, kPoints)};
+            for (const transport::Receiver& receiver : receivers)
+                points.spread.push_back({receiver.position(), receiver.normal()});
+            return points;
+        });
     }
 
     std::vector<transport::LightVertex> trace_residual(const Pass& pass) const {
@@ -171,7 +199,7 @@ class GuidedPicture final : public LocalPicture {
     SubPoints sub_points_;
     LightPathReception reception_;
     Pass plan_;  ///< its sub-points represent the cells'
-    OfCells<GuessPoints::Choice> points_of_;
+    OfCells<CellPoints> points_of_;
 };
 
 }  // namespace
