@@ -112,7 +112,7 @@ double pixel_variance(const Scene& scene, const Camera& camera, int first_row, i
 }
 
 /// Cells of 16 x 16 pixels are planned from some of their sub-points. Here all of these lie on the floor, but
-/// the two rows above show the wall, whose light must not be chosen as if it were floor: floors do not light
+/// the rows above show the wall, too, whose light must not be chosen as if it were floor: floors do not light
 /// themselves.
 TEST(Render, IsAsSureWherePlanningSawOneOfTwoSurfaces) {
     Scene scene;
