@@ -60,7 +60,7 @@ constexpr int kPilotBlock = 8, kPilotRows = 4;
 constexpr std::uint64_t kPilotPasses = 4, kPilotReplicates = 2;
 /// The processor time of a pass by the guess over that of one without, where all is diffuse, and with gloss,
 /// whose light comes by light paths in both (docs/performance.md).
-constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.8;
+constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.5;
 
 /// The readings of the parts of a pilot.
 struct Pilot {

@@ -11,6 +11,10 @@
 namespace stilb::estimators {
 namespace {
 
+/// Directions in which the light that comes to a point y is sought. Few rays get so far, and most of their
+/// noise is that of what comes next: a bright spot under the ceiling, say (docs/performance.md).
+constexpr int kBeams = 2;
+
 /// A point y that a ray has met, and the receivers of the ray's packet that may see it. Keeps references.
 class SharedPoint {
   public:
@@ -197,17 +201,20 @@ void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t 
     if (const auto light = tracer_.sample_light(hit, stream)) {
         // BRDF samples may hit emitters, too; the balance heuristic weights both techniques.
         const double light_density = light->pdf_per_sr * ray_density;
-        const double share = std::isinf(light_density)
-                                 ? 1
-                                 : light_density / (light_density + shared.beam_density(light->direction));
+        const double share =
+            std::isinf(light_density)
+                ? 1
+                : light_density / (light_density + kBeams * shared.beam_density(light->direction));
         shared.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
     }
-    if (const auto beam = shared.sample_beam(own, stream)) {
-        const transport::PreviousVertex previous_vertex{beam->density / ray_density, hit.position,
+    for (int i = 0; i < kBeams; ++i) {
+        const auto beam = shared.sample_beam(own, stream);
+        if (!beam) continue;
+        const transport::PreviousVertex previous_vertex{kBeams * beam->density / ray_density, hit.position,
                                                         hit.normal};
         const Rgb luminance = tracer_.incoming_luminance({hit.lifted, beam->direction}, previous_vertex,
                                                          tile.reflections_left[own] - 1, stream);
-        shared.reflect(beam->direction, luminance * (weight * beam->weight / beam->density), sums);
+        shared.reflect(beam->direction, luminance * (weight * beam->weight / (kBeams * beam->density)), sums);
     }
 }
 }  // namespace stilb::estimators

@@ -16,9 +16,9 @@ namespace stilb::estimators {
 ///     integral over the hemisphere of L_r(y, y->x) (1 - w) response(x->y) cos(theta_x) dw    (theory T.1b)
 ///
 /// with w of weights.h. In a round every receiver of a packet sends out a ray about in proportion to
-/// response x cosine, and the continuation from the point y that it meets serves all receivers of the packet
-/// that see y: path reuse [Bekaert et al. 2002], by the balance heuristic over the rays that could have met
-/// y.
+/// response x cosine, and two paths that go on from the point y that it meets serve all receivers of the
+/// packet that see y: path reuse [Bekaert et al. 2002], by the balance heuristic over the rays that could
+/// have met y.
 ///
 /// Surfaces seen by mirrors and glass always have w = 0, because no light vertex on a specular surface can be
 /// connected to x, and serve only the receiver whose ray it is; emission counts behind them only: the rest is
