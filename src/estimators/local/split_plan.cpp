@@ -17,10 +17,10 @@ namespace {
 
 // Costs in units of one shadow ray of a connection, and factors of the variance model; measured in the
 // example office.
-constexpr double kRayCost = 12;         ///< a gathering ray to its hit
-constexpr double kPathCost = 120;       ///< the paths that go on, shared by the packet
-constexpr double kSegmentCost = 12;     ///< a light path's segment from one vertex to the next
-constexpr double kPathVariance = 0.35;  ///< with Sobol' points, relative to independent paths
+constexpr double kRayCost = 12;        ///< a gathering ray to its hit
+constexpr double kPathCost = 75;       ///< one of the paths that go on, shared by the packet
+constexpr double kSegmentCost = 12;    ///< a light path's segment from one vertex to the next
+constexpr double kPathVariance = 0.5;  ///< with Sobol' points, relative to independent paths
 /// The remaining share of the variance after even selection, for a kernel that varies slowly, and the number
 /// of vertices that lie evenly; a kernel that is peaked between two of these keeps its variance.
 constexpr double kEvenVariance = 0.1;
