@@ -16,9 +16,10 @@ namespace stilb::estimators {
 namespace {
 
 // Costs in units of one shadow ray of a connection, and factors of the variance model; measured in the
-// example office.
+// example office. Two paths go on from a ray's end, of which the model counts one: with cost and variance of
+// both, plans are no better, and auto chooses the guess where it is slower (docs/performance.md).
 constexpr double kRayCost = 12;        ///< a gathering ray to its hit
-constexpr double kPathCost = 75;       ///< one of the paths that go on, shared by the packet
+constexpr double kPathCost = 75;       ///< a path that goes on, shared by its packet
 constexpr double kSegmentCost = 12;    ///< a light path's segment from one vertex to the next
 constexpr double kPathVariance = 0.5;  ///< with Sobol' points, relative to independent paths
 /// The remaining share of the variance after even selection, for a kernel that varies slowly, and the number
