@@ -174,7 +174,8 @@ TEST_F(PaleBall, PacesKeepTheExpectation) {
         estimators::ReadingSums sums(points_.size());
         constexpr std::uint64_t at_once = 8;
         for (std::uint64_t first = 0; first < kSamples; first += at_once)
-            method->run_batch({key_.derived(3).derived(r), first, at_once, paces}, sums);
+            method->run_batch({key_.derived(3).derived(r), first, std::min(at_once, kSamples - first), paces},
+                              sums);
         for (std::size_t j = 0; j < points_.size(); ++j) {
             const auto taken = static_cast<double>(paces[packets[j]].taken(kSamples));
             means[j][r] = (method->known_part()[j] + sums.sum[j] * (1 / taken)).luminance();

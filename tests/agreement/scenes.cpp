@@ -462,7 +462,7 @@ std::span<const AgreementScene> agreement_scenes() {
         {"NarrowPhong", nothing, {}, narrow_phong_box, inside, {}},
         {"MirrorAndPanel", nothing, {}, mirror_and_panel, inside, {}},
         {"MirrorAboveTheLight", nothing, {}, mirror_above_the_light, inside, {}},
-        {"MirrorAndPointLight", light_from_mirrors, {}, mirror_and_point_light, near_walls, {}},
+        {"MirrorAndPointLight", light_from_mirrors, {}, mirror_and_point_light, near_walls, {}, {}, 2},
         {"RoomsWithSlit", nothing, {}, rooms_with_slit, both_rooms, {}},
         {"SphereLightAtWall", nothing, {}, sphere_light_at_wall, inside, {}},
         {"MeshLight", nothing, {}, mesh_light, inside, {}},

@@ -26,7 +26,8 @@ struct AgreementScene {
     std::vector<MeasuringPoint> points;
     std::vector<Measurand> sights;  ///< of luminance
     std::vector<Sensor> bodies{};   ///< cylindrical illuminance and the like
-    /// A factor on the number of paths, where light is so rare that a pilot run underestimates its noise.
+    /// A factor on the number of paths: where light is so rare that a pilot run underestimates its noise, and
+    /// where two methods at two points have few chances to notice an error.
     std::uint64_t path_factor = 1;
 
     /// Points, sights and bodies.

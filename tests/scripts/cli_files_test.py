@@ -129,7 +129,7 @@ class ResultsFileTest(FilesTest):
 
 class ShortfallTest(FilesTest):
     def test_a_picture_or_solution_that_missed_its_error_is_written_and_says_so(self):
-        scene = self.write("exact.toml", ROOM + CAMERA.replace("[640, 480]", "[64, 48]") + "[run]\nerror = 1e-4\ntime = 2\n")
+        scene = self.write("exact.toml", ROOM + CAMERA.replace("[640, 480]", "[64, 48]") + "[run]\nerror = 1e-4\ntime = 5\n")
         for command, name in ((["render"], "view.exr"), (["solve", "--patch", 1], "room.solution")):
             with self.subTest(command=command[0]):
                 output = self.folder / name

@@ -170,7 +170,7 @@ class ReportTest(CommandLineTest):
                                 "no measured sensor has a key \"require\"")
 
     def test_the_end_before_the_error_is_told(self):
-        _, page = self.report("--error", "0.0001%", "--time", "0.3", code=3)
+        _, page = self.report("--error", "0.0001%", "--time", "2", code=3)
         self.assertIn("ended at its time limit, before the requested error was reached.", page.text)
         self.assertRegex(page.text, r"\d+ of 7 readings reach it")
 

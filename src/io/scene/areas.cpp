@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "io/scene/fields.h"
@@ -37,7 +38,7 @@ std::vector<Vec3> read_corners(const TomlItem& list, const std::optional<double>
 }  // namespace
 
 sensors::PolygonInSpace read_polygon(const TomlTable& table) {
-    const std::string_view given = table.one_of({"corners", "corner", "object"}).key;
+    const std::string given = table.one_of({"corners", "corner", "object"}).key;
     if (given == "object") {
         for (const char* key : {"height", "holes", "edge_u", "edge_v"}) table.expect_not_both("object", key);
         return {};
