@@ -16,8 +16,9 @@ namespace stilb::estimators {
 namespace {
 
 // Costs in units of one shadow ray of a connection, and factors of the variance model; measured in the
-// example office. Two paths go on from a ray's end, of which the model counts one: with cost and variance of
-// both, plans are no better, and auto chooses the guess where it is slower (docs/performance.md).
+// example office. From the end of a gathering ray two paths go on. The model has the cost and the variance of
+// one path. A model of both paths was tried: plans became no better, and auto chose the guess of the light in
+// a scene where it is slower (docs/performance.md).
 constexpr double kRayCost = 12;        ///< a gathering ray to its hit
 constexpr double kPathCost = 75;       ///< a path that goes on, shared by its packet
 constexpr double kSegmentCost = 12;    ///< a light path's segment from one vertex to the next
