@@ -129,7 +129,8 @@ std::vector<Difference> differences(const Scene& scene, std::span<const Sensor> 
                                     std::span<const statistics::Estimate> expected, double wanted_noise) {
     std::vector<Difference> all;
     for (int run = 0; run < kMostRuns; ++run) {
-        const auto found = means(run::measure(scene, sensors, options));
+        const RunResult result = run::measure(scene, sensors, options);
+        const auto found = means(result);
         all.clear();
         double noise = 0;
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -138,7 +139,8 @@ std::vector<Difference> differences(const Scene& scene, std::span<const Sensor> 
         }
         if (noise < 1) break;
         const double growth = std::clamp(1.3 * noise * noise, kLeastGrowth, kMostGrowth);
-        *options.paths = static_cast<std::uint64_t>(growth * static_cast<double>(*options.paths));
+        // A run makes at least a batch for each replicate, however few samples are asked for.
+        *options.paths = static_cast<std::uint64_t>(growth * static_cast<double>(result.samples));
     }
     return all;
 }
