@@ -208,7 +208,16 @@ bool cover_agreement_scene(const AgreementScene& of, std::size_t seeds) {
     return cover(of.name, scene, sensors, options, truth, seeds);
 }
 
+bool is_known(std::string_view name) {
+    return std::ranges::any_of(kCases, [&](const Case& of) { return of.scene == name; }) ||
+           std::ranges::any_of(agreement_scenes(), [&](const AgreementScene& of) { return of.name == name; });
+}
+
 int verify(std::size_t seeds, std::string_view only) {
+    if (!only.empty() && !is_known(only)) {
+        fmt::print("There is no scene \"{}\".\n", only);
+        return 1;
+    }
     fmt::print(
         "| scene | run | reading | truth | median ± | holds | warned | wrong without a warning |\n"
         "|---|---|---|---|---|---|---|---|\n");

@@ -149,9 +149,12 @@ int main(int argc, char** argv) {
     const std::size_t seeds = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 400;
     const std::string_view chosen = argc > 2 ? argv[2] : "";
     fmt::print("{:30} {:>8} {:>12} {:>12}\n", "48 x 48 pixels or points", "holds", "some < 90", "planted");
-    bool good = true;
+    std::size_t cases = 0, good = 0;
     for (const stilb::Case& of : stilb::kCases) {
-        if (of.name.find(chosen) != std::string_view::npos) good = stilb::verify(of, seeds) && good;
+        if (of.name.find(chosen) == std::string_view::npos) continue;
+        ++cases;
+        good += stilb::verify(of, seeds);
     }
-    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+    fmt::print("{} of {} cases hold\n", good, cases);
+    return cases > 0 && good == cases ? EXIT_SUCCESS : EXIT_FAILURE;
 }
