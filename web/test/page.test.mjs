@@ -69,6 +69,29 @@ test("walks by keys, on the floor and not through a wall", { skip: missing }, as
   await page.close();
 });
 
+test("walks by keys before the first click, and after one on a button; not while text is typed", { skip: missing }, async () => {
+  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 });
+  const away = () => page.evaluate(() => window.stilb.camera([3, 1, 1.6], [3, 3, 1.6], 60));
+  const walk = async (key) => {
+    await away();
+    const before = await page.evaluate(() => window.stilb.illuminance(300, 600)?.value);
+    await page.keyboard.down(key);
+    await page.waitForTimeout(400);
+    await page.keyboard.up(key);
+    return (await page.evaluate(() => window.stilb.illuminance(300, 600)?.value)) !== before;
+  };
+  for (const key of ["w", "a", "s", "d", "ArrowUp"]) assert.ok(await walk(key), `${key} at once`);
+  await page.getByLabel("Tools").getByRole("button", { name: "False colours" }).click();
+  assert.ok(await walk("w"), "after a click on a button");
+  await page.getByRole("tab", { name: "Measure" }).click();
+  assert.equal(await walk("ArrowUp"), false, "arrows are the tabs'");
+  await page.keyboard.press("p");
+  await page.mouse.click(500, 400);
+  await page.getByLabel("Sensors for the scene file").focus();
+  assert.equal(await walk("w"), false, "while text is typed");
+  await page.close();
+});
+
 test("false colours have a scale with round numbers, and isolines", { skip: missing }, async () => {
   const { page, problems } = await openFile(browser, testRoom(), { width: 1280, height: 720 });
   const before = await luminance(page, 300, 600);

@@ -2,6 +2,7 @@
 
 import type { Walkthrough } from "../app";
 import type { Source } from "../data/source";
+import { isTyped } from "../walk/input";
 import { byId, button, element, press, toggle } from "./dom";
 import { lightPanel } from "./light_panel";
 import { Marks } from "./marks";
@@ -82,10 +83,4 @@ function listenToKeys(walk: Walkthrough, measuring: MeasurePanel, source: Source
     if (event.ctrlKey || event.metaKey || event.altKey || isTyped(event.target)) return;
     actions[event.key.toLowerCase()]?.();
   });
-}
-
-/** Whether an element takes letters and digits itself. */
-function isTyped(target: EventTarget | null): boolean {
-  if (target instanceof HTMLInputElement) return target.type === "number";
-  return target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
 }

@@ -1,4 +1,4 @@
-// Keys, mouse and touch on the canvas, as turns and motions of the view.
+// Keys of the page, and mouse and touch on the canvas, as turns and motions of the view.
 
 import type { Motion } from "./walker";
 
@@ -51,9 +51,10 @@ export class Input {
     private readonly canvas: HTMLElement,
     private readonly events: InputEvents,
   ) {
-    canvas.addEventListener("keydown", (event) => this.keyDown(event));
-    canvas.addEventListener("keyup", (event) => this.keyUp(event));
-    canvas.addEventListener("blur", () => this.keys.clear());
+    // Of the whole page: one walks before the first click on the picture, and after one on a button.
+    document.addEventListener("keydown", (event) => this.keyDown(event));
+    document.addEventListener("keyup", (event) => this.keyUp(event));
+    window.addEventListener("blur", () => this.keys.clear());
     canvas.addEventListener("pointerdown", (event) => this.down(event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", (event) => this.up(event, true));
@@ -79,9 +80,15 @@ export class Input {
   private keyDown(event: KeyboardEvent) {
     this.isFast = event.shiftKey;
     if (!(event.code in KEYS) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.code.startsWith("Arrow") ? this.takesArrows(event.target) : isTyped(event.target)) return;
     event.preventDefault();
     this.keys.add(event.code);
     this.events.wake();
+  }
+
+  /** Controls have uses of their own for the arrows. */
+  private takesArrows(target: EventTarget | null) {
+    return target !== this.canvas && target !== document.body;
   }
 
   private keyUp(event: KeyboardEvent) {
@@ -134,6 +141,12 @@ export class Input {
     event.preventDefault();
     this.events.zoom(Math.exp(Math.min(Math.max(event.deltaY, -240), 240) * 0.0012));
   }
+}
+
+/** Whether an element takes letters and digits itself. */
+export function isTyped(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) return target.type === "number";
+  return target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
 }
 
 function placeOf(event: PointerEvent): [number, number] {
