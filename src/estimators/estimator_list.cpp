@@ -19,6 +19,16 @@ constexpr std::array<std::string_view, 6> kBundleOptions{"patch",      "first-sh
 constexpr std::span kFirstShotOptions = std::span(kBundleOptions).first<5>();
 constexpr std::span kParticlesOptions = std::span(kBundleOptions).first<1>();
 
+/// What `auto` chooses from, beside `path`.
+constexpr std::array kTechniques{
+    EstimatorEntry{.name = "light-paths",
+                   .summary = "local estimation balanced with path tracing",
+                   .make = make_balanced},
+    EstimatorEntry{.name = "guided",
+                   .summary = "the same by a guess of the light where reflections have no limit",
+                   .make = make_guided},
+};
+
 }  // namespace
 
 std::span<const EstimatorEntry> estimator_list() {
@@ -91,6 +101,9 @@ const EstimatorEntry& find_estimator(std::string_view name) {
     for (const EstimatorEntry& entry : estimator_list()) {
         if (entry.name == name) return entry;
         names.push_back(entry.name);
+    }
+    for (const EstimatorEntry& technique : kTechniques) {
+        if (technique.name == name) return technique;
     }
     throw InputError(fmt::format("unknown method \"{}\".{} Methods: {}.", name, did_you_mean(name, names),
                                  fmt::join(names, ", ")));

@@ -39,7 +39,8 @@ std::vector<EstimatorEntry> unbiased_estimators();
 /// The names of the methods for luminance, for messages.
 std::vector<std::string_view> luminance_methods();
 
-/// Throws InputError, with the nearest name, where there is no such method.
+/// A method of the list, or a technique that `auto` chooses from ("light-paths", "guided"), for checks that
+/// force each in turn. Throws InputError, with the nearest name, where there is no such method.
 const EstimatorEntry& find_estimator(std::string_view name);
 
 // The constructors, each in the file of its method: estimator_list.cpp has one entry for each.

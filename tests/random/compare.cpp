@@ -1,0 +1,161 @@
+#include "random/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/scene/scene_file.h"
+#include "run/run.h"
+#include "statistics/hypothesis.h"
+#include "stilb/error.h"
+
+namespace stilb::random {
+namespace {
+
+constexpr int kReplicates = 16, kPictures = 8;
+/// What rounding may do to a reading, relative to it.
+constexpr double kRounding = 2e-4;
+/// The same, relative to the largest reading of the scene.
+constexpr double kRoundingOfLargest = 1e-7;
+
+/// Samples of the first comparison: about as much processor time by each method.
+std::uint64_t samples_of(const std::string& method, std::size_t readings) {
+    if (method == "path") return std::max<std::uint64_t>(256, 16384 / std::max<std::size_t>(readings, 8));
+    if (method == "guided") return 64;
+    if (method == "auto") return 2048;
+    return 8192;
+}
+
+/// The standard error in the direction of the other value, with what the interval adds for rare light.
+double error_towards(const MeasuredReading& reading, double other) {
+    if (reading.replicates == 0) return 0;
+    const statistics::Estimate& estimate = reading.estimate;
+    const double half =
+        other > estimate.value ? estimate.upper - estimate.value : estimate.value - estimate.lower;
+    return std::max(estimate.standard_error,
+                    half / statistics::student_t_quantile(0.975, reading.replicates - 1));
+}
+
+double largest_of(const Measured& measured) {
+    double largest = 0;
+    for (const MeasuredReading& reading : measured.readings)
+        largest = std::max(largest, std::abs(reading.estimate.value));
+    return largest;
+}
+
+/// Welch's t as a normal deviate; rounding counts as an error that is known.
+Difference difference(const MeasuredReading& a, const MeasuredReading& b, double largest) {
+    Difference result;
+    result.value = a.estimate.value;
+    result.other = b.estimate.value;
+    result.value_error = error_towards(a, result.other);
+    result.other_error = error_towards(b, result.value);
+    const double rounding =
+        kRounding * std::max(std::abs(result.value), std::abs(result.other)) + kRoundingOfLargest * largest;
+    double all = rounding * rounding, squares = 0;
+    for (const auto& [error, replicates] :
+         {std::pair{result.value_error, a.replicates}, {result.other_error, b.replicates}}) {
+        const double variance = error * error;
+        all += variance;
+        if (replicates > 1) squares += variance * variance / (replicates - 1);
+    }
+    if (all == 0) return result;
+    const double freedom = squares > 0 ? all * all / squares : 1e6;
+    result.z = std::abs(statistics::equivalent_z((result.value - result.other) / std::sqrt(all),
+                                                 static_cast<int>(std::clamp(freedom, 1.0, 1e6))));
+    return result;
+}
+
+void add(Measured& measured, const std::string& name, statistics::Estimate estimate, int replicates,
+         double factor) {
+    for (double* const number : {&estimate.value, &estimate.standard_error, &estimate.lower, &estimate.upper})
+        *number *= factor;
+    measured.readings.push_back({name, estimate, replicates});
+}
+
+/// The mean luminance of pictures with several seeds.
+void add_picture(Measured& measured, const Scene& scene, const Sensor& camera, RunOptions options,
+                 double factor) {
+    options.paths = 4 * std::max<std::uint64_t>(1, *options.paths / 2048);
+    std::vector<double> means;
+    for (int i = 0; i < kPictures; ++i) {
+        const RenderResult picture = run::render(scene, camera, options);
+        means.push_back(picture.mean_luminance_cd_m2);
+        options.seed += 1'000'003;
+        if (i > 0) continue;
+        std::ranges::copy(picture.warnings, std::back_inserter(measured.warnings));
+    }
+    add(measured, camera.name + " mean", statistics::estimate_from_replicates(means), kPictures, factor);
+}
+
+}  // namespace
+
+std::string Setting::words() const {
+    std::string text = method;
+    if (form != Form::as_it_is) text += fmt::format(", {}", random::words(form));
+    return text;
+}
+
+Measured measure(const Draft& draft, const Setting& setting, const std::filesystem::path& folder) {
+    Measured measured;
+    Draw draw(setting.seed, 0);
+    const std::optional<OtherForm> other = in_form(draft, setting.form, draw);
+    if (!other) {
+        measured.refusal = "the form does not apply";
+        return measured;
+    }
+    try {
+        const io::SceneFile file = io::read_scene(other->draft.document(), "random scene", folder);
+        std::size_t readings = 0;
+        for (const Sensor& sensor : file.sensors) readings += sensor.size();
+        RunOptions options = file.run;
+        options.method = setting.method;
+        options.seed = setting.seed;
+        options.paths = setting.work * samples_of(setting.method, readings);
+        options.replicates = kReplicates;
+        options.threads = 1;
+        if (readings > 0) {
+            const RunResult result = run::measure(file.scene, file.sensors, options);
+            measured.warnings = result.warnings;
+            for (const SensorResult& sensor : result.sensors) {
+                // The order of an area's points depends on the direction of its edges.
+                if (std::holds_alternative<Area>(sensor.sensor.kind)) {
+                    add(measured, sensor.sensor.name + " mean", sensor.summary.mean, kReplicates,
+                        other->factor);
+                    continue;
+                }
+                for (std::size_t i = 0; i < sensor.readings.size(); ++i)
+                    add(measured, fmt::format("{} reading {}", sensor.sensor.name, i),
+                        sensor.readings[i].estimate, kReplicates, other->factor);
+            }
+        }
+        options.replicates.reset();
+        for (const Sensor& sensor : file.sensors) {
+            if (std::holds_alternative<Camera>(sensor.kind) && setting.method != "local")
+                add_picture(measured, file.scene, sensor, options, other->factor);
+        }
+    } catch (const InputError& error) {
+        measured.refusal = error.what();
+    }
+    return measured;
+}
+
+Difference worst_difference(const Measured& a, const Measured& b) {
+    const double largest = std::max(largest_of(a), largest_of(b));
+    Difference worst;
+    for (std::size_t i = 0; i < std::min(a.readings.size(), b.readings.size()); ++i) {
+        Difference found = difference(a.readings[i], b.readings[i], largest);
+        found.reading = i;
+        if (!(found.z <= worst.z)) worst = found;
+    }
+    return worst;
+}
+
+Difference worst_difference(const Measured& a, const std::vector<double>& exact) {
+    Measured known;
+    for (const double value : exact) known.readings.push_back({"", {value, 0, value, value}, 0});
+    return worst_difference(a, known);
+}
+
+}  // namespace stilb::random

@@ -1,0 +1,51 @@
+// Measurements of a scene by one method, and how far apart two of them are.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "random/draft.h"
+#include "random/forms.h"
+#include "statistics/interval.h"
+
+namespace stilb::random {
+
+/// How a scene is measured.
+struct Setting {
+    std::string method;
+    Form form = Form::as_it_is;
+    std::uint64_t seed = 1;
+    std::uint64_t work = 1;  ///< a factor on the samples
+
+    std::string words() const;
+};
+
+struct MeasuredReading {
+    std::string name;
+    statistics::Estimate estimate;  ///< [lx or cd/m2], as in the scene as it is
+    int replicates = 0;             ///< 0: the value is exact
+};
+
+struct Measured {
+    std::vector<MeasuredReading> readings;
+    std::vector<std::string> warnings;
+    std::string refusal;  ///< the message where the scene was refused
+};
+
+/// `folder`: of the files that the scene refers to.
+Measured measure(const Draft& draft, const Setting& setting, const std::filesystem::path& folder);
+
+/// Two values of one reading.
+struct Difference {
+    std::size_t reading = 0;
+    double z = 0;  ///< as a normal deviate
+    double value = 0, other = 0, value_error = 0, other_error = 0;
+};
+
+/// The readings that differ most; by the intervals that are printed, which allow for rare light.
+Difference worst_difference(const Measured& a, const Measured& b);
+Difference worst_difference(const Measured& a, const std::vector<double>& exact);
+
+}  // namespace stilb::random

@@ -1,0 +1,18 @@
+#include "random/generator.h"
+
+namespace stilb::random {
+
+RandomScene generate(std::uint64_t seed, std::uint64_t scene) {
+    Draw draw(seed, scene);
+    if (draw.chance(0.08)) return generate_exact(draw);
+    RandomScene random;
+    Draft& draft = random.draft;
+    const Site site = add_room(draft, draw, random.kind);
+    add_things(draft, draw, site);
+    add_lamps(draft, draw, site, random.kind);
+    add_sensors(draft, draw, site);
+    if (draw.chance(0.15)) draft.bounces = draw.one_of({0, 1, 2, 3});
+    return random;
+}
+
+}  // namespace stilb::random

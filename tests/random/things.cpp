@@ -1,0 +1,130 @@
+// Materials and objects of random scenes.
+#include "random/generator.h"
+
+namespace stilb::random {
+namespace {
+
+TomlValue colour(Draw& draw, double low, double high) {
+    if (draw.chance(0.7)) return number(draw.between(low, high));
+    return vector({draw.between(low, high), draw.between(low, high), draw.between(low, high)});
+}
+
+void add_harmonics(Draft& draft, Draw& draw, const std::string& material, const Vec3& center, double radius) {
+    // Y_00 is 1 / sqrt(4 pi); the others are small, so that the radius stays above 0.
+    TomlArray coefficients{number(radius * std::sqrt(4 * kPi))};
+    for (int i = 0; i < 8; ++i) coefficients.push_back(number(radius * draw.between(-0.15, 0.15)));
+    draft.add_object("harmonics", material)
+        .set("coefficients", {std::move(coefficients)})
+        .set("center", vector(center));
+}
+
+void add_tetrahedron(Draft& draft, const std::string& material, const Vec3& center, double radius) {
+    const double r = radius;
+    draft.add_object("polygons", material)
+        .set("vertices", vectors({center + Vec3{r, r, r}, center + Vec3{-r, -r, r}, center + Vec3{-r, r, -r},
+                                  center + Vec3{r, -r, -r}}))
+        .set("faces", faces({{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}));
+}
+
+std::string add_clear_material(Draft& draft, Draw& draw, bool is_solid) {
+    Part& material = draft.add_material(is_solid ? "glass" : "pane").set("ior", number(draw.between(1.1, 2)));
+    if (!is_solid) material.set("internal_transmittance", number(draw.between(0.5, 1)));
+    return material.name;
+}
+
+void add_thing(Draft& draft, Draw& draw, const Site& site) {
+    const double radius = site.least() * draw.by_size(0.02, 0.25);
+    const Vec3 margin{radius, radius, radius};
+    const Vec3 center = draw.inside(site.low + 1.3 * margin, site.high - 1.3 * margin);
+    const std::size_t shape = draw.weighted({3, 3, 2, 2, 2, 1});
+    const bool is_solid = shape != 2 && shape != 3;
+    const std::string material =
+        draw.chance(0.06) ? add_clear_material(draft, draw, is_solid) : add_material(draft, draw);
+    switch (shape) {
+        case 0:
+            draft.add_object("box", material)
+                .set("min", vector(center - draw.between(0.3, 0.9) * margin))
+                .set("max", vector(center + draw.between(0.3, 0.9) * margin));
+            break;
+        case 1:
+            draft.add_object("sphere", material).set("center", vector(center)).set("radius", number(radius));
+            break;
+        case 2:
+            draft.add_object("disk", material)
+                .set("center", vector(center))
+                .set("normal", vector(draw.direction()))
+                .set("radius", number(radius));
+            break;
+        case 3: {
+            const Frame frame = Frame::around(draw.direction());
+            draft.add_object("rectangle", material)
+                .set("corner", vector(center - 0.5 * radius * (frame.u + frame.v)))
+                .set("edge_u", vector(radius * frame.u))
+                .set("edge_v", vector(radius * frame.v));
+            break;
+        }
+        case 4:
+            add_tetrahedron(draft, material, center, 0.7 * radius);
+            break;
+        default:
+            add_harmonics(draft, draw, material, center, 0.7 * radius);
+    }
+}
+
+}  // namespace
+
+std::string add_plain_material(Draft& draft, double reflectance) {
+    return draft.add_material("diffuse").set("reflectance", number(reflectance)).name;
+}
+
+std::string add_material(Draft& draft, Draw& draw) {
+    switch (draw.weighted({12, 2, 1, 1, 1, 1, 2})) {
+        case 0:
+            return draft.add_material("diffuse")
+                .set("reflectance", colour(draw, 0.05, draw.chance(0.1) ? 0.95 : 0.8))
+                .name;
+        case 1:
+            return draft.add_material("phong")
+                .set("diffuse", colour(draw, 0.1, 0.5))
+                .set("specular", number(draw.between(0.05, 0.3)))
+                .set("exponent", number(draw.by_size(1, 100)))
+                .name;
+        case 2:
+            return draft.add_material("rough")
+                .set("reflectance", colour(draw, 0.3, 0.8))
+                .set("roughness", number(draw.between(0.3, 1)))
+                .name;
+        case 3:
+            return draft.add_material("ward")
+                .set("diffuse", colour(draw, 0.1, 0.5))
+                .set("specular", number(draw.between(0.05, 0.3)))
+                .set("roughness", {TomlArray{number(draw.between(0.2, 0.6)), number(draw.between(0.2, 0.6))}})
+                .name;
+        case 4:
+            return draft.add_material("plastic")
+                .set("diffuse", colour(draw, 0.2, 0.7))
+                .set("ior", number(draw.between(1.2, 1.8)))
+                .set("roughness", number(draw.between(0.2, 0.6)))
+                .name;
+        case 5:
+            return draft.add_material("mirror").set("reflectance", number(draw.between(0.5, 0.95))).name;
+        default:
+            return draft.add_material("black").name;
+    }
+}
+
+void add_things(Draft& draft, Draw& draw, const Site& site) {
+    // 96 triangles and fewer are tested without a tree: boxes have 12 of them.
+    const std::size_t count = draw.one_of<std::size_t>({0, 0, 1, 2, 3, 6, 8, 12});
+    for (std::size_t i = 0; i < count; ++i) add_thing(draft, draw, site);
+    if (!draw.chance(0.12)) return;
+    // Something far away, as of a drawing or a sun.
+    const double distance = draw.by_size(10, 1e5) * site.least(), size = distance * draw.by_size(1e-6, 0.1);
+    const Vec3 at = site.at({0.5, 0.5, 0.5}) + distance * draw.direction();
+    draft.add_object("rectangle", add_plain_material(draft, 0.3))
+        .set("corner", vector(at))
+        .set("edge_u", vector({size, 0, 0}))
+        .set("edge_v", vector({0, size, 0}));
+}
+
+}  // namespace stilb::random
