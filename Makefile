@@ -9,6 +9,7 @@ PREFIX ?= /usr/local
 PYTHON := build/python/venv
 PEERS := build/peers/venv
 SCENES ?=
+SEED ?= 1
 THREADS ?= 2
 PEERS_FLAGS ?=
 
@@ -16,7 +17,7 @@ PEERS_FLAGS ?=
 configure = test -f build/$(1)/build.ninja -a ! $(PYTHON)/ready -nt build/$(1)/build.ninja || cmake --preset $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-lint python-setup build demo test web wheel install verify-long bench bench-peers format format-check lint odr sanitize fuzz clean
+.PHONY: help setup setup-lint python-setup build demo test web wheel install verify-long verify-random bench bench-peers format format-check lint odr sanitize fuzz clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' Makefile
@@ -69,6 +70,12 @@ verify-long: build ## all exact solutions at 0.2 %, CIE 171, closed meshes with 
 	$(RELEASE)/verify_ratings
 	$(RELEASE)/verify_glare
 	tests/long/verify_limits.py
+
+verify-random: setup ## SCENES random scenes (2000), from SEED (1), each measured in many ways that must agree: docs/verification.md
+	@$(call configure,release)
+	@cmake --build --preset release --target verify_random
+	$(RELEASE)/verify_random --thresholds
+	$(RELEASE)/verify_random --long --seed $(SEED) $(or $(SCENES),2000)
 
 web: setup ## check and build the page of `stilb view` alone: build/release/page/dist
 	@$(call configure,release)

@@ -15,9 +15,9 @@ namespace stilb::random {
 struct Options {
     std::filesystem::path folder;
     std::uint64_t seed = 1;
-    std::size_t forms = 2;     ///< other forms of each scene
-    double threshold_z = 5.5;  ///< beyond which two values disagree
-    bool is_long = false;      ///< also biased methods
+    std::size_t forms = 2;  ///< other forms of each scene
+    bool is_long = false;   ///< also methods that light patches
+    std::string only;       ///< only methods and forms whose words contain this
 };
 
 struct Finding {

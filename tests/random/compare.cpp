@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimators/estimator_list.h"
 #include "io/scene/scene_file.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
@@ -16,6 +17,8 @@ namespace {
 constexpr int kReplicates = 16, kPictures = 8;
 /// What rounding may do to a reading, relative to it.
 constexpr double kRounding = 2e-4;
+/// What patches may do to a reading: they must be wrong by a factor to count here.
+constexpr double kOfPatches = 0.3, kOfPatchesOfLargest = 0.1;
 /// The same, relative to the largest reading of the scene.
 constexpr double kRoundingOfLargest = 1e-7;
 
@@ -24,6 +27,9 @@ std::uint64_t samples_of(const std::string& method, std::size_t readings) {
     if (method == "path") return std::max<std::uint64_t>(256, 16384 / std::max<std::size_t>(readings, 8));
     if (method == "guided") return 64;
     if (method == "auto") return 2048;
+    if (method == "ray-bundle") return 512;
+    if (method == "radiosity") return 32;
+    if (method == "particles") return 131'072;
     return 8192;
 }
 
@@ -45,14 +51,15 @@ double largest_of(const Measured& measured) {
 }
 
 /// Welch's t as a normal deviate; rounding counts as an error that is known.
-Difference difference(const MeasuredReading& a, const MeasuredReading& b, double largest) {
+Difference difference(const MeasuredReading& a, const MeasuredReading& b, double largest, bool on_patches) {
     Difference result;
     result.value = a.estimate.value;
     result.other = b.estimate.value;
     result.value_error = error_towards(a, result.other);
     result.other_error = error_towards(b, result.value);
-    const double rounding =
-        kRounding * std::max(std::abs(result.value), std::abs(result.other)) + kRoundingOfLargest * largest;
+    const double larger = std::max(std::abs(result.value), std::abs(result.other));
+    const double rounding = on_patches ? (kOfPatches * larger + kOfPatchesOfLargest * largest) / kThresholdZ
+                                       : kRounding * larger + kRoundingOfLargest * largest;
     double all = rounding * rounding, squares = 0;
     for (const auto& [error, replicates] :
          {std::pair{result.value_error, a.replicates}, {result.other_error, b.replicates}}) {
@@ -105,6 +112,7 @@ Measured measure(const Draft& draft, const Setting& setting, const std::filesyst
         measured.refusal = "the form does not apply";
         return measured;
     }
+    measured.is_on_patches = estimators::find_estimator(setting.method).lights_patches;
     try {
         const io::SceneFile file = io::read_scene(other->draft.document(), "random scene", folder);
         std::size_t readings = 0;
@@ -145,7 +153,8 @@ Difference worst_difference(const Measured& a, const Measured& b) {
     const double largest = std::max(largest_of(a), largest_of(b));
     Difference worst;
     for (std::size_t i = 0; i < std::min(a.readings.size(), b.readings.size()); ++i) {
-        Difference found = difference(a.readings[i], b.readings[i], largest);
+        Difference found =
+            difference(a.readings[i], b.readings[i], largest, a.is_on_patches || b.is_on_patches);
         found.reading = i;
         if (!(found.z <= worst.z)) worst = found;
     }

@@ -12,6 +12,10 @@
 
 namespace stilb::random {
 
+/// Two values disagree beyond so many standard errors: at 1e5 comparisons the largest deviate exceeds 5.2
+/// once in fifty times.
+inline constexpr double kThresholdZ = 5.5;
+
 /// How a scene is measured.
 struct Setting {
     std::string method;
@@ -30,6 +34,7 @@ struct MeasuredReading {
 
 struct Measured {
     std::vector<MeasuredReading> readings;
+    bool is_on_patches = false;  ///< which biases the readings by their size
     std::vector<std::string> warnings;
     std::string refusal;  ///< the message where the scene was refused
 };
@@ -42,6 +47,8 @@ struct Difference {
     std::size_t reading = 0;
     double z = 0;  ///< as a normal deviate
     double value = 0, other = 0, value_error = 0, other_error = 0;
+
+    bool is_real() const { return z > kThresholdZ; }
 };
 
 /// The readings that differ most; by the intervals that are printed, which allow for rare light.

@@ -199,6 +199,39 @@ void add_sphere(RandomScene& random, Draw& draw) {
     random.kind = fmt::format("exact: photometric sphere, {} points", count);
 }
 
+/// Two lamps of one kind in one place above a black floor: seen and felt alike.
+void add_twins(RandomScene& random, Draw& draw) {
+    Draft& draft = random.draft;
+    const double size = draw.by_size(0.1, 10), half = size * draw.between(0.05, 0.2), flux = 1000;
+    const Vec3 origin = draw.chance(0.5) ? Vec3{} : Vec3{3.5e6, 5.4e6, 100};
+    draft.add_object("rectangle", draft.add_material("black").name)
+        .set("corner", vector(origin - size * Vec3{2, 2, 0}))
+        .set("edge_u", vector(size * Vec3{4, 0, 0}))
+        .set("edge_v", vector(size * Vec3{0, 4, 0}));
+    const Vec3 lamp = origin + Vec3{0, 0, size};
+    const std::size_t kind = draw.one_of<std::size_t>({1, 2, 4});
+    LampLight light;
+    const Draw same = draw;
+    for (int i = 0; i < 2; ++i) {
+        draw = same;
+        light = add_lamp(draft, draw, kind, lamp, half, flux);
+    }
+    const Vec3 position = origin + Vec3{0.4 * size, 0.3 * size, 0.1 * size};
+    draft.add_sensor("illuminance").set("position", vector(position)).set("normal", vector({0, 0, 1}));
+    draft.add_sensor("luminance").set("position", vector(position)).set("target", vector(lamp));
+    const Part& last = draft.lights.back();
+    double area = kPi * half * half;
+    if (const Part* const object = draft.object(last.text("object")); object && object->find("edge_u"))
+        area = length(cross(object->vector("edge_u"), object->vector("edge_v")));
+    if (const TomlValue* const opening = last.find("opening")) {
+        const auto& sides = std::get<TomlArray>(opening->content);
+        area = as_number(sides[0]) * as_number(sides[1]);
+    }
+    random.exact = {light({position, {0, 0, 1}}), flux / (kPi * area)};
+    random.may_be_twice = true;
+    random.kind = "exact: lamp twice";
+}
+
 void add_sky(RandomScene& random, Draw& draw) {
     random.draft.add_light("environment").set("luminance", number(kGreyLuminance));
     random.draft.add_sensor("illuminance")
@@ -212,7 +245,7 @@ void add_sky(RandomScene& random, Draw& draw) {
 
 RandomScene generate_exact(Draw& draw) {
     RandomScene random;
-    switch (draw.weighted({5, 1, 1, 0.3})) {
+    switch (draw.weighted({5, 1, 1, 1, 0.3})) {
         case 0:
             add_direct(random, draw);
             break;
@@ -221,6 +254,9 @@ RandomScene generate_exact(Draw& draw) {
             break;
         case 2:
             add_sphere(random, draw);
+            break;
+        case 3:
+            add_twins(random, draw);
             break;
         default:
             add_sky(random, draw);

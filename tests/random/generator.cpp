@@ -10,6 +10,8 @@ RandomScene generate(std::uint64_t seed, std::uint64_t scene) {
     const Site site = add_room(draft, draw, random.kind);
     add_things(draft, draw, site);
     add_lamps(draft, draw, site, random.kind);
+    // 96 triangles are tested without a tree.
+    if (draw.chance(0.1)) fill_up(draft, draw.one_of<std::size_t>({95, 96, 97}), site);
     add_sensors(draft, draw, site);
     if (draw.chance(0.15)) draft.bounces = draw.one_of({0, 1, 2, 3});
     return random;

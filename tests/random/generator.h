@@ -36,6 +36,9 @@ using ExactValues = std::vector<double>;
 struct RandomScene {
     Draft draft;
     ExactValues exact;
+    /// Where two lamps lie in one place, both may count or one: all readings are then the exact values, or
+    /// all are twice as much.
+    bool may_be_twice = false;
     std::string kind;  ///< of the room and lamps, in words
 };
 
@@ -54,6 +57,8 @@ Site add_room(Draft& draft, Draw& draw, std::string& kind);
 void add_things(Draft& draft, Draw& draw, const Site& site);
 void add_lamps(Draft& draft, Draw& draw, const Site& site, std::string& kind);
 void add_sensors(Draft& draft, Draw& draw, const Site& site);
+/// Fills a scene up to so many triangles, where it has fewer, by small ones that lie together.
+void fill_up(Draft& draft, std::size_t triangles, const Site& site);
 /// A scene whose readings are known.
 RandomScene generate_exact(Draw& draw);
 

@@ -113,6 +113,36 @@ std::string add_material(Draft& draft, Draw& draw) {
     }
 }
 
+void fill_up(Draft& draft, std::size_t triangles, const Site& site) {
+    std::size_t count = 0;
+    for (const Part& object : draft.objects) {
+        const std::string shape = object.text("shape");
+        if (shape == "box") count += 12;
+        if (shape == "rectangle") count += 2;
+        if (shape != "polygons") continue;
+        for (const TomlValue& face : std::get<TomlArray>(object.find("faces")->content))
+            count += std::get<TomlArray>(face.content).size() - 2;
+    }
+    if (count >= triangles) return;
+    const auto missing = static_cast<std::int64_t>(triangles - count);
+    const double size = 1e-3 * site.least();
+    std::vector<Vec3> vertices;
+    std::vector<std::vector<std::int64_t>> corners;
+    for (std::int64_t i = 0; i < missing + 2; ++i) {
+        vertices.push_back(site.at({0.5, 0.5, 0.15}) +
+                           size * Vec3{static_cast<double>(i / 2), static_cast<double>(i % 2), 0});
+        if (i >= missing) continue;
+        // A strip: every other triangle runs the other way.
+        if (i % 2 == 0)
+            corners.push_back({i, i + 2, i + 1});
+        else
+            corners.push_back({i, i + 1, i + 2});
+    }
+    draft.add_object("polygons", add_plain_material(draft, 0.5))
+        .set("vertices", vectors(vertices))
+        .set("faces", faces(corners));
+}
+
 void add_things(Draft& draft, Draw& draw, const Site& site) {
     // 96 triangles and fewer are tested without a tree: boxes have 12 of them.
     const std::size_t count = draw.one_of<std::size_t>({0, 0, 1, 2, 3, 6, 8, 12});

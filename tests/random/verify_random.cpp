@@ -1,7 +1,8 @@
 // Random scenes, each measured in many ways that must agree: docs/verification.md.
 //
 //     verify_random [SCENES] [--seed N] [--first K] [--forms N] [--jobs N] [--long]
-//     verify_random --scene K [--seed N] [--print]
+//     verify_random --scene K [--seed N] [--only WORDS] [--print]
+//     verify_random --thresholds
 //
 // Prints a line for each disagreement, with the scene reduced to what it needs, and fails where there is one.
 // A scene follows from the seed and its number alone. Each has a process of its own: one that crashes or does
@@ -23,6 +24,8 @@
 #include <thread>
 
 #include "random/check.h"
+#include "random/thresholds.h"
+#include "support/source_directory.h"
 
 namespace stilb::random {
 namespace {
@@ -36,7 +39,7 @@ struct Request {
     Options options;
     std::uint64_t first = 0, scenes = 100;
     std::size_t jobs = std::max(1u, std::thread::hardware_concurrency());
-    bool prints_scene = false;
+    bool prints_scene = false, prints_thresholds = false;
 };
 
 /// What a process tells about its scene.
@@ -167,6 +170,10 @@ Request parse(int argc, char** argv) {
             request.jobs = std::max<std::size_t>(1, next());
         } else if (argument == "--long") {
             request.options.is_long = true;
+        } else if (argument == "--only") {
+            request.options.only = ++i < argc ? argv[i] : "";
+        } else if (argument == "--thresholds") {
+            request.prints_thresholds = true;
         } else if (argument == "--print") {
             request.prints_scene = true;
         } else {
@@ -179,6 +186,7 @@ Request parse(int argc, char** argv) {
 }
 
 int run(const Request& request) {
+    if (request.prints_thresholds) return check_thresholds(source_directory()) > 0 ? 1 : 0;
     std::filesystem::create_directories(request.options.folder);
     write_files(request.options.folder);
     if (request.prints_scene) {
