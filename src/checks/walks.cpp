@@ -52,11 +52,6 @@ bool sees(const Location& from, const Location& to, const rays::RayCaster& caste
            caster.transmittance({from.position, to.position}).max() > 0;
 }
 
-bool transmits(const Material& material) {
-    const auto branches = specular_branches(material, materials::LightSide::outside, {0, 0, 1});
-    return std::ranges::any_of(branches.list(), [](const auto& branch) { return branch.direction.z < 0; });
-}
-
 std::string list_of(std::span<const std::string> names, bool is_complete) {
     constexpr std::size_t most = 3;
     std::string list;

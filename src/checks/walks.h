@@ -38,9 +38,6 @@ std::vector<Location> lit_places(const Scene& scene, const rays::RayCaster& cast
 /// Whether nothing but panes is between two locations that lie on each other's sides.
 bool sees(const Location& from, const Location& to, const rays::RayCaster& caster);
 
-/// Whether light gets through the surface.
-bool transmits(const Material& material);
-
 /// "a", "b", "c" and 19 more; "at least" 19 where there may be others.
 std::string list_of(std::span<const std::string> names, bool is_complete = true);
 

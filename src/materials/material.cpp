@@ -87,6 +87,11 @@ SpecularBranches specular_branches(const Material& material, LightSide side, con
         material);
 }
 
+bool transmits(const Material& material) {
+    const auto branches = specular_branches(material, LightSide::outside, {0, 0, 1});
+    return std::ranges::any_of(branches.list(), [](const auto& branch) { return branch.direction.z < 0; });
+}
+
 bool passes_straight(const Material& material) {
     return std::visit([]<typename M>(const M&) { return PassesStraight<M>; }, material);
 }

@@ -65,6 +65,8 @@ ScatterValue evaluate_and_pdf(const Material& material, const Vec3& in, const Ve
 bool is_specular(const Material& material);
 /// The branches in which light from `in` leaves a specular surface; none for other materials.
 SpecularBranches specular_branches(const Material& material, LightSide side, const Vec3& in);
+/// Whether light gets through the surface.
+bool transmits(const Material& material);
 /// Whether light passes straight through the surface, as shadow rays then do: panes.
 bool passes_straight(const Material& material);
 /// Its share of the flux, at an angle of this cosine to the normal; 0 for other materials.

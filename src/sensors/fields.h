@@ -156,7 +156,7 @@ struct Surfaces;
 struct Band;
 
 /// A plane polygon by "corners" (in the plane z = "height" where they are pairs) and "holes", or by "corner",
-/// "edge_u" and "edge_v"; nothing where "object" is given.
+/// "edge_u" and "edge_v"; nothing where "object" or "room" is given.
 template <typename Owner>
 struct PolygonField {
     PolygonInSpace Owner::*member;
@@ -165,7 +165,7 @@ struct PolygonField {
 template <typename Owner>
 PolygonField(PolygonInSpace Owner::*, std::string_view) -> PolygonField<Owner>;
 
-/// The faces of an "object", or of several, of which "part" picks some.
+/// The faces of an "object", of several, or of the "room" around a point, of which "part" picks some.
 template <typename Owner>
 struct SurfacesField {
     Surfaces Owner::*member;

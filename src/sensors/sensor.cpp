@@ -115,7 +115,7 @@ double task_area_m2(std::span<const Sensor> sensors) {
     double all_m2 = 0;
     for (const Sensor& sensor : sensors) {
         const auto* area = std::get_if<Area>(&sensor.kind);
-        const bool is_task = area && area->surfaces.objects.empty() && area->band_m[1] == 0 &&
+        const bool is_task = area && !area->surfaces.are_given() && area->band_m[1] == 0 &&
                              !area->points.empty() && area->points.front().normal.z > horizontal;
         if (is_task) all_m2 += area_m2(area->polygon);
     }

@@ -48,7 +48,8 @@ TEST(SceneAreas, HaveBandsAsSensorsOfTheirOwn) {
 TEST(SceneAreas, RefuseWrongKeys) {
     EXPECT_REFUSAL(
         area("height = 1"),
-        "s.toml:1: sensors.task: key \"corners\", \"corner\" or \"object\" is missing for type \"area\".");
+        "s.toml:1: sensors.task: key \"corners\", \"corner\", \"object\" or \"room\" is missing for type "
+        "\"area\".");
     EXPECT_REFUSAL(
         area("corners = [[0, 0], [1, 0], [1, 1]]"),
         "s.toml:3: sensors.task.corners[0]: found a pair [x, y], but no \"height\". Allowed: triples "
@@ -124,21 +125,68 @@ TEST(SceneAreas, AreFacesOfObjects) {
     EXPECT_EQ(points_of("object = [\"screen\", \"room\"]\npart = \"walls\"\nspacing = 1").size(), 2u + 28u);
 }
 
+TEST(SceneAreas, AreFacesOfARoom) {
+    EXPECT_EQ(points_of("room = [2, 1, 0.5]\npart = \"walls\"").size(), 2u * (12 + 9) * 6);
+    EXPECT_EQ(points_of("room = [2, 1, 0.5]\nspacing = 1").size(), 2u * (12 + 8 + 6));
+    const auto refusal_of = [](const std::string& keys) { return refusal(kRoom + area(keys)); };
+    EXPECT_EQ(
+        refusal_of("room = [5, 1, 1]"),
+        "s.toml:22: sensors.task.room: lies in no room. A room has a level floor of 1 m² or more, walls, "
+        "and a ceiling 1.8 m or more above. Allowed: a point in a room, or \"object\" in place of "
+        "\"room\".");
+    EXPECT_EQ(
+        refusal_of("room = [2, 1, 1]\nobject = \"room\""),
+        "s.toml:22: sensors.task.room: contradicts \"object\", which is given too. Allowed: one of the two.");
+    EXPECT_EQ(refusal_of("room = [2, 1, 1]\nsurround = 0.5"),
+              "s.toml:23: sensors.task.surround: does not go with \"room\": faces have normals of their own, "
+              "and no bands around them. Allowed: one of the two.");
+}
+
+/// In a room of 4 m x 3 m.
+TEST(SceneAreas, HaveBandsThatEndAtTheWalls) {
+    const std::string bands = "surround = { width = 0.5, require = { mean = 300 } }\nbackground = 3\n";
+    const SceneFile desk = read_text(
+        kRoom + area("corners = [[1, 1], [2.6, 1], [2.6, 1.8], [1, 1.8]]\nheight = 0.75\n" + bands));
+    ASSERT_EQ(desk.sensors.size(), 3u);
+    for (const Sensor& sensor : desk.sensors) {
+        for (std::size_t j = 0; j < sensor.size(); ++j) {
+            const Vec3 p = viewpoint_of(sensor.measurand(j)).position;
+            EXPECT_TRUE(p.x > 0 && p.x < 4 && p.y > 0 && p.y < 3) << p.x << " " << p.y;
+        }
+    }
+    // The surround is within the room: 2.6 m x 1.8 m with round corners, without the desk.
+    const double cell_m2 =
+        std::get<Area>(desk.sensors[1].kind).cell_m[0] * std::get<Area>(desk.sensors[1].kind).cell_m[1];
+    EXPECT_NEAR(static_cast<double>(desk.sensors[1].size()) * cell_m2, 2 * 0.5 * 2.4 + kPi * 0.25, 0.1);
+    ASSERT_EQ(desk.warnings.size(), 1u);
+    EXPECT_EQ(desk.warnings[0], "s.toml: no light: the scene is dark.");
+    // There is nothing around an area that fills the room.
+    const SceneFile filled = read_text(kRoom + area(kCorners + bands));
+    EXPECT_EQ(filled.sensors.size(), 1u);
+    ASSERT_EQ(filled.warnings.size(), 3u);
+    EXPECT_EQ(
+        filled.warnings[0],
+        "s.toml:24: sensors.task.surround: no place of the band lies in the room of the area, whose walls "
+        "end it: it is not measured, and no requirement on it is rated.");
+}
+
 /// A closed room absorbs the flux of its lamp: the mean over all faces is known.
 TEST(SceneAreas, OfAWholeRoomHaveTheMeanOfItsFlux) {
-    const SceneFile file = read_text(
-        "[materials.white]\ntype = \"diffuse\"\nreflectance = 0.7\n"
-        "[objects.room]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [4, 3, 2]\nmaterial = \"white\"\n"
-        "[lights.bulb]\ntype = \"point\"\nposition = [1.5, 1, 1.2]\nflux = 1000\n" +
-        area("object = \"room\"\nspacing = 0.25"));
-    RunOptions options;
-    options.paths = 1 << 11;
-    const RunResult result = run::measure(file.scene, file.sensors, options);
-    const statistics::Estimate& mean = result.sensors[0].summary.mean;
-    const double exact_lx = 1000 / (52 * (1 - 0.7));
-    EXPECT_NEAR(mean.value, exact_lx, 4 * mean.standard_error + 0.002 * exact_lx);  // of the raster
-    EXPECT_LT(mean.standard_error, 0.01 * exact_lx);
-    EXPECT_EQ(std::get<Area>(result.sensors[0].sensor.kind).left_out, 0u);
+    for (const char* whole : {"object = \"room\"", "room = [1, 1, 1]"}) {
+        const SceneFile file = read_text(
+            "[materials.white]\ntype = \"diffuse\"\nreflectance = 0.7\n"
+            "[objects.room]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [4, 3, 2]\nmaterial = \"white\"\n"
+            "[lights.bulb]\ntype = \"point\"\nposition = [1.5, 1, 1.2]\nflux = 1000\n" +
+            area(whole + std::string("\nspacing = 0.25")));
+        RunOptions options;
+        options.paths = 1 << 11;
+        const RunResult result = run::measure(file.scene, file.sensors, options);
+        const statistics::Estimate& mean = result.sensors[0].summary.mean;
+        const double exact_lx = 1000 / (52 * (1 - 0.7));
+        EXPECT_NEAR(mean.value, exact_lx, 4 * mean.standard_error + 0.002 * exact_lx);  // of the raster
+        EXPECT_LT(mean.standard_error, 0.01 * exact_lx);
+        EXPECT_EQ(std::get<Area>(result.sensors[0].sensor.kind).left_out, 0u);
+    }
 }
 
 TEST(SceneAreas, RefuseObjectsWithoutSuchFaces) {
@@ -160,8 +208,8 @@ TEST(SceneAreas, RefuseObjectsWithoutSuchFaces) {
         "ceiling, floor.");
     EXPECT_EQ(
         refusal_of("object = \"room\"\nsurround = 0.5"),
-        "s.toml:23: sensors.task.surround: does not go with \"object\": faces of objects have normals of "
-        "their own, and no bands around them. Allowed: one of the two.");
+        "s.toml:23: sensors.task.surround: does not go with \"object\": faces have normals of their own, and "
+        "no bands around them. Allowed: one of the two.");
     EXPECT_EQ(
         refusal_of("object = \"room\"\nheight = 1"),
         "s.toml:23: sensors.task.height: contradicts \"object\", which is given too. Allowed: one of the "
@@ -169,7 +217,7 @@ TEST(SceneAreas, RefuseObjectsWithoutSuchFaces) {
     EXPECT_EQ(
         refusal_of(kCorners + "part = \"walls\""),
         "s.toml:24: sensors.task.part: picks faces of objects. Needed: \"object\", the name of one, or a "
-        "list of names.");
+        "list of names, or \"room\", a point in one.");
     EXPECT_EQ(refusal_of("object = []"),
               "s.toml:22: sensors.task.object: found no object. Allowed: the name of an object, or a list of "
               "names.");

@@ -8,6 +8,7 @@
 
 #include "io/scene/fields.h"
 #include "io/text/text.h"
+#include "sensors/areas/rooms.h"
 #include "sensors/areas/surface_points.h"
 
 namespace stilb::io {
@@ -38,9 +39,9 @@ std::vector<Vec3> read_corners(const TomlItem& list, const std::optional<double>
 }  // namespace
 
 sensors::PolygonInSpace read_polygon(const TomlTable& table) {
-    const std::string given = table.one_of({"corners", "corner", "object"}).key;
-    if (given == "object") {
-        for (const char* key : {"height", "holes", "edge_u", "edge_v"}) table.expect_not_both("object", key);
+    const std::string given = table.one_of({"corners", "corner", "object", "room"}).key;
+    if (given == "object" || given == "room") {
+        for (const char* key : {"height", "holes", "edge_u", "edge_v"}) table.expect_not_both(given, key);
         return {};
     }
     if (given == "corner") {
@@ -69,6 +70,7 @@ sensors::Surfaces read_surfaces(const TomlTable& table) {
             surfaces.objects.emplace_back(object->text());
         }
     }
+    if (const auto room = table.find("room")) surfaces.room = room->vector();
     if (const auto part = table.find("part"))
         surfaces.part = static_cast<sensors::SurfacePart>(part->index_in(sensors::kSurfacePartNames, "part"));
     return surfaces;
@@ -84,8 +86,6 @@ Mesh plane_mesh_of(const TomlItem& item, const Object& object) {
     item.fail(fmt::format("object {} has no plane faces. Allowed: meshes, polygons, boxes and rectangles.",
                           in_quotes(object.name)));
 }
-
-}  // namespace
 
 void place_on_objects(const TomlTable& table, const Scene& scene, Area& area) {
     std::vector<std::string_view> names;
@@ -105,6 +105,27 @@ void place_on_objects(const TomlTable& table, const Scene& scene, Area& area) {
                         sensors::kSurfacePartNames[static_cast<std::size_t>(area.surfaces.part)]));
     }
     if (const auto fault = place_on(faces, area)) table.at(fault->key).fail(fault->message);
+}
+
+void place_in_room(const TomlTable& table, sensors::RoomsOnDemand& building, Area& area) {
+    const sensors::Room* const room = room_at(building.rooms(), *area.surfaces.room);
+    if (!room) {
+        table.at("room").fail(
+            "lies in no room. A room has a level floor of 1 m² or more, walls, and a ceiling 1.8 m or more "
+            "above. Allowed: a point in a room, or \"object\" in place of \"room\".");
+    }
+    if (const auto fault = place_in(*room, building.scene(), building.caster(), area))
+        table.at(table.find(fault->key) ? fault->key : "room").fail(fault->message);
+}
+
+}  // namespace
+
+void place_on_surfaces(const TomlTable& table, sensors::RoomsOnDemand& building, Area& area) {
+    if (area.surfaces.room) {
+        place_in_room(table, building, area);
+    } else {
+        place_on_objects(table, building.scene(), area);
+    }
 }
 
 sensors::Band read_band(const TomlItem& item) {

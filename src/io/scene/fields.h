@@ -18,6 +18,10 @@
 #include "sensors/fields.h"
 #include "sensors/sensor.h"
 
+namespace stilb::sensors {
+class RoomsOnDemand;
+}  // namespace stilb::sensors
+
 namespace stilb::io {
 
 inline void read_value(const TomlItem& item, const Range& range, double& value) {
@@ -87,8 +91,8 @@ std::vector<Measurand> read_sights(const FieldSource& source);
 Expression read_formula(const TomlItem& item);
 sensors::PolygonInSpace read_polygon(const TomlTable& table);
 sensors::Surfaces read_surfaces(const TomlTable& table);
-/// Makes the points of an area on faces of objects, which the scene has by now.
-void place_on_objects(const TomlTable& table, const Scene& scene, Area& area);
+/// Makes the points of an area on faces of objects or of a room, which the scene has by now.
+void place_on_surfaces(const TomlTable& table, sensors::RoomsOnDemand& building, Area& area);
 sensors::Band read_band(const TomlItem& item);
 /// The table "require" of a sensor, or of a band; empty where there is none.
 std::vector<Requirement> read_requirements(const TomlTable& owner, const Sensor& sensor);
@@ -152,7 +156,7 @@ Keys keys_of(const sensors::PolygonField<Owner>&) {
 }
 template <typename Owner>
 Keys keys_of(const sensors::SurfacesField<Owner>&) {
-    return {"object", "part"};
+    return {"object", "room", "part"};
 }
 template <typename Owner>
 Keys keys_of(const sensors::BandField<Owner>& field) {

@@ -8,6 +8,7 @@
 
 #include "io/scene/fields.h"
 #include "io/scene/repetition.h"
+#include "sensors/areas/rooms.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -69,10 +70,13 @@ const Range& range_of(const sensors::Criterion& criterion, const Sensor& sensor)
     return sensor.derived() ? kLimitOfDerived : kLimit;
 }
 
-/// Adds the bands around an area as sensors of their own, "task.surround" and "task.background".
-void add_bands(const TomlTable& table, const Sensor& sensor, std::vector<Sensor>& all) {
+/// Adds the bands around an area as sensors of their own, "task.surround" and "task.background". They end at
+/// the walls of its room.
+void add_bands(const TomlTable& table, const Sensor& sensor, sensors::RoomsOnDemand& building,
+               std::vector<Sensor>& all, Warnings& warnings) {
     const auto* area = std::get_if<Area>(&sensor.kind);
-    if (!area) return;
+    if (!area || (!area->surround && !area->background)) return;
+    const sensors::Room* const room = room_of(building.rooms(), *area);
     double from_m = 0;
     const auto add = [&](const char* key, const std::optional<sensors::Band>& band) {
         if (!band) return;
@@ -81,8 +85,17 @@ void add_bands(const TomlTable& table, const Sensor& sensor, std::vector<Sensor>
                     .spacing_m = area->spacing_m,
                     .band_m = {from_m, from_m + band->width_m}};
         if (const auto fault = around.settle(sensors::GivenKeys({}))) table.at(key).fail(fault->message);
-        all.push_back({fmt::format("{}.{}", sensor.name, key), std::move(around), band->requirements});
         from_m += band->width_m;
+        if (room) end_at_walls(*room, building.scene(), building.caster(), around);
+        if (around.points.empty()) {
+            warnings.push_back(
+                fmt::format("{}: no place of the band lies in the room of the area, whose walls end it: it "
+                            "is not measured, "
+                            "and no requirement on it is rated.",
+                            table.at(key).where()));
+            return;
+        }
+        all.push_back({fmt::format("{}.{}", sensor.name, key), std::move(around), band->requirements});
     };
     add("surround", area->surround);
     add("background", area->background);
@@ -218,6 +231,7 @@ void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile&
         return table.text_of("type") == Grid::kType ? "corner" : "";
     };
     std::int64_t readings = 0;
+    sensors::RoomsOnDemand building(file.scene);
     const auto tables = repeated_tables(named_tables(section, defaults), place);
     for (auto [name, table, copy_of] : tables) {
         Warnings warnings;
@@ -226,10 +240,10 @@ void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile&
             std::ranges::move(read_planes(name, table, file.scene), std::back_inserter(file.sensors));
         } else {
             Sensor& sensor = file.sensors.emplace_back(Sensor{name, read_sensor(table, warnings)});
-            if (auto* area = std::get_if<Area>(&sensor.kind); area && !area->surfaces.objects.empty())
-                place_on_objects(table, file.scene, *area);
+            if (auto* area = std::get_if<Area>(&sensor.kind); area && area->surfaces.are_given())
+                place_on_surfaces(table, building, *area);
             sensor.requirements = read_requirements(table, sensor);
-            add_bands(table, Sensor(sensor), file.sensors);
+            add_bands(table, Sensor(sensor), building, file.sensors, warnings);
         }
         for (std::string& warning : warnings) {
             const bool is_new = std::ranges::find(file.warnings, warning) == file.warnings.end();

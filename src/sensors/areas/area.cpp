@@ -126,19 +126,19 @@ double raster_spacing_m(double short_m, double long_m) {
 }
 
 std::optional<Fault> Area::settle(const GivenKeys& given) {
-    if (!surfaces.objects.empty()) {
+    if (surfaces.are_given()) {
         for (const std::string_view key : {"normal", "surround", "background"}) {
             if (given.has(key))
-                return Fault{
-                    key,
-                    "does not go with \"object\": faces of objects have normals of their own, and no "
-                    "bands around them. Allowed: one of the two."};
+                return Fault{key, fmt::format("does not go with \"{}\": faces have normals of their own, and "
+                                              "no bands around them. Allowed: one of the two.",
+                                              surfaces.room ? "room" : "object")};
         }
         return std::nullopt;
     }
     if (given.has("part"))
         return Fault{"part",
-                     "picks faces of objects. Needed: \"object\", the name of one, or a list of names."};
+                     "picks faces of objects. Needed: \"object\", the name of one, or a list of names, or "
+                     "\"room\", a point in one."};
     const std::string_view outline_key = given.has("corners") ? "corners" : "edge_v";
     const auto plane = plane_of(polygon.outline);
     if (!plane)

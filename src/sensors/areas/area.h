@@ -30,10 +30,14 @@ double area_m2(const PolygonInSpace& polygon);
 enum class SurfacePart { all, walls, ceiling, floor };
 inline constexpr std::array<std::string_view, 4> kSurfacePartNames{"all", "walls", "ceiling", "floor"};
 
-/// Faces of objects, such as the walls of a room.
+/// Faces of objects, or those around a room, such as its walls.
 struct Surfaces {
-    std::vector<std::string> objects;  ///< their names; none where the area is a polygon
+    std::vector<std::string> objects;  ///< their names
+    std::optional<Vec3> room;          ///< a point in it
     SurfacePart part = SurfacePart::all;
+
+    /// Nothing is where the area is a polygon.
+    bool are_given() const { return !objects.empty() || room; }
 };
 
 /// A band around an area, which is a sensor of its own.
@@ -60,7 +64,7 @@ struct Area {
     /// Of a band: its distances from the polygon; 0, 0 for the polygon itself.
     std::array<double, 2> band_m{};
 
-    // From settle() on; of faces of objects from place_on() on (surface_points.h).
+    // From settle() on; of faces from place_on() on (surface_points.h), or place_in() (rooms.h).
     std::vector<MeasuringPoint> points{};
     Grid raster{};  ///< its cells have the points in their middles, and others beyond the area
     std::array<double, 2> cell_m{};  ///< the distances of neighbouring points along both axes of the raster
@@ -72,7 +76,7 @@ struct Area {
     static constexpr auto fields() {
         return std::tuple{
             PolygonField{&Area::polygon, "the measured area"},
-            SurfacesField{&Area::surfaces, "faces of objects as the measured area"},
+            SurfacesField{&Area::surfaces, "faces of objects, or of a room, as the measured area"},
             DirectionField{"normal", &Area::normal,
                            "the side that receives light; by default upwards, or where the corners run "
                            "counterclockwise",

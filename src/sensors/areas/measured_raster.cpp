@@ -7,7 +7,7 @@ namespace stilb::sensors {
 const Grid* raster_of(const Sensor& sensor) {
     if (const auto* grid = std::get_if<Grid>(&sensor.kind)) return grid;
     const auto* area = std::get_if<Area>(&sensor.kind);
-    return area && area->surfaces.objects.empty() ? &area->raster : nullptr;
+    return area && !area->surfaces.are_given() ? &area->raster : nullptr;
 }
 
 std::vector<std::size_t> cells_of_readings(const Sensor& sensor) {
