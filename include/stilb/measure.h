@@ -30,13 +30,15 @@ struct Reading : Estimate {
     Triple direction{};
 };
 
-enum class Verdict { pass, fail, undecided };
+enum class Verdict { pass, fail, undecided, unsure };
 
-/// One entry of a sensor's `require`, and its verdict: pass and fail are certain at 95 %.
+/// One entry of a sensor's `require`, and its verdict: pass and fail are certain at 95 %. More samples may
+/// decide what is undecided, but not what is unsure, and why stands in `reason`.
 struct Requirement {
     std::string key;  ///< "mean", "uniformity" ...
     double limit = 0;
     Verdict verdict = Verdict::undecided;
+    std::string reason{};
 };
 
 /// The readings of one sensor; of a derived value a single one, without colour and position (NaN).

@@ -63,10 +63,12 @@ void add_estimates(nb::module_& module) {
     nb::class_<Requirement>(module, "Requirement")
         .def_ro("key", &Requirement::key)
         .def_ro("limit", &Requirement::limit)
-        .def_prop_ro("verdict", [](const Requirement& requirement) {
-            constexpr std::array names{"pass", "fail", "undecided"};
-            return names[static_cast<std::size_t>(requirement.verdict)];
-        });
+        .def_prop_ro("verdict",
+                     [](const Requirement& requirement) {
+                         constexpr std::array names{"pass", "fail", "undecided", "unsure"};
+                         return names[static_cast<std::size_t>(requirement.verdict)];
+                     })
+        .def_ro("reason", &Requirement::reason);
 }
 
 void add_summary(nb::module_& module) {

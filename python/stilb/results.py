@@ -198,8 +198,13 @@ class Reading:
 
     @property
     def requirements(self) -> dict[str, tuple[float, str]]:
-        """The limit of each requirement of the scene, and whether it is met: "pass", "fail" or "undecided"."""
+        """The limit of each requirement of the scene, and whether it is met: "pass", "fail", "undecided" or "unsure"."""
         return {item.key: (item.limit, item.verdict) for item in self._sensor.requirements}
+
+    @property
+    def reasons(self) -> dict[str, str]:
+        """Why requirements are "unsure": what the value leaves out, such as lamps too small for UGR, could change them."""
+        return {item.key: item.reason for item in self._sensor.requirements if item.reason}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each reading: position [m], direction, value, standard error and 95 % interval."""

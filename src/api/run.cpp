@@ -86,9 +86,9 @@ SensorResult sensor_result(const run::SensorResult& measured) {
                         .attained_error = measured.attained_error,
                         .diversity = estimate(measured.summary.diversity),
                         .requirements = {}};
-    for (const auto& [requirement, verdict] : measured.requirements) {
-        result.requirements.push_back(
-            {std::string(requirement.criterion->key), requirement.limit, static_cast<Verdict>(verdict)});
+    for (const auto& [requirement, verdict, reason] : measured.requirements) {
+        result.requirements.push_back({std::string(requirement.criterion->key), requirement.limit,
+                                       static_cast<Verdict>(verdict), reason});
     }
     for (std::size_t j = 0; j < measured.readings.size(); ++j) {
         const run::Reading& reading = measured.readings[j];

@@ -99,7 +99,7 @@ void MeasureFlags::add_to(Command& command) {
     command.add(
         "--check", checks,
         "Exit with code 1 where a requirement of a sensor (require = ...) is not met, with code 3 where "
-        "it is not sure yet, else with 0");
+        "it is not sure, else with 0");
     command
         .add("--target", target,
              "Readings (default: 95 % of each sensor's) or mean (means and minima of the sensors) have the "

@@ -33,6 +33,7 @@ struct ReportRequest {
     std::vector<std::string> views;
     std::optional<double> view_time_s;
     std::optional<std::uint64_t> view_passes;
+    bool lists_readings = false;
     MeasureFlags flags;
 };
 
@@ -88,8 +89,8 @@ void add_new(const std::vector<std::string>& more, std::vector<std::string>& war
 class Reporting {
   public:
     Reporting(const ReportRequest& request, const io::SceneFile& file, const RunOptions& options)
-        : request_(request), report_{file, request.scene, request.command, {}, options, {},
-                                     {},   file.warnings} {}
+        : request_(request), report_{file, request.scene, request.command,       {}, options, {},
+                                     {},   file.warnings, request.lists_readings} {}
 
     void measure(const std::vector<Sensor>& meters) {
         const std::string_view samples = estimators::find_estimator(report_.options.method).samples;
@@ -169,7 +170,7 @@ void add_report(CommandLine& line) {
     command.set_examples(
         "  stilb report office.toml -o office.html\n"
         "  stilb report office.toml -o office.html --error 0.5% --time 120 --view-time 60\n"
-        "  stilb report office.toml -o desks.html --sensor desk_a --sensor desk_b --check\n");
+        "  stilb report office.toml -o desks.html --sensor desk_a --sensor desk_b --check --readings\n");
     auto request = std::make_shared<ReportRequest>();
     command.add("SCENE", request->scene, "Scene (TOML, glTF, OBJ, Radiance), or - for standard input")
         .required();
@@ -187,6 +188,7 @@ void add_report(CommandLine& line) {
              "time")
         .from_to(2, 1'000'000)
         .value_name("N");
+    command.add("--readings", request->lists_readings, "Also list all readings, with their intervals");
     add_views(command, request->views);
     request->flags.add_to(command);
     command.find("--sensor").description("Report only this sensor or camera (may be repeated)");

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "estimators/estimator_list.h"
 #include "io/results/results_text.h"
@@ -86,9 +88,28 @@ std::string summary_text(const statistics::GridSummary& summary, const Sensor& s
 /// "required: mean at least 500 lx: pass; ..."; empty where nothing is required.
 std::string requirements_text(const SensorResult& result) {
     std::string text;
-    for (const auto& [requirement, verdict] : result.requirements) {
+    for (const auto& [requirement, verdict, reason] : result.requirements) {
         text += fmt::format("{} {}: {}", text.empty() ? "    required:" : ";",
                             io::requirement_text(requirement, result.sensor), run::name_of(verdict));
+        if (!reason.empty()) text += fmt::format(" ({})", reason);
+    }
+    return text.empty() ? text : text + '\n';
+}
+
+/// The lamps that a rating leaves out in a view or more, and why: "not counted: "a" and 2 more (outside of
+/// the field of view)"; empty where there are none.
+std::string glare_text(const SensorResult& result) {
+    std::map<run::GlareStanding, std::set<std::string_view>> left_out;
+    for (const run::GlareView& view : result.glare) {
+        for (const run::GlareSource& source : view.sources) {
+            if (!is_counted(source.standing)) left_out[source.standing].insert(source.light);
+        }
+    }
+    std::string text;
+    for (const auto& [standing, lights] : left_out) {
+        const std::string more = lights.size() > 1 ? fmt::format(" and {} more", lights.size() - 1) : "";
+        text += fmt::format("{} \"{}\"{} ({})", text.empty() ? "    not counted:" : ";", *lights.begin(),
+                            more, text_of(standing));
     }
     return text.empty() ? text : text + '\n';
 }
@@ -97,11 +118,11 @@ std::string sensor_table(const SensorResult& result) {
     const Sensor& sensor = result.sensor;
     const std::size_t readings = sensor.size();
     if (readings == 1 || sensor.derived())
-        return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0)) +
+        return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0)) + glare_text(result) +
                requirements_text(result);
     std::string text = fmt::format("{:12}  {}", sensor.name, io::size_text(sensor));
     text += fmt::format("; 95 % of the readings within {}\n", io::percent(result.attained_error));
-    text += summary_text(result.summary, sensor) + requirements_text(result);
+    text += summary_text(result.summary, sensor) + glare_text(result) + requirements_text(result);
     if (const auto count = sensor.count()) {
         const bool fits = (*count)[0] <= kMostColumns && (*count)[1] <= kMostRows;
         return fits ? text + grid_values(result, *count) : text;

@@ -127,12 +127,8 @@ std::string details_text(const Scene& scene, const Light& light) {
 }
 
 std::string light_place_text(const Scene& scene, const Light& light) {
-    const auto of = [](const Vec3& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z); };
-    if (const Luminaire* luminaire = luminaire_of(light)) return of(luminaire->position);
-    if (const auto origin = point_origin(light)) return of(origin->position);
-    if (const auto object = emitting_object(light))
-        return of(bounds_of(scene.object(*object).shape).middle());
-    return "all around";
+    const auto place = place_of(scene, light);
+    return place ? fmt::format("({:.4g}, {:.4g}, {:.4g})", place->x, place->y, place->z) : "all around";
 }
 
 std::string aim_text(const Light& light) {
@@ -156,7 +152,7 @@ Html table_of_lights(const Scene& scene) {
         const bool is_lamp = location_of(light) != LightLocation::infinity;
         const double flux = is_lamp ? flux_lm(scene, light).luminance() : 0;
         total_lm += flux;
-        table.add({text(light.name), text(type_of(light)), text(light_place_text(scene, light)),
+        table.add({name_text(light.name), text(type_of(light)), text(light_place_text(scene, light)),
                    text(aim_text(light)), text(is_lamp ? fmt::format("{:.5g}", flux) : "–"),
                    text(is_lamp ? fmt::format("{:g}", light.maintenance) : "–"),
                    text(details_text(scene, light))});

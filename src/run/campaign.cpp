@@ -179,7 +179,7 @@ bool Campaign::is_decided() const {
     std::vector<SensorEstimates> all = estimate_all(*this, sensors_, statistics::kVerdictConfidence);
     glare_.rate(all, statistics::kVerdictConfidence);
     for (std::size_t s = 0; s < all.size(); ++s) {
-        const std::vector<RatedRequirement> rated = rate(sensors_[s].requirements, all[s].summary);
+        const std::vector<RatedRequirement> rated = rate(sensors_[s].requirements, all[s]);
         if (std::ranges::any_of(rated, &RatedRequirement::is_undecided)) return false;
     }
     return true;

@@ -165,6 +165,16 @@ double confidence_of(const RunOptions& options, StopReason reason) {
     return options.error ? statistics::kStoppedConfidence : kConfidence;
 }
 
+std::vector<RatedRequirement> rated(std::span<const Requirement> requirements, std::size_t sensor,
+                                    const SensorEstimates& estimates, const GlareViews& glare,
+                                    const Scene& scene) {
+    std::vector<RatedRequirement> all = rate(requirements, estimates);
+    for (RatedRequirement& rated : all) {
+        if (rated.verdict == Verdict::unsure) rated.reason = glare.reason_of_doubt(sensor, estimates, scene);
+    }
+    return all;
+}
+
 /// Sets the results of all sensors and the power density, and adds the warnings of all sensors.
 void set_results(const Campaign& campaign, const Scene& scene, std::span<const Sensor> sensors,
                  const GlareViews& glare, const RunOptions& options,
@@ -189,6 +199,10 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
         deciding = estimate_all(campaign, sensors, statistics::kVerdictConfidence);
         glare.rate(deciding, statistics::kVerdictConfidence);
     }
+    std::vector<std::vector<RatedRequirement>> verdicts;
+    for (std::size_t s = 0; s < sensors.size(); ++s)
+        verdicts.push_back(
+            rated(sensors[s].requirements, s, has_looked ? deciding[s] : estimates[s], glare, scene));
     std::size_t first = 0;
     for (std::size_t s = 0; s < sensors.size(); ++s) {
         const Sensor& sensor = sensors[s];
@@ -196,7 +210,7 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
             sensor_result(campaign, sensor, std::move(estimates[s]), first, sight_ends));
         own.attained_error = attained[s];
         own.glare = std::move(views[s]);
-        own.requirements = rate(sensor.requirements, has_looked ? deciding[s].summary : own.summary);
+        own.requirements = std::move(verdicts[s]);
         first += sensor.size();
     }
 }
@@ -280,6 +294,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     };
     warn(std::move(of_scene));
     result.power = scene::installed_power(scene);
+    result.rooms = power_of_rooms(scene, session.caster());
     set_results(campaign, scene, sensors, *glare, options, estimator->sight_ends(), result);
     warn(sharp_light_warnings(sharp, result.samples, scene));
     warn(patch_error_warnings(result));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sensors/areas/rooms.h"
 #include "statistics/combination.h"
 
 namespace stilb::run {
@@ -33,6 +34,30 @@ std::optional<PowerDensity> power_density(const scene::InstalledPower& power, st
     density.w_m2_per_100_lx = incident_lm > 0 ? statistics::combine(value, slopes, means, confidence).estimate
                                               : statistics::Estimate{none, none, none, none};
     return density;
+}
+
+std::vector<RoomPower> power_of_rooms(const Scene& scene, const rays::RayCaster& caster) {
+    // Recessed lamps are a little above the ceiling.
+    constexpr double kRecess_m = 0.2;
+    if (!scene::installed_power(scene).power_w) return {};
+    const std::vector<sensors::Room> rooms = sensors::find_rooms(scene, caster);
+    std::vector<RoomPower> all(rooms.size());
+    for (const Light& light : scene.lights) {
+        const auto place = scene::place_of(scene, light);
+        if (!place) continue;
+        const sensors::Room* room = room_at(rooms, *place);
+        if (!room) room = room_at(rooms, *place - Vec3{0, 0, kRecess_m});
+        if (!room) continue;
+        RoomPower& own = all[static_cast<std::size_t>(room - rooms.data())];
+        own.power_w += light.power_w.value_or(0);
+        own.unknown += light.power_w ? 0 : 1;
+    }
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+        all[i].extent = rooms[i].extent();
+        all[i].floor_m2 = rooms[i].area_m2();
+    }
+    std::erase_if(all, [](const RoomPower& room) { return !(room.power_w > 0); });
+    return all;
 }
 
 }  // namespace stilb::run

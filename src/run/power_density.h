@@ -1,9 +1,11 @@
-// The installed power per square metre of the task areas, and per 100 lx of their mean.
+// The installed power per square metre of the task areas, and per 100 lx of their mean; and per square metre
+// of the floors of rooms.
 #pragma once
 
 #include <optional>
 #include <span>
 
+#include "rays/ray_caster.h"
 #include "run/result.h"
 #include "run/sensor_estimates.h"
 
@@ -13,5 +15,9 @@ namespace stilb::run {
 /// no power is known. `estimates`: of the sensors.
 std::optional<PowerDensity> power_density(const scene::InstalledPower& power, std::span<const Sensor> sensors,
                                           std::span<const SensorEstimates> estimates, double confidence);
+
+/// Of the rooms (sensors/areas/rooms.h) in which there are lamps, from the lowest floor up; none where no
+/// power is known.
+std::vector<RoomPower> power_of_rooms(const Scene& scene, const rays::RayCaster& caster);
 
 }  // namespace stilb::run

@@ -69,29 +69,39 @@ struct Reading {
     std::optional<double> patch_error{};
 };
 
-/// Whether a requirement is met, for certain at 95 %.
-enum class Verdict { pass, fail, undecided };
+/// Whether a requirement is met, for certain at 95 %. Undecided: more samples may tell. Unsure: they cannot,
+/// because something that the value leaves out could change the verdict.
+enum class Verdict { pass, fail, undecided, unsure };
 
-/// "pass", "fail", "not sure yet".
+/// "pass", "fail", "not sure yet", "not sure".
 std::string_view name_of(Verdict verdict);
 
 struct RatedRequirement {
     Requirement requirement;
     Verdict verdict = Verdict::undecided;
+    std::string reason{};  ///< where it is unsure: a text such as "light "d" is ..."
 
     bool is_undecided() const { return verdict == Verdict::undecided; }
 };
 
+/// Whether a rating of glare counts a lamp. Large: it does, but was not made for it. Dim: below the threshold
+/// of DGP.
+enum class GlareStanding { counted, large, small, outside, point, dim };
+constexpr bool is_counted(GlareStanding standing) { return standing <= GlareStanding::large; }
+/// Such as "less than 0.0003 sr"; empty of those that are counted without a remark.
+std::string_view text_of(GlareStanding standing);
+
 /// A lamp that a view sees, as a source of glare.
 struct GlareSource {
     std::string light;
-    double luminance_cd_m2 = 0, solid_angle_sr = 0;
-    double position_index = 0;  ///< Guth's
-    bool is_counted = true;     ///< false where it is too small for the rating
+    double luminance_cd_m2 = 0, solid_angle_sr = 0;  ///< 0 of points
+    double position_index = 0;                       ///< Guth's
+    GlareStanding standing = GlareStanding::counted;
 };
-/// What the eye of a sensor of type "ugr" sees.
+/// What the eye of a sensor that rates glare sees.
 struct GlareView {
-    double background_cd_m2 = 0;
+    std::optional<double> background_cd_m2;  ///< of UGR
+    std::optional<double> threshold_cd_m2;   ///< of DGP
     std::vector<GlareSource> sources;
 };
 
@@ -110,7 +120,7 @@ struct SensorResult {
     /// runs with other seeds can be combined with them.
     std::vector<double> replicate_means{};
     std::vector<RatedRequirement> requirements{};
-    std::vector<GlareView> glare{};  ///< of each reading of a sensor of type "ugr"
+    std::vector<GlareView> glare{};  ///< of each reading of a sensor that rates glare
 };
 
 /// The installed power over the task areas together (sensors::task_area_m2()).
@@ -120,12 +130,23 @@ struct PowerDensity {
     statistics::Estimate w_m2_per_100_lx;  ///< of the areas' mean illuminance
 };
 
+/// The installed power of a room with lamps, per square metre of its floor.
+struct RoomPower {
+    Bounds extent;  ///< [m]
+    double floor_m2 = 0;
+    double power_w = 0;       ///< of the lamps whose power is known
+    std::size_t unknown = 0;  ///< the number of the other lamps
+
+    double w_m2() const { return power_w / floor_m2; }
+};
+
 struct RunResult : RunSummary {
     std::string scene_name;             ///< may be empty
     std::uint64_t rays = 0;             ///< of the connections to receivers
     std::vector<SensorResult> sensors;  ///< in the order requested
     scene::InstalledPower power;
     std::optional<PowerDensity> power_density;
+    std::vector<RoomPower> rooms;  ///< those that have lamps, where the power of some is known
 };
 
 /// On all requirements together: a fail where one fails; nothing where there are none.

@@ -2,6 +2,7 @@
 // required.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace stilb::run {
 struct SensorEstimates {
     Campaign::Estimates readings;
     statistics::GridSummary summary;  ///< intervals with the error of the patches
+    /// The same with what the readings leave out, as far as it is known: infinite where it is not. Nothing
+    /// where they leave out nothing.
+    std::optional<statistics::GridSummary> complete{};
 };
 
 /// The summary of a sensor's readings; intervals with the error of the patches.
@@ -31,6 +35,6 @@ double attained_error_of_means(std::span<const Sensor> sensors, std::span<const 
 
 /// A requirement is met, or is not, where the whole interval says so.
 std::vector<RatedRequirement> rate(std::span<const Requirement> requirements,
-                                   const statistics::GridSummary& summary);
+                                   const SensorEstimates& estimates);
 
 }  // namespace stilb::run

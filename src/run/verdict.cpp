@@ -14,6 +14,15 @@ Verdict verdict_on(const Requirement& requirement, const statistics::Estimate& e
     return Verdict::undecided;
 }
 
+/// A value that passes does so for certain if it also passes with what it leaves out.
+Verdict verdict_on(const Requirement& requirement, const SensorEstimates& estimates) {
+    const Statistic statistic = requirement.criterion->statistic;
+    const Verdict verdict = verdict_on(requirement, estimates.summary[statistic]);
+    if (verdict != Verdict::pass || !estimates.complete) return verdict;
+    const Verdict in_all = verdict_on(requirement, (*estimates.complete)[statistic]);
+    return in_all == Verdict::fail ? Verdict::unsure : in_all;
+}
+
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
@@ -23,16 +32,36 @@ std::string_view name_of(Verdict verdict) {
         case Verdict::fail:
             return "fail";
         case Verdict::undecided:
+            return "not sure yet";
+        case Verdict::unsure:
             break;
     }
-    return "not sure yet";
+    return "not sure";
+}
+
+std::string_view text_of(GlareStanding standing) {
+    switch (standing) {
+        case GlareStanding::counted:
+            break;
+        case GlareStanding::large:
+            return "more than 0.1 sr: the rating is not valid";
+        case GlareStanding::small:
+            return "less than 0.0003 sr";
+        case GlareStanding::outside:
+            return "outside of the field of view";
+        case GlareStanding::point:
+            return "no luminous area";
+        case GlareStanding::dim:
+            return "below the threshold";
+    }
+    return "";
 }
 
 std::vector<RatedRequirement> rate(std::span<const Requirement> requirements,
-                                   const statistics::GridSummary& summary) {
+                                   const SensorEstimates& estimates) {
     std::vector<RatedRequirement> rated;
     for (const Requirement& requirement : requirements)
-        rated.push_back({requirement, verdict_on(requirement, summary[requirement.criterion->statistic])});
+        rated.push_back({requirement, verdict_on(requirement, estimates)});
     return rated;
 }
 
@@ -41,7 +70,8 @@ std::optional<Verdict> verdict_of(const RunResult& result) {
     for (const SensorResult& sensor : result.sensors) {
         for (const RatedRequirement& rated : sensor.requirements) {
             if (rated.verdict == Verdict::fail) return Verdict::fail;
-            if (!all || rated.is_undecided()) all = rated.verdict;
+            const bool is_met_so_far = !all || *all == Verdict::pass;
+            if (is_met_so_far || rated.is_undecided()) all = rated.verdict;
         }
     }
     return all;

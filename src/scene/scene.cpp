@@ -65,6 +65,14 @@ std::set<ObjectId> lamps_of(const Scene& scene) {
     return lamps;
 }
 
+std::optional<Vec3> place_of(const Scene& scene, const Light& light) {
+    if (const Luminaire* luminaire = lights::luminaire_of(light)) return luminaire->position;
+    if (const auto origin = lights::point_origin(light)) return origin->position;
+    if (const auto object = lights::emitting_object(light))
+        return bounds_of(scene.object(*object).shape).middle();
+    return std::nullopt;
+}
+
 Rgb flux_lm(const Scene& scene, const Light& light) {
     return lights::flux_lm(light, LightSurroundings(scene));
 }

@@ -78,6 +78,9 @@ Bounds bounds_of(const Scene& scene);
 Lift lift_of(const Scene& scene);
 /// The objects whose fronts are lamps.
 std::set<ObjectId> lamps_of(const Scene& scene);
+/// The place of a lamp: of a luminaire or a point, or the middle of its surface; nothing for light from
+/// infinity.
+std::optional<Vec3> place_of(const Scene& scene, const Light& light);
 /// Flux of a light per band; luminance() of it is lumen.
 Rgb flux_lm(const Scene& scene, const Light& light);
 /// The lowest and the highest maintenance factor of the lamps; nothing where no lamp has one below 1.

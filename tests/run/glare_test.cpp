@@ -1,6 +1,8 @@
 // The Unified Glare Rating against its formula, where all of its parts are known.
 #include "transport/glare/glare.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -141,12 +143,90 @@ TEST(UnifiedGlareRating, HasReplicates) {
     EXPECT_NEAR(eye.summary.maximum.upper, eye.readings[0].estimate.upper, 0.1 * again.standard_error);
 }
 
+/// A narrow downlight straight above the eye is no source of glare, but its light is no background.
+TEST(UnifiedGlareRating, LeavesOutLampsOutsideOfItsField) {
+    constexpr double radius = 0.1, height = 1.6;
+    Scene scene = lamp_in_an_environment();
+    add_area_light(scene, Disk{{0, 0, 1.2 + height}, {0, 0, -1}, radius}, Rgb::grey(1e6));
+    // The illuminance of a vertical element by half of a disk above it, over the luminance.
+    const double half_disk =
+        std::atan(radius / height) - radius * height / (radius * radius + height * height);
+    const double hides = exact_ugr(kBackground * (1 - half_disk / kPi));
+    const run::RunResult result = rated(scene, 1);
+    const run::SensorResult& eye = result.sensors.at(0);
+    EXPECT_LT(std::abs(statistics::z_score(eye.readings.at(0).estimate, hides)), 4);
+    EXPECT_LT(eye.readings[0].estimate.standard_error, 0.1);
+    ASSERT_EQ(eye.glare.at(0).sources.size(), 2u);
+    EXPECT_EQ(eye.glare[0].sources[0].standing, run::GlareStanding::counted);
+    EXPECT_EQ(eye.glare[0].sources[1].standing, run::GlareStanding::outside);
+    EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+}
+
+/// On the line of sight, where the position index is 1.
+constexpr double kAway = 4;
+Scene with_disk_of(double solid_angle_sr, double luminance) {
+    Scene scene = lamp_in_an_environment();
+    const double cosine = 1 - solid_angle_sr / (2 * kPi);
+    const double radius = kAway * std::sqrt(1 - cosine * cosine) / cosine;
+    add_area_light(scene, Disk{kEye.position + Vec3{0, kAway, 0}, {0, -1, 0}, radius}, Rgb::grey(luminance));
+    return scene;
+}
+/// Of such a scene, where the small disk hides nothing that matters.
+double exact_with(double solid_angle_sr, double luminance) {
+    return 8 * std::log10(std::pow(10, exact_ugr() / 8) +
+                          0.25 / kBackground * luminance * luminance * solid_angle_sr);
+}
+
+run::RatedRequirement verdict_at(const Scene& scene, double most, const MeasuringPoint& at = kEye) {
+    Sensor eye = eye_that_requires(most);
+    eye.kind = Ugr{{at}};
+    RunOptions options;
+    options.time_s = 20;
+    const run::RunResult result = run::measure(scene, {&eye, 1}, options);
+    EXPECT_EQ(result.stop_reason, StopReason::requirements_decided);
+    return result.sensors.at(0).requirements.at(0);
+}
+
+TEST(UnifiedGlareRating, DoesNotPassWhereWhatItLeavesOutCouldChangeTheVerdict) {
+    constexpr double luminance = 1e5, small = 0.99 * transport::kLeastGlare_sr,
+                     counted = 1.01 * transport::kLeastGlare_sr;
+    const double counting_all = exact_with(small, luminance);
+    ASSERT_GT(counting_all, exact_ugr() + 3);
+    const Scene scene = with_disk_of(small, luminance);
+    EXPECT_EQ(verdict_at(scene, exact_ugr() - 0.5).verdict, Verdict::fail);
+    const run::RatedRequirement between = verdict_at(scene, counting_all - 0.5);
+    EXPECT_EQ(between.verdict, Verdict::unsure);
+    const std::size_t number = between.reason.find("with it the rating is ");
+    ASSERT_NE(number, std::string::npos) << between.reason;
+    EXPECT_NEAR(std::stod(between.reason.substr(number + 22)), counting_all, 0.1);
+    EXPECT_EQ(verdict_at(scene, counting_all + 0.5).verdict, Verdict::pass);
+    // A little larger, it counts.
+    const Scene larger = with_disk_of(counted, luminance);
+    const double with_it = exact_with(counted, luminance);
+    EXPECT_EQ(verdict_at(larger, with_it - 0.5).verdict, Verdict::fail);
+    EXPECT_EQ(verdict_at(larger, with_it + 0.5).verdict, Verdict::pass);
+}
+
+TEST(UnifiedGlareRating, DoesNotPassWithLampsThatItWasNotMadeFor) {
+    for (const auto& [solid_angle_sr, verdict] : {std::pair{0.99 * transport::kMostGlare_sr, Verdict::pass},
+                                                  {1.01 * transport::kMostGlare_sr, Verdict::unsure}})
+        EXPECT_EQ(verdict_at(with_disk_of(solid_angle_sr, 2000), 60).verdict, verdict);
+    Scene scene = lamp_in_an_environment();
+    add_point_light(scene, {0.5, 3, 1.2}, Rgb::grey(1));
+    EXPECT_EQ(verdict_at(scene, 60).verdict, Verdict::unsure);
+    // Behind the eye, straight above it and behind something the point does not matter.
+    EXPECT_EQ(verdict_at(scene, 60, {{0, 4, 1.2}, {0, 1, 0}}).verdict, Verdict::pass);
+    EXPECT_EQ(verdict_at(scene, 60, {{0.5, 2.9, 0.5}, {0, 1, 0}}).verdict, Verdict::pass);
+    add_object(scene, Rectangle{{0.4, 2.5, 1.1}, {0.2, 0, 0}, {0, 0, 0.2}}, Black{});
+    EXPECT_EQ(verdict_at(scene, 60).verdict, Verdict::pass);
+}
+
 TEST(UnifiedGlareRating, SaysWhatItLeavesOut) {
     Scene scene = lamp_in_an_environment();
     add_point_light(scene, {1, 2, 2}, Rgb::grey(10));
     add_area_light(scene, Sphere{{0, 4, 1.2}, 0.02}, Rgb::grey(1e6));
     const run::RunResult result = rated(scene, 1);
-    ASSERT_EQ(result.warnings.size(), 2u);
+    ASSERT_EQ(result.warnings.size(), 2u) << fmt::format("{}", fmt::join(result.warnings, "\n"));
     EXPECT_NE(result.warnings[0].find("is less than 0.0003 sr"), std::string::npos) << result.warnings[0];
     EXPECT_NE(result.warnings[1].find("a point has no luminous area"), std::string::npos)
         << result.warnings[1];

@@ -147,7 +147,7 @@ std::vector<RatedRequirement> rated(std::string_view key, double limit,
     const Requirement requirement{criterion, limit};
     statistics::GridSummary summary;
     summary.mean = summary.minimum = summary.maximum = summary.uniformity = summary.diversity = estimate;
-    return rate({&requirement, 1}, summary);
+    return rate({&requirement, 1}, run::SensorEstimates{{}, summary});
 }
 
 TEST(Requirements, AreDecidedByTheWholeInterval) {
@@ -252,6 +252,11 @@ TEST(Requirements, AreAllNeeded) {
     EXPECT_EQ(set({Verdict::undecided, Verdict::pass}), Verdict::undecided);
     EXPECT_EQ(set({Verdict::pass, Verdict::undecided}), Verdict::undecided);
     EXPECT_EQ(set({Verdict::undecided, Verdict::fail, Verdict::pass}), Verdict::fail);
+    EXPECT_EQ(set({Verdict::unsure, Verdict::pass}), Verdict::unsure);
+    EXPECT_EQ(set({Verdict::pass, Verdict::unsure}), Verdict::unsure);
+    EXPECT_EQ(set({Verdict::unsure, Verdict::undecided}), Verdict::undecided);
+    EXPECT_EQ(set({Verdict::undecided, Verdict::unsure}), Verdict::undecided);
+    EXPECT_EQ(set({Verdict::unsure, Verdict::fail}), Verdict::fail);
 }
 
 TEST(TargetMean, AimsAtMeansAndMinima) {

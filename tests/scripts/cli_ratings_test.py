@@ -2,6 +2,8 @@
 
 import csv
 import json
+import math
+import re
 import statistics
 import tempfile
 import unittest
@@ -58,6 +60,10 @@ class RatingsTest(CommandLineTest):
         self.assertEqual((power["installed_w"], power["unknown"]), (11.2, []))
         self.assertAlmostEqual(power["task_area_m2"], 2.8 * 1.6)  # without the band around it
         self.assertAlmostEqual(power["w_m2"], 11.2 / (2.8 * 1.6))
+        (room,) = power["rooms"]  # with the cabinet, which is furniture
+        self.assertAlmostEqual(room["floor_m2"], 12, 3)
+        self.assertAlmostEqual(room["w_m2"], 11.2 / 12, 3)
+        self.assertEqual((room["installed_w"], room["lamps_of_unknown_power"]), (11.2, 0))
         per_100_lx = 100 * power["w_m2"] / task["summary"]["mean"]
         self.assertAlmostEqual(power["w_m2_per_100_lx"], per_100_lx)
         low, high = task["summary"]["mean_interval"]
@@ -65,7 +71,7 @@ class RatingsTest(CommandLineTest):
         low, high = power["w_m2_per_100_lx_interval"]
         self.assertAlmostEqual((high - low) / 2 / per_100_lx, relative, 6)
         table = run("measure", self.scene, "--paths", "4096").stdout
-        self.assertRegex(table, r"\nInstalled power: 11\.2 W; 2\.5 W/m² of the task area \(4\.48 m²\), "
+        self.assertRegex(table, r"\nInstalled power: 11\.2 W; 0\.933 W/m² of the room's floor \(12 m²\); 2\.5 W/m² of the task area \(4\.48 m²\), "
                                 r"[0-9.]+ ± [0-9.]+ W/m² per 100 lx\n")
         report = json.loads(run("info", self.scene, "--json").stdout)
         self.assertEqual(report["lights"][0]["power_w"], 11.2)
@@ -80,7 +86,7 @@ class RatingsTest(CommandLineTest):
         self.assertIn(unknown, run("info", self.scene).stdout)
         spot = "[lights.spot]\ntype = \"point\"\nposition = [1, 2, 2]\nflux = 10\npower = 2\n"
         self.scene = self.write("power.toml", ROOM + RATINGS + spot)
-        self.assertIn("\nInstalled power: 2 W, without lamps of unknown power: bulb; 0.446 W/m²",
+        self.assertIn("\nInstalled power: 2 W, without lamps of unknown power: bulb; 0.167 W/m² of the room's floor (12 m²); 0.446 W/m²",
                       run("measure", self.scene, "--paths", "4096").stdout)
 
     def test_csv_of_derived_values(self):
@@ -135,10 +141,10 @@ flux = 1000
 
 [sensors.eye]
 type = "ugr"
-position = [2, 0.3, 1.2]
+position = [2, 1.6, 1.2]
 direction = [0, 1, 0]
 """
-        for limit, code, verdict in ((40, 0, "pass"), (10, 1, "fail")):
+        for limit, code, verdict in ((40, 0, "pass"), (3, 1, "fail")):
             with self.subTest(limit=limit):
                 self.scene = self.write("glare.toml", ROOM + glare + f"require = {{ ugr = {limit} }}\n")
                 document = self.measure("--check", code=code)
@@ -147,10 +153,89 @@ direction = [0, 1, 0]
                 self.assertEqual((requirement["key"], requirement["at_most"]), ("ugr", limit))
                 self.assertEqual(requirement["value"], document["sensors"][-1]["values"][0]["value"])
         table = run("measure", self.scene, "--check").stdout
-        self.assertRegex(table, r"\n    required: ugr at most 10: fail\n")
+        self.assertRegex(table, r"\n    required: ugr at most 3: fail\n")
         # An error that is asked for is reached, though all is decided before.
         document = self.measure("--check", "--error", "1%", code=1)
         self.assertEqual((document["verdict"], document["stopped"]), ("fail", "target reached"))
+        # The bulb, which is a point, is in view.
+        self.scene = self.write("glare.toml", ROOM + glare.replace("1.6, 1.2", "0.3, 1.2") + "require = { ugr = 40 }\n")
+        document = self.measure("--check", code=3)
+        self.assertEqual((document["verdict"], document["stopped"]), ("not sure", "requirements decided"))
+        (requirement,) = document["sensors"][-1]["requirements"]
+        self.assertEqual((requirement["verdict"], requirement["reason"]),
+                         ("not sure", 'light "bulb" has no luminous area'))
+        (view,) = document["sensors"][-1]["glare"]
+        self.assertEqual([(s["light"], s["counted"], s.get("remark")) for s in view["sources"]],
+                         [("globe", True, None), ("bulb", False, "no luminous area")])
+
+    def test_small_downlights_and_those_above_the_eye(self):
+        """Six downlights of I = 1000 cd cos gamma, 1.79 m above an eye; a rating by hand."""
+        room = """
+[materials.w]
+type = "diffuse"
+reflectance = 0.5
+[objects.room]
+shape = "box"
+min = [0, 0, 0]
+max = [8, 5, 3]
+material = "w"
+[lights.d]
+type = "photometry"
+file = "spot.ies"
+positions = [[4.5, 1.25, 2.99], [4.5, 3.75, 2.99], [6, 1.25, 2.99], [6, 3.75, 2.99], [7.5, 1.25, 2.99], [7.5, 3.75, 2.99]]
+[sensors.eye]
+type = "ugr"
+position = [0.5, 2.5, 1.2]
+direction = [1, 0, 0]
+require = { ugr = LIMIT }
+[sensors.front]
+type = "illuminance"
+position = [0.5, 2.5, 1.2]
+normal = [1, 0, 0]
+"""
+        def write(limit, diameter, scene=room):
+            # 10 degrees apart: at most 0.4 % from the cosine.
+            angles = range(0, 91, 10)
+            candela = " ".join(f"{1000 * math.cos(math.radians(a)):.3f}" for a in angles)
+            self.write("spot.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 10 1 1 2 "
+                       f"{-diameter} {-diameter} 0\n1 1 30\n{' '.join(map(str, angles))}\n0\n{candela}\n")
+            self.scene = self.write("spots.toml", scene.replace("LIMIT", str(limit)))
+
+        def by_hand(diameter, total_lx):
+            glare, direct_lx = 0, 0
+            for across in (-1.25, 1.25):
+                for along in (4, 5.5, 7):
+                    squared = along ** 2 + across ** 2 + 1.79 ** 2
+                    cosine = 1.79 / math.sqrt(squared)  # gamma from the nadir
+                    intensity, area = 1000 * cosine, math.pi / 4 * diameter ** 2 * cosine
+                    s = math.degrees(math.atan2(math.hypot(across, 1.79), along))
+                    t = math.degrees(math.atan2(abs(across), 1.79))
+                    index = math.exp((35.2 - 0.31889 * t - 1.22 * math.exp(-2 * t / 9)) * 1e-3 * s
+                                     + (21 + 0.26667 * t - 0.002963 * t ** 2) * 1e-5 * s ** 2)
+                    glare += (intensity / area) ** 2 * area / squared / index ** 2
+                    direct_lx += intensity * along / squared ** 1.5
+            return 8 * math.log10(0.25 * glare * math.pi / (total_lx - direct_lx))
+
+        write(19, 0.06)  # 5e-5 sr and less
+        document = self.measure("--check", "--paths", "16384", code=3)
+        eye, front = document["sensors"]
+        total_lx = front["values"][0]["value"]
+        (requirement,) = eye["requirements"]
+        self.assertEqual((document["verdict"], requirement["verdict"]), ("not sure", "not sure"))
+        self.assertEqual(eye["values"][0]["value"], 0)
+        rating = float(re.search(r"less than 0\.0003 sr, .* left out: with it the rating is ([\d.]+)", requirement["reason"])[1])
+        self.assertAlmostEqual(rating, by_hand(0.06, total_lx), delta=0.15)
+        self.assertEqual([(s["counted"], s["remark"]) for s in eye["glare"][0]["sources"]], [(False, "less than 0.0003 sr")] * 6)
+        table = run("measure", self.scene, "--paths", "2048").stdout
+        self.assertIn('\n    not counted: "d_1" and 5 more (less than 0.0003 sr)\n    required: ugr at most 19: not sure (light "d_1" and 5 more ', table)
+        # Larger ones count, and one steeply above the eye (H / R = 1.99) does not, in spite of all its light.
+        write(19, 0.3, room.replace("positions = [", "positions = [[1.4, 2.5, 2.99], "))
+        document = self.measure("--check", "--paths", "16384", code=1)
+        eye, front = document["sensors"]
+        above = 1000 * 1.79 * 0.9 / (0.9 ** 2 + 1.79 ** 2) ** 2  # I cos / d^2 at the eye
+        self.assertAlmostEqual(eye["values"][0]["value"], by_hand(0.3, front["values"][0]["value"] - above), delta=0.15)
+        self.assertEqual([(s["light"], s.get("remark")) for s in eye["glare"][0]["sources"] if not s["counted"]],
+                         [("d_1", "outside of the field of view")])
 
     def test_what_is_not_sure_yet(self):
         self.scene = self.write("free.toml", ROOM)

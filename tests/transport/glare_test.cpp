@@ -41,6 +41,32 @@ TEST(PositionIndex, IsSixteenAtMost) {
     EXPECT_EQ(position_index(direction_at(120, 40), kAhead), 16);
 }
 
+/// By distances beside the line of sight and above it, per distance along it.
+bool is_in_field_at(double beside, double above) {
+    return is_in_field(normalized(Vec3{beside, 1, above}), kAhead);
+}
+
+/// Up to T / R = 3 and H / R = 2, where the index is still 15.8.
+TEST(FieldOfUgr, EndsWhereTheTableOfPositionIndicesEnds) {
+    EXPECT_TRUE(is_in_field_at(0, 0));
+    constexpr double more = 1 + 1e-6;
+    for (const double side : {-1, 1}) {
+        EXPECT_TRUE(is_in_field_at(side * 3 / more, 0));
+        EXPECT_TRUE(is_in_field_at(side * 3, 0));
+        EXPECT_FALSE(is_in_field_at(side * 3 * more, 0));
+        EXPECT_TRUE(is_in_field_at(3, side * 2 / more));
+        EXPECT_TRUE(is_in_field_at(3, side * 2));
+        EXPECT_FALSE(is_in_field_at(3, side * 2 * more));
+    }
+    // Straight above the line of sight: ln 16 = 33.98e-3 s + 21e-5 s^2.
+    const double s = (-33.98e-3 + std::sqrt(33.98e-3 * 33.98e-3 + 4 * 21e-5 * std::log(16))) / (2 * 21e-5);
+    EXPECT_TRUE(is_in_field(direction_at(s - 1e-6, 0), kAhead));
+    EXPECT_FALSE(is_in_field(direction_at(s + 1e-6, 0), kAhead));
+    EXPECT_FALSE(is_in_field(direction_at(90, 0), kAhead));
+    EXPECT_FALSE(is_in_field({0, -1, 0}, kAhead));
+    EXPECT_FALSE(is_in_field(normalized(Vec3{0.1, -1, 0.1}), kAhead));
+}
+
 /// A disk that faces the eye on its line of sight: solid angle, luminance and illuminance in closed form.
 TEST(Glare, HasTheIntegralsOfADisk) {
     Scene scene;

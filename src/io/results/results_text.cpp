@@ -52,7 +52,7 @@ std::string requirement_text(const Requirement& requirement, const Sensor& senso
 
 std::string verdicts_text(const RunResult& result) {
     std::string text;
-    for (const Verdict verdict : {Verdict::pass, Verdict::fail, Verdict::undecided}) {
+    for (const Verdict verdict : {Verdict::pass, Verdict::fail, Verdict::undecided, Verdict::unsure}) {
         std::ptrdiff_t count = 0;
         for (const SensorResult& sensor : result.sensors)
             count += std::ranges::count(sensor.requirements, verdict, &RatedRequirement::verdict);
@@ -190,11 +190,24 @@ std::string power_text(std::optional<double> installed_w, std::span<const std::s
                        more);
 }
 
+std::string room_power_text(std::span<const run::RoomPower> rooms) {
+    constexpr std::size_t most_rooms = 4;
+    if (rooms.size() == 1)
+        return fmt::format("; {:.3g} W/m² of the room's floor ({:.4g} m²)", rooms[0].w_m2(),
+                           rooms[0].floor_m2);
+    std::string text;
+    for (const run::RoomPower& room : rooms.first(std::min(rooms.size(), most_rooms))) {
+        text += fmt::format("{} {:.3g} W/m² ({:.4g} m²)", text.empty() ? "; of the floors of rooms" : ",",
+                            room.w_m2(), room.floor_m2);
+    }
+    return rooms.size() > most_rooms ? fmt::format("{} and {} more", text, rooms.size() - most_rooms) : text;
+}
+
 std::string installed_power_text(const RunResult& result) {
     std::vector<Sensor> sensors;
     for (const SensorResult& sensor : result.sensors) sensors.push_back(sensor.sensor);
     if (!result.power.power_w && !(sensors::task_area_m2(sensors) > 0)) return "";
-    std::string text = power_text(result.power.power_w, result.power.unknown);
+    std::string text = power_text(result.power.power_w, result.power.unknown) + room_power_text(result.rooms);
     if (const auto& density = result.power_density) {
         text += fmt::format("; {:.3g} W/m² of the task area ({:.4g} m²)", density->w_m2, density->area_m2);
         text += fmt::format(", {} W/m² per 100 lx", with_error(density->w_m2_per_100_lx));

@@ -53,7 +53,10 @@ std::string ending(StopReason reason, std::string_view all);
 std::string maintenance_text(const std::array<double, 2>& factors);
 /// "243 W, without lamps of unknown power: spot, globe", or that it is not known.
 std::string power_text(std::optional<double> installed_w, std::span<const std::string> unknown);
-/// The same with the power density of the task areas; empty where nothing is known and nothing asks for it.
+/// "; 7.2 W/m² of the floor (20 m²)", or of the floors of several rooms; empty where there are none.
+std::string room_power_text(std::span<const run::RoomPower> rooms);
+/// The power with the densities of the rooms and of the task areas; empty where nothing is known and nothing
+/// asks for it.
 std::string installed_power_text(const RunResult& result);
 /// One line for each object by harmonics whose series was truncated.
 std::string detail_text(std::span<const run::LevelOfDetail> levels);

@@ -48,16 +48,36 @@ Json summary_json(const statistics::GridSummary& summary, const Sensor& sensor) 
 Json requirement_json(const RatedRequirement& rated, const statistics::GridSummary& summary) {
     const sensors::Criterion& criterion = *rated.requirement.criterion;
     const statistics::Estimate& estimate = summary[criterion.statistic];
-    return {{"key", criterion.key},
-            {criterion.limit == sensors::Limit::at_least ? "at_least" : "at_most", rated.requirement.limit},
-            {"value", estimate.value},
-            {"interval", interval_json(estimate)},
-            {"verdict", run::name_of(rated.verdict)}};
+    Json json{{"key", criterion.key},
+              {criterion.limit == sensors::Limit::at_least ? "at_least" : "at_most", rated.requirement.limit},
+              {"value", estimate.value},
+              {"interval", interval_json(estimate)},
+              {"verdict", run::name_of(rated.verdict)}};
+    if (!rated.reason.empty()) json["reason"] = rated.reason;
+    return json;
 }
+
+/// What an eye sees of lamps, and why a rating leaves some of them out.
+Json glare_json(const run::GlareView& view) {
+    Json json;
+    if (view.background_cd_m2) json["background_cd_m2"] = *view.background_cd_m2;
+    if (view.threshold_cd_m2) json["threshold_cd_m2"] = *view.threshold_cd_m2;
+    json["sources"] = Json::array();
+    for (const run::GlareSource& source : view.sources) {
+        Json& own = json["sources"].emplace_back(Json{{"light", source.light},
+                                                      {"luminance_cd_m2", source.luminance_cd_m2},
+                                                      {"solid_angle_sr", source.solid_angle_sr},
+                                                      {"position_index", source.position_index},
+                                                      {"counted", is_counted(source.standing)}});
+        if (const auto remark = text_of(source.standing); !remark.empty()) own["remark"] = remark;
+    }
+    return json;
+}
+
+Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 /// The parallelogram of cells in whose middles an area is measured.
 Json raster_json(const Grid& raster) {
-    const auto vector_json = [](const Vec3& v) { return Json::array({v.x, v.y, v.z}); };
     return {{"corner", vector_json(raster.corner)},
             {"edge_u", vector_json(raster.edge_u)},
             {"edge_v", vector_json(raster.edge_v)},
@@ -81,11 +101,23 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     if (!sensor.derived()) json["summary"] = summary_json(result.summary, sensor);
     for (const RatedRequirement& rated : result.requirements)
         json["requirements"].push_back(requirement_json(rated, result.summary));
+    for (const run::GlareView& view : result.glare) json["glare"].push_back(glare_json(view));
     return json;
 }
 
-Json power_json(const scene::InstalledPower& power, const std::optional<run::PowerDensity>& density) {
+Json room_power_json(const run::RoomPower& room) {
+    return {{"extent", {vector_json(room.extent.min), vector_json(room.extent.max)}},
+            {"floor_m2", room.floor_m2},
+            {"installed_w", room.power_w},
+            {"w_m2", room.w_m2()},
+            {"lamps_of_unknown_power", room.unknown}};
+}
+
+Json power_json(const RunResult& result) {
+    const scene::InstalledPower& power = result.power;
     Json json{{"installed_w", power.power_w ? Json(*power.power_w) : Json()}, {"unknown", power.unknown}};
+    for (const run::RoomPower& room : result.rooms) json["rooms"].push_back(room_power_json(room));
+    const std::optional<run::PowerDensity>& density = result.power_density;
     if (!density) return json;
     json["task_area_m2"] = density->area_m2;
     json["w_m2"] = density->w_m2;
@@ -272,7 +304,7 @@ std::vector<std::string> json_parts(const RunResult& result, const std::string& 
     if (const auto verdict = run::verdict_of(result)) json["verdict"] = run::name_of(*verdict);
     json["warnings"] = result.warnings;
     if (result.maintenance) json["maintenance"] = *result.maintenance;
-    if (result.power.has_lamps()) json["power"] = power_json(result.power, result.power_density);
+    if (result.power.has_lamps()) json["power"] = power_json(result);
     if (result.patches) {
         json["first_shot_set_up_s"] = result.patches->set_up_s;
         json["patches"] = patches_json(*result.patches);

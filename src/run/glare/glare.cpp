@@ -1,13 +1,16 @@
 #include "run/glare/glare.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "base/parallel.h"
 #include "transport/light_sampler.h"
@@ -42,11 +45,25 @@ double mean_of(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// The sums of a view over the sources that UGR was made for.
+bool is_small(const transport::GlareSource& source) {
+    return source.solid_angle_sr < transport::kLeastGlare_sr;
+}
+bool is_large(const transport::GlareSource& source) {
+    return source.solid_angle_sr > transport::kMostGlare_sr;
+}
+
+/// Which sources in the field of view of UGR: those that it counts, or also those that are too small for it.
+enum class Sources { counted, all };
+
+bool includes(Sources sources, const transport::GlareSource& source) {
+    return source.is_in_field && (sources == Sources::all || !is_small(source));
+}
+
+/// The sums of a view over its sources.
 struct UnifiedGlare {
-    explicit UnifiedGlare(const Glare& view) : of_replicates(view.direct_of_replicates_lx.size()) {
+    UnifiedGlare(const Glare& view, Sources sources) : of_replicates(view.direct_of_replicates_lx.size()) {
         for (const transport::GlareSource& source : view.sources) {
-            if (source.solid_angle_sr < transport::kLeastGlare_sr) continue;
+            if (!includes(sources, source)) continue;
             sum += source.glare();
             for (std::size_t r = 0; r < of_replicates.size(); ++r)
                 of_replicates[r] += source.glare_of_replicates[r];
@@ -58,9 +75,9 @@ struct UnifiedGlare {
 };
 
 /// Turns the illuminances of reading `j` into q, to first order in the error of the glare.
-void set_ratios(const Glare& view, std::size_t j, Campaign::Estimates& all) {
+void set_ratios(const Glare& view, Sources sources, std::size_t j, Campaign::Estimates& all) {
     const std::size_t readings = all.readings.size(), replicates = all.replicate_means.size() / readings;
-    const UnifiedGlare in_all(view);
+    const UnifiedGlare in_all(view, sources);
     const bool sees_lamps = in_all.sum > 0;
     const double per_lx = sees_lamps ? 1 / in_all.sum : 0;
     // The run may have ended before all of its replicates began.
@@ -101,9 +118,10 @@ Estimate set_ratings(Campaign::Estimates& all, double confidence) {
     return statistics::widened(mean, bias);
 }
 
-void rate_views(const std::vector<Glare>& views, double confidence, SensorEstimates& estimates) {
+void rate_views(const std::vector<Glare>& views, Sources sources, double confidence,
+                SensorEstimates& estimates) {
     Campaign::Estimates& all = estimates.readings;
-    for (std::size_t j = 0; j < views.size(); ++j) set_ratios(views[j], j, all);
+    for (std::size_t j = 0; j < views.size(); ++j) set_ratios(views[j], sources, j, all);
     all.readings =
         statistics::estimate_readings({all.replicate_means, views.size()}, confidence, all.rare_light);
     for (std::size_t j = 0; all.bias && j < views.size(); ++j)
@@ -116,38 +134,59 @@ void rate_views(const std::vector<Glare>& views, double confidence, SensorEstima
 /// The lights of a kind of glare source, in all views.
 using LightNumbers = std::set<std::uint32_t>;
 
+/// What UGR was not made for, in the field of view: small and large sources with a share of the glare that
+/// matters, and points.
+struct Unrated {
+    explicit Unrated(const std::vector<Glare>& views) {
+        for (const Glare& view : views) {
+            const double all = UnifiedGlare(view, Sources::all).sum;
+            for (const transport::GlareSource& source : view.sources) {
+                if (!source.is_in_field || source.glare() < kLeastShareOfGlare * all) continue;
+                if (is_small(source)) small.insert(source.light);
+                if (is_large(source)) large.insert(source.light);
+            }
+            for (const transport::GlareSource& point : view.points) {
+                if (point.is_in_field) points.insert(point.light);
+            }
+        }
+    }
+
+    LightNumbers small, large, points;
+};
+
+/// "light "a" and 2 more".
+std::string names_of(const LightNumbers& numbers, const Scene& scene) {
+    const std::string more = numbers.size() > 1 ? fmt::format(" and {} more", numbers.size() - 1) : "";
+    return fmt::format("light \"{}\"{}", scene.lights[*numbers.begin()].name, more);
+}
+
 /// "The solid angle of light "a" and 2 more", and the text.
 void warn(const std::string& sensor, std::string_view what, const LightNumbers& numbers, const Scene& scene,
           std::string_view text, std::vector<std::string>& warnings) {
     if (numbers.empty()) return;
-    const std::string more = numbers.size() > 1 ? fmt::format(" and {} more", numbers.size() - 1) : "";
-    warnings.push_back(fmt::format("sensor \"{}\": {} of light \"{}\"{} {}", sensor, what,
-                                   scene.lights[*numbers.begin()].name, more, text));
+    warnings.push_back(
+        fmt::format("sensor \"{}\": {} of {} {}", sensor, what, names_of(numbers, scene), text));
 }
 
-void warn_of_sources(const Sensor& sensor, const std::vector<Glare>& views, const Scene& scene,
+void warn_of_sources(const Sensor& sensor, const Unrated& unrated, const Scene& scene,
                      std::vector<std::string>& warnings) {
-    LightNumbers small, large;
-    for (const Glare& view : views) {
-        double all = 0;
-        for (const transport::GlareSource& source : view.sources) all += source.glare();
-        for (const transport::GlareSource& source : view.sources) {
-            if (source.glare() < kLeastShareOfGlare * all) continue;
-            if (source.solid_angle_sr < transport::kLeastGlare_sr) small.insert(source.light);
-            if (source.solid_angle_sr > transport::kMostGlare_sr) large.insert(source.light);
-        }
-    }
-    warn(sensor.name, "the solid angle", small, scene,
+    warn(sensor.name, "the solid angle", unrated.small, scene,
          "is less than 0.0003 sr, for which UGR was not made: its glare is left out.", warnings);
-    warn(sensor.name, "the solid angle", large, scene,
+    warn(sensor.name, "the solid angle", unrated.large, scene,
          "is more than 0.1 sr, for which UGR was not made: the rating is not valid.", warnings);
 }
 
-void warn_of_points(const Sensor& sensor, const Scene& scene, std::vector<std::string>& warnings) {
+/// The points in front of eyes.
+LightNumbers points_of(const std::vector<DaylightView>& views) {
     LightNumbers points;
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        if (location_of(scene.lights[i]) == LightLocation::point) points.insert(i);
+    for (const DaylightView& view : views) {
+        for (const transport::GlareSource& point : view.lamps.points) points.insert(point.light);
     }
+    return points;
+}
+
+void warn_of_points(const Sensor& sensor, const LightNumbers& points, const Scene& scene,
+                    std::vector<std::string>& warnings) {
     warn(sensor.name, "the glare", points, scene,
          fmt::format(
              "is missing from {}: a point has no luminous area. Give a luminaire an opening, and use a "
@@ -168,15 +207,58 @@ void warn_of_dim_views(const Sensor& sensor, const SensorEstimates& illuminances
                     sensor.name, kLeastDaylight_lx, dim, readings.size()));
 }
 
-/// The sources that glare most first.
-GlareView described(Glare view, double illuminance_lx, const Scene& scene) {
-    GlareView result{(illuminance_lx - mean_of(view.direct_of_replicates_lx)) / std::numbers::pi, {}};
-    std::ranges::stable_sort(view.sources, std::ranges::greater{}, &transport::GlareSource::glare);
-    for (const transport::GlareSource& source : view.sources)
-        result.sources.push_back({scene.lights[source.light].name, source.luminance_cd_m2,
-                                  source.solid_angle_sr, source.position_index,
-                                  source.solid_angle_sr >= transport::kLeastGlare_sr});
-    return result;
+GlareStanding unified_standing(const transport::GlareSource& source) {
+    if (!source.is_in_field) return GlareStanding::outside;
+    if (is_small(source)) return GlareStanding::small;
+    return is_large(source) ? GlareStanding::large : GlareStanding::counted;
+}
+
+/// The sources that glare most first, those that are not counted and points last. `standing_of`: of a source.
+std::vector<GlareSource> described(const Glare& view, const Scene& scene, const auto& standing_of) {
+    std::vector<transport::GlareSource> sources = view.sources;
+    std::ranges::stable_sort(sources, std::ranges::greater{}, [&](const transport::GlareSource& source) {
+        return std::pair(is_counted(standing_of(source)), source.glare());
+    });
+    std::vector<GlareSource> all;
+    const auto add = [&](const transport::GlareSource& source, GlareStanding standing) {
+        all.push_back({scene.lights[source.light].name, source.luminance_cd_m2, source.solid_angle_sr,
+                       source.position_index, standing});
+    };
+    for (const transport::GlareSource& source : sources) add(source, standing_of(source));
+    for (const transport::GlareSource& point : view.points) add(point, GlareStanding::point);
+    return all;
+}
+
+GlareView described(const Glare& view, double illuminance_lx, const Scene& scene) {
+    const double background_lx = illuminance_lx - mean_of(view.direct_of_replicates_lx);
+    return {background_lx / std::numbers::pi, {}, described(view, scene, unified_standing)};
+}
+
+GlareView described(const DaylightView& view, const Scene& scene) {
+    return {{}, view.threshold_cd_m2, described(view.lamps, scene, [&](const transport::GlareSource& source) {
+                const bool is_dim = source.luminance_cd_m2 < view.threshold_cd_m2;
+                return is_dim ? GlareStanding::dim : GlareStanding::counted;
+            })};
+}
+
+/// Of a rating that nobody knows.
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr Estimate kUnknown{kInfinite, 0, kInfinite, kInfinite};
+
+/// Rates views by what UGR counts; `complete` has the small sources, too, and is unknown with large ones and
+/// points.
+void rate_unified(const std::vector<Glare>& views, double confidence, SensorEstimates& estimates) {
+    const Unrated unrated(views);
+    std::optional<statistics::GridSummary> complete;
+    if (!unrated.large.empty() || !unrated.points.empty()) {
+        complete = {kUnknown, kUnknown, kUnknown, kUndefinedEstimate, kUndefinedEstimate};
+    } else if (!unrated.small.empty()) {
+        SensorEstimates in_all = estimates;
+        rate_views(views, Sources::all, confidence, in_all);
+        complete = in_all.summary;
+    }
+    rate_views(views, Sources::counted, confidence, estimates);
+    estimates.complete = complete;
 }
 
 }  // namespace
@@ -204,7 +286,7 @@ GlareViews::GlareViews(std::span<const Sensor> sensors, const PictureSetting& se
 
 void GlareViews::rate(std::span<SensorEstimates> estimates, double confidence) const {
     for (std::size_t s = 0; s < views_.size(); ++s) {
-        if (!views_[s].empty()) rate_views(views_[s], confidence, estimates[s]);
+        if (!views_[s].empty()) rate_unified(views_[s], confidence, estimates[s]);
         if (!daylight_views_[s].empty()) rate_daylight(daylight_views_[s], confidence, estimates[s]);
     }
 }
@@ -214,9 +296,11 @@ std::vector<std::string> GlareViews::warnings(const Scene& scene, std::span<cons
     std::vector<std::string> warnings;
     for (std::size_t s = 0; s < views_.size(); ++s) {
         if (!sensors[s].rates_glare()) continue;
-        warn_of_sources(sensors[s], views_[s], scene, warnings);
+        const Unrated unrated(views_[s]);
+        warn_of_sources(sensors[s], unrated, scene, warnings);
         if (!daylight_views_[s].empty()) warn_of_dim_views(sensors[s], illuminances[s], warnings);
-        warn_of_points(sensors[s], scene, warnings);
+        warn_of_points(sensors[s], unrated.points, scene, warnings);
+        warn_of_points(sensors[s], points_of(daylight_views_[s]), scene, warnings);
     }
     return warnings;
 }
@@ -226,7 +310,27 @@ std::vector<GlareView> GlareViews::described_views(std::size_t sensor, const Sen
     std::vector<GlareView> all;
     for (std::size_t j = 0; j < views_[sensor].size(); ++j)
         all.push_back(described(views_[sensor][j], illuminances.readings.readings[j].value, scene));
+    for (const DaylightView& view : daylight_views_[sensor]) all.push_back(described(view, scene));
     return all;
+}
+
+std::string GlareViews::reason_of_doubt(std::size_t sensor, const SensorEstimates& ratings,
+                                        const Scene& scene) const {
+    const Unrated unrated(views_[sensor]);
+    std::vector<std::string> reasons;
+    if (!unrated.points.empty())
+        reasons.push_back(fmt::format("{} has no luminous area", names_of(unrated.points, scene)));
+    if (!unrated.large.empty())
+        reasons.push_back(fmt::format("{} is more than 0.1 sr, for which UGR was not made",
+                                      names_of(unrated.large, scene)));
+    if (!unrated.small.empty()) {
+        const Estimate& in_all = ratings.complete->maximum;
+        const std::string with_them =
+            std::isfinite(in_all.value) ? fmt::format(": with it the rating is {:.1f}", in_all.value) : "";
+        reasons.push_back(fmt::format("{} is less than 0.0003 sr, for which UGR was not made, and left out{}",
+                                      names_of(unrated.small, scene), with_them));
+    }
+    return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
 }  // namespace stilb::run

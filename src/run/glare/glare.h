@@ -29,8 +29,9 @@ class GlareViews {
                math::RandomKey key);
 
     /// Makes the illuminances of sensors that rate glare into ratings. The intervals of UGR contain the
-    /// errors of E, Ed and G; a rating is 0 where the eye sees no lamp. Where the background may be 0, it has
-    /// no upper end, and the value is NaN where the background is not above 0. `estimates`: of all sensors.
+    /// errors of E, Ed and G; a rating is 0 where the eye sees no lamp that counts. Where the background may
+    /// be 0, it has no upper end, and the value is NaN where the background is not above 0. `complete` is set
+    /// where an eye sees sources for which UGR was not made. `estimates`: of all sensors.
     void rate(std::span<SensorEstimates> estimates, double confidence) const;
 
     /// Warns of sources and views for which the ratings were not made. `illuminances`: the estimates of all
@@ -38,8 +39,11 @@ class GlareViews {
     std::vector<std::string> warnings(const Scene& scene, std::span<const Sensor> sensors,
                                       std::span<const SensorEstimates> illuminances) const;
 
-    /// What the views of a sensor of type "ugr" see, for reports; none of other sensors. `illuminances`: its
-    /// estimates before rate().
+    /// Why a requirement of a sensor is unsure. `ratings`: its estimates after rate().
+    std::string reason_of_doubt(std::size_t sensor, const SensorEstimates& ratings, const Scene& scene) const;
+
+    /// What the views of a sensor that rates glare see; none of other sensors. `illuminances`: its estimates
+    /// before rate().
     std::vector<GlareView> described_views(std::size_t sensor, const SensorEstimates& illuminances,
                                            const Scene& scene) const;
 

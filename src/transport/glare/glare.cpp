@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "lights/emitter_surface.h"
 
@@ -11,6 +12,9 @@ namespace {
 
 /// Of each lamp: in all, and in each replicate at least.
 constexpr std::uint64_t kSamples = 2048, kLeastSamples = 16;
+
+/// Where CIE 117's table of position indices ends. Quotients of coordinates are rounded.
+constexpr double kMostBeside = 3 * (1 + 1e-9), kMostAbove = 2 * (1 + 1e-9);
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }
 
@@ -27,12 +31,26 @@ struct Seen {
     }
     /// Of a lamp that is seen.
     GlareSource source(std::uint32_t light, const Vec3& line_of_sight) const {
+        const Vec3 direction = normalized(middle);
         return {light,
                 solid_angle_sr,
                 intensity / solid_angle_sr,
-                position_index(normalized(middle), line_of_sight),
+                position_index(direction, line_of_sight),
+                is_in_field(direction, line_of_sight),
                 {}};
     }
+};
+
+/// A direction relative to a line of sight.
+struct Place {
+    Place(const Vec3& direction, const Vec3& line_of_sight) {
+        const Vec3 right = normalized(cross(line_of_sight, {0, 0, 1}));
+        ahead = dot(direction, line_of_sight);
+        beside = dot(direction, right);
+        above = dot(direction, cross(right, line_of_sight));
+    }
+
+    double ahead = 0, beside = 0, above = 0;
 };
 
 class Eye {
@@ -62,13 +80,20 @@ class Eye {
         return seen;
     }
 
-    double direct_of_point_lx(std::size_t light) const {
+    struct Point {
+        Vec3 direction;
+        double direct_lx = 0;
+    };
+    /// Nothing where the eye does not see the point.
+    std::optional<Point> see_point(std::size_t light) const {
         const auto incident = lights_.sample_incident(light, position_, {});
-        if (!incident) return 0;
-        const double cosine = std::max(dot(incident->direction, sight_), 0.0);
-        if (!(cosine > 0)) return 0;
+        if (!incident) return std::nullopt;
+        const double cosine = dot(incident->direction, sight_);
+        if (!(cosine > 0)) return std::nullopt;
         const double visible = caster_.transmittance({position_, incident->source_point}).luminance();
-        return cosine * visible * incident->normal_illuminance_lx.luminance();
+        const double direct_lx = cosine * visible * incident->normal_illuminance_lx.luminance();
+        if (!(direct_lx > 0)) return std::nullopt;
+        return Point{incident->direction, direct_lx};
     }
 
     const Vec3& sight() const { return sight_; }
@@ -98,13 +123,29 @@ void add_lamp(const Eye& eye, std::uint32_t light, const lights::EmitterSurface&
     }
 }
 
+void add_point(const Eye& eye, std::uint32_t light, Glare& glare) {
+    const auto point = eye.see_point(light);
+    if (!point) return;
+    for (double& of_replicate : glare.direct_of_replicates_lx) of_replicate += point->direct_lx;
+    glare.points.push_back({light,
+                            0,
+                            0,
+                            position_index(point->direction, eye.sight()),
+                            is_in_field(point->direction, eye.sight()),
+                            {}});
+}
+
 }  // namespace
 
+bool is_in_field(const Vec3& direction, const Vec3& line_of_sight) {
+    const Place place(direction, line_of_sight);
+    return place.ahead > 0 && std::abs(place.beside) <= kMostBeside * place.ahead &&
+           std::abs(place.above) <= kMostAbove * place.ahead &&
+           position_index(direction, line_of_sight) < kMostPositionIndex;
+}
+
 double position_index(const Vec3& direction, const Vec3& line_of_sight) {
-    const Vec3 right = normalized(cross(line_of_sight, {0, 0, 1}));
-    const Vec3 up = cross(right, line_of_sight);
-    const double ahead = dot(direction, line_of_sight), beside = dot(direction, right),
-                 above = dot(direction, up);
+    const auto [ahead, beside, above] = Place(direction, line_of_sight);
     const double across = std::hypot(beside, above);
     const double s = degrees(std::atan2(across, ahead));
     const double t = across > 0 ? degrees(std::acos(std::min(std::abs(above) / across, 1.0))) : 0;
@@ -129,8 +170,7 @@ Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCa
             const lights::EmitterSurface surface(scene.object(*object).shape, caster.lift());
             add_lamp(eye, i, surface, key.derived(i), glare);
         } else if (lights.is_point(i)) {
-            const double direct_lx = eye.direct_of_point_lx(i);
-            for (double& of_replicate : glare.direct_of_replicates_lx) of_replicate += direct_lx;
+            add_point(eye, i, glare);
         }
     }
     return glare;

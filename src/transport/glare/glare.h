@@ -23,12 +23,18 @@ inline constexpr double kMostPositionIndex = 16;
 /// most kMostPositionIndex.
 double position_index(const Vec3& direction, const Vec3& line_of_sight);
 
+/// Whether the Unified Glare Rating counts a source in a unit direction: whether CIE 117's table of position
+/// indices has an entry for it. With its distances R along the line of sight, T beside it, and H above or
+/// below it: R is above 0, T / R at most 3, H / R at most 2, and the index below kMostPositionIndex.
+bool is_in_field(const Vec3& direction, const Vec3& line_of_sight);
+
 /// Solid angles [sr] for which the Unified Glare Rating was made.
 inline constexpr double kLeastGlare_sr = 0.0003, kMostGlare_sr = 0.1;
 
 struct GlareSource {
     std::uint32_t light = 0;  ///< of Scene::lights
     double solid_angle_sr = 0, luminance_cd_m2 = 0, position_index = 16;
+    bool is_in_field = false;
     std::vector<double> glare_of_replicates;  ///< glare() by independent samples of the lamp
 
     /// L^2 w / p^2.
@@ -39,6 +45,7 @@ struct GlareSource {
 
 struct Glare {
     std::vector<GlareSource> sources;  ///< in front of the eye and seen by it
+    std::vector<GlareSource> points;   ///< the same without a luminous area: their L and w are 0
     /// The illuminance at the eye by all lamps, points included, by independent samples of them.
     std::vector<double> direct_of_replicates_lx;
 };

@@ -13,7 +13,7 @@
 namespace stilb::transport {
 namespace {
 
-constexpr double kMostGamma_deg = 85, kMostBeside = 3;
+constexpr double kMostGamma_deg = 85;
 /// Directions of the luminaire's flux, for the shares that fall on floor and walls.
 constexpr std::uint32_t kFluxDirections = 1 << 16;
 
@@ -90,10 +90,10 @@ double glare_at_eye(const Lamp& lamp, const LampGrid& grid, Orientation orientat
         for (int i = 0; i < grid.across; ++i) {
             const double along = (j + 0.5) * grid.spacing;
             const double across = (i + 0.5 - 0.5 * grid.across) * grid.spacing;
-            if (std::abs(across) > kMostBeside * along || std::hypot(across, along) > most_distance) continue;
             const Vec3 to_lamp{across, along, 1};
+            if (std::hypot(across, along) > most_distance || !is_in_field(normalized(to_lamp), line_of_sight))
+                continue;
             const double index = position_index(normalized(to_lamp), line_of_sight);
-            if (index >= kMostPositionIndex) continue;
             const double distance_m = kUgrHeight_m * length(to_lamp);
             const double glare = lamp.glare(normalized(turned(orientation, along, -across, 1)));
             sum += glare / (distance_m * distance_m * index * index);

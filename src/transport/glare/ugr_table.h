@@ -9,8 +9,7 @@
 //
 // A the projected area of its opening. The background is the indirect illuminance of the walls over pi, their
 // mean, where each of the three surfaces (floor, walls, ceiling) has one illuminance. Luminaires at more than
-// 85 degrees from the vertical, at more than 3 times their distance beside the line of sight, and where
-// Guth's position index reaches 16, its largest tabulated value, are left out.
+// 85 degrees from the vertical, and outside of the table of position indices (is_in_field()), are left out.
 #pragma once
 
 #include <array>
