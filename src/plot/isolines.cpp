@@ -212,6 +212,13 @@ std::optional<LabelPlace> LabelPlacer::place(std::span<const Point> line, double
     return best;
 }
 
+void LabelPlacer::avoid(const PageRectangle& text) {
+    const double radius = text.height / 2;
+    const int disks = std::max(1, static_cast<int>(std::ceil(text.width / text.height)));
+    for (int i = 0; i < disks; ++i)
+        taken_.push_back({{text.left + (i + 0.5) / disks * text.width, text.center().y}, radius});
+}
+
 bool LabelPlacer::is_free(const Point& center, double radius) const {
     const double margin = std::min({center.x - frame_.left, frame_.right() - center.x, center.y - frame_.top,
                                     frame_.bottom() - center.y});

@@ -29,6 +29,8 @@ class LabelPlacer {
     /// The position on the straightest free stretch; nothing where the line is too short, too crooked or has
     /// no room. room.
     std::optional<LabelPlace> place(std::span<const Point> line, double label_width);
+    /// Labels of lines keep clear of a text.
+    void avoid(const PageRectangle& text);
 
   private:
     bool is_free(const Point& center, double radius) const;

@@ -66,7 +66,9 @@ std::string verdict_text(const RunResult& result) {
     if (verdicts.empty()) return "";
     return fmt::format(
         "Requirements: {}. A requirement passes or fails where the whole interval lies on one "
-        "side of its limit, else it is not sure yet.",
+        "side of its limit, else it is not sure yet. It is not sure where something that the value leaves "
+        "out "
+        "could change the verdict.",
         verdicts);
 }
 

@@ -103,6 +103,13 @@ void Drawing::number(const Point& center, const std::string& text, double size, 
                raw("\n");
 }
 
+void Drawing::clipped(const std::string& id, const std::string& region, const Drawing& contents) {
+    if (contents.shapes_.is_empty()) return;
+    shapes_ += element("clipPath", {{"id", id}}, element("path", {{"d", region}})) +
+               element("g", {{"clip-path", fmt::format("url(#{})", id)}}, raw("\n") + contents.shapes_) +
+               raw("\n");
+}
+
 Html Drawing::html() const {
     return element("svg",
                    {{"xmlns", "http://www.w3.org/2000/svg"},

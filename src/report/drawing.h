@@ -41,6 +41,10 @@ class Drawing {
     /// A number in its cell, of its own size and colour.
     void number(const Point& center, const std::string& text, double size, const io::Colour& colour);
 
+    /// The contents of another drawing, at the same place, as far as they lie in a region. `id`: of the
+    /// region, not used twice on a page.
+    void clipped(const std::string& id, const std::string& region, const Drawing& contents);
+
     Html html() const;
 
   private:

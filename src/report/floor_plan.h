@@ -1,5 +1,5 @@
-// The floor plan: room and furniture from above, luminaires, measured areas with isolux lines, single
-// sensors.
+// The floor plan: rooms and furniture from above, luminaires, measured areas with isolux lines, single
+// sensors. Rooms with sensors have plans of their own where these are at least twice as large.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@
 namespace stilb::report {
 
 /// Nothing where the scene has no extent. `planes`: those of the results.
-Html floor_plan(const Scene& scene, const rays::RayCaster& caster, std::span<const SensorResult> results,
-                std::span<const MeasuredPlane> planes);
+Html floor_plans(const Scene& scene, const rays::RayCaster& caster, std::span<const SensorResult> results,
+                 std::span<const MeasuredPlane> planes);
 
 }  // namespace stilb::report

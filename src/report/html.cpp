@@ -47,6 +47,25 @@ Html text(std::string_view plain) {
     return html;
 }
 
+Html name_text(std::string_view name) {
+    constexpr std::string_view kSigns = "_.-/:";
+    constexpr std::size_t kLongestWord = 24;
+    Html html;
+    std::size_t from = 0;
+    while (from < name.size()) {
+        std::size_t end = std::min(name.find_first_of(kSigns, from), name.size() - 1) + 1;
+        // Not within a character of several bytes.
+        if (end - from > kLongestWord) {
+            end = from + kLongestWord;
+            while (end < name.size() && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) ++end;
+        }
+        html += text(name.substr(from, end - from));
+        if (end < name.size()) html += void_element("wbr", {});
+        from = end;
+    }
+    return html;
+}
+
 Html raw(std::string markup) {
     Html html;
     html.markup_ = std::move(markup);

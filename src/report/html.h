@@ -31,6 +31,8 @@ class Html {
 
 /// A text, with references in place of the characters that markup consists of.
 Html text(std::string_view plain);
+/// A name or a path, which may be broken into lines after signs between its words.
+Html name_text(std::string_view name);
 /// A text that is markup already, such as a style sheet.
 Html raw(std::string markup);
 

@@ -131,7 +131,7 @@ Html body(const Report& report) {
             section("Summary", requirements(*report.readings) + certainty(*report.readings, report.options));
     html += section("Views", views(report));
     const rays::RayCaster caster(scene);
-    html += section("Floor plan", floor_plan(scene, caster, results, planes));
+    html += section("Floor plan", floor_plans(scene, caster, results, planes));
     html += section("Illuminance of areas", plane_pictures(planes));
     if (report.readings) {
         html += section("Measured values", measured_values(*report.readings));
@@ -141,7 +141,8 @@ Html body(const Report& report) {
     html += section("Materials", materials_table(scene));
     html += section("Warnings", warnings(report));
     html += section("Origin of the numbers", origin(report));
-    if (report.readings) html += section("All readings", all_readings(*report.readings));
+    if (report.readings && report.lists_readings)
+        html += section("All readings", all_readings(*report.readings));
     return html;
 }
 

@@ -14,15 +14,14 @@ namespace stilb::report {
 namespace {
 
 constexpr double kMostWidth = 600, kMostHeight = 470;
+/// Cells of that size have readable numbers; small planes are no larger.
+constexpr double kCellWidth = 34, kCellHeight = 26, kLeastSide = 120;
 
-/// One ratio for all planes, by the largest one with its bands.
-double common_ratio(std::span<const MeasuredPlane> planes) {
-    double width_m = 0, height_m = 0;
-    for (const MeasuredPlane& plane : planes) {
-        width_m = std::max(width_m, plane.panel.width_m);
-        height_m = std::max(height_m, plane.panel.height_m);
-    }
-    return usual_ratio(width_m, height_m, kMostWidth, kMostHeight);
+/// The largest usual scale at which the plane fits on a page and its cells are not larger than numbers need.
+double ratio_of(const plot::FalseColourPanel& panel) {
+    return usual_ratio(panel.width_m, panel.height_m,
+                       std::clamp(kCellWidth * panel.nu, kLeastSide, kMostWidth),
+                       std::clamp(kCellHeight * panel.nv, kLeastSide, kMostHeight));
 }
 
 /// The cells of each colour as one path.
@@ -61,18 +60,19 @@ std::string outline_path(const MeasuredPlane& plane, const ScaledFrame& frame) {
     return path;
 }
 
-std::string caption(const MeasuredPlane& plane, const std::string& note) {
+std::string caption(const MeasuredPlane& plane, double ratio, const std::string& note) {
     const SensorResult& result = *plane.result;
     std::string words = fmt::format("{}; {:.3g} m × {:.3g} m", io::size_text(result.sensor),
                                     plane.panel.width_m, plane.panel.height_m);
     if (plane.is_horizontal()) words += fmt::format(" at z = {:.4g} m", plane.corner.z);
+    words += fmt::format("; 1 : {:g} in print", ratio);
     if (!note.empty()) words += "; " + note;
     return words + ".";
 }
 
-Html figure_of(const MeasuredPlane& plane, double ratio, const plot::Scale& scale,
-               const plot::ColourMap& colours) {
+Html figure_of(const MeasuredPlane& plane, const plot::Scale& scale, const plot::ColourMap& colours) {
     const plot::FalseColourPanel& panel = plane.panel;
+    const double ratio = ratio_of(panel);
     const ScaledFrame frame{{0, panel.width_m}, {0, panel.height_m}, ratio, {kAxisLeft, kDrawingMargin}};
     const plot::PageRectangle box = frame.rectangle();
     Drawing drawing(box.right() + kDrawingMargin, box.bottom() + kAxisBelow,
@@ -87,12 +87,12 @@ Html figure_of(const MeasuredPlane& plane, double ratio, const plot::Scale& scal
     drawing.path("outline", outline_path(plane, frame));
     draw_metres(drawing, frame);
     return element("figure", {{"class", "plane"}},
-                   element("h3", panel.name) + drawing.html() +
-                       element("figcaption", caption(plane, numbers.note()))) +
+                   element("h3", name_text(panel.name)) + drawing.html() +
+                       element("figcaption", caption(plane, ratio, numbers.note()))) +
            raw("\n");
 }
 
-Html colour_bar(const plot::Scale& scale, const plot::ColourMap& colours, double ratio) {
+Html colour_bar(const plot::Scale& scale, const plot::ColourMap& colours) {
     constexpr int kSteps = 128;
     constexpr double kWidth = 420, kHeight = 12;
     Drawing drawing(kAxisLeft + kWidth + 60, kDrawingMargin + kHeight + kAxisBelow,
@@ -113,9 +113,7 @@ Html colour_bar(const plot::Scale& scale, const plot::ColourMap& colours, double
     return element(
         "figure", {{"class", "colours"}},
         drawing.html() +
-            element("figcaption", fmt::format("All areas at one scale of illuminance and of 1 : {:g} "
-                                              "in print.",
-                                              ratio)));
+            element("figcaption", "All areas in the same colours, each at a scale at which it can be read."));
 }
 
 }  // namespace
@@ -124,9 +122,8 @@ Html plane_pictures(std::span<const MeasuredPlane> planes) {
     if (planes.empty()) return {};
     const plot::Scale scale = common_scale(planes);
     const plot::ColourMap colours;
-    const double ratio = common_ratio(planes);
-    Html html = colour_bar(scale, colours, ratio);
-    for (const MeasuredPlane& plane : planes) html += figure_of(plane, ratio, scale, colours);
+    Html html = colour_bar(scale, colours);
+    for (const MeasuredPlane& plane : planes) html += figure_of(plane, scale, colours);
     return html;
 }
 

@@ -34,6 +34,7 @@ struct Report {
     std::optional<RunResult> readings;
     std::vector<View> views;
     std::vector<std::string> warnings;  ///< of the file and of all runs
+    bool lists_readings = false;        ///< all of them, at the end
 };
 
 /// The same report gives the same page. What differs between runs with the same seed and the same number of

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "io/results/results_text.h"
-#include "transport/glare/glare.h"
 
 namespace stilb::report {
 namespace {
@@ -17,7 +16,7 @@ using enum Table::Column;
 /// Lists of at most so many readings are among the single values.
 constexpr std::size_t kMostListed = 40;
 /// Sensors of more readings are not listed one by one.
-constexpr std::size_t kMostReadings = 1000;
+constexpr std::size_t kMostReadings = 100'000;
 
 std::string_view css_class_of(Verdict verdict) {
     return verdict == Verdict::pass ? "pass" : verdict == Verdict::fail ? "fail" : "unsure";
@@ -84,7 +83,7 @@ Html statistics_table(const RunResult& result) {
                  {"Diversity", numbers}});
     for (const SensorResult& sensor : result.sensors) {
         if (sensor.readings.size() <= 1) continue;
-        std::vector<Html> cells{text(sensor.sensor.name), text(readings_text(sensor)),
+        std::vector<Html> cells{name_text(sensor.sensor.name), text(readings_text(sensor)),
                                 text(quantity_text(sensor.sensor))};
         for (std::size_t i = 0; i < kStatisticNames.size(); ++i) {
             const auto statistic = static_cast<Statistic>(i);
@@ -104,7 +103,7 @@ Html values_table(const RunResult& result) {
     for (const SensorResult& sensor : result.sensors) {
         if (!has_single_values(sensor.sensor)) continue;
         for (std::size_t j = 0; j < sensor.readings.size(); ++j) {
-            table.add({text(numbered(sensor, j)), text(quantity_text(sensor.sensor)),
+            table.add({name_text(numbered(sensor, j)), text(quantity_text(sensor.sensor)),
                        text(estimate_text(sensor.readings[j].estimate)), text(place_text(sensor, j))});
         }
     }
@@ -112,9 +111,15 @@ Html values_table(const RunResult& result) {
 }
 
 std::string remark_on(const run::GlareSource& source) {
-    if (!source.is_counted) return "less than 0.0003 sr: left out";
-    return source.solid_angle_sr > transport::kMostGlare_sr ? "more than 0.1 sr: the rating is not valid"
-                                                            : "";
+    const std::string_view text = text_of(source.standing);
+    return is_counted(source.standing) ? std::string(text) : fmt::format("{}: not counted", text);
+}
+
+/// The luminance with which a view's sources are compared.
+std::string level_text(const run::GlareView& view) {
+    return view.threshold_cd_m2
+               ? fmt::format("; threshold of glare {:.3g} cd/m²", *view.threshold_cd_m2)
+               : fmt::format("; background luminance {:.3g} cd/m²", view.background_cd_m2.value_or(0));
 }
 
 Html sources_table(const run::GlareView& view) {
@@ -124,14 +129,15 @@ Html sources_table(const run::GlareView& view) {
                  {"Position index", numbers},
                  {"Share of the glare", numbers}});
     const auto glare_of = [](const run::GlareSource& source) {
-        return source.is_counted ? source.luminance_cd_m2 * source.luminance_cd_m2 * source.solid_angle_sr /
-                                       (source.position_index * source.position_index)
-                                 : 0;
+        return is_counted(source.standing)
+                   ? source.luminance_cd_m2 * source.luminance_cd_m2 * source.solid_angle_sr /
+                         (source.position_index * source.position_index)
+                   : 0;
     };
     double all = 0;
     for (const run::GlareSource& source : view.sources) all += glare_of(source);
     for (const run::GlareSource& source : view.sources) {
-        table.add({text(source.light) + element("small", remark_on(source)),
+        table.add({name_text(source.light) + element("small", remark_on(source)),
                    text(fmt::format("{:.0f}", source.luminance_cd_m2)),
                    text(fmt::format("{:.2g}", source.solid_angle_sr)),
                    text(fmt::format("{:.2f}", source.position_index)),
@@ -191,14 +197,14 @@ Html readings_table(const SensorResult& result) {
 Html requirements(const RunResult& result) {
     Table table({{"Sensor"}, {"Requirement"}, {"Value", numbers}, {"Verdict"}});
     for (const SensorResult& sensor : result.sensors) {
-        for (const auto& [requirement, verdict] : sensor.requirements) {
+        for (const auto& [requirement, verdict, reason] : sensor.requirements) {
             const Statistic statistic = requirement.criterion->statistic;
             const statistics::Estimate& value = sensor.summary[statistic];
             table.add(
-                {text(sensor.sensor.name), text(io::requirement_text(requirement, sensor.sensor)),
+                {name_text(sensor.sensor.name), text(io::requirement_text(requirement, sensor.sensor)),
                  text(std::isnan(value.value) || is_ratio(statistic) ? estimate_text(value)
                                                                      : io::with_unit(value, sensor.sensor)),
-                 chip(verdict)});
+                 chip(verdict) + element("small", reason)});
         }
     }
     return table.is_empty() ? Html{} : table.html();
@@ -210,19 +216,21 @@ Html glare(const RunResult& result) {
     Html html;
     for (const SensorResult& sensor : result.sensors) {
         for (std::size_t j = 0; j < sensor.glare.size(); ++j) {
-            html += element("h3", fmt::format("{}: UGR {}", numbered(sensor, j),
+            html += element("h3", fmt::format("{}: {} {}", numbered(sensor, j), sensor.sensor.quantity().name,
                                               estimate_text(sensor.readings[j].estimate))) +
-                    element("p", fmt::format("{}; background luminance {:.3g} cd/m²", place_text(sensor, j),
-                                             sensor.glare[j].background_cd_m2)) +
+                    element("p", place_text(sensor, j) + level_text(sensor.glare[j])) +
                     sources_table(sensor.glare[j]);
         }
     }
     if (html.is_empty()) return html;
     return html +
            element("p", {{"class", "note"}},
-                   text("Unified Glare Rating of CIE 117, with the luminances and solid angles of the "
-                        "parts of luminaires that the eye sees, and Guth's position index. It was made "
-                        "for sources of 0.0003 to 0.1 sr."));
+                   text("The luminances and solid angles are those of the parts of luminaires that the eye "
+                        "sees, the position index is Guth's. The Unified Glare Rating (UGR) of CIE 117 "
+                        "was made for sources of 0.0003 to 0.1 sr in the field of its table of position "
+                        "indices: up to three times their distance ahead beside the line of sight, and "
+                        "twice above or below it. The Daylight Glare Probability (DGP) also counts bright "
+                        "places beside luminaires."));
 }
 
 Html all_readings(const RunResult& result) {

@@ -58,7 +58,7 @@ normal = [0, 0, 1]
 count = [80, 120]
 """
 
-VOID = {"meta", "img"}
+VOID = {"meta", "img", "wbr"}
 
 
 class Page(HTMLParser):
@@ -122,6 +122,9 @@ class ReportTest(CommandLineTest):
         self.scene = self.write("ratings.toml", ROOM + RATINGS)
         document = self.measure("--paths", "4096")
         _, page = self.report("--paths", "4096")
+        self.assertNotIn("All readings", page.text)
+        _, page = self.report("--paths", "4096", "--readings")
+        self.assertIn("All readings", page.text)
         tables = iter(page.rows)
         for sensor in document["sensors"]:
             if sensor["type"] == "derived":
@@ -263,6 +266,54 @@ class ReportTest(CommandLineTest):
         self.assertEqual([name for name, _ in outlines], ["band-edge", "band", "paper"])
         self.assertEqual(len({d for _, d in outlines}), 1)
 
+    def test_rooms_have_plans_of_their_own_to_which_bands_keep(self):
+        """Two rooms of 4 m x 5 m in a house of 20 m; the desk is 0.3 m from the wall between them."""
+        boxes = {"floor": ((-0.1, -0.1, -0.1), (20, 5.1, 0)), "ceiling": ((-0.1, -0.1, 2.8), (20, 5.1, 2.9)),
+                 "west": ((-0.1, 0, 0), (0, 5, 2.8)), "between": ((4, 0, 0), (4.1, 5, 2.8)),
+                 "east": ((8.1, 0, 0), (20, 5, 2.8)), "south": ((-0.1, -0.1, 0), (20, 0, 2.8)),
+                 "north": ((-0.1, 5, 0), (20, 5.1, 2.8))}
+        scene = "[materials.w]\ntype = \"diffuse\"\nreflectance = 0.6\n" + "".join(
+            f"[objects.{name}]\nshape = \"box\"\nmin = {list(low)}\nmax = {list(high)}\nmaterial = \"w\"\n"
+            for name, (low, high) in boxes.items()) + """
+[lights.lamp_with_a_long_name]
+type = "sphere"
+center = [2, 2.5, 2.4]
+radius = 0.1
+flux = 9000
+power = 60
+[sensors.desk]
+type = "area"
+corner = [2.1, 2, 0.75]
+edge_u = [1.6, 0, 0]
+edge_v = [0, 0.8, 0]
+surround = { width = 0.5, require = { mean = 100, uniformity = 0.4 } }
+"""
+        self.scene = self.write("house.toml", scene)
+        document = self.measure("--paths", "4096")
+        desk, surround = document["sensors"]
+        self.assertEqual(surround["requirements"][1]["verdict"], "pass")
+        self.assertTrue(all(0 < v["position"][0] < 4 for v in surround["values"]))
+        (room,) = document["power"]["rooms"]
+        self.assertAlmostEqual(room["floor_m2"], 20, 2)
+        self.assertAlmostEqual(room["w_m2"], 3, 3)
+        self.assertIn("\nInstalled power: 60 W; 3 W/m² of the room's floor (20 m²); 46.9 W/m² of the task area",
+                      run("measure", self.scene, "--paths", "4096").stdout)
+        markup, page = self.report("--paths", "4096")
+        whole, of_room = re.findall(r'<figure class="plan">(.*?)</figure>', markup, re.DOTALL)
+        ratios = [int(re.search(r"Scale 1 : (\d+) in print", plan)[1]) for plan in (whole, of_room)]
+        self.assertGreater(ratios[0], 1.9 * ratios[1])
+        self.assertIn("Room of 20 m², floor at z = 0 m.", of_room)
+        for plan, ratio in zip((whole, of_room), ratios):
+            region = re.search(r'<clipPath id="plan-\d-band-1"><path d="([^"]+)"', plan)[1]
+            corners = [tuple(map(float, p.rstrip("Z").split())) for p in re.split("[ML]", region) if p]
+            metre = 96 / 0.0254 / ratio
+            extents = [max(c[i] for c in corners) - min(c[i] for c in corners) for i in (0, 1)]
+            self.assertAlmostEqual(extents[0] / metre, 4, 2)
+            self.assertAlmostEqual(extents[1] / metre, 5, 2)
+        self.assertIn(">lamp_with_a_long_name</text>", of_room)
+        self.assertRegex(page.text, r"Installed power\s+60 W; 3 W/m² of the room's floor")
+        self.assertIn("lamp_<wbr>with_<wbr>a_<wbr>long_<wbr>name", markup)
+
     def test_wrong_names_of_pages(self):
         self.expect_wrong_input(["report", self.scene], "--output FILE is missing. It gives the page to write")
         self.expect_wrong_input(["report", self.scene, "-o", "r.pdf"], "-o r.pdf", "End the name in .html")
@@ -277,7 +328,8 @@ class ReportTest(CommandLineTest):
         _, page = self.report("--paths", "2048", "--sensor", "teacher", "--sensor", "task",
                               scene=ROOT / "scenes/classroom/classroom.toml")
         self.assertRegex(page.text, r"teacher: UGR 1\d\.\d")
-        sources = [r for r in page.rows if len(r) == 5 and r[0].startswith("panel_") and r[4].endswith(" %")]
+        sources = [r for r in page.rows if len(r) == 5 and r[0].startswith("panel_") and r[4].endswith(" %")
+                   and "not counted" not in r[0]]
         self.assertGreater(len(sources), 3)
         self.assertAlmostEqual(sum(float(r[4].removesuffix(" %")) for r in sources), 100, delta=3)
         # The formula of CIE 117 with the numbers of the table, which are rounded.
