@@ -84,6 +84,7 @@ class Readings(unittest.TestCase):
         self.assertAlmostEqual(float(desk.mean), desk.value.mean())
         self.assertEqual(desk.minimum.value, desk.value.min())
         self.assertEqual(desk.requirements, {"mean": (1.0, "pass")})
+        self.assertEqual(desk.reasons, {})
 
     def test_results_are_mappings(self):
         self.assertEqual([name for name in self.result], ["desk", "eye"])

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -197,6 +198,12 @@ std::vector<FloorSurface> find_floors(const Scene& scene, const rays::RayCaster&
     const std::vector<Surface> surfaces = surfaces_of(scene);
     std::vector<FloorSurface> all;
     std::vector<Floor> floors;
+    std::map<double, Paths> sections;  // by their height: most floors of a storey have the same
+    const auto walls_at = [&](double z) -> const Paths& {
+        const auto [found, is_new] = sections.try_emplace(z);
+        if (is_new) found->second = section_at(surfaces, z);
+        return found->second;
+    };
     for (const Level& level : levels_of(surfaces, floors_of)) {
         for (Piece& piece : pieces_of(outlines_of(level.triangles))) {
             if (area_m2(piece) < kLeastFloor_m2) continue;
@@ -208,7 +215,7 @@ std::vector<FloorSurface> find_floors(const Scene& scene, const rays::RayCaster&
                              std::move(piece),
                              {},
                              {}};
-            own.walls = section_at(surfaces, level.z + own.section_m);
+            own.walls = walls_at(level.z + own.section_m);
             for (Piece& part : parts_between(own.surface, own.walls)) {
                 if (area_m2(part) < kLeastFloor_m2 || !headroom_of(part, level.z, caster).is_room()) continue;
                 if (share_of_steps(part, level.z, caster) > kMostSteps) continue;
