@@ -165,7 +165,7 @@ TEST(SceneAreas, HaveBandsThatEndAtTheWalls) {
     EXPECT_EQ(filled.sensors.size(), 1u);
     ASSERT_EQ(filled.warnings.size(), 3u);
     EXPECT_EQ(
-        filled.warnings[0],
+        filled.warnings[1],
         "s.toml:24: sensors.task.surround: no place of the band lies in the room of the area, whose walls "
         "end it: it is not measured, and no requirement on it is rated.");
 }
