@@ -41,6 +41,8 @@ GLASS_TRANSMITTANCE = 0.78
 NO_SURFACES = ("IfcSpace", "IfcOpeningElement", "IfcAnnotation", "IfcGrid", "IfcVirtualElement")
 PHOTOMETRY = (".ies", ".ldt")
 LEVEL_M = 1e-3
+#: Farther from the origin than this, coordinates are those of a map: the building is moved.
+FARTHEST_M = 1000.0
 
 
 @dataclass
@@ -77,7 +79,7 @@ class Mesh:
         """Writes the mesh as OBJ, with groups by element."""
         with path.open("w", encoding="utf-8") as file:
             for vertices in self.vertices:
-                np.savetxt(file, vertices, fmt="v %.6g %.6g %.6g")
+                np.savetxt(file, vertices, fmt="v %.6f %.6f %.6f")  # micrometres
             for element, material, triangles in self.groups:
                 file.write(f"g {element}\nusemtl {material}\n")
                 np.savetxt(file, triangles + 1, fmt="f %d %d %d")
@@ -115,6 +117,23 @@ class Building:
     spaces: list[Space]
     fixtures: list[Fixture]
     warnings: list[str]
+    #: What is subtracted from the coordinates of the IFC file, in m.
+    offset: np.ndarray = field(default_factory=lambda: np.zeros(3))
+
+    def move_to_origin(self) -> None:
+        """Moves a building at map coordinates near to the origin, by whole metres."""
+        middle = np.median(np.concatenate([vertices for storey in self.storeys for vertices in storey.vertices]), axis=0)
+        self.offset = np.where(np.abs(middle) > FARTHEST_M, np.round(middle), 0.0)
+        if not self.offset.any():
+            return
+        for storey in self.storeys:
+            storey.vertices = [vertices - self.offset for vertices in storey.vertices]
+        for space in self.spaces:
+            space.outline = space.outline - self.offset
+        for fixture in self.fixtures:
+            fixture.position = fixture.position - self.offset
+        self.warnings.append(f"the building lies at map coordinates: it is moved by {_vector(-self.offset)} m, to the origin. "
+                             "The scene file has the offset.")
 
 
 def import_ifc(path: str | Path, folder: str | Path, reflectances: str | Path | None = None) -> Building:
@@ -197,8 +216,10 @@ class _Reader:
         self._name_failures()
         projects = self.model.by_type("IfcProject")
         name = (projects[0].LongName or projects[0].Name) if projects else None
-        return Building(name or self.path.stem, self.materials, list(self.storeys.values()), self.spaces,
-                        self._fixtures(geometry), self.warnings)
+        building = Building(name or self.path.stem, self.materials, list(self.storeys.values()), self.spaces,
+                            self._fixtures(geometry), self.warnings)
+        building.move_to_origin()
+        return building
 
     def _add(self, shape: Any) -> None:
         product = self.model.by_id(shape.id)
@@ -442,6 +463,9 @@ def scene_text(building: Building, source: str) -> str:
     """The scene file of a building whose meshes lie beside it."""
     lines = [f"# Imported from {source}. Edit it: above all the reflectances of the materials.", "", "[scene]",
              f"name = {_text(building.name)}"]
+    if building.offset.any():
+        lines.insert(1, "# It lay at map coordinates, and was moved to the origin: the coordinates of the IFC file are those of "
+                        f"this scene plus {_vector(building.offset)} m.")
     for material in building.materials.values():
         lines += ["", f"[materials.{_text(material.name)}]" + (f"  # {material.reason}" if material.reason else "")]
         if material.is_glass:
@@ -456,28 +480,32 @@ def scene_text(building: Building, source: str) -> str:
     for fixture in building.fixtures:
         lines += ["", *_fixture_lines(fixture)]
     for space in building.spaces:
-        corners = ", ".join(f"[{x:.4g}, {y:.4g}, {z:.4g}]" for x, y, z in space.outline)
+        corners = ", ".join(map(_vector, space.outline))
         lines += ["", f"[sensors.{_text(space.name)}]", 'type = "plane"', f"polygon = [{corners}]", "height = 0.75",
                   "margin = 0.5"]
     return "\n".join(lines) + "\n"
 
 
 def _fixture_lines(fixture: Fixture) -> list[str]:
-    position = ", ".join(f"{x:.4g}" for x in fixture.position)
     lines = [f"[lights.{_text(fixture.name)}]"]
     if fixture.file is not None:
-        aim = ", ".join(f"{x:.4g}" for x in fixture.aim)
-        lines += ['type = "photometry"', f"file = {_text(fixture.file.name)}", f"position = [{position}]", f"aim = [{aim}]"]
+        lines += ['type = "photometry"', f"file = {_text(fixture.file.name)}", f"position = {_vector(fixture.position)}",
+                  f"aim = {_vector(fixture.aim)}"]
         if fixture.spin_deg:
             lines.append(f"spin = {fixture.spin_deg:.4g}")
     else:
-        lines += ['type = "point"', f"position = [{position}]", f"flux = {fixture.flux_lm or 0:g}"]
+        lines += ['type = "point"', f"position = {_vector(fixture.position)}", f"flux = {fixture.flux_lm or 0:g}"]
     if fixture.cct_k:
         lines.append(f"cct = {fixture.cct_k:g}")
     if fixture.power_w:
         lines.append(f"power = {fixture.power_w:g}")
     is_dark = fixture.file is None and fixture.flux_lm is None
     return [f"# {line}" for line in ["The IFC file states no light of it.", *lines]] if is_dark else lines
+
+
+def _vector(vector: np.ndarray) -> str:
+    """Three numbers as in a scene file, to a millionth."""
+    return "[" + ", ".join(f"{round(float(x), 6) + 0.0:.6f}".rstrip("0").rstrip(".") for x in vector) + "]"
 
 
 def _text(text: str) -> str:

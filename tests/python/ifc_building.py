@@ -19,9 +19,10 @@ LENGTH, WIDTH, STOREY, SLAB, WALL = 6.0, 4.0, 3.0, 0.2, 0.2  # m
 
 
 class Builder:
-    """Elements are boxes, in millimetres as many programs write them."""
+    """Elements are boxes, in millimetres as many programs write them; `origin` [m] is where the building lies."""
 
-    def __init__(self):
+    def __init__(self, origin):
+        self.origin = np.asarray(origin)
         self.model = ifcopenshell.api.run("project.create_file", version="IFC4")
         self.project = ifcopenshell.api.root.create_entity(self.model, ifc_class="IfcProject", name="Two storeys")
         millimetre = ifcopenshell.api.unit.add_si_unit(self.model, unit_type="LENGTHUNIT", prefix="MILLI")
@@ -41,7 +42,7 @@ class Builder:
         """A box between two corners [m]."""
         element = ifcopenshell.api.root.create_entity(self.model, ifc_class=kind, name=name)
         matrix = np.eye(4)
-        matrix[:3, 3] = least
+        matrix[:3, 3] = self.origin + least
         ifcopenshell.api.geometry.edit_object_placement(self.model, product=element, matrix=matrix)
         x, y, z = (1000 * (b - a) for a, b in zip(least, most))
         profile = self.model.create_entity(
@@ -72,7 +73,7 @@ class Builder:
         """A luminaire at a point [m]: with a light source of this flux, or the name of a photometric file."""
         element = ifcopenshell.api.root.create_entity(self.model, ifc_class="IfcLightFixture", name=name)
         matrix = np.eye(4)
-        matrix[:3, 3] = position
+        matrix[:3, 3] = self.origin + position
         ifcopenshell.api.geometry.edit_object_placement(self.model, product=element, matrix=matrix)
         ifcopenshell.api.spatial.assign_container(self.model, products=[element], relating_structure=storey)
         if flux is not None:
@@ -97,9 +98,9 @@ class Builder:
         return element
 
 
-def write_building(path: Path, photometry=None):
+def write_building(path: Path, photometry=None, origin=(0.0, 0.0, 0.0)):
     """Writes the building; the upper luminaire has a photometric file, where one is given."""
-    build = Builder()
+    build = Builder(origin)
     concrete, plaster, glass = build.material("Concrete C30"), build.material("Gypsum plaster"), build.material("Glass")
     for number, name in enumerate(("Ground floor", "First floor")):
         storey, z = build.storey(name), number * STOREY

@@ -76,6 +76,29 @@ class Import(unittest.TestCase):
         self.assertLess(max(widths), 0.03 * imported.mean.value)
         self.assertGreater(imported.mean.value, 20)
 
+    def test_map_coordinates_keep_micrometres(self):
+        origin = np.array([690123.456789, 5330456.789012, 512.340001])
+        write_building(self.file, "downlight.ies", origin)
+        moved = ifc.import_ifc(self.file, self.folder / "moved")
+        self.assertEqual(len(moved.warnings), 1)
+        self.assertIn("the building lies at map coordinates", moved.warnings[0])
+        np.testing.assert_array_equal(moved.offset, np.round(moved.offset))
+        np.testing.assert_allclose(moved.offset, [690123, 5330457, 0], atol=6)
+        write_building(self.file, "downlight.ies")
+        ifc.import_ifc(self.file, self.target)
+        shift = origin - moved.offset
+        for storey in ("Ground_floor", "First_floor", "Roof"):
+            here, there = (np.array([line.split()[1:] for line in (folder / f"{storey}.obj").read_text().splitlines()
+                                     if line.startswith("v ")], dtype=float) for folder in (self.target, self.folder / "moved"))
+            apart = np.abs(there[:, None] - shift - here).max(axis=2)  # of each vertex from each
+            self.assertLess(max(apart.min(axis=0).max(), apart.min(axis=1).max()), 2e-6)
+        text = (self.folder / "moved" / "scene.toml").read_text()
+        self.assertIn(f"plus [{moved.offset[0]:.0f}, {moved.offset[1]:.0f}, 0] m.", text)
+        scene = tomllib.loads(text)
+        np.testing.assert_allclose(scene["lights"]["Lamp_2"]["position"], shift + [3, 2, 5.7], atol=1e-6)
+        corners = np.array(sorted(scene["sensors"]["Room_2"]["polygon"]))
+        np.testing.assert_allclose(corners - shift, [[0.2, 0.2, 3], [0.2, 3.8, 3], [5.8, 0.2, 3], [5.8, 3.8, 3]], atol=1e-6)
+
     def test_by_the_command_line(self):
         path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
         result = subprocess.run([os.environ["STILB"], "import", self.file, "-o", self.target], capture_output=True, text=True,
