@@ -157,7 +157,7 @@ std::string to_json(const FitReport& report) {
     json["grid"] = {fit.parallels, 2 * fit.parallels};
     json["elapsed_s"] = report.elapsed_s;
     json["warnings"] = warnings_of(report);
-    return json.dump(1) + "\n";
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 plot::Plot error_plot(const FitReport& report) {

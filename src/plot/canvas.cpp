@@ -11,6 +11,7 @@
 
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
+#include "io/text/utf8.h"
 #include "plot/axis.h"
 #include "stilb/error.h"
 
@@ -194,7 +195,8 @@ void Canvas::fill_circle(const Point& center, double radius, const io::Colour& c
     cairo_fill(context);
 }
 
-void Canvas::text(const Point& at, const std::string& text, const TextStyle& style) {
+void Canvas::text(const Point& at, const std::string& bytes, const TextStyle& style) {
+    const std::string text = io::as_utf8(bytes);  // names of files may be anything
     cairo_t* context = cairo_->context.get();
     set_font(context, style.size, style.weight);
     const double width = advance(context, text);

@@ -96,7 +96,9 @@ TEST(RadianceMaterials, DielectricAndInterfaceAreGlass) {
               (std::vector<std::string>{
                   "dielectric m: Stilb's glass absorbs nothing inside; its transmissivity is left out.",
                   "dielectric m: its dispersion is left out."}));
-    EXPECT_EQ(model_of<materials::Dielectric>("void interface m 0 0 8 1 1 1 1.5 1 1 1 1").ior, 1.5);
+    const auto interface = model_of<materials::Dielectric>("void interface m 0 0 8 1 1 1 1.5 1 1 1 1.33");
+    EXPECT_EQ(interface.ior, 1.5);
+    EXPECT_EQ(interface.outside_ior, 1.33);
 }
 
 TEST(RadianceMaterials, MirrorsMayBeSeenAsAnotherMaterial) {

@@ -13,6 +13,7 @@
 #include <functional>
 
 #include "io/image/picture_file.h"
+#include "io/image/tone_curve.h"
 #include "io/sample_picture.h"
 #include "stilb/error.h"
 
@@ -147,6 +148,26 @@ TEST(ExrFile, HonoursWhiteLuminanceAndChromaticities) {
     };
     const Picture white = read_exr(foreign_exr({"B", "G", "R"}, 2.5, rec2020), "a.exr");
     for (const float component : white.rgb_cd_m2[0]) EXPECT_NEAR(component, 2.5, 1e-5);
+    const auto aces = [](Imf::Header& header) {
+        Imf::addChromaticities(header,
+                               {{0.7347f, 0.2653f}, {0, 1}, {0.0001f, -0.077f}, {0.32168f, 0.33767f}});
+    };
+    const Picture aces_white = read_exr(foreign_exr({"B", "G", "R"}, 2.5, aces), "a.exr");
+    for (const float component : aces_white.rgb_cd_m2[0]) EXPECT_NEAR(component, 2.5, 1e-5);
+}
+
+/// The luminances of the primaries of ACES, by SMPTE ST 2065-1: that of blue is negative.
+TEST(Primaries, OfAcesHaveTheirLuminances) {
+    const Primaries aces{{{0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, {0.32168, 0.33767}}};
+    ASSERT_TRUE(are_usable(aces));
+    const PrimariesConversion convert(aces, kRec709);
+    const auto luminance = [&](const Triple& rgb) { return Rgb{convert(rgb)}.luminance(); };
+    EXPECT_NEAR(luminance({1, 0, 0}), 0.3439664498, 2e-4);
+    EXPECT_NEAR(luminance({0, 1, 0}), 0.7281660966, 2e-4);
+    EXPECT_NEAR(luminance({0, 0, 1}), -0.0721325464, 2e-4);
+    // Blue on the other side of the line: white would need less than nothing of it.
+    EXPECT_FALSE(are_usable({{{0.7347, 0.2653}, {0, 1}, {0.9, 0.8}, {0.32168, 0.33767}}}));
+    EXPECT_FALSE(are_usable({{{0.7347, 0.2653}, {0, 1}, {0.0001, 0}, {0.32168, 0.33767}}}));
 }
 
 TEST(ExrFile, RefusesWhatItCannotRead) {

@@ -30,6 +30,22 @@ TEST(FileKind, IsToldByTheBeginning) {
     EXPECT_EQ(kind_of_content("IESNA:LM-63-2002\n"), FileKind::ies_luminaire);
     EXPECT_EQ(kind_of_content("# A scene\n[scene]\nname = \"x\"\n"), FileKind::other);
     EXPECT_EQ(kind_of_content(" \n"), FileKind::other);
+    EXPECT_EQ(kind_of_content("\xEF\xBB\xBFIES:LM-63-2019\n"), FileKind::ies_luminaire);
+    EXPECT_EQ(kind_of_content("ANSI/IES LM-63-19\n"), FileKind::ies_luminaire);
+}
+
+TEST(FileKind, FilesOfOtherProgramsAreNamed) {
+    EXPECT_EQ(kind_of_content("LOCATION,Berlin,-,DEU,IWEC,103840,52.47"), FileKind::weather);
+    EXPECT_EQ(kind_of_content("<?xml version=\"1.0\"?><WindowElement/>"), FileKind::scattering);
+    EXPECT_EQ(kind_of_content("#?RADIANCE\noconv a.rad\nFORMAT=Radiance_octree\n"), FileKind::octree);
+    EXPECT_EQ(kind_of_content("AC1032"), FileKind::drawing);
+    EXPECT_EQ(kind_of_name("a.DXF"), FileKind::drawing);
+    EXPECT_EQ(kind_of_name("a.uld"), FileKind::luminaire_of_another_kind);
+    EXPECT_EQ(kind_of_name("a.skp"), FileKind::model);
+    for (const char* name : {"a.epw", "a.dxf", "a.oct", "a.uld", "a.fbx"}) {
+        EXPECT_FALSE(may_be_scene_file(kind_of_name(name)));
+        EXPECT_GT(not_a_scene(kind_of_name(name)).size(), 60u);
+    }
 }
 
 class FilesOfKinds : public testing::Test {

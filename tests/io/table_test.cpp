@@ -65,6 +65,17 @@ TEST(Table, WritesFiles) {
     EXPECT_THROW(write_csv(columns, "/no/such/folder/a.csv"), InputError);
 }
 
+/// The names of temporary files are no longer than those of files may be.
+TEST(Table, WritesFilesWithTheLongestNames) {
+    for (const std::size_t length : {245u, 246u, 247u, 255u}) {
+        const auto path = picture_path(".txt").replace_filename(std::string(length, 'n'));
+        require_writable(path);
+        replace_file(path, "content");
+        EXPECT_EQ(read_text(path), "content") << length;
+        std::filesystem::remove(path);
+    }
+}
+
 TEST(Table, ReplacesFilesInOneStepAndLeavesLinks) {
     const auto path = picture_path(".txt"), link = picture_path(".link"), loose = picture_path(".loose");
     for (const auto& file : {path, link, loose}) std::filesystem::remove(file);

@@ -233,5 +233,48 @@ class InterruptionTest(FilesTest):
                 self.assertTrue(plot.read_bytes().endswith(b"IEND\xaeB`\x82"))
 
 
+class NamesAndEncodingsTest(FilesTest):
+    def test_names_that_are_not_utf8(self):
+        scene = self.folder / os.fsdecode(b"r\xff.toml")
+        shutil.copy(self.scene, scene)
+        output = self.folder / "out.json"
+        self.assertEqual(run("measure", scene, "--paths", 32, "--quiet", "-o", output, errors="replace").returncode, 0)
+        self.assertTrue(json.loads(output.read_text())["scene"].endswith("r\N{REPLACEMENT CHARACTER}.toml"))
+        info = json.loads(run("info", scene, "--json").stdout)
+        self.assertTrue(info["file"].endswith("r\N{REPLACEMENT CHARACTER}.toml"))
+        self.assertEqual(run("measure", scene, "--paths", 32, "--quiet", "--falsecolor", self.folder / "desk.png",
+                             errors="replace").returncode, 0)
+
+    def test_names_of_255_bytes(self):
+        output = self.folder / ("n" * 250 + ".json")
+        self.assertEqual(run("measure", self.scene, "--paths", 32, "--quiet", "-o", output).returncode, 0)
+        self.assertIn("sensors", json.loads(output.read_text()))
+
+    def test_headers_of_pictures_that_are_not_utf8(self):
+        self.picture.write_bytes(self.picture.read_bytes().replace(b"RADIANCE\n", b"RADIANCE\nSCENE= Gl\xfchlampe\xff\n"))
+        drawing = self.folder / "view.svg"
+        self.assertEqual(run("falsecolor", self.picture, "-o", drawing).returncode, 0)
+        self.assertTrue(drawing.read_bytes().startswith(b"<?xml"))
+
+    def test_byte_order_marks(self):
+        mark = "\N{ZERO WIDTH NO-BREAK SPACE}"
+        scene = self.write("marked.toml", mark + self.scene.read_text())
+        for name, text in (("panel.rad", "void plastic w 0 0 5 .5 .5 .5 0 0\nw polygon f 0 0 9 0 0 0 1 0 0 0 1 0\n"),
+                           ("box.obj", BOX)):
+            self.assertEqual(run("info", self.write(name, mark + text)).returncode, 0, name)
+        points = self.write("p.pts", mark + "1 1 0.75 0 0 1\n")
+        self.assertEqual(run("measure", scene, "--points", points, "--paths", 32, "--quiet").returncode, 0)
+        utf16 = self.folder / "wide.toml"
+        utf16.write_bytes(self.scene.read_text().encode("utf-16"))
+        self.expect_wrong_input(["info", utf16], "wide.toml: is text in UTF-16. Save it as UTF-8.")
+
+    def test_files_of_other_programs_are_named(self):
+        for name, text, kind in (("a.epw", "LOCATION,Berlin,-,DEU\n", "weather data"),
+                                 ("b.xml", '<?xml version="1.0"?><WindowElement/>', "scatters"),
+                                 ("c.dxf", "0\nSECTION\n", "CAD drawing"), ("d.uld", "x", "ULD"),
+                                 ("e.oct", "x", "octree of Radiance"), ("f.skp", "x", "3D model")):
+            self.expect_wrong_input(["info", self.write(name, text)], f"{name}: not a scene but ", kind)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -83,7 +83,9 @@ void add_info(CommandLine& line) {
             const LoadingProgress progress;
             return report_file(*request, progress.monitor());
         }();
-        fmt::print("{}", request->json ? report.dump(1) + "\n" : to_text(report));
+        fmt::print("{}", request->json
+                             ? report.dump(1, ' ', false, InfoReport::error_handler_t::replace) + "\n"
+                             : to_text(report));
         return kExitDone;
     });
 }
@@ -272,7 +274,9 @@ std::string sensor_text(const Json& sensor) {
 std::string run_text(const Json& run) {
     std::string line = "Run: ";
     for (const auto& [key, value] : run.items()) {
-        const std::string shown = value.is_string() ? value.get<std::string>() : value.dump();
+        const std::string shown = value.is_string()
+                                      ? value.get<std::string>()
+                                      : value.dump(-1, ' ', false, Json::error_handler_t::replace);
         line += fmt::format("{}{} {}", key == "method" ? "" : ", ", key, shown);
     }
     return line + "\n";

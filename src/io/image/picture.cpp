@@ -10,6 +10,7 @@
 
 #include "io/image/radiance_view.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -134,8 +135,8 @@ std::vector<HeaderField> header_fields(const Picture& picture) {
     return fields;
 }
 
-void read_header_field(Picture& picture, std::string_view name, std::string_view text) {
-    text = trimmed(text);
+void read_header_field(Picture& picture, std::string_view name, std::string_view value) {
+    const std::string text = printable(value);
     PictureOrigin& origin = picture.origin;
     const auto is = [&](std::string_view wanted) { return is_same_name(name, wanted); };
     if (is("software") && text.starts_with(kSoftware)) origin.version = text.substr(kSoftware.size());

@@ -167,12 +167,17 @@ std::array<Vec3, 3> basis_of(const Primaries& primaries) {
 
 bool are_usable(const Primaries& primaries) {
     for (const auto& [x, y] : primaries) {
-        if (!(std::abs(x) <= 10 && y >= 1e-3 && y <= 10)) return false;
+        // The blue of ACES (SMPTE ST 2065-1) lies below 0.
+        if (!(std::abs(x) <= 10 && std::abs(y) >= 1e-3 && std::abs(y) <= 10)) return false;
     }
     const std::array<Vec3, 3> basis{xyz_of(primaries[0]), xyz_of(primaries[1]), xyz_of(primaries[2])};
     if (!(std::abs(dot(basis[0], cross(basis[1], basis[2]))) > 1e-6)) return false;
+    // The luminances of the primaries in white. Divided by y, they are the amounts of the primaries.
     const Vec3 shares = components(basis, xyz_of(primaries[3]));
-    return std::min({shares.x, shares.y, shares.z}) > 1e-6;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!(shares[i] / primaries[i][1] > 1e-6)) return false;
+    }
+    return primaries[3][1] > 0;
 }
 
 PrimariesConversion::PrimariesConversion(const Primaries& from, const Primaries& to) {

@@ -10,6 +10,7 @@
 #include "geometry/mesh_part.h"
 #include "geometry/mesh_topology.h"
 #include "scene/cut_lamps.h"
+#include "scene/glass.h"
 #include "scene/instances.h"
 #include "scene/overlaps.h"
 #include "stilb/error.h"
@@ -265,6 +266,7 @@ SceneFile ImportedScene::finish(const ImportSettings& settings) && {
     if (count == 0)
         throw InputError("the scene has no surface: there is nothing to light.", {file.sources[0].string()});
     for (std::uint32_t i = 0; i < count; ++i) light_faces(ObjectId{i});
+    std::ranges::move(scene::settle_glass(file.scene), std::back_inserter(file.warnings));
     scene::put_lamps_in_front(file.scene);
     settings.scale_lights(file);
     warn_of_units();

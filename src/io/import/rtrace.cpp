@@ -7,6 +7,7 @@
 
 #include "io/text/radiance_units.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "sensors/fields.h"
 #include "stilb/error.h"
 
@@ -50,7 +51,7 @@ Sensor read_points(std::string_view content, const std::string& name) {
 }
 
 Sensor read_points(const std::filesystem::path& path) {
-    return read_points(read_whole_file(path), path == "-" ? "standard input" : path.string());
+    return read_points(read_text_file(path), path == "-" ? "standard input" : path.string());
 }
 
 void require_irradiances(const std::vector<Sensor>& sensors) {

@@ -131,7 +131,8 @@ class LightTable {
     std::string luminaire_file(SolidId id) const {
         const std::string& file = file_.scene.solids[index_of(id)].file;
         const std::string content = luminaire_content(file, file_.scene.solid(id));
-        const std::string extension = content.starts_with("IES") ? ".ies" : ".ldt";
+        const bool is_ies = read_photometry(content, file).format.starts_with("IES");
+        const std::string extension = is_ies ? ".ies" : ".ldt";
         return output_.write_once(std::filesystem::path(file).stem().string(), extension, content);
     }
 

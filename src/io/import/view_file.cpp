@@ -12,6 +12,7 @@
 #include "io/import/imported_scene.h"
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -94,8 +95,7 @@ ViewFile read_view_file(std::string_view content, const std::string& name) {
 }
 
 ViewFile read_view_file(const std::filesystem::path& path) {
-    if (!is_luminance_picture(kind_of_file(path)))
-        return read_view_file(read_whole_file(path), path.string());
+    if (!is_luminance_picture(kind_of_file(path))) return read_view_file(read_text_file(path), path.string());
     const Picture picture = read_picture(path);
     if (!picture.camera)
         throw InputError("the picture states no view that a camera can have.", {path.string()});

@@ -12,6 +12,7 @@
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "math/spherical_harmonics.h"
 #include "stilb/error.h"
 
@@ -141,7 +142,7 @@ HarmonicsFile parse_harmonics(std::string_view content, const std::string& name)
 }
 
 HarmonicsFile read_harmonics(const std::filesystem::path& path) {
-    return parse_harmonics(read_whole_file(path), path.string());
+    return parse_harmonics(read_text_file(path), path.string());
 }
 
 std::string to_text(const HarmonicsFile& file) {

@@ -9,6 +9,7 @@
 
 #include "base/vec.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -206,7 +207,7 @@ ResultsFile read_results(std::string_view content, const std::string& name) {
 }
 
 ResultsFile read_results_file(const std::filesystem::path& path) {
-    return read_results(read_whole_file(path), path.string());
+    return read_results(read_text_file(path), path.string());
 }
 
 }  // namespace stilb::io

@@ -61,7 +61,13 @@ std::string verdicts_text(const RunResult& result) {
     return text;
 }
 
-std::string location_text(const Vec3& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z); }
+std::string location_text(const Vec3& p) {
+    // At map coordinates, five digits would be kilometres.
+    const auto text = [](double x) {
+        return std::abs(x) < 1e5 ? fmt::format("{:.5g}", x) : fmt::format("{:.2f}", x);
+    };
+    return fmt::format("({}, {}, {})", text(p.x), text(p.y), text(p.z));
+}
 std::string direction_text(const Vec3& d) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x, d.y, d.z); }
 
 std::string location_text(const Location& location) {

@@ -319,7 +319,8 @@ std::vector<std::string> json_parts(const RunResult& result, const std::string& 
     Json list = Json::array();
     for (const SensorResult& sensor : result.sensors) list.push_back(sensor_json(sensor, sensor.sensor));
     json["sensors"] = std::move(list);
-    return with_readings(json.dump(1) + "\n", result.sensors, replicates);
+    return with_readings(json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", result.sensors,
+                         replicates);
 }
 
 std::string to_json(const RunResult& result, const std::string& scene) {

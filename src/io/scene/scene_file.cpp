@@ -15,7 +15,9 @@
 #include "io/scene/sections.h"
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "run/options.h"
+#include "scene/glass.h"
 #include "scene/overlaps.h"
 #include "stilb/error.h"
 
@@ -200,6 +202,7 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
                 {defaults("lights", lamp_types()), read_maintenance(run, 1), std::move(parts), directory},
                 file);
     warn_of_unused_materials(materials, first_material, file);
+    std::ranges::move(scene::settle_glass(file.scene), std::back_inserter(file.warnings));
     scene::put_lamps_in_front(file.scene);
     std::erase_if(file.warnings, [](const std::string& warning) { return warning.ends_with(kNoLight); });
     if (file.scene.lights.empty())
@@ -212,7 +215,7 @@ SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std
                           const Monitor& monitor) {
     const FileKind kind = kind_of_file(path);
     if (!may_be_scene_file(kind)) throw InputError(not_a_scene(kind), {path.string()});
-    SceneFile file = read_scene(read_whole_file(path), path.string(), path.parent_path(), overrides, monitor);
+    SceneFile file = read_scene(read_text_file(path), path.string(), path.parent_path(), overrides, monitor);
     file.sources.insert(file.sources.begin(), path);
     return file;
 }

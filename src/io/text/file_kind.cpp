@@ -8,6 +8,7 @@
 
 #include "io/text/table.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -30,8 +31,12 @@ constexpr std::array kBeginnings{
     Beginning{"ply\n", FileKind::ply_mesh},
     Beginning{"ply\r", FileKind::ply_mesh},
     Beginning{"IESNA", FileKind::ies_luminaire},
+    Beginning{"IES:LM", FileKind::ies_luminaire},
+    Beginning{"ANSI/IES", FileKind::ies_luminaire},
     Beginning{"glTF", FileKind::gltf_scene},
     Beginning{"ISO-10303-21;", FileKind::ifc_building},
+    Beginning{"LOCATION,", FileKind::weather},
+    Beginning{"AC10", FileKind::drawing},
 };
 
 struct Extension {
@@ -40,12 +45,36 @@ struct Extension {
 };
 
 constexpr std::array kExtensions{
-    Extension{".exr", FileKind::exr_picture},    Extension{".hdr", FileKind::hdr_picture},
-    Extension{".png", FileKind::png_picture},    Extension{".svg", FileKind::svg_drawing},
-    Extension{".obj", FileKind::obj_mesh},       Extension{".ply", FileKind::ply_mesh},
-    Extension{".ies", FileKind::ies_luminaire},  Extension{".ldt", FileKind::eulumdat_luminaire},
-    Extension{".rad", FileKind::radiance_scene}, Extension{".gltf", FileKind::gltf_scene},
-    Extension{".glb", FileKind::gltf_scene},     Extension{".ifc", FileKind::ifc_building},
+    Extension{".exr", FileKind::exr_picture},
+    Extension{".hdr", FileKind::hdr_picture},
+    Extension{".png", FileKind::png_picture},
+    Extension{".svg", FileKind::svg_drawing},
+    Extension{".obj", FileKind::obj_mesh},
+    Extension{".ply", FileKind::ply_mesh},
+    Extension{".ies", FileKind::ies_luminaire},
+    Extension{".ldt", FileKind::eulumdat_luminaire},
+    Extension{".rad", FileKind::radiance_scene},
+    Extension{".gltf", FileKind::gltf_scene},
+    Extension{".glb", FileKind::gltf_scene},
+    Extension{".ifc", FileKind::ifc_building},
+    Extension{".epw", FileKind::weather},
+    Extension{".wea", FileKind::weather},
+    Extension{".oct", FileKind::octree},
+    Extension{".uld", FileKind::luminaire_of_another_kind},
+    Extension{".gldf", FileKind::luminaire_of_another_kind},
+    Extension{".rolf", FileKind::luminaire_of_another_kind},
+    Extension{".rolfz", FileKind::luminaire_of_another_kind},
+    Extension{".dxf", FileKind::drawing},
+    Extension{".dwg", FileKind::drawing},
+    Extension{".skp", FileKind::model},
+    Extension{".3ds", FileKind::model},
+    Extension{".3dm", FileKind::model},
+    Extension{".fbx", FileKind::model},
+    Extension{".dae", FileKind::model},
+    Extension{".stl", FileKind::model},
+    Extension{".blend", FileKind::model},
+    Extension{".max", FileKind::model},
+    Extension{".rvt", FileKind::model},
 };
 
 struct Description {
@@ -85,6 +114,22 @@ constexpr std::array kDescriptions{
     Description{FileKind::gltf_scene, "a glTF scene", "Commands that take a scene read it by itself."},
     Description{FileKind::ifc_building, "a building in IFC",
                 "A scene is made of it by: stilb import FILE -o DIR."},
+    Description{
+        FileKind::weather, "weather data of a place (such as EPW)",
+        "Stilb does not read it: give a sky by its luminance, by a panorama, or by a Radiance scene with "
+        "the command gensky."},
+    Description{FileKind::scattering, "a table of the light that a window or blind scatters (BSDF, XML)",
+                "Stilb does not read it: give the material as a pane, or its openings as area lights."},
+    Description{FileKind::drawing, "a CAD drawing (DXF or DWG)",
+                "Stilb does not read it: export the model from the CAD program as IFC, glTF or OBJ."},
+    Description{FileKind::luminaire_of_another_kind,
+                "a luminaire in a format of lighting programs (ULD, ROLF or "
+                "GLDF)",
+                "Stilb does not read it: makers offer the same luminaires as IES or EULUMDAT files."},
+    Description{FileKind::octree, "an octree of Radiance",
+                "A Radiance scene refers to it by instance; or read the files (.rad) that it was made of."},
+    Description{FileKind::model, "a 3D model in a format that Stilb does not read",
+                "Export it as glTF or OBJ."},
 };
 
 const Description& description_of(FileKind kind) {
@@ -106,6 +151,9 @@ FileKind kind_of_json(std::string_view beginning) {
 
 FileKind kind_of_content(std::string_view beginning) {
     if (beginning.empty()) return FileKind::empty;
+    beginning = without_byte_order_mark(beginning);
+    if (beginning.starts_with("#?") && contains(beginning, "\nFORMAT=Radiance_octree"))
+        return FileKind::octree;
     for (const auto& [bytes, kind] : kBeginnings) {
         if (beginning.starts_with(bytes)) return kind;
     }
@@ -115,6 +163,7 @@ FileKind kind_of_content(std::string_view beginning) {
     if (beginning[first] == '<' && contains(beginning, kWalkMark)) return FileKind::walk;
     if (beginning[first] == '<' && contains(beginning, kReportMark)) return FileKind::report;
     if (beginning[first] == '<' && contains(beginning, "<svg")) return FileKind::svg_drawing;
+    if (beginning[first] == '<' && contains(beginning, "<WindowElement")) return FileKind::scattering;
     return FileKind::other;
 }
 

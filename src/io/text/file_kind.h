@@ -28,6 +28,13 @@ enum class FileKind {
     radiance_scene,
     gltf_scene,
     ifc_building,  ///< read by the Python package alone
+    // Of other programs, which Stilb does not read:
+    weather,
+    scattering,
+    drawing,
+    luminaire_of_another_kind,
+    octree,
+    model,
 };
 
 /// The first bytes of a solution.

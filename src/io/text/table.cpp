@@ -49,12 +49,16 @@ void write_parts(const std::filesystem::path& path, Parts parts) {
 std::atomic<const char*> unfinished = nullptr;
 static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads it");
 
+constexpr std::size_t kLongestName = 255;  ///< of a file, in bytes, in the usual file systems
+
 /// A new file beside another one, in the same folder, since a file cannot be renamed into another file
 /// system. It is the unfinished one, and is removed at the end unless it has taken the other one's name.
 class TemporaryFile {
   public:
     TemporaryFile(const std::filesystem::path& beside, Parts parts) : beside_(beside), path_(beside) {
-        path_ += fmt::format(".{:08x}", std::random_device()());
+        const std::string end = fmt::format(".{:08x}", std::random_device()());
+        const std::string name = beside.filename().string();
+        path_.replace_filename(name.substr(0, kLongestName - end.size()) + end);
         const char* none = nullptr;
         is_announced_ = unfinished.compare_exchange_strong(none, path_.c_str());
         try {

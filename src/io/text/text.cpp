@@ -14,6 +14,7 @@
 #include "io/scene/overrides.h"
 #include "io/scene/toml.h"
 #include "io/text/file_kind.h"
+#include "io/text/utf8.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -262,7 +263,7 @@ std::string light_hash(std::span<const std::filesystem::path> sources,
                        std::span<const std::string> overrides) {
     const std::filesystem::path& scene = sources.front();
     if (!may_be_scene_file(kind_of_file(scene))) return foreign_light_hash(sources, overrides);
-    TomlValue document = parse_toml(read_whole_file(scene), scene.string());
+    TomlValue document = parse_toml(read_text_file(scene), scene.string());
     auto& sections = std::get<TomlMembers>(document.content);
     override_values(sections, overrides);
     std::erase_if(sections, [](const TomlMember& section) {

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/text/utf8.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -52,6 +53,9 @@ std::string_view FilePieces::extended(std::string_view rest) {
     monitor_.report(stage_, static_cast<double>(read_) / static_cast<double>(file_.size()));
     return {buffer_.data(), needed};
 }
+
+UnreadBytes::UnreadBytes(FilePieces& file)
+    : file_(&file), in_memory_(text_of(file.extended({}), file.path().string())) {}
 
 bool UnreadBytes::extend() {
     if (file_ == nullptr || file_->left() == 0) return false;

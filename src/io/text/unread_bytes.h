@@ -18,6 +18,7 @@ class InputFile {
     /// Throws InputError where it cannot be read.
     explicit InputFile(const std::filesystem::path& path);
 
+    const std::filesystem::path& path() const { return path_; }
     /// Of the whole file, in bytes.
     std::uintmax_t size() const { return size_; }
     /// The next bytes. Throws InputError where the file has become shorter, or cannot be read.
@@ -44,6 +45,7 @@ class FilePieces {
     FilePieces(const FilePieces&) = delete;
     FilePieces& operator=(const FilePieces&) = delete;
 
+    const std::filesystem::path& path() const { return file_.path(); }
     /// Bytes of the file that are in no piece yet.
     std::uintmax_t left() const { return file_.size() - read_; }
     /// `rest`, the end of the view that the last call returned (or nothing), and the next piece behind it;
@@ -64,7 +66,8 @@ class UnreadBytes {
   public:
     UnreadBytes(std::string_view text) : in_memory_(text) {}
     UnreadBytes(const std::string& text) : in_memory_(text) {}
-    UnreadBytes(FilePieces& file) : file_(&file), in_memory_(file.extended({})) {}
+    /// Without a byte-order mark. Throws InputError where the file is text in UTF-16.
+    UnreadBytes(FilePieces& file);
 
     /// The first of them, as many as are in memory.
     std::string_view in_memory() const { return in_memory_; }

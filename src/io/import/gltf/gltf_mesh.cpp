@@ -5,6 +5,7 @@
 #include "io/import/gltf/gltf_nodes.h"
 #include "io/import/imported_scene.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 
 namespace stilb::io {
 namespace {
@@ -26,7 +27,7 @@ void add_primitive(gltf::PlacedPrimitive& primitive, MeshBuilder& builder) {
 }  // namespace
 
 MeshFile read_gltf_mesh(const std::filesystem::path& path) {
-    const gltf::File file = gltf::parse(read_whole_file(path), path);
+    const gltf::File file = gltf::parse(read_text_file(path), path);
     GroupedWarnings of_a_scene;  // a mesh has neither lines nor animations
     const auto nodes = placed_nodes(file, to_metres_and_z_up(1, UpAxis::y));
     MeshBuilder builder;

@@ -13,6 +13,7 @@
 #include "io/import/gltf/gltf_nodes.h"
 #include "io/import/imported_scene.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 
 namespace stilb::io {
 namespace {
@@ -147,7 +148,7 @@ SceneFile read_gltf_scene(std::string_view content, const std::filesystem::path&
 }
 
 SceneFile read_gltf_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
-    return read_gltf_scene(read_whole_file(path), path, ImportSettings(overrides, path.string()));
+    return read_gltf_scene(read_text_file(path), path, ImportSettings(overrides, path.string()));
 }
 
 }  // namespace stilb::io

@@ -15,6 +15,7 @@
 #include "io/import/obj/unit_guess.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -87,7 +88,7 @@ class ObjMaterials {
             return;
         }
         scene_.file.sources.push_back(path);
-        for (MtlMaterial& material : read_mtl(read_whole_file(path), path.string())) {
+        for (MtlMaterial& material : read_mtl(read_text_file(path), path.string())) {
             const std::string name = material.name;
             materials_.try_emplace(name, std::move(material));
         }

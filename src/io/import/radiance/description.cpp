@@ -13,6 +13,7 @@
 #include "io/import/radiance/primitives.h"
 #include "io/import/radiance/words.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 
 namespace stilb::io::radiance {
 namespace {
@@ -219,7 +220,7 @@ class Reader {
 
     void run_xform(const std::vector<std::string>& arguments, const Programs& before, const Place& place) {
         const auto read_file = [&](const std::string& name) {
-            return read_whole_file(find_file(description_, place, name));
+            return read_text_file(find_file(description_, place, name));
         };
         const XformCommand command =
             at(place, [&] { return read_xform(arguments, read_file, limits_.primitives); });
@@ -250,7 +251,7 @@ class Reader {
         for (const auto& [known, content] : contents_) {
             if (known == path) return *content;
         }
-        contents_.emplace_back(path, std::make_unique<const std::string>(read_whole_file(path)));
+        contents_.emplace_back(path, std::make_unique<const std::string>(read_text_file(path)));
         return *contents_.back().second;
     }
 

@@ -9,6 +9,7 @@
 #include "io/import/radiance/words.h"
 #include "io/import/radiance/xform.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "lights/emitter_elements.h"
 
 namespace stilb::io::radiance {
@@ -265,7 +266,7 @@ class Pattern::Reader {
     void read_table_file(std::vector<std::filesystem::path>& sources) {
         const std::filesystem::path path = find_file(description_, modifier_.place, modifier_.texts[1]);
         if (std::ranges::find(sources, path) == sources.end()) sources.push_back(path);
-        pattern_.table_ = read_table(read_whole_file(path), path.string());
+        pattern_.table_ = read_table(read_text_file(path), path.string());
         const std::size_t dimensions = pattern_.table_.coordinates.size();
         if (dimensions != pattern_.coordinates_.size()) {
             fail(fmt::format("the table {} has {} dimensions, but {} coordinates were found.",

@@ -159,8 +159,9 @@ class MaterialReader {
         if (modifier_.numbers[4] != 0) warn("its dispersion is left out.");
         set_solid(modifier_.numbers[3]);
     }
-    void set_solid(double ior) {
-        optics_.material = materials::Dielectric{within(ior, 1, kLargestIor)};
+    void set_solid(double ior, double outside_ior = 1) {
+        optics_.material =
+            materials::Dielectric{within(ior, 1, kLargestIor), within(outside_ior, 1, kLargestIor)};
         optics_.is_solid = true;
     }
 
@@ -207,11 +208,7 @@ class MaterialReader {
             return warn("this type is not supported; its surfaces are left out.");
         }
         if (type == "interface" && has_numbers(8)) {
-            const double ratio = modifier_.numbers[3] / std::max(modifier_.numbers[7], 1e-3);
-            set_solid(std::max(ratio, 1 / ratio));
-            if (modifier_.numbers[7] != 1)
-                warn("glass in air of the ratio of both refractive indices stands for it.");
-            return;
+            return set_solid(modifier_.numbers[3], modifier_.numbers[7]);
         }
         if ((type == "plastic2" || type == "metal2") && has_numbers(6)) {
             warn(

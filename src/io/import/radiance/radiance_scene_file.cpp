@@ -16,6 +16,7 @@
 #include "io/import/radiance/sky.h"
 #include "io/text/radiance_units.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "scene/overlaps.h"
 
 namespace stilb::io::radiance {
@@ -311,7 +312,7 @@ SceneFile read_radiance_scene(const std::filesystem::path& path, std::span<const
     if (settings.options().textures)
         throw InputError("patterns of Radiance scenes are not read: import.textures does not go with them.",
                          {path.string()});
-    SceneFile file = read_radiance_scene(read_whole_file(path), path.string(), path.parent_path(), {},
+    SceneFile file = read_radiance_scene(read_text_file(path), path.string(), path.parent_path(), {},
                                          radiance::placement_of(settings.options()));
     settings.scale_lights(file);
     settings.apply_to(file);
