@@ -109,6 +109,10 @@ std::vector<std::string> lamp_warnings(const Scene& scene, const rays::RayCaster
                                        const std::vector<geometry::ConnectedComponents>& components,
                                        std::span<const Sensor> sensors);
 
+/// A sentence for the luminaires whose luminous opening is larger or smaller than that of any luminaire: its
+/// size is that of another unit.
+std::vector<std::string> opening_warnings(const Scene& scene);
+
 // Misplaced sensors and lights.
 
 /// A ray along which the light of the sensor's first reading arrives; of a camera, that of its middle.

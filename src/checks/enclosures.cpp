@@ -126,11 +126,17 @@ std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
         if (!origin->axis) return {{origin->position, kDirections[0]}};
         return {probe_ray_off(origin->position, *origin->axis, caster_.half_extent_m(), caster_)};
     }
-    if (const auto surface = lights::emitting_object(light)) {
-        return std::visit(ProbeRaysOfShape{components_[index_of(*surface)], caster_},
-                          scene_.object(*surface).shape);
+    const auto surface = lights::emitting_object(light);
+    if (!surface) return {};
+    std::vector<ProbeRay> rays =
+        std::visit(ProbeRaysOfShape{components_[index_of(*surface)], caster_}, scene_.object(*surface).shape);
+    // An opening may reach through the walls around its luminaire.
+    if (std::holds_alternative<LuminousOpening>(light.source)) {
+        const Luminaire& luminaire = *lights::luminaire_of(light);
+        rays.push_back(
+            probe_ray_off(luminaire.position, rays.front().direction, caster_.half_extent_m(), caster_));
     }
-    return {};
+    return rays;
 }
 
 Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const Vec3& direction) const {

@@ -19,11 +19,16 @@ struct Axes {
     Vec3 u, v, w;  ///< u and v span the outline, w is the axis of the prism; of the lengths of the extents
 };
 
+/// Circles become polygons of their area, or of their perimeter: then the polygon's width is that of the
+/// circle, in the mean over all directions.
+enum class Outline { rectangle, circle_by_area, circle_by_perimeter };
+
 /// The outline of a prism relative to its edges, as a polygon around 0.
-std::vector<std::array<double, 2>> outline(bool is_round) {
-    if (!is_round) return {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+std::vector<std::array<double, 2>> corners_of(Outline outline) {
+    if (outline == Outline::rectangle) return {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
     const double step = 2 * kPi / kCorners;
-    const double radius = 0.5 * std::sqrt(step / std::sin(step));
+    const double radius = outline == Outline::circle_by_area ? 0.5 * std::sqrt(step / std::sin(step))
+                                                             : 0.25 * step / std::sin(step / 2);
     std::vector<std::array<double, 2>> corners;
     for (std::uint32_t i = 0; i < kCorners; ++i)
         corners.push_back({radius * std::cos(i * step), radius * std::sin(i * step)});
@@ -55,9 +60,9 @@ class ConvexMesh {
 enum class Sides { all, none };
 
 /// Without sides it is a plate: two faces back to back.
-Mesh prism(const Vec3& middle, const Axes& axes, bool is_round, Sides sides) {
+Mesh prism(const Vec3& middle, const Axes& axes, Outline outline, Sides sides) {
     std::vector<Vec3> lower, upper;
-    for (const auto& [s, t] : outline(is_round)) {
+    for (const auto& [s, t] : corners_of(outline)) {
         const Vec3 corner = middle + s * axes.u + t * axes.v;
         lower.push_back(corner - 0.5 * axes.w);
         upper.push_back(corner + 0.5 * axes.w);
@@ -96,10 +101,17 @@ Shape one_side(const Opening& opening, const Luminaire& at, bool is_down) {
         return is_down ? Rectangle{corner, v, u} : Rectangle{corner, u, v};
     }
     std::vector<Vec3> face;
-    for (const auto& [s, t] : outline(true)) face.push_back(at.position + s * u + t * v);
+    for (const auto& [s, t] : corners_of(Outline::circle_by_area))
+        face.push_back(at.position + s * u + t * v);
     ConvexMesh mesh(at.position - normal);
     mesh.add(face);
     return mesh.take();
+}
+
+/// The sides of tubes are seen, of drums their ends, too.
+Outline outline_of(Opening::Form form) {
+    if (form == Opening::Form::box) return Outline::rectangle;
+    return form == Opening::Form::vertical_cylinder ? Outline::circle_by_area : Outline::circle_by_perimeter;
 }
 
 Axes axes_of(Opening::Form form, const Vec3& size, const Luminaire& at) {
@@ -118,10 +130,6 @@ Opening Opening::of_signed(const Vec3& e) {
         opening.form = z ? Form::ball : Form::vertical_cylinder;
     } else if (x != y && z) {
         opening.form = x ? Form::cylinder_along_c90 : Form::cylinder_along_c0;
-    } else if (x != y && e.x * e.y == 0) {
-        // A single diameter, as old files state it.
-        opening.form = Form::vertical_cylinder;
-        opening.extent_m.x = opening.extent_m.y = std::max(opening.extent_m.x, opening.extent_m.y);
     }
     return opening;
 }
@@ -149,7 +157,7 @@ OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const 
         middle += (lower_m - body.above_m) / 2 * luminaire.nadir;
     }
     const Axes axes = axes_of(opening.form, size, luminaire);
-    return {prism(middle, axes, opening.form != Opening::Form::box, is_flat ? Sides::none : Sides::all), 0};
+    return {prism(middle, axes, outline_of(opening.form), is_flat ? Sides::none : Sides::all), 0};
 }
 
 }  // namespace stilb::lights

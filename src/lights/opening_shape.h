@@ -19,9 +19,12 @@ struct Opening {
     bool is_flat() const {
         return !is_point() && !(extent_m.z > 0) && (form == Form::box || form == Form::vertical_cylinder);
     }
-    /// From the three numbers of LM-63, where signs mean round outlines.
+    /// From the three numbers of LM-63-2002, where signs mean round outlines.
     static Opening of_signed(const Vec3& signed_extent_m);
 };
+
+/// Openings whose largest extent is below or above these were most likely stated in another unit.
+inline constexpr double kSmallestOpening_m = 0.005, kLargestOpening_m = 10;
 
 /// The surface of an opening in the middle of which the luminaire is.
 struct OpeningShape {
@@ -39,9 +42,10 @@ struct BodyExtent {
     double below_m = 0, above_m = 0;
 };
 
-/// Ellipses have 16 corners and their right area, and ellipsoids become balls of the same volume. Lines get a
-/// hundredth of their length as width. The opening must not be a point. Faces
-/// of a flat opening are moved out of the body, so that it hides nothing of them; other openings are not.
+/// Ellipses have 16 corners and their right area, those of tubes their right perimeter, and ellipsoids become
+/// balls of the same volume. Lines get a hundredth of their length as width. The opening must not be a point.
+/// Faces of a flat opening are moved out of the body, so that it hides nothing of them; other openings are
+/// not.
 OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const PhotometricSolid& solid,
                       const BodyExtent& body = {});
 

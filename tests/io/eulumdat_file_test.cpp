@@ -7,6 +7,7 @@
 
 #include "io/photometry/photometry_file.h"
 #include "io/photometry_support.h"
+#include "lights/opening_shape.h"
 
 namespace stilb::io {
 namespace {
@@ -60,6 +61,34 @@ TEST(EulumdatFile, ReadsNamesUnitsAndFactors) {
     EXPECT_DOUBLE_EQ(solid_of(with(text_of(strong), "\n80\n1\n0\n", "\n80\n2\n0\n")).peak_cd(), 10 * 2.5 * 2);
     const PhotometryFile round = read_eulumdat(with(text_of({}), "\n500\n200\n", "\n500\n0\n"), "a.ldt");
     EXPECT_EQ(round.opening_m, (Vec3{-0.5, -0.5, 0.04}));
+}
+
+TEST(EulumdatFile, BlankLinesOfWhatIsNotNeededAreReadWithAWarning) {
+    const std::string good = text_of({});
+    // Distances of planes and angles, the luminous area, the output ratio, the factor and the tilt.
+    std::string text = with(good, "\n4\n0\n2\n90\n", "\n4\n\n2\n  \n");
+    text = with(text, "500\n200\n10\n20\n30\n40\n100\n80\n1\n0\n", "\n\n\n\n\n\n100\n\n\n\n");
+    const PhotometryFile file = read_eulumdat(text, "a.ldt");
+    EXPECT_EQ(file.grid.intensity_cd, read_eulumdat(good, "a.ldt").grid.intensity_cd);
+    EXPECT_EQ(file.stated_flux_lm, 0);
+    EXPECT_TRUE(lights::Opening::of_signed(file.opening_m).is_point());
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("line 5 (distance between C planes) as 0, line 7"), std::string::npos);
+    EXPECT_NE(file.warnings[0].find("line 24 (conversion factor for luminous intensities) as 1"),
+              std::string::npos);
+}
+
+TEST(EulumdatFile, WarnsOfAnglesThatEndElsewhereAndOfNoise) {
+    const auto warnings = [](const std::string& from, const std::string& to) {
+        return read_eulumdat(with(text_of({}), from, to), "a.ldt").warnings;
+    };
+    ASSERT_EQ(warnings("270\n0\n90\n", "270\n15\n90\n").size(), 1u);
+    EXPECT_NE(warnings("270\n0\n90\n", "270\n0\n60\n")[0].find("the gamma angles run from 0 to 60 degrees"),
+              std::string::npos);
+    EXPECT_TRUE(warnings("270\n0\n90\n", "270\n0\n180\n").empty());
+    EXPECT_EQ(
+        warnings("1\n8\n", "-0.1\n8\n"),
+        std::vector<std::string>{"1 intensity is negative, down to -0.1 (the largest is 10): read as 0"});
 }
 
 TEST(EulumdatFile, NegativeNumberOfLampsIsAbsolutePhotometry) {
@@ -138,7 +167,8 @@ TEST(EulumdatFile, WrongInputIsNamedWithItsLine) {
     line_changed(6, "1", "each plane has one intensity");
     line_changed(6, "two",
                  "\"two\" is not a number: the number of intensities in each C plane is expected here");
-    line_changed(16, "", "\"\" is not a number: the length of the luminous area");
+    line_changed(16, "long", "\"long\" is not a number: the length of the luminous area");
+    line_changed(29, "", "\"\" is not a number: the total luminous flux of the lamps");
     line_changed(23, "-80", "the light output ratio is -80 %");
     line_changed(24, "0", "the conversion factor for luminous intensities is 0");
     line_changed(26, "0", "the number of sets of lamps is 0");

@@ -252,10 +252,12 @@ InfoReport report_luminaire(const std::filesystem::path& path, UgrTables ugr) {
     luminaire["planes"] = file.grid.planes_deg.size();
     luminaire["angles"] = file.grid.polar_deg.size();
     if (ugr == UgrTables::written) luminaire["ugr"] = ugr_json(file, solid, path.string());
+    std::vector<std::string> warnings = photometry_warnings(file, solid);
+    if (const auto of_opening = io::opening_warning(file)) warnings.push_back(*of_opening);
     return {{"stilb", STILB_VERSION},
             {"file", path.string()},
             {"luminaires", Json::array({luminaire})},
-            {"warnings", photometry_warnings(file, solid)}};
+            {"warnings", warnings}};
 }
 
 InfoReport report_mesh(const std::filesystem::path& path, const Monitor& monitor) {

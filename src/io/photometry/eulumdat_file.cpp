@@ -1,7 +1,9 @@
 // EULUMDAT [Stockmar 1990]: one value per line.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -41,8 +43,19 @@ class FieldReader {
         return *value;
     }
 
-    double positive_number(std::string_view what) {
-        const double value = number(what);
+    /// The same, and `otherwise` where the line is blank: some programs leave out what they do not know.
+    double number_or(double otherwise, std::string_view what) {
+        if (next_ == lines_.size() || !trimmed(lines_[next_]).empty()) return number(what);
+        ++next_;
+        blank_.push_back(fmt::format("line {} ({}) as {}", next_, what, otherwise));
+        return otherwise;
+    }
+    /// How the blank lines were read, in words.
+    const std::vector<std::string>& blank() const { return blank_; }
+
+    double positive_number(std::string_view what) { return above_zero(number(what), what); }
+
+    double above_zero(double value, std::string_view what) const {
         if (!(value > 0)) {
             throw InputError(
                 fmt::format("the {} is {}: this factor of the intensities must be above 0", what, value),
@@ -106,6 +119,7 @@ class FieldReader {
     std::vector<std::string_view> lines_;
     std::string file_;
     std::size_t next_ = 0;
+    std::vector<std::string> blank_;
 };
 
 /// Isym, the symmetry indicator of the file.
@@ -172,12 +186,12 @@ void unfold(PhotometricSolid::Grid& grid, Symmetry symmetry) {
 
 /// The luminous opening in metres; a round opening has a diameter and no width.
 Vec3 read_opening(FieldReader& reader) {
-    const double length = reader.number("length of the luminous area") / 1000;
-    const double width = reader.number("width of the luminous area") / 1000;
+    const auto metres = [&](std::string_view what) { return reader.number_or(0, what) / 1000; };
+    const double length = metres("length of the luminous area");
+    const double width = metres("width of the luminous area");
     double height = 0;
-    for (int side = 0; side < 4; ++side) {
-        height = std::max(height, reader.number("height of the luminous area") / 1000);
-    }
+    for (const char* plane : {"C0", "C90", "C180", "C270"})
+        height = std::max(height, metres(fmt::format("height of the luminous area at {}", plane)));
     if (width == 0) return {-length, -length, height};
     return {width, length, height};  // C0 lies across the luminaire's length
 }
@@ -217,10 +231,10 @@ PhotometryFile read_eulumdat(std::string_view content, const std::string& name) 
     reader.skip(1, "type indicator");
     const auto symmetry = static_cast<Symmetry>(reader.whole_number("symmetry indicator", 0, 4));
     const std::size_t planes = reader.count("number of C planes");
-    reader.number("distance between C planes");
+    reader.number_or(0, "distance between C planes");
     const std::size_t rings = reader.count("number of intensities in each C plane");
     if (rings < 2) throw InputError("each plane has one intensity: two or more are required", reader.here());
-    reader.number("distance between the intensities of a C plane");
+    reader.number_or(0, "distance between the intensities of a C plane");
     reader.skip(1, "number of the measurement report");
     file.luminaire = printable(reader.text("luminaire name"));
     if (!file.luminaire.empty() && !manufacturer.empty()) file.luminaire += ", ";
@@ -228,14 +242,15 @@ PhotometryFile read_eulumdat(std::string_view content, const std::string& name) 
     reader.skip(6, "luminaire number, file name, date and dimensions");
     file.opening_m = read_opening(reader);
     reader.skip(1, "downward flux fraction");
-    const double output_ratio = reader.number("light output ratio") / 100;
+    const double output_ratio = reader.number_or(0, "light output ratio") / 100;
     if (!(output_ratio >= 0)) {
         throw InputError(
             fmt::format("the light output ratio is {} %: it cannot be negative", 100 * output_ratio),
             reader.here());
     }
-    const double conversion = reader.positive_number("conversion factor for luminous intensities");
-    if (const double tilt = reader.number("tilt of the luminaire during measurement"); tilt != 0) {
+    const std::string_view factor = "conversion factor for luminous intensities";
+    const double conversion = reader.above_zero(reader.number_or(1, factor), factor);
+    if (const double tilt = reader.number_or(0, "tilt of the luminaire during measurement"); tilt != 0) {
         file.warnings.push_back(fmt::format(
             "the luminaire was tilted by {} degrees during the measurement: the angles are used as the "
             "file gives them, without correction",
@@ -254,7 +269,11 @@ PhotometryFile read_eulumdat(std::string_view content, const std::string& name) 
     file.grid.planes_deg = angles_of_stored(turn, symmetry, planes_end);
     const auto intensities = reader.numbers(file.grid.planes_deg.size() * rings, "intensities");
     reader.expect_end();
-    set_intensities(file.grid, intensities, conversion * lamps.flux_lm / 1000, name);
+    if (!reader.blank().empty())
+        file.warnings.push_back(fmt::format("blank lines are read: {}", fmt::join(reader.blank(), ", ")));
+    set_intensities(file.grid, intensities, conversion * lamps.flux_lm / 1000, name, file.warnings);
+    constexpr std::array first{0.0, 90.0}, last{90.0, 180.0};
+    check_range(file.grid.polar_deg, first, last, "gamma angles", "EULUMDAT", file.warnings);
     unfold(file.grid, symmetry);
     return file;
 }

@@ -106,27 +106,55 @@ class NumberReader {
     std::size_t next_ = 0;
 };
 
-/// The year of the LM-63 version in the first line; files of 1986 have no such line.
-int read_year(std::string_view first_line, const std::string& name) {
+/// The letters and digits of a line, in capitals: versions are spelled with all kinds of signs between them.
+std::string letters_and_digits(std::string_view line) {
+    std::string result;
+    for (const char c : line) {
+        if (c >= 'a' && c <= 'z') result += static_cast<char>(c - 'a' + 'A');
+        if ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')) result += c;
+    }
+    return result;
+}
+
+/// Takes `word` off the front of `text`, if it is there.
+bool take(std::string_view& text, std::string_view word) {
+    const bool is_there = text.starts_with(word);
+    if (is_there) text.remove_prefix(word.size());
+    return is_there;
+}
+
+/// The year of the LM-63 version that the first line names in any spelling ("IESNA:LM-63-2002", "IESNA91",
+/// "ANSI/IES LM-63-19"); files of 1986 have no such line.
+int read_year(std::string_view first_line, std::vector<std::string>& warnings) {
+    constexpr std::array<std::pair<std::string_view, int>, 10> kVersions{{{"1986", 1986},
+                                                                          {"86", 1986},
+                                                                          {"1991", 1991},
+                                                                          {"91", 1991},
+                                                                          {"1995", 1995},
+                                                                          {"95", 1995},
+                                                                          {"2002", 2002},
+                                                                          {"02", 2002},
+                                                                          {"2019", 2019},
+                                                                          {"19", 2019}}};
+    const std::string spelled = letters_and_digits(first_line);
+    std::string_view rest = spelled;
+    take(rest, "ANSI");
+    const bool is_of_society = take(rest, "IESNA") || take(rest, "IES");
+    const bool names_standard = take(rest, "LM63");
+    if (is_of_society || names_standard) {
+        for (const auto& [version, year] : kVersions) {
+            if (rest == version) return year;
+        }
+    }
     const std::string_view line = trimmed(first_line);
-    constexpr std::array<std::pair<std::string_view, int>, 8> kHeaders{{{"IESNA91", 1991},
-                                                                        {"IESNA:LM-63-1986", 1986},
-                                                                        {"IESNA:LM-63-1991", 1991},
-                                                                        {"IESNA:LM-63-1995", 1995},
-                                                                        {"IESNA:LM-63-2002", 2002},
-                                                                        {"IESNA:LM-63-2019", 2019},
-                                                                        {"IES:LM-63-2002", 2002},
-                                                                        {"IES:LM-63-2019", 2019}}};
-    for (const auto& [header, year] : kHeaders) {
-        if (line == header) return year;
-    }
-    if (line.starts_with("IESNA:") || line.starts_with("IES:")) {
-        throw InputError(fmt::format("{} is not a known version of LM-63. Known: IESNA91, IESNA:LM-63-1995, "
-                                     "IESNA:LM-63-2002 and IES:LM-63-2019; a file of 1986 names no version",
-                                     in_quotes(line)),
-                         {name, 1});
-    }
-    return 1986;
+    const bool is_header = line.starts_with("IESNA:") || line.starts_with("IES:");
+    if (!is_header && spelled.find("LM63") == spelled.npos) return 1986;
+    constexpr int kOtherwise = 2002;
+    warnings.push_back(
+        fmt::format("its first line, {}, names no known version of LM-63 (1986, 1991, 1995, "
+                    "2002 or 2019): it is read as one of {}. Check the flux and the opening.",
+                    in_quotes(line), kOtherwise));
+    return kOtherwise;
 }
 
 /// The name from the keywords LUMINAIRE and MANUFAC; in files of 1986 from the first line.
@@ -180,6 +208,30 @@ double read_factor(NumberReader& reader, std::string_view what) {
     return factor;
 }
 
+/// The length, width and height of the luminous opening with the signs of LM-63-2002, where every extent of a
+/// round outline is negative. Up to 1995 one sign makes an ellipse of the outline, 0 stands for an extent
+/// that is the same as another, and with a negative height both make a sphere or an ellipsoid. What only the
+/// older tables have is read so in newer files, too.
+Vec3 in_signs_of_2002(const Vec3& opening, int year) {
+    const auto& [length, width, height] = opening;
+    const bool is_round = length < 0 || width < 0;
+    if (height >= 0) {
+        if (!is_round) return opening;
+        const double diameter = std::max(std::abs(length), std::abs(width));
+        const auto extent = [&](double number) { return number == 0 ? -diameter : -std::abs(number); };
+        return {extent(length), extent(width), height};
+    }
+    if (!is_round) {
+        // A horizontal tube, whose height is its diameter.
+        if (width == 0 && length > 0) return {length, height, height};
+        if (length == 0 && width > 0) return {height, width, height};
+        return opening;
+    }
+    if (year >= 2002) return opening;
+    const auto extent = [&](double number) { return number == 0 ? height : -std::abs(number); };
+    return {extent(length), extent(width), height};
+}
+
 struct Header {
     int lamps = 0;
     double lumens_per_lamp = 0;
@@ -213,7 +265,8 @@ Header read_header(NumberReader& reader, int year, std::vector<std::string>& war
         reader.whole_number("unit of length (1: feet, 2: metres)", 1, 2) == 1 ? kMetresPerFoot : 1;
     const double width = reader.number("width of the luminous opening");
     const double length = reader.number("length of the luminous opening");
-    header.opening_m = metres * Vec3{length, width, reader.number("height of the luminous opening")};
+    const double height = reader.number("height of the luminous opening");
+    header.opening_m = metres * in_signs_of_2002({length, width, height}, year);
 
     header.ballast_factor = read_factor(reader, "ballast factor");
     if (year < 1995) {
@@ -280,7 +333,8 @@ PhotometricSolid::Grid transposed(const PhotometricSolid::Grid& grid) {
 }
 
 /// Angles and intensities, unfolded.
-PhotometricSolid::Grid read_grid(NumberReader& reader, const Header& header) {
+PhotometricSolid::Grid read_grid(NumberReader& reader, const Header& header,
+                                 std::vector<std::string>& warnings) {
     struct Limits {
         double horizontal_least, horizontal_greatest, vertical_least, vertical_greatest;
     };
@@ -301,7 +355,11 @@ PhotometricSolid::Grid read_grid(NumberReader& reader, const Header& header) {
     const SourceLocation planes_end = reader.here();
     const auto intensities = reader.numbers(header.vertical_angles * header.horizontal_angles, "intensities");
     reader.expect_end();
-    set_intensities(grid, intensities, header.multiplier * header.ballast_factor, reader.file());
+    set_intensities(grid, intensities, header.multiplier * header.ballast_factor, reader.file(), warnings);
+    constexpr std::array of_c{0.0, 90.0}, of_a_and_b{-90.0, 0.0}, last{90.0, 180.0};
+    const bool is_c = header.type == lights::PhotometryType::C;
+    check_range(grid.polar_deg, is_c ? of_c : of_a_and_b, std::span(last).first(is_c ? 2 : 1),
+                "vertical angles", is_c ? "LM-63" : "LM-63, for types A and B,", warnings);
     if (header.type == lights::PhotometryType::C) {
         unfold_turn(grid, planes_end);
     } else {
@@ -324,7 +382,8 @@ PhotometryFile read_ies(std::string_view content, const std::string& name) {
     const auto tilt_line = static_cast<std::size_t>(tilt - lines.begin());
 
     PhotometryFile file;
-    const int year = read_year(lines[0], name);
+    const auto first = std::find_if_not(lines.begin(), tilt, [](auto line) { return trimmed(line).empty(); });
+    const int year = read_year(*first, file.warnings);
     file.format = fmt::format("IES LM-63-{}", year);
     file.luminaire = read_name(lines, tilt_line, year);
     NumberReader reader(lines, tilt_line + 1, name);
@@ -334,7 +393,7 @@ PhotometryFile read_ies(std::string_view content, const std::string& name) {
     if (!file.absolute) file.lamp_flux_lm = header.lamps * header.lumens_per_lamp * header.ballast_factor;
     file.power_w = stated_power_w(header.input_watts);
     file.opening_m = header.opening_m;
-    file.grid = read_grid(reader, header);
+    file.grid = read_grid(reader, header, file.warnings);
     return file;
 }
 

@@ -7,6 +7,7 @@
 
 #include "io/photometry/photometry_parts.h"
 #include "io/text/text.h"
+#include "lights/opening_shape.h"
 
 namespace stilb::io {
 namespace {
@@ -23,7 +24,7 @@ bool looks_like_eulumdat(const std::vector<std::string_view>& lines) {
 }  // namespace
 
 PhotometryFile read_photometry_file(const std::filesystem::path& path) {
-    return read_photometry(read_whole_file(path), path.string());
+    return read_photometry(read_text_file(path), path.string());
 }
 
 PhotometryFile read_photometry(std::string_view content, const std::string& name) {
@@ -73,6 +74,18 @@ std::string FluxAgreement::description() const {
     return fmt::format(
         "file and integral differ: the integral, {:.4g} lm, is {:.1f} % above the lamps' {:.4g} lm",
         integral_lm, percent, stated_lm);
+}
+
+std::optional<std::string> opening_warning(const PhotometryFile& file) {
+    const auto& [length, width, height] = file.opening_m;
+    const double largest_m = std::max({std::abs(length), std::abs(width), std::abs(height)});
+    const bool is_likely = largest_m >= lights::kSmallestOpening_m && largest_m <= lights::kLargestOpening_m;
+    if (largest_m == 0 || is_likely) return std::nullopt;
+    return fmt::format(
+        "the luminous opening is {:.3g} m large, as that of no luminaire. The file probably states it in "
+        "another "
+        "unit: in a scene, give it in metres by the key opening of the light",
+        largest_m);
 }
 
 std::vector<std::string> photometry_warnings(const PhotometryFile& file, const PhotometricSolid& solid) {

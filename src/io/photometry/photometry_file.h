@@ -65,6 +65,9 @@ struct FluxAgreement {
 };
 FluxAgreement check_flux(const PhotometryFile& file, double integral_lm);
 
+/// A sentence where the file's luminous opening is larger or smaller than that of any luminaire.
+std::optional<std::string> opening_warning(const PhotometryFile& file);
+
 /// The file's own warnings, and one where the stated flux and the integral of `solid` disagree.
 std::vector<std::string> photometry_warnings(const PhotometryFile& file, const PhotometricSolid& solid);
 

@@ -1,6 +1,7 @@
 #include "io/photometry/photometry_parts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,29 +11,13 @@ namespace {
 
 /// The largest credible intensity: a laser of a watt with a divergence of a milliradian has 1e9 cd.
 constexpr double kGreatestIntensityCd = 1e12;
-
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
-
-/// Length of the UTF-8 sequence at the start of `text`; 0 for an invalid one, or a control character of two
-/// bytes.
-std::size_t utf8_length(std::string_view text) {
-    const auto lead = static_cast<unsigned char>(text[0]);
-    if (lead < 0x80) return 1;
-    const std::size_t length = lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
-    if (length == 0 || length > text.size()) return 0;
-    const std::string_view rest = text.substr(1, length - 1);
-    if (!std::all_of(rest.begin(), rest.end(), is_continuation)) return 0;
-    const auto second = static_cast<unsigned char>(text[1]);
-    const bool below_range = (lead == 0xC2 || lead == 0xE0) ? second < 0xA0 : lead == 0xF0 && second < 0x90;
-    const bool above_range = lead == 0xED ? second >= 0xA0 : lead == 0xF4 && second >= 0x90;
-    return below_range || above_range ? 0 : length;
-}
+/// Of the largest intensity: what a goniometer's dark current may leave below 0.
+constexpr double kGreatestNoise = 0.01;
 
 }  // namespace
 
 std::vector<std::string_view> split_lines(std::string_view content) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
+    content = without_byte_order_mark(content);
     while (!content.empty() && content.back() == '\x1A') content.remove_suffix(1);
 
     std::vector<std::string_view> lines;
@@ -47,23 +32,6 @@ std::vector<std::string_view> split_lines(std::string_view content) {
         }
     }
     return lines;
-}
-
-std::string printable(std::string_view text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size();) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        const std::size_t length = utf8_length(text.substr(i));
-        if (length == 1 || (length == 0 && byte < 0xA0)) {
-            result += byte < 0x20 || byte >= 0x7F ? ' ' : text[i];
-        } else if (length == 0) {
-            result += {static_cast<char>(0xC0 | (byte >> 6)), static_cast<char>(0x80 | (byte & 0x3F))};
-        } else {
-            result += text.substr(i, length);
-        }
-        i += std::max<std::size_t>(length, 1);
-    }
-    return std::string(trimmed(result));
 }
 
 std::optional<double> stated_power_w(std::optional<double> number) {
@@ -90,14 +58,19 @@ std::vector<double> checked_angles(const std::vector<LocatedNumber>& numbers, st
 }
 
 void set_intensities(PhotometricSolid::Grid& grid, const std::vector<LocatedNumber>& numbers, double factor,
-                     const std::string& file) {
-    double peak = 0;
+                     const std::string& file, std::vector<std::string>& warnings) {
+    double largest = 0, peak = 0;
+    for (const LocatedNumber& number : numbers) largest = std::max(largest, number.value);
+    std::size_t noisy = 0;
+    double lowest = 0;
     for (const auto& [number, line] : numbers) {
-        const double intensity = factor * number;
-        if (number < 0) {
+        if (number < -kGreatestNoise * largest) {
             throw InputError(fmt::format("intensity {} is negative: it must be 0 or more", number),
                              {file, line});
         }
+        noisy += number < 0;
+        lowest = std::min(lowest, number);
+        const double intensity = factor * std::max(number, 0.0);
         if (!(intensity <= kGreatestIntensityCd)) {
             throw InputError(
                 fmt::format("intensity {} cd (factors included) is too large for a luminaire: at most "
@@ -109,6 +82,25 @@ void set_intensities(PhotometricSolid::Grid& grid, const std::vector<LocatedNumb
         grid.intensity_cd.push_back(intensity);
     }
     if (!(peak > 0)) throw InputError("all intensities are 0: the luminaire would emit no light", {file, 0});
+    if (noisy > 0) {
+        warnings.push_back(fmt::format("{} intensit{} negative, down to {} (the largest is {}): read as 0",
+                                       noisy, noisy == 1 ? "y is" : "ies are", lowest, largest));
+    }
+}
+
+void check_range(const std::vector<double>& angles_deg, std::span<const double> first,
+                 std::span<const double> last, std::string_view what, std::string_view format,
+                 std::vector<std::string>& warnings) {
+    const auto is_among = [](double angle, std::span<const double> allowed) {
+        return std::ranges::any_of(allowed, [&](double one) { return same_angle(angle, one); });
+    };
+    if (is_among(angles_deg.front(), first) && is_among(angles_deg.back(), last)) return;
+    warnings.push_back(
+        fmt::format("the {} run from {} to {} degrees: {} wants them to run from {} to {}. The directions "
+                    "beyond them get no "
+                    "light",
+                    what, angles_deg.front(), angles_deg.back(), format, fmt::join(first, " or "),
+                    fmt::join(last, " or ")));
 }
 
 void mirror_at_last_plane(PhotometricSolid::Grid& grid) {

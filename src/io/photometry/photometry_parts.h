@@ -2,21 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/photometry/photometry_file.h"
 #include "io/text/text.h"
+#include "io/text/utf8.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
 
 /// The lines without their ends (CR LF, LF or CR), without a byte order mark and the end-of-file mark of DOS.
 std::vector<std::string_view> split_lines(std::string_view content);
-
-/// The text as printable UTF-8: invalid bytes are read as Latin-1, control characters become blanks.
-std::string printable(std::string_view text);
 
 /// A number of a file and its position.
 struct LocatedNumber {
@@ -32,10 +31,17 @@ std::optional<double> stated_power_w(std::optional<double> number);
 std::vector<double> checked_angles(const std::vector<LocatedNumber>& numbers, std::string_view what,
                                    double least, double greatest, const std::string& file);
 
-/// Puts the numbers times `factor` into the grid. Throws InputError where one is negative, where all
-/// are 0, and where one is too large.
+/// Puts the numbers times `factor` into the grid. Negative ones that are small against the largest are noise
+/// of the measurement: they become 0, with a warning. Throws InputError where one is more negative than that,
+/// where all are 0, and where one is too large.
 void set_intensities(PhotometricSolid::Grid& grid, const std::vector<LocatedNumber>& numbers, double factor,
-                     const std::string& file);
+                     const std::string& file, std::vector<std::string>& warnings);
+
+/// Adds a warning where the angles begin at none of `first` or end at none of `last`: the directions beyond
+/// them are dark then. `what` names the angles, `format` what wants them so.
+void check_range(const std::vector<double>& angles_deg, std::span<const double> first,
+                 std::span<const double> last, std::string_view what, std::string_view format,
+                 std::vector<std::string>& warnings);
 
 /// Appends the mirror images of the planes about the last plane (without that plane itself).
 void mirror_at_last_plane(PhotometricSolid::Grid& grid);
