@@ -178,7 +178,7 @@ def _table(path: str | Path | None) -> dict[str, float]:
     if path is None:
         return {}
     try:
-        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        table = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise InputError(f"{path}: it is no table of reflectances: {error}.") from error
     for name, value in table.items():

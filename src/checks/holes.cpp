@@ -9,13 +9,6 @@ namespace stilb::checks {
 
 namespace {
 
-/// The largest vector area, as a share of the area, of a nearly closed surface. The vector area of a closed
-/// surface is 0; that of an open one is the area of its holes, if flat. A box without a lid (0.2 of its area,
-/// or more for a flat one) is open on purpose.
-constexpr double kLargestHole = 0.05;
-/// From this share of open edges among its triangles on, a surface is a tube that is open on purpose: both
-/// ends of a tube have opposite vector areas.
-constexpr double kEdgesOfTube = 0.5;
 /// More objects than this are one sentence.
 constexpr std::size_t kMostSentences = 3;
 
@@ -36,11 +29,11 @@ Hole holes_of(const Mesh& mesh, const geometry::ConnectedComponents& components)
     }
     Hole hole;
     for (std::uint32_t s = 0; s < components.count(); ++s) {
-        if (components.is_closed(s) || length(vector_area[s]) > kLargestHole * area[s]) continue;
-        const auto open_edges = static_cast<double>(components.open_edges[s]);
-        if (open_edges >= kEdgesOfTube * static_cast<double>(triangles[s])) continue;
+        const std::size_t open_edges = components.open_edges[s];
+        if (open_edges == 0 || !geometry::nearly_closes(vector_area[s], area[s], open_edges, triangles[s]))
+            continue;
         ++hole.components;
-        hole.edges += components.open_edges[s];
+        hole.edges += open_edges;
     }
     return hole;
 }

@@ -44,7 +44,8 @@ std::string text_of(const std::string& first, const std::string& second, const F
 class OverlapLight {
   public:
     OverlapLight(const Scene& scene, const rays::RayCaster& caster, std::span<const Sensor> sensors)
-        : caster_(caster),
+        : scene_(scene),
+          caster_(caster),
           sensors_(sensors),
           lit_(lit_places(scene, caster)),
           is_lamp_(scene.objects.size()),
@@ -66,6 +67,8 @@ class OverlapLight {
     bool matters(const Overlap& overlap) const {
         // A luminaire in the plane of a ceiling is placed as it should be (docs/photometry.md).
         if (is_opening_[index_of(overlap.first)] && is_lamp_on(overlap)) return false;
+        // Light between two bodies of glass arrives there by refraction.
+        if (is_glass(overlap.first) && is_glass(overlap.second)) return true;
         // Twice as far from the plane as a lamp that was put in front of it.
         const Vec3 off = 4 * caster_.offset_m(overlap.position, caster_.half_extent_m()) * overlap.normal;
         return is_lit({overlap.position + off, overlap.normal}) ||
@@ -73,6 +76,12 @@ class OverlapLight {
     }
 
   private:
+    bool is_glass(ObjectId object) const {
+        return std::ranges::any_of(scene_.object(object).materials, [&](MaterialId material) {
+            return std::holds_alternative<Dielectric>(scene_.material(material));
+        });
+    }
+
     bool is_lit(const Location& side) const {
         return std::ranges::any_of(lit_, [&](const Location& lit) { return sees(side, lit, caster_); }) &&
                is_looked_at(side);
@@ -98,6 +107,7 @@ class OverlapLight {
         });
     }
 
+    const Scene& scene_;
     const rays::RayCaster& caster_;
     std::span<const Sensor> sensors_;
     std::vector<Location> lit_;

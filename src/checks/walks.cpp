@@ -52,13 +52,4 @@ bool sees(const Location& from, const Location& to, const rays::RayCaster& caste
            caster.transmittance({from.position, to.position}).max() > 0;
 }
 
-std::string list_of(std::span<const std::string> names, bool is_complete) {
-    constexpr std::size_t most = 3;
-    std::string list;
-    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-        list += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", names[i]);
-    if (names.size() <= most) return list;
-    return fmt::format("{} and {}{} more", list, is_complete ? "" : "at least ", names.size() - most);
-}
-
 }  // namespace stilb::checks

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/names.h"
 #include "math/random.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
@@ -37,8 +38,5 @@ std::vector<Location> lit_places(const Scene& scene, const rays::RayCaster& cast
 
 /// Whether nothing but panes is between two locations that lie on each other's sides.
 bool sees(const Location& from, const Location& to, const rays::RayCaster& caster);
-
-/// "a", "b", "c" and 19 more; "at least" 19 where there may be others.
-std::string list_of(std::span<const std::string> names, bool is_complete = true);
 
 }  // namespace stilb::checks

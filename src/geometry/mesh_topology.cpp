@@ -114,4 +114,15 @@ ConnectedComponents find_components(const Shape& shape) {
     return std::visit(Finder{}, shape);
 }
 
+bool nearly_closes(const Vec3& vector_area, double area, std::size_t open_edges, std::size_t triangles) {
+    // The vector area of a closed surface is 0; that of an open one is the area of its holes, if flat. A box
+    // without a lid (0.2 of its area, or more for a flat one) is open on purpose.
+    constexpr double largest_hole = 0.05;
+    // From this share of open edges among its triangles on, a surface is a tube that is open on purpose: both
+    // ends of a tube have opposite vector areas.
+    constexpr double edges_of_tube = 0.5;
+    return length(vector_area) <= largest_hole * area &&
+           static_cast<double>(open_edges) < edges_of_tube * static_cast<double>(triangles);
+}
+
 }  // namespace stilb::geometry

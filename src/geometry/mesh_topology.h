@@ -86,4 +86,8 @@ ConnectedComponents find_components(const Mesh& mesh);
 /// Spheres are one closed component, disks an open one (their rim counts as one edge).
 ConnectedComponents find_components(const Shape& shape);
 
+/// Whether a connected component with open edges is nearly closed, as if a few of its triangles were missing.
+/// `vector_area` and `area`: sums over its triangles, in one unit.
+bool nearly_closes(const Vec3& vector_area, double area, std::size_t open_edges, std::size_t triangles);
+
 }  // namespace stilb::geometry

@@ -24,10 +24,12 @@ double refracted_cosine(double cosine, double ior);
 /// reflection.
 FresnelReflectance fresnel_reflectance(double cosine, double ior);
 
-/// The surface of a clear solid in air: light is divided by Fresnel's equations for unpolarised
-/// light and refracted by Snell's law. Absorption inside of the solid is not handled.
+/// The surface of a clear solid: light is divided by Fresnel's equations for unpolarised light and refracted
+/// by Snell's law. Absorption inside of the solid is not handled.
 struct Dielectric {
     double ior = 1.5;  ///< of the solid
+    double outside_ior =
+        1;  ///< of the medium around it: that of another solid that it lies in (scene/glass.h)
 
     static constexpr std::string_view kType = "glass";
     static constexpr auto fields() {
@@ -51,7 +53,7 @@ inline FresnelReflectance fresnel_reflectance(double cosine, double ior) {
 }
 
 inline SpecularBranches Dielectric::branches(LightSide side, const Vec3& in) const {
-    const double far_over_near = side == LightSide::outside ? ior : 1 / ior;
+    const double far_over_near = side == LightSide::outside ? ior / outside_ior : outside_ior / ior;
     const double reflectance = fresnel_reflectance(in.z, far_over_near).unpolarised();
     SpecularBranches branches;
     branches.add({mirrored(in), Rgb::grey(reflectance)});

@@ -159,7 +159,7 @@ class OverlapSearch {
             }
         }
         if (of == OverlapsOf::all_surfaces) pieces_.reserve(triangle_count(scene));
-        for (std::uint32_t i = 0; i < scene.objects.size(); ++i) add(scene.objects[i], i, is_lamp[i]);
+        for (std::uint32_t i = 0; i < scene.objects.size(); ++i) add(scene, i, is_lamp[i]);
     }
 
     std::vector<Overlap> run() {
@@ -191,7 +191,8 @@ class OverlapSearch {
         return count;
     }
 
-    void add(const Object& object, std::uint32_t index, bool is_lamp) {
+    void add(const Scene& scene, std::uint32_t index, bool is_lamp) {
+        const Object& object = scene.objects[index];
         // The triangles of instances would take the memory that instances save.
         if (of_ == OverlapsOf::all_surfaces && std::holds_alternative<Instance>(object.shape)) return;
         if (!meet(geometry::bounds_of(object.shape), wanted_)) return;
@@ -199,13 +200,18 @@ class OverlapSearch {
         Shapes& shape = shapes_[index];
         if (mesh == nullptr) shape.own = mesh_of(object.shape);
         shape.mesh = mesh ? mesh : &shape.own;
-        std::uint32_t look = look_of(object.materials[0], is_lamp ? index + 1 : 0);
+        const auto look_at = [&](MaterialId material) {
+            // Of two bodies of glass each face counts, even if they have one material.
+            const bool is_glass = of_ == OverlapsOf::all_surfaces &&
+                                  std::holds_alternative<Dielectric>(scene.material(material));
+            return look_of(material, is_lamp || is_glass ? index + 1 : 0);
+        };
+        std::uint32_t look = look_at(object.materials[0]);
         shape.is_lamp = is_lamp;
         for (std::uint32_t t = 0; t < shape.mesh->triangles.size(); ++t) {
             Piece piece{ObjectId{index}, t, look};
             if (!meet(bounds_of(piece), wanted_)) continue;
-            if (object.materials.size() > 1)
-                piece.look = look_of(object.materials[t], is_lamp ? index + 1 : 0);
+            if (object.materials.size() > 1) piece.look = look_at(object.materials[t]);
             pieces_.push_back(piece);
         }
     }

@@ -75,7 +75,7 @@ std::string Identifiers::make(std::string_view name) {
 }
 
 std::string text_of(const Vec3& vector) {
-    return fmt::format("{:.9g} {:.9g} {:.9g}", vector.x, vector.y, vector.z);
+    return fmt::format("{:.15g} {:.15g} {:.15g}", vector.x, vector.y, vector.z);
 }
 
 std::string text_of(const Rgb& rgb) { return fmt::format("{:.9g} {:.9g} {:.9g}", rgb[0], rgb[1], rgb[2]); }

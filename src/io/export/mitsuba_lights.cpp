@@ -8,8 +8,8 @@ namespace stilb::io::exporting {
 namespace {
 
 std::string axis(std::string_view name, const Vec3& v) {
-    return fmt::format("    <vector name=\"{}\" x=\"{:.9g}\" y=\"{:.9g}\" z=\"{:.9g}\"/>\n", name, v.x, v.y,
-                       v.z);
+    return fmt::format("    <vector name=\"{}\" x=\"{:.15g}\" y=\"{:.15g}\" z=\"{:.15g}\"/>\n", name, v.x,
+                       v.y, v.z);
 }
 
 std::string light_rgb(std::string_view name, const Rgb& value) {
@@ -28,10 +28,10 @@ struct MitsubaLight {
 
     std::string operator()(const PointLight& light) const {
         const Vec3& p = light.position;
-        return light_of("point",
-                        fmt::format("    <point name=\"position\" x=\"{:.9g}\" y=\"{:.9g}\" z=\"{:.9g}\"/>\n",
-                                    p.x, p.y, p.z) +
-                            light_rgb("intensity", light.intensity_cd));
+        return light_of(
+            "point", fmt::format("    <point name=\"position\" x=\"{:.15g}\" y=\"{:.15g}\" z=\"{:.15g}\"/>\n",
+                                 p.x, p.y, p.z) +
+                         light_rgb("intensity", light.intensity_cd));
     }
     std::string operator()(const Luminaire& light) const {
         output.warn("light", name,
@@ -60,8 +60,8 @@ struct MitsubaLight {
         return light_of(
             "envmap",
             fmt::format("    <string name=\"filename\" value=\"{}.pfm\"/>\n    <transform "
-                        "name=\"to_world\">\n      <matrix value=\"{:.9g} {:.9g} {:.9g} 0 {:.9g} {:.9g} "
-                        "{:.9g} 0 {:.9g} {:.9g} {:.9g} 0 0 0 0 1\"/>\n    </transform>\n",
+                        "name=\"to_world\">\n      <matrix value=\"{:.15g} {:.15g} {:.15g} 0 {:.15g} {:.15g} "
+                        "{:.15g} 0 {:.15g} {:.15g} {:.15g} 0 0 0 0 1\"/>\n    </transform>\n",
                         id, x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z));
     }
 

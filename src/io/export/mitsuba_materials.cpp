@@ -74,19 +74,21 @@ struct MitsubaMaterial {
                              color("specular_reflectance", m.reflectance));
     }
     std::string operator()(const materials::Dielectric& m) const {
-        return dielectric("dielectric", m.ior, "");
+        return dielectric("dielectric", m.ior, m.outside_ior, "");
     }
     std::string operator()(const materials::ThinDielectric& m) const {
         warn(
             "Mitsuba's thin pane averages the polarisations too early, and its transmittance is "
             "up to 4 % lower at 75 degrees to the normal; absorption is taken as that along the normal.");
-        return dielectric("thindielectric", m.ior, color("specular_transmittance", m.internal_transmittance));
+        return dielectric("thindielectric", m.ior, 1,
+                          color("specular_transmittance", m.internal_transmittance));
     }
 
   private:
-    std::string dielectric(std::string_view type, double ior, const std::string& more) const {
+    std::string dielectric(std::string_view type, double ior, double outside_ior,
+                           const std::string& more) const {
         return fmt::format("  <bsdf type=\"{}\" id=\"{}\">\n{}{}{}  </bsdf>\n", type, id,
-                           real("int_ior", ior), real("ext_ior", 1), more);
+                           real("int_ior", ior), real("ext_ior", outside_ior), more);
     }
 };
 

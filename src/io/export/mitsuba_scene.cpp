@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/mesh/mesh_file.h"
@@ -26,8 +27,9 @@ std::string flat_shape(std::string_view type, const std::string& name, const Vec
                        const Vec3& middle) {
     const Vec3 z = normalized(cross(x, y));
     return fmt::format(
-        "  <shape type=\"{}\" id=\"{}\">\n    <transform name=\"to_world\">\n      <matrix value=\"{:.9g} "
-        "{:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} 0 0 0 1\"/>\n    "
+        "  <shape type=\"{}\" id=\"{}\">\n    <transform name=\"to_world\">\n      <matrix value=\"{:.15g} "
+        "{:.15g} {:.15g} {:.15g} {:.15g} {:.15g} {:.15g} {:.15g} {:.15g} {:.15g} {:.15g} {:.15g} 0 0 0 "
+        "1\"/>\n    "
         "</transform>\n",
         type, name, x.x, y.x, z.x, middle.x, x.y, y.y, z.y, middle.y, x.z, y.z, z.z, middle.z);
 }
@@ -46,8 +48,8 @@ struct MitsubaShape {
     }
     std::string operator()(const Sphere& s) const {
         return fmt::format(
-            "  <shape type=\"sphere\" id=\"{}\">\n    <point name=\"center\" x=\"{:.9g}\" y=\"{:.9g}\" "
-            "z=\"{:.9g}\"/>\n    <float name=\"radius\" value=\"{:.9g}\"/>\n",
+            "  <shape type=\"sphere\" id=\"{}\">\n    <point name=\"center\" x=\"{:.15g}\" y=\"{:.15g}\" "
+            "z=\"{:.15g}\"/>\n    <float name=\"radius\" value=\"{:.15g}\"/>\n",
             name, s.center.x, s.center.y, s.center.z, s.radius);
     }
     std::string operator()(const Disk& d) const {
@@ -74,7 +76,7 @@ std::string camera_sensor(const Camera& camera, const std::string& id) {
             : "<rfilter type=\"gaussian\"><float name=\"stddev\" value=\"0.5\"/></rfilter>";
     return fmt::format(
         "  <sensor type=\"perspective\" id=\"{}\">\n    <string name=\"fov_axis\" value=\"x\"/>\n    <float "
-        "name=\"fov\" value=\"{:.9g}\"/>\n    <float name=\"near_clip\" value=\"0.001\"/>\n    <transform "
+        "name=\"fov\" value=\"{:.15g}\"/>\n    <float name=\"near_clip\" value=\"0.001\"/>\n    <transform "
         "name=\"to_world\">\n      <lookat origin=\"{}\" target=\"{}\" up=\"{}\"/>\n    </transform>\n    "
         "<film type=\"hdrfilm\">\n      <integer name=\"width\" value=\"{}\"/>\n      <integer "
         "name=\"height\" value=\"{}\"/>\n      <string name=\"pixel_format\" value=\"rgb\"/>\n      <string "
@@ -101,10 +103,28 @@ std::string mitsuba_cameras(const std::vector<Sensor>& sensors, Identifiers& ide
     return text;
 }
 
+/// Mitsuba's numbers of single precision have a resolution of a millimetre there.
+void warn_of_far_coordinates(const Scene& scene, Output& output) {
+    constexpr double farthest_m = 1e4;
+    const Bounds bounds = scene::bounds_of(scene);
+    double largest_m = 0;
+    for (const Vec3& corner : {bounds.min, bounds.max}) {
+        for (std::size_t axis = 0; axis < 3; ++axis) largest_m = std::max(largest_m, std::abs(corner[axis]));
+    }
+    if (largest_m <= farthest_m) return;
+    output.warn(
+        "format", "mitsuba",
+        fmt::format(
+            "the scene reaches to {:.3g} m from the origin, where Mitsuba's single precision resolves "
+            "{:.2g} m. Move the scene to the origin first.",
+            largest_m, largest_m * 0x1p-23));
+}
+
 }  // namespace
 
 void write_mitsuba(const SceneFile& file, Output& output) {
     const Scene& scene = file.scene;
+    warn_of_far_coordinates(scene, output);
     std::string xml =
         "<!-- Written by Stilb. Radiances stand for luminances in cd/m2, so that irradiances are lux: "
         "docs/export.md. -->\n<scene version=\"3.0.0\">\n  <integrator type=\"path\">\n    <integer "

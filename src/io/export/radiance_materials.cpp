@@ -60,7 +60,8 @@ struct RadianceMaterial {
         warn(
             "in Radiance no light of lamps passes solid glass straight: the light behind it is missing, "
             "unless the lamps are made of glow.");
-        return with_rgb("dielectric", id, Rgb::grey(1), {m.ior, 0});
+        if (m.outside_ior == 1) return with_rgb("dielectric", id, Rgb::grey(1), {m.ior, 0});
+        return with_rgb("interface", id, Rgb::grey(1), {m.ior, 1, 1, 1, m.outside_ior});
     }
     std::string operator()(const materials::ThinDielectric& m) const {
         return with_rgb("glass", id, m.internal_transmittance, {m.ior});

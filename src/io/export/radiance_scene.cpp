@@ -83,7 +83,7 @@ std::string radiance_primitive(std::string_view modifier, std::string_view type,
     std::string text = fmt::format("{} {} {}\n{}", modifier, type, name, texts.size());
     for (const std::string& word : texts) text += " " + word;
     text += fmt::format("\n0\n{}", numbers.size());
-    for (const double number : numbers) text += fmt::format(" {:.9g}", number);
+    for (const double number : numbers) text += fmt::format(" {:.15g}", number);
     return text + "\n\n";
 }
 

@@ -70,7 +70,7 @@ std::string to_ply(const Mesh& mesh, PlyNumbers numbers) {
 
 std::string to_obj(const Mesh& mesh) {
     std::string text;
-    for (const Vec3& v : mesh.vertices) text += fmt::format("v {:.7g} {:.7g} {:.7g}\n", v.x, v.y, v.z);
+    for (const Vec3& v : mesh.vertices) text += fmt::format("v {:.15g} {:.15g} {:.15g}\n", v.x, v.y, v.z);
     for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
     return text;
 }

@@ -1,0 +1,241 @@
+#include "scene/glass.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "base/names.h"
+#include "scene/glass_bodies.h"
+#include "scene/instances.h"
+
+namespace stilb::scene {
+namespace {
+
+double volume_m3(const Bounds& bounds) {
+    const Vec3 size = bounds.max - bounds.min;
+    return size.x * size.y * size.z;
+}
+
+/// A body among others.
+struct Place {
+    std::optional<std::size_t> around;  ///< the smallest body that contains it
+    bool is_cavity = false;
+    double outside = 1, inside = 1;  ///< refractive indices
+};
+
+class Nesting {
+  public:
+    Nesting(const Scene& scene, const std::vector<GlassBody>& bodies)
+        : scene_(scene), bodies_(bodies), places_(bodies.size()) {
+        for (const GlassBody& body : bodies) points_.push_back(body.some_points(scene));
+        compare_all();
+        std::vector<std::size_t> large_first(bodies.size());
+        std::iota(large_first.begin(), large_first.end(), std::size_t{0});
+        std::ranges::stable_sort(large_first, std::greater(),
+                                 [&](std::size_t i) { return volume_m3(bodies[i].bounds); });
+        for (const std::size_t i : large_first) settle(i);
+    }
+
+    const Place& operator[](std::size_t body) const { return places_[body]; }
+    /// Pairs of bodies that cut each other.
+    const std::vector<std::pair<std::size_t, std::size_t>>& cutting() const { return cutting_; }
+
+  private:
+    /// All pairs whose bounds overlap, by a sweep along x.
+    void compare_all() {
+        std::vector<std::size_t> order(bodies_.size()), open;
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::sort(order, {}, [&](std::size_t i) { return bodies_[i].bounds.min.x; });
+        for (const std::size_t i : order) {
+            const Bounds& own = bodies_[i].bounds;
+            std::erase_if(open, [&](std::size_t j) { return bodies_[j].bounds.max.x <= own.min.x; });
+            for (const std::size_t j : open) {
+                const Bounds& other = bodies_[j].bounds;
+                if (own.min.y < other.max.y && other.min.y < own.max.y && own.min.z < other.max.z &&
+                    other.min.z < own.max.z)
+                    compare(i, j);
+            }
+            open.push_back(i);
+        }
+    }
+
+    void compare(std::size_t i, std::size_t j) {
+        const auto inside = [&](std::size_t inner, std::size_t outer) {
+            return static_cast<std::size_t>(std::ranges::count_if(
+                points_[inner], [&](const Vec3& point) { return bodies_[outer].contains(point, scene_); }));
+        };
+        const std::size_t of_i = inside(i, j), of_j = inside(j, i);
+        if (of_i == 0 && of_j == 0) return;
+        if (of_i == points_[i].size() && of_j == 0) return put(i, j);
+        if (of_j == points_[j].size() && of_i == 0) return put(j, i);
+        cutting_.emplace_back(std::minmax(i, j));
+    }
+    void put(std::size_t inner, std::size_t outer) {
+        std::optional<std::size_t>& around = places_[inner].around;
+        if (!around || volume_m3(bodies_[outer].bounds) < volume_m3(bodies_[*around].bounds)) around = outer;
+    }
+
+    /// After the bodies around it.
+    void settle(std::size_t i) {
+        Place& place = places_[i];
+        place.inside = bodies_[i].ior;
+        if (!place.around) return;
+        const Place& around = places_[*place.around];
+        place.outside = around.inside;
+        // A shell that is turned the other way in glass of its own kind is the surface of a cavity.
+        place.is_cavity = !around.is_cavity && bodies_[i].ior == around.inside &&
+                          bodies_[i].is_inside_out != bodies_[*place.around].is_inside_out;
+        if (place.is_cavity) place.inside = around.outside;
+    }
+
+    const Scene& scene_;
+    const std::vector<GlassBody>& bodies_;
+    std::vector<Place> places_;
+    std::vector<std::vector<Vec3>> points_;
+    std::vector<std::pair<std::size_t, std::size_t>> cutting_;
+};
+
+/// Changes fronts and materials.
+class GlassSettler {
+  public:
+    explicit GlassSettler(Scene& scene) : scene_(scene), found_(find_glass_bodies(scene)) {}
+
+    std::vector<std::string> run() && {
+        const Nesting nesting(scene_, found_.bodies);
+        for (std::size_t i = 0; i < found_.bodies.size(); ++i) settle(found_.bodies[i], nesting[i]);
+        for (const Part& part : found_.sheets) {
+            for_each_material(part, [&](MaterialId id) { return sheet_of(id); });
+        }
+        return warnings(nesting);
+    }
+
+  private:
+    void settle(const GlassBody& body, const Place& place) {
+        for (const Part& part : body.turned) turn(part);
+        // The front of a cavity is the cavity.
+        if (body.is_inside_out != place.is_cavity) {
+            for (const Part& part : body.parts) turn(part);
+        }
+        const auto [front, back] =
+            place.is_cavity ? std::pair(place.inside, place.outside) : std::pair(place.outside, place.inside);
+        const auto interface = [&, front = front, back = back](MaterialId id) {
+            return between(id, front, back);
+        };
+        for (const Part& part : body.parts) for_each_material(part, interface);
+        Object& object = scene_.objects[index_of(body.object)];
+        if (body.parts.empty()) object.materials = {interface(object.materials[0])};
+    }
+
+    void turn(const Part& part) {
+        if (part.triangles->empty()) return;
+        Object& object = scene_.objects[index_of(part.object)];
+        make_own_mesh(object);
+        if (auto* rectangle = std::get_if<Rectangle>(&object.shape)) {
+            std::swap(rectangle->edge_u, rectangle->edge_v);
+        } else if (auto* mesh = std::get_if<Mesh>(&object.shape)) {
+            for (const std::uint32_t t : *part.triangles) turn_over(*mesh, t);
+        }
+    }
+
+    /// Replaces the materials of glass of these triangles.
+    template <typename Replace>
+    void for_each_material(const Part& part, const Replace& replace) {
+        Object& object = scene_.objects[index_of(part.object)];
+        const auto is_glass = [&](MaterialId id) {
+            return std::holds_alternative<Dielectric>(scene_.material(id));
+        };
+        const Mesh* mesh = geometry::stored_mesh(object.shape);
+        const std::size_t count = mesh ? mesh->triangles.size() : part.triangles->size();
+        if (object.materials.size() == 1 && part.triangles->size() == count) {
+            if (is_glass(object.materials[0])) object.materials = {replace(object.materials[0])};
+            return;
+        }
+        std::vector<MaterialId> materials(object.materials.begin(), object.materials.end());
+        materials.resize(count, materials[0]);
+        for (const std::uint32_t t : *part.triangles) {
+            if (is_glass(materials[t])) materials[t] = replace(materials[t]);
+        }
+        object.materials = std::move(materials);
+    }
+
+    MaterialId between(MaterialId id, double front, double back) {
+        const Dielectric wanted{back, front};
+        const auto& now = std::get<Dielectric>(scene_.material(id));
+        if (now.ior == wanted.ior && now.outside_ior == wanted.outside_ior) return id;
+        return derived({index_of(id), front, back}, [&] {
+            return NamedMaterial{
+                fmt::format("{} (in a medium of ior {:g})", scene_.materials[index_of(id)].name, front),
+                wanted};
+        });
+    }
+    MaterialId sheet_of(MaterialId id) {
+        const double ior = std::get<Dielectric>(scene_.material(id)).ior;
+        return derived({index_of(id), 0, 0}, [&] {
+            return NamedMaterial{scene_.materials[index_of(id)].name + " (a sheet)", ThinDielectric{ior}};
+        });
+    }
+    template <typename Make>
+    MaterialId derived(const std::tuple<std::uint32_t, double, double>& key, const Make& make) {
+        const auto [known, is_new] =
+            derived_.try_emplace(key, MaterialId{static_cast<std::uint32_t>(scene_.materials.size())});
+        if (is_new) scene_.materials.push_back(make());
+        return known->second;
+    }
+
+    std::vector<std::string> warnings(const Nesting& nesting) const {
+        std::vector<std::string> texts;
+        const auto add = [&](const std::vector<std::string>& names, std::string_view text) {
+            if (names.empty()) return;
+            texts.push_back(
+                fmt::format("{} {}: {}", names.size() == 1 ? "object" : "objects", list_of(names), text));
+        };
+        add(found_.open,
+            "the faces of type \"glass\" close no body, and are computed as thin sheets (type \"pane\"). "
+            "Close the body, or "
+            "give them the type \"pane\".");
+        add(found_.nearly_closed,
+            "a body of type \"glass\" is closed but for a few edges. Close it: light that passes the holes "
+            "is "
+            "refracted only once.");
+        add(found_.partly_glass,
+            "only some faces of a closed surface are of type \"glass\". They are computed as thin sheets "
+            "(type "
+            "\"pane\"), and the space inside as air.");
+        add(found_.mostly_glass,
+            "not all faces of a closed surface are of type \"glass\". The space inside is computed as glass; "
+            "if it "
+            "is air, give the faces the type \"pane\".");
+        std::vector<std::string> pairs;
+        for (const auto& [i, j] : nesting.cutting()) {
+            const std::string &first = scene_.object(found_.bodies[i].object).name,
+                              &second = scene_.object(found_.bodies[j].object).name;
+            pairs.push_back(first == second ? first : fmt::format("{} and {}", first, second));
+        }
+        add(pairs,
+            "these bodies of type \"glass\" cut or touch each other, and each is computed as if it stood "
+            "alone there. "
+            "Put one wholly inside of the other, or leave a gap between them.");
+        return texts;
+    }
+
+    Scene& scene_;
+    GlassBodies found_;
+    std::map<std::tuple<std::uint32_t, double, double>, MaterialId> derived_;
+};
+
+}  // namespace
+
+std::vector<std::string> settle_glass(Scene& scene) {
+    const bool has_glass = std::ranges::any_of(scene.materials, [](const NamedMaterial& material) {
+        return std::holds_alternative<Dielectric>(material.material);
+    });
+    if (!has_glass) return {};
+    return GlassSettler(scene).run();
+}
+
+}  // namespace stilb::scene
