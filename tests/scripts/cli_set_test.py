@@ -22,6 +22,13 @@ class OverridesTest(CommandLineTest):
         written = self.measure("--paths", "2048", "--method", "path")
         self.assertEqual(given["sensors"], written["sensors"])
 
+    def test_whole_tables_are_added(self):
+        seat = 'sensors.seat={type="illuminance", position=[2, 2, 1], normal=[0, 0, 1]}'
+        measured = self.measure("--paths", "2048", "--set", seat, "--set", seat.replace("seat", "\"a seat\""))
+        self.assertEqual([sensor["name"] for sensor in measured["sensors"]], ["desk", "wall", "seat", "a seat"])
+        changed = self.measure("--paths", "2048", "--set", seat, "--set", "sensors.seat.position=[3, 2, 1]")
+        self.assertEqual(changed["sensors"][2]["values"][0]["position"], [3, 2, 1])
+
     def test_wrong_ones_are_named(self):
         def refused(override, *parts):
             for command in ("measure", "info"):

@@ -43,31 +43,76 @@ void forget_lines(TomlValue& value) {
     }
 }
 
-/// Puts the values of `others` into `members`. `path`: the names of the tables around both, joined by dots;
-/// empty for the document itself. `text`: the override, for messages.
-void merge(TomlMembers& members, TomlMembers&& others, const std::string& path, const std::string& text) {
-    for (TomlMember& other : others) {
-        const auto found = std::ranges::find(members, other.key, &TomlMember::key);
-        auto* const inner = std::get_if<TomlMembers>(&other.value.content);
-        if (found == members.end()) {
-            if (inner && !path.empty()) {
-                std::vector<std::string_view> names;
-                for (const TomlMember& member : members) names.push_back(member.key);
-                throw InputError(
-                    fmt::format("the scene has no {}.{}.{}", path, other.key, did_you_mean(other.key, names)),
-                    {text});
-            }
-            members.push_back(std::move(other));
-            continue;
-        }
-        auto* const tables = std::get_if<TomlMembers>(&found->value.content);
-        if (inner && tables) {
-            merge(*tables, std::move(*inner), path.empty() ? other.key : path + "." + other.key, text);
-        } else {
-            found->value = std::move(other.value);
+/// How many names the key of an override has: 3 of sensors.desk.normal.
+std::size_t names_in_key(std::string_view text) {
+    std::size_t names = 1;
+    char quote = 0;
+    for (const char c : text) {
+        if (quote != 0) {
+            if (c == quote) quote = 0;
+        } else if (c == '\'' || c == '"') {
+            quote = c;
+        } else if (c == '=') {
+            break;
+        } else if (c == '.') {
+            ++names;
         }
     }
+    return names;
 }
+
+/// Puts overrides into a document, one after the other.
+class Overriding {
+  public:
+    explicit Overriding(TomlMembers& document) : document_(document) {}
+
+    void put(TomlMembers&& given, const std::string& text) {
+        text_ = text;
+        for (const TomlMember& section : given) {
+            if (std::ranges::find(document_, section.key, &TomlMember::key) == document_.end())
+                new_sections_.push_back(section.key);
+        }
+        merge(document_, std::move(given), "", names_in_key(text));
+    }
+
+  private:
+    /// `path`: the names of the tables around both, joined by dots; empty for the document itself. `names`:
+    /// how many of the key are left.
+    void merge(TomlMembers& members, TomlMembers&& others, const std::string& path, std::size_t names) {
+        for (TomlMember& other : others) {
+            const std::string own_path = path.empty() ? other.key : path + "." + other.key;
+            const auto found = std::ranges::find(members, other.key, &TomlMember::key);
+            auto* const inner = std::get_if<TomlMembers>(&other.value.content);
+            if (found == members.end()) {
+                if (inner && !path.empty() && names > 1 && !is_of_new_section(path))
+                    fail_missing(members, own_path, other.key);
+                members.push_back(std::move(other));
+                continue;
+            }
+            auto* const tables = std::get_if<TomlMembers>(&found->value.content);
+            if (inner && tables)
+                merge(*tables, std::move(*inner), own_path, names > 1 ? names - 1 : 1);
+            else
+                found->value = std::move(other.value);
+        }
+    }
+
+    /// Sections that the document lacks are those of the overrides, which may go on with them.
+    bool is_of_new_section(std::string_view path) const {
+        return std::ranges::find(new_sections_, path.substr(0, path.find('.'))) != new_sections_.end();
+    }
+
+    [[noreturn]] void fail_missing(const TomlMembers& members, const std::string& path,
+                                   const std::string& key) const {
+        std::vector<std::string_view> known;
+        for (const TomlMember& member : members) known.push_back(member.key);
+        throw InputError(fmt::format("the scene has no {}.{}", path, did_you_mean(key, known)), {text_});
+    }
+
+    TomlMembers& document_;
+    std::vector<std::string> new_sections_;
+    std::string text_;  ///< the override, for messages
+};
 
 Rgb factor_of(const TomlValue& value, const std::string& text) {
     const auto number = [&](const TomlValue& given) {
@@ -88,10 +133,11 @@ Rgb factor_of(const TomlValue& value, const std::string& text) {
 }  // namespace
 
 void override_values(TomlMembers& document, std::span<const std::string> overrides) {
+    Overriding overriding(document);
     for (const std::string& text : overrides) {
         TomlValue given = parse_override(text);
         forget_lines(given);
-        merge(document, std::move(std::get<TomlMembers>(given.content)), "", text);
+        overriding.put(std::move(std::get<TomlMembers>(given.content)), text);
     }
 }
 

@@ -12,7 +12,8 @@ namespace stilb::io {
 
 /// Each override is a key and a value as in TOML, "materials.wall.reflectance = 0.4"; a value that is no TOML
 /// is a text, so that "run.method=path" needs no quotes. Throws InputError, which names the override, where
-/// it cannot be read, or a table on the way to its key is missing (sections of the scene may be missing).
+/// it cannot be read, or a table on the way to its key is missing. Sections of the scene may be missing; then
+/// the overrides make all of its tables.
 void override_values(TomlMembers& document, std::span<const std::string> overrides);
 
 /// Takes the factors of lights out of the overrides: those whose key has no dot, "lamp=0.4" or
