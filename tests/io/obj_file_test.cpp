@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -159,8 +160,6 @@ TEST(ObjFile, wrong_vertices) {
     expect_refusal("v 0 0 +-1\n", ":1: the vertex's z is \"+-1\"" + rule);
     expect_refusal("v 0 0 1.2.3\n", ":1: the vertex's z is \"1.2.3\"" + rule);
     expect_refusal("v 0 1\n", ":1: the vertex has 2 coordinates; it needs three: v x y z");
-    expect_refusal("vn 0 nan 1\n", ":1: the normal's y is \"nan\"" + rule);
-    expect_refusal("vn 0 1\n", ":1: the normal has 2 coordinates; it needs three: vn x y z");
     expect_refusal("v # none\n", ":1: the vertex has 0 coordinates; it needs three: v x y z");
 }
 
@@ -184,19 +183,57 @@ TEST(ObjFile, wrong_faces) {
     expect_refusal(kSquare + "f 0 1 2\n", ":5: the face's corner \"0\" names vertex 0" + range);
     expect_refusal(kSquare + "f 1 2 4294967297\n",
                    ":5: the face's corner \"4294967297\" names vertex 4294967297" + range);
-    const std::string start = kSquare + "vt 0 0\nvn 0 0 1\nvn 1 0 0\nf 1 2 ";
-    const std::string counting = " stand before it; they count from 1, or backwards from -1";
-    expect_refusal(start + "3//3", ":8: the face's corner \"3//3\" names normal 3, but 2 normals" + counting);
-    expect_refusal(start + "3/1/0",
-                   ":8: the face's corner \"3/1/0\" names normal 0, but 2 normals" + counting);
-    expect_refusal(start + "3/-2/1",
-                   ":8: the face's corner \"3/-2/1\" names texture coordinate -2, but 1 "
-                   "texture coordinates" +
-                       counting);
     const std::string form = "; it must be a vertex number, alone or as v/vt, v//vn or v/vt/vn";
     for (const std::string corner :
          {"x", "1.5", "/1", "1/2/3/4", "1/a", "1e0", "99999999999999999999", "--1"})
         expect_refusal(kSquare + "\nf 1 2 " + corner, ":6: the face's corner is \"" + corner + "\"" + form);
+}
+
+/// What a surface has beside its shape does not matter where it is wrong.
+TEST(ObjFile, normals_and_coordinates_that_do_not_exist_are_left_out) {
+    const std::string start = kSquare + "vt 0 0\nvn 0 0 1\nvn 1 0 0\nf 1/1/1 2/1/1 ";
+    const std::string remark =
+        "line 8: the face's corner \"{}\" names a normal or a texture coordinate that "
+        "does not stand before it; 1 such numbers are left out.";
+    for (const std::string corner : {"3/1/3", "3/1/0", "3/1/-3", "3/2/1", "3/0/1", "3/-2/1"}) {
+        const MeshFile file = read_obj(start + corner, "room", TextureCoordinates::kept);
+        EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}})) << corner;
+        EXPECT_EQ(file.remarks, std::vector{fmt::format(fmt::runtime(remark), corner)});
+    }
+    // The last that exist.
+    for (const std::string corner : {"3/1/2", "3/-1/-2"})
+        EXPECT_TRUE(read(start + corner).remarks.empty()) << corner;
+    const MeshFile without = read(kSquare + "f 1/1 2/2 3/3 4/4\nf 1//7 2//7 3//7\n");
+    EXPECT_EQ(without.mesh.triangles.size(), 3U);
+    EXPECT_TRUE(without.mesh.normals.empty());
+    ASSERT_EQ(without.remarks.size(), 1U);
+    EXPECT_NE(without.remarks[0].find("7 such numbers"), std::string::npos) << without.remarks[0];
+}
+
+TEST(ObjFile, normals_that_are_no_numbers_count_as_missing) {
+    for (const std::string normal : {"0 nan 1", "-nan(ind) 0 1", "0 1", "inf 0 0", "1e999 0 0", "x y z"}) {
+        const MeshFile file = read(kSquare + "vn 0 0 1\nvn " + normal + "\nf 1//1 2//2 3//1\n");
+        ASSERT_EQ(file.mesh.normals.size(), 2U) << normal;
+        EXPECT_EQ(file.mesh.normals[1], Vec3{}) << normal;
+    }
+}
+
+TEST(ObjFile, unknown_statements_are_left_out_and_named) {
+    const MeshFile file = read("vw 1\n" + kSquare + "vw 2\nfoo bar\nf 1 2 3\n");
+    EXPECT_EQ(file.mesh.triangles.size(), 1U);
+    EXPECT_EQ(file.remarks, (std::vector<std::string>{
+                                "line 1: \"vw\" is not an OBJ statement; such lines are left out.",
+                                "line 7: \"foo\" is not an OBJ statement; such lines are left out."}));
+}
+
+TEST(ObjFile, names_in_latin_1_become_utf8) {
+    const MeshFile file = read(
+        "g K\xfc"
+        "che\nusemtl W\xe4nde\n" +
+        kSquare + "f 1 2 3\n");
+    EXPECT_EQ(file.group_names, std::vector<std::string>{"K\xc3\xbc"
+                                                         "che"});
+    EXPECT_EQ(file.material_names, std::vector<std::string>{"W\xc3\xa4nde"});
 }
 
 TEST(ObjFile, lines_are_counted_through_joined_lines) {

@@ -204,6 +204,35 @@ TEST(PlyFile, what_is_no_ply) {
     expect_refusal(std::string("\0\xff\xff", 3), ":1: this is not a PLY file: the first line must be ply");
 }
 
+TEST(PlyFile, foreign_lines_of_the_header_are_left_out) {
+    const MeshFile file =
+        read_ply(std::string_view("ply\nformat ascii 1.0\nMade by hand\nelement vertex 3\nproperty float "
+                                  "x\nproperty float y\nproperty "
+                                  "float z\n"
+                                  "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 "
+                                  "0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+                 "room");
+    EXPECT_EQ(file.mesh.triangles.size(), 1U);
+    EXPECT_EQ(file.remarks,
+              std::vector<std::string>{
+                  "line 3: the header says \"Made\"; allowed are format, element, property, comment, "
+                  "obj_info and end_header. The line is left out."});
+}
+
+TEST(PlyFile, normals_that_are_no_numbers_count_as_missing) {
+    const MeshFile file = read_ply(
+        std::string_view(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
+            "property list uchar int vertex_indices\nend_header\n0 0 0 nan nan nan\n1 0 0 0 0 1\n0 1 0 0 inf "
+            "1\n3 0 1 2\n"),
+        "room");
+    ASSERT_EQ(file.mesh.normals.size(), 3U);
+    EXPECT_EQ(file.mesh.normals[0], Vec3{});
+    EXPECT_EQ(file.mesh.normals[1], (Vec3{0, 0, 1}));
+    EXPECT_EQ(file.mesh.normals[2], Vec3{});
+}
+
 TEST(PlyFile, broken_headers) {
     expect_refusal("ply\nformat ascii 1.0\nelement vertex 3\n",
                    ":3: the header has no end: a line end_header must close it");
@@ -318,8 +347,9 @@ TEST(PlyFile, every_shorter_file_is_refused) {
 }
 
 TEST(PlyFile, wrong_values) {
-    expect_refusal(text_file(kVertices, "0 0 0\n1 nan 0\n1 1 0\n0 1 0\n"),
-                   ":9: element vertex, row 2 of 4: \"nan\" stands where a finite number must be");
+    expect_refusal(
+        text_file(kVertices, "0 0 0\n1 nan 0\n1 1 0\n0 1 0\n"),
+        ":9: element vertex, row 2 of 4: y is nan; it must be a finite number, at most 1e30 in size");
     expect_refusal(
         text_file(kVertices, "0 0 0\n1 0 1e31\n1 1 0\n0 1 0\n"),
         ":9: element vertex, row 2 of 4: z is 1e+31; it must be a finite number, at most 1e30 in size");

@@ -61,5 +61,23 @@ TEST(Utf8, OtherBytesAreReadAsLatin1) {
     EXPECT_EQ(printable("\ta\x1B[2J\n"), "a [2J");
 }
 
+TEST(Utf8, StaysAsItIs) {
+    // The first and last printable characters of one to four bytes.
+    for (const std::string text :
+         {"", "plain", "~", "\xc2\xa0", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xee\x80\x80",
+          "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
+        EXPECT_EQ(as_utf8(text), text);
+}
+
+TEST(Utf8, IncompleteOrForbiddenSequencesAreLatin1) {
+    // Cut off, overlong, surrogates, beyond the last character.
+    for (const std::string text : {"\xc3", "\xe2\x82", "\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf",
+                                   "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80"}) {
+        const std::string converted = as_utf8(text);
+        EXPECT_NE(converted, text);
+        EXPECT_EQ(as_utf8(converted), converted);
+    }
+}
+
 }  // namespace
 }  // namespace stilb::io

@@ -275,10 +275,14 @@ InfoReport report_mesh(const std::filesystem::path& path, const Monitor& monitor
     object["degenerate_triangles_left_out"] = file.degenerate_triangles;
     object["materials"] = file.material_names;
     object["groups"] = file.group_names;
+    file.degenerate_triangles = 0;  // has been reported
+    std::vector<std::string> warnings = io::mesh_warnings(file);
+    for (std::string& warning : checks::hole_warnings(scene, components))
+        warnings.push_back(std::move(warning));
     return {{"stilb", STILB_VERSION},
             {"file", path.string()},
             {"objects", Json::array({object})},
-            {"warnings", checks::hole_warnings(scene, components)},
+            {"warnings", warnings},
             {"memory", {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}}}};
 }
 

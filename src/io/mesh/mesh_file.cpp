@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/leaning_normals.h"
 #include "io/import/gltf/gltf_mesh.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
@@ -70,7 +71,8 @@ void MeshBuilder::reserve_triangles(std::size_t count) {
 void MeshBuilder::add_normal(const Vec3& normal) {
     const double size = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
     constexpr double kSmallest = 1e-100;  // its square is still a number
-    file_.mesh.normals.push_back(size > kSmallest ? normalized(normal / size) : Vec3{});
+    const bool is_usable = size > kSmallest && is_finite(normal);
+    file_.mesh.normals.push_back(is_usable ? normalized(normal / size) : Vec3{});
 }
 
 void MeshBuilder::add_of_last_triangle(std::vector<Triangle>& list, const std::optional<Triangle>& indices) {
@@ -128,10 +130,26 @@ MeshFile MeshBuilder::finish(const std::string& name, std::string_view remedy) &
         throw InputError(fmt::format("no triangle found{}, so there is no surface; {}", dropped, remedy),
                          {name});
     }
+    file_.leaning_triangles = geometry::drop_leaning_normals(file_.mesh);
     drop_unused_normals();
     file_.material_names = std::move(materials_).names();
     file_.group_names = std::move(groups_).names();
     return std::move(file_);
+}
+
+std::vector<std::string> mesh_warnings(const MeshFile& file) {
+    std::vector<std::string> warnings = file.remarks;
+    if (file.degenerate_triangles > 0)
+        warnings.push_back(fmt::format("{} triangles without area are left out.", file.degenerate_triangles));
+    if (file.leaning_triangles > 0)
+        warnings.push_back(leaning_warning(fmt::format("{} triangles", file.leaning_triangles)));
+    return warnings;
+}
+
+std::string leaning_warning(std::string_view which) {
+    return fmt::format(
+        "the normals of {} lean more than {:.0f} degrees away from their faces; these are flat.", which,
+        geometry::kMostLean_deg);
 }
 
 }  // namespace stilb::io

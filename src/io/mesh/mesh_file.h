@@ -15,6 +15,7 @@
 #include "base/monitor.h"
 #include "geometry/shape.h"
 #include "io/text/unread_bytes.h"
+#include "io/text/utf8.h"
 
 namespace stilb::io {
 
@@ -39,7 +40,16 @@ struct MeshFile {
     /// The number of triangles without area (with a repeated vertex, or faces of one or two corners), which
     /// are left out.
     std::size_t degenerate_triangles = 0;
+    /// Triangles that are flat, because their normals lean far away from them.
+    std::size_t leaning_triangles = 0;
+    /// Sentences about what the reader has left out.
+    std::vector<std::string> remarks;
 };
+
+/// Sentences about everything that is left out.
+std::vector<std::string> mesh_warnings(const MeshFile& file);
+/// `which`: "3 triangles".
+std::string leaning_warning(std::string_view which);
 
 /// Selects the reader by the file's extension (.obj, .ply, .gltf, .glb; any case). Throws InputError with
 /// file and line, and Cancelled as the monitor does, which takes the share that is read of OBJ and PLY.
@@ -74,8 +84,8 @@ inline bool is_coordinate(double value) { return std::abs(value) <= kLargestCoor
 /// The names of one kind of part (materials, groups), in the order of their first triangles.
 class PartNames {
   public:
-    void use(std::string_view name) {
-        current_ = name;
+    void use(std::string name) {
+        current_ = std::move(name);
         index_.reset();
     }
     /// The index of the present name; a name without triangles is never listed.
@@ -100,13 +110,15 @@ class MeshBuilder {
     void add_vertex(const Vec3& position) { file_.mesh.vertices.push_back(position); }
     std::size_t triangle_count() const { return file_.mesh.triangles.size(); }
     std::size_t normal_count() const { return file_.mesh.normals.size(); }
-    /// Normals may have any length; a zero normal is ignored.
+    /// Normals may have any length; a zero normal, or one that is not finite, is ignored.
     void add_normal(const Vec3& normal);
 
     /// The names of the following polygons; "" before the first call.
-    void use_material(std::string_view name) { materials_.use(name); }
-    void use_group(std::string_view name) { groups_.use(name); }
+    void use_material(std::string_view name) { materials_.use(as_utf8(name)); }
+    void use_group(std::string_view name) { groups_.use(as_utf8(name)); }
     void add_material_library(std::string_view name) { file_.material_libraries.emplace_back(name); }
+
+    void add_remark(std::string remark) { file_.remarks.push_back(std::move(remark)); }
 
     void add_texture_coordinates(const std::array<float, 2>& uv) { file_.texture_coordinates.push_back(uv); }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 #include <span>
 
 #include "io/mesh/mesh_file.h"
@@ -42,6 +44,8 @@ class ObjReader {
             const std::string_view word = next_word(arguments);
             if (!word.empty() && word[0] != '#') obey(word, arguments);
         }
+        if (builder_.triangle_count() == 0 && !unknown_.empty()) fail_unknown();
+        add_remarks();
         MeshFile file = std::move(builder_).finish(name_, "an OBJ file needs faces, such as: f 1 2 3");
         if (file.mesh.corner_normals.empty()) file.mesh.normals.clear();  // no face names them
         return file;
@@ -92,7 +96,7 @@ class ObjReader {
 
     void obey(std::string_view word, std::string_view arguments) {
         if (word == "v") return read_vertex(arguments);
-        if (word == "vn") return builder_.add_normal(read_triple(arguments, "normal", "vn x y z"));
+        if (word == "vn") return read_normal(arguments);
         if (word == "vt") return read_texture_coordinates(arguments);
         if (word == "f") return read_face(arguments);
         if (word == "usemtl") return builder_.use_material(trimmed(arguments));
@@ -105,11 +109,29 @@ class ObjReader {
                             "polygons (f) instead",
                             in_quotes(word)));
         }
+        const bool is_new = std::ranges::find(unknown_, word, &Unknown::word) == unknown_.end();
+        if (is_new && unknown_.size() < kMostUnknown) unknown_.push_back({std::string(word), line_});
+    }
+
+    [[noreturn]] void fail_unknown() {
+        line_ = unknown_.front().line;
         fail(
             fmt::format("{} is not an OBJ statement (is this a text file in the OBJ format?); allowed are v, "
                         "f, g, o, usemtl "
                         "and others that are ignored",
-                        in_quotes(word)));
+                        in_quotes(unknown_.front().word)));
+    }
+
+    void add_remarks() {
+        for (const auto& [word, line] : unknown_)
+            builder_.add_remark(fmt::format("line {}: {} is not an OBJ statement; such lines are left out.",
+                                            line, in_quotes(word)));
+        if (missing_.corners > 0) {
+            builder_.add_remark(
+                fmt::format("line {}: the face's corner {} names a normal or a texture coordinate that does "
+                            "not stand before it; {} such numbers are left out.",
+                            missing_.line, in_quotes(missing_.word), missing_.corners));
+        }
     }
 
     /// Reads three finite numbers, the coordinates of `what`.
@@ -126,6 +148,15 @@ class ObjReader {
             triple[i] = *value;
         }
         return {triple[0], triple[1], triple[2]};
+    }
+
+    /// One that is no number counts as missing: the surface is there without it.
+    void read_normal(std::string_view arguments) {
+        std::array<double, 3> normal{};
+        for (double& coordinate : normal)
+            coordinate =
+                parse_number(next_word(arguments)).value_or(std::numeric_limits<double>::quiet_NaN());
+        builder_.add_normal({normal[0], normal[1], normal[2]});
     }
 
     void read_vertex(std::string_view arguments) {
@@ -188,30 +219,42 @@ class ObjReader {
             parts[count] = rest.substr(0, end);
             rest.remove_prefix(goes_on ? end + 1 : rest.size());
         }
-        corners_.push_back(index(word, parts[0], "vertex", "vertices", builder_.vertex_count()));
-        const std::uint32_t coordinates =
-            parts[1].empty()
-                ? kNoCoordinates
-                : index(word, parts[1], "texture coordinate", "texture coordinates", texture_coordinates_);
+        corners_.push_back(vertex_index(word, parts[0]));
+        const std::uint32_t coordinates = optional_index(word, parts[1], texture_coordinates_);
         if (keeps_coordinates_) coordinates_.push_back(coordinates);
-        normals_.push_back(parts[2].empty()
-                               ? kNoNormal
-                               : index(word, parts[2], "normal", "normals", builder_.normal_count()));
+        normals_.push_back(optional_index(word, parts[2], builder_.normal_count()));
     }
 
-    /// The index from 0 of a part of a face's corner.
-    std::uint32_t index(std::string_view word, std::string_view part, std::string_view one,
-                        std::string_view many, std::size_t how_many) const {
-        const auto index = parse_integer(part);
-        if (!index) fail_corner(word);
-        const auto count = static_cast<long long>(how_many);
-        if (*index == 0 || *index > count || *index < -count) {
+    /// The index from 0 that a number has which counts from 1, or backwards from -1.
+    static std::optional<std::uint32_t> index_in(long long number, std::size_t count) {
+        const auto most = static_cast<long long>(count);
+        if (number == 0 || number > most || number < -most) return std::nullopt;
+        return static_cast<std::uint32_t>(number > 0 ? number - 1 : most + number);
+    }
+
+    std::uint32_t vertex_index(std::string_view word, std::string_view part) const {
+        const auto number = parse_integer(part);
+        if (!number) fail_corner(word);
+        const auto index = index_in(*number, builder_.vertex_count());
+        if (!index) {
             fail(
-                fmt::format("the face's corner {} names {} {}, but {} {} stand before it; they count from 1, "
-                            "or backwards from -1",
-                            in_quotes(word), one, *index, count, many));
+                fmt::format("the face's corner {} names vertex {}, but {} vertices stand before it; they "
+                            "count from 1, or backwards from -1",
+                            in_quotes(word), *number, builder_.vertex_count()));
         }
-        return static_cast<std::uint32_t>(*index > 0 ? *index - 1 : count + *index);
+        return *index;
+    }
+
+    /// Of a texture coordinate or a normal: the surface is there without it, so that one that does not exist
+    /// is left out.
+    std::uint32_t optional_index(std::string_view word, std::string_view part, std::size_t count) {
+        static_assert(kNoNormal == kNoCoordinates);
+        if (part.empty()) return kNoNormal;
+        const auto number = parse_integer(part);
+        if (!number) fail_corner(word);
+        if (const auto index = index_in(*number, count)) return *index;
+        if (missing_.corners++ == 0) missing_ = {1, line_, std::string(word)};
+        return kNoNormal;
     }
 
     [[noreturn]] void fail_corner(std::string_view word) const {
@@ -221,6 +264,18 @@ class ObjReader {
     }
 
     static constexpr std::size_t kMany = 1 << 16;
+    static constexpr std::size_t kMostUnknown = 8;
+
+    struct Unknown {
+        std::string word;
+        std::size_t line = 0;  ///< of the first
+    };
+    /// Numbers of normals and texture coordinates that do not exist.
+    struct Missing {
+        std::size_t corners = 0;
+        std::size_t line = 0;  ///< of the first
+        std::string word;
+    };
 
     TextLines lines_;
     const std::string& name_;
@@ -232,6 +287,8 @@ class ObjReader {
     bool keeps_coordinates_;
     std::vector<std::uint32_t> corners_, normals_, coordinates_;
     std::size_t texture_coordinates_ = 0;
+    std::vector<Unknown> unknown_;
+    Missing missing_;
     MeshBuilder builder_;
 };
 

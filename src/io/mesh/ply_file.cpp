@@ -70,9 +70,13 @@ class HeaderReader {
         if (word == "element") return read_element();
         if (word == "property") return read_property();
         if (word == "comment" || word == "obj_info" || word.empty()) return;
-        fail(fmt::format(
-            "the header says {}; allowed are format, element, property, comment, obj_info and end_header.{}",
-            in_quotes(word), did_you_mean(word, kStatements)));
+        const std::string meant = did_you_mean(word, kStatements);
+        const std::string found = fmt::format(
+            "the header says {}; allowed are format, element, property, comment, obj_info and end_header.",
+            in_quotes(word));
+        if (!meant.empty()) fail(found + meant);
+        // A comment, or a statement of another program: what follows fits the header or not.
+        header_.remarks.push_back(fmt::format("line {}: {} The line is left out.", lines_.number(), found));
     }
 
     void read_format() {
@@ -215,9 +219,11 @@ class TextBody {
             fmt::format("{} follows the last value; each row needs a line of its own", in_quotes(word)));
     }
 
+    /// Words such as nan and inf are no number.
     double read(PlyScalar) {
         const std::string_view word = next_value();
         const auto value = parse_number(word);
+        if (!value && word.find_first_of("nN") != word.npos) return std::numeric_limits<double>::quiet_NaN();
         if (!value) location_.fail(fmt::format("{} stands where a finite number must be", in_quotes(word)));
         return *value;
     }
@@ -311,6 +317,7 @@ class PlyReader {
         : header_(header), location_{name}, body_(header, location_) {}
 
     MeshFile read() && {
+        for (const std::string& remark : header_.remarks) builder_.add_remark(remark);
         for (const PlyElement& element : header_.elements) {
             location_.element = &element;
             check_count(element);
@@ -405,7 +412,8 @@ class PlyReader {
 
     void read_vertices(const PlyElement& element) {
         constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"}, kNormals{"nx", "ny", "nz"};
-        std::array<double, 3> position{}, normal{};
+        std::array<double, 3> position{};
+        std::array<double, 3> normal{};  // one that is no number counts as missing
         std::vector<double*> targets(element.properties.size(), nullptr);  // null: skipped
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto property = scalar_named(element, kAxes[axis]);
@@ -422,7 +430,8 @@ class PlyReader {
             const PlyProperty& property = element.properties[i];
             if (targets[i] == nullptr) return skip(property);
             const double value = body_.read(property.type);
-            if (!is_coordinate(value)) {
+            const bool may_be_missing = property.name.starts_with('n');
+            if (!may_be_missing && !is_coordinate(value)) {
                 location_.fail(fmt::format("{} is {}; it must be a finite number, at most 1e30 in size",
                                            property.name, value));
             }

@@ -38,6 +38,7 @@ struct PlyHeader {
     std::vector<PlyElement> elements;
     UnreadBytes body{std::string_view()};  ///< everything after the header
     std::size_t body_line = 0;
+    std::vector<std::string> remarks;  ///< sentences about lines that are left out
 };
 
 /// Throws InputError; `name` is the file's name for messages.

@@ -28,12 +28,13 @@ MaterialId read_material(const TomlItem& item, const Scene& scene) {
     return MaterialId{static_cast<std::uint32_t>(item.index_in(names_of(scene.materials), "material"))};
 }
 
-void warn_of_degenerate(const std::string& where, std::size_t triangles, SceneFile& file) {
-    if (triangles == 0) return;
-    std::string warning = fmt::format("{}: {} triangles without area are left out.", where, triangles);
-    // Bodies of several luminaires have the same.
-    if (std::ranges::find(file.warnings, warning) == file.warnings.end())
-        file.warnings.push_back(std::move(warning));
+void add_mesh_warnings(const std::string& where, const MeshFile& mesh, SceneFile& file) {
+    for (const std::string& sentence : mesh_warnings(mesh)) {
+        std::string warning = where + ": " + sentence;
+        // Bodies of several luminaires have the same.
+        if (std::ranges::find(file.warnings, warning) == file.warnings.end())
+            file.warnings.push_back(std::move(warning));
+    }
 }
 
 namespace {
@@ -157,7 +158,7 @@ MeshFiles::Loaded& MeshFiles::load(const TomlTable& table) {
     Loaded& loaded = found->second;
     if (!is_new) return loaded;
     MeshFile mesh = read_mesh(item, directory_, file_, monitor_);
-    warn_of_degenerate(table.where(), mesh.degenerate_triangles, file_);
+    add_mesh_warnings(table.where(), mesh, file_);
     loaded.mesh = std::make_shared<Mesh>(std::move(mesh.mesh));
     loaded.parts = take_parts(mesh);
     return loaded;
@@ -179,7 +180,7 @@ Object MeshFiles::read(const TomlTable& table, MeshParts& parts) {
 Object read_body(const TomlItem& item, const std::filesystem::path& directory, SceneFile& file) {
     const auto read = [&](const TomlItem& name) {
         MeshFile mesh = read_mesh(name, directory, file, Monitor::none());
-        warn_of_degenerate(item.where(), mesh.degenerate_triangles, file);
+        add_mesh_warnings(item.where(), mesh, file);
         return mesh;
     };
     if (!item.is_table()) {

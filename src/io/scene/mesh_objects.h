@@ -38,6 +38,7 @@ class MeshFiles {
 /// The material of the scene that the item names.
 MaterialId read_material(const TomlItem& item, const Scene& scene);
 
-void warn_of_degenerate(const std::string& where, std::size_t triangles, SceneFile& file);
+/// What the reader of the mesh has left out, as warnings of the scene.
+void add_mesh_warnings(const std::string& where, const MeshFile& mesh, SceneFile& file);
 
 }  // namespace stilb::io

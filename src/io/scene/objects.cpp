@@ -226,7 +226,7 @@ Mesh read_polygons(const TomlTable& table, SceneFile& file) {
     add_vertices(table.at("vertices"), builder);
     add_faces(table.at("faces"), builder);
     MeshFile mesh = std::move(builder).finish(table.where(), "give a face that has an area");
-    warn_of_degenerate(table.where(), mesh.degenerate_triangles, file);
+    add_mesh_warnings(table.where(), mesh, file);
     return std::move(mesh.mesh);
 }
 

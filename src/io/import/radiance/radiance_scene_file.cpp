@@ -144,10 +144,7 @@ class Assembly {
             return std::nullopt;
         }
         MeshFile mesh = std::move(builder).finish(name, "");
-        if (mesh.degenerate_triangles > 0) {
-            warnings_.add("surface", name,
-                          fmt::format("{} triangles without area are left out.", mesh.degenerate_triangles));
-        }
+        for (const std::string& warning : mesh_warnings(mesh)) warnings_.add("surface", name, warning);
         return mesh;
     }
 
